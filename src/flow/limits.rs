@@ -57,16 +57,3 @@ impl From<Reason> for Fate {
         }
     }
 }
-
-impl Fate {
-    /// The word of files for how a motion ended that was followed for a time.
-    #[must_use]
-    pub fn word(&self) -> &'static str {
-        match self {
-            Fate::Rest => "captured",
-            Fate::Escapes => "escaped",
-            Fate::Unknown(_) => "gave-up",
-            Fate::Cycle(_) | Fate::Neutral | Fate::Moving => "moving",
-        }
-    }
-}

@@ -28,26 +28,29 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// A number of the motion, or of how it is computed, that is not one of the oscillator.
+    fn own(&mut self, knob: Knob) -> Option<&mut f64> {
+        match knob {
+            Knob::Until => Some(&mut self.until),
+            Knob::Tolerance => Some(&mut self.tolerance),
+            Knob::Step => Some(&mut self.step),
+            Knob::Epsilon => Some(&mut self.epsilon),
+            _ => None,
+        }
+    }
+
     /// Reads a number of the motion, or of how it is computed; not a number if it is one of a machine.
     #[must_use]
-    pub fn get(&self, knob: Knob) -> f64 {
-        match knob {
-            Knob::Until => self.until,
-            Knob::Tolerance => self.tolerance,
-            Knob::Step => self.step,
-            Knob::Epsilon => self.epsilon,
-            _ => knob.get(&self.parameters, &self.initial),
-        }
+    pub fn get(mut self, knob: Knob) -> f64 {
+        let own = self.own(knob).copied();
+        own.unwrap_or_else(|| knob.get(&self.parameters, &self.initial))
     }
 
     /// Writes a number of the motion, or of how it is computed; one of a machine changes nothing.
     pub fn set(&mut self, knob: Knob, value: f64) {
-        match knob {
-            Knob::Until => self.until = value,
-            Knob::Tolerance => self.tolerance = value,
-            Knob::Step => self.step = value,
-            Knob::Epsilon => self.epsilon = value,
-            _ => knob.set(&mut self.parameters, &mut self.initial, value),
+        match self.own(knob) {
+            Some(own) => *own = value,
+            None => knob.set(&mut self.parameters, &mut self.initial, value),
         }
     }
 }

@@ -21,36 +21,22 @@ pub struct Quality {
     pub epsilon: f64,
 }
 
+/// A setting, by its name, its purpose, and its tolerance, step and epsilon.
+const fn quality(name: &'static str, meaning: &'static str, numbers: [f64; 3]) -> Quality {
+    let [tolerance, step, epsilon] = numbers;
+    Quality { name, meaning, tolerance, step, epsilon }
+}
+
 /// The named settings, from coarse to fine.
 pub const QUALITIES: [Quality; 4] = [
-    Quality {
-        name: "draft",
-        meaning: "as good as a screen shows, at once",
-        tolerance: 1e-4,
-        step: 0.1,
-        epsilon: 1e-2,
-    },
-    Quality {
-        name: "normal",
-        meaning: "ten digits, at a few percent of the cost of drawing them",
-        tolerance: 1e-10,
-        step: 0.01,
-        epsilon: 1e-3,
-    },
-    Quality {
-        name: "fine",
-        meaning: "thirteen digits",
-        tolerance: 1e-13,
-        step: 1e-3,
-        epsilon: 1e-4,
-    },
-    Quality {
-        name: "reference",
-        meaning: "all that doubles hold",
-        tolerance: 1e-15,
-        step: 1e-4,
-        epsilon: 1e-5,
-    },
+    quality("draft", "as good as a screen shows, at once", [1e-4, 0.1, 1e-2]),
+    quality(
+        "normal",
+        "ten digits, at a few percent of the cost of drawing them",
+        [1e-10, 0.01, 1e-3],
+    ),
+    quality("fine", "thirteen digits", [1e-13, 1e-3, 1e-4]),
+    quality("reference", "all that doubles hold", [1e-15, 1e-4, 1e-5]),
 ];
 
 /// The coarsest setting, computed first where the desired quality takes long.

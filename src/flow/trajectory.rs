@@ -9,7 +9,7 @@ pub use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajec
 use super::regularized::SmoothField;
 use super::run::MotionRun;
 use super::stiff::Stiff;
-use super::tableau::{dop853, dopri5, rk4};
+use super::tableau::{CLASSICAL, dop853, dopri5};
 use super::taylor::Taylor;
 use super::time_stepping::TimeStepping;
 use crate::model::{HalfPlane, Reason, Side};
@@ -42,7 +42,7 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
         Method::Taylor => asked.go(&mut Taylor::new(tolerance), limits),
         Method::Dop853 => asked.go(&mut Explicit::new(&dop853::SCHEME, field, tolerance), limits),
         Method::Dopri5 => asked.go(&mut Explicit::new(&dopri5::SCHEME, field, tolerance), limits),
-        Method::Rk4 => asked.go(&mut Explicit::new(&rk4::SCHEME, field, step), limits),
+        Method::Rk4 => asked.go(&mut Explicit::new(&CLASSICAL, field, step), limits),
         Method::Stiff => asked.go(&mut Stiff::new(field, tolerance), limits),
         Method::Smoothed => {
             let field = regular(Some(epsilon));
@@ -51,7 +51,7 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
         }
         Method::SignRk4 => {
             let field = regular(None);
-            let mut stepper = Explicit::new(&rk4::SCHEME, field, step);
+            let mut stepper = Explicit::new(&CLASSICAL, field, step);
             asked.walk(&mut stepper, &field, false, limits)
         }
         Method::TimeStepping => {

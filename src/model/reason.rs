@@ -131,12 +131,6 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// Whether it says how a motion ends, and not why that is unknown.
-    #[must_use]
-    pub fn is_an_end(&self) -> bool {
-        matches!(self, Reason::Escapes | Reason::Settles)
-    }
-
     /// Whether a machine itself is at fault, and not what it takes to compute its motions.
     #[must_use]
     pub fn is_of_the_machine(&self) -> bool {

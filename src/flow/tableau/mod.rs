@@ -1,11 +1,10 @@
-//! Coefficients of the methods, one file for each.
+//! Coefficients of the methods, one file for each but the shortest.
 //!
 //! [`Scheme`] is the form in which the explicit steppers read theirs.
 
 pub mod dop853;
 pub mod dopri5;
 pub mod radau;
-pub mod rk4;
 
 /// An explicit Runge-Kutta scheme of S stages as a stepper reads it: by slopes, not by stages.
 ///
@@ -60,6 +59,21 @@ impl<const S: usize, const R: usize> Scheme<S, R> {
     }
 }
 
+/// The classical method of order 4 (Kutta 1901), for steps of fixed length.
+pub static CLASSICAL: Scheme<4, 4> = Scheme {
+    columns: Scheme::<4, 4>::columns(
+        &[&[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]],
+        &CLASSICAL_WEIGHTS,
+        &[],
+    ),
+    weights: CLASSICAL_WEIGHTS,
+    estimate: ErrorEstimate::None,
+    last_is_end: false,
+};
+
+/// Weights of its solution.
+const CLASSICAL_WEIGHTS: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,6 +97,6 @@ mod tests {
     fn schemes_are_consistent() {
         is_consistent(&dop853::SCHEME);
         is_consistent(&dopri5::SCHEME);
-        is_consistent(&rk4::SCHEME);
+        is_consistent(&CLASSICAL);
     }
 }

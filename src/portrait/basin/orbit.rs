@@ -18,6 +18,7 @@ use crate::flow::{Limits, Reason, Trajectory};
 use crate::model::parameters::energy;
 use crate::model::{Ledger, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
+use crate::numerics::quadrature::GAUSS;
 use crate::numerics::root::maximum;
 use crate::portrait::closing::equation::first_side;
 use crate::portrait::closing::half_map::{Direction, HalfSwing, Length};
@@ -236,12 +237,6 @@ pub fn works(border: &Orbit, parameters: &Parameters) -> Option<Ledger> {
 /// Between two samples the motion is the cubic through both ([`Trajectory::at`]); what its works fail to
 /// account for is the residual, as in the ledger of the whole motion, which is exact.
 pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
-    /// Abscissae and weights of Gauss and Legendre's rule on 0 .. 1, exact to degree 5.
-    const NODES: [(f64, f64); 3] = [
-        (0.112_701_665_379_258_31, 5.0 / 18.0),
-        (0.5, 8.0 / 18.0),
-        (0.887_298_334_620_741_7, 5.0 / 18.0),
-    ];
     let Parameters { d, d2, d3, r } = motion.problem.parameters;
     let now = motion.at(until)?;
     let mut powers = Powers::default();
@@ -253,12 +248,8 @@ pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
         }
         let end = if sample.tau < until { *sample } else { now };
         let h = end.tau - before.tau;
-        for (node, weight) in NODES {
-            let v = motion.at(before.tau + node * h)?.v;
-            let share = weight * h;
-            powers.second += share * v * v;
-            powers.third += share * v * v * v;
-            powers.fourth += share * v * v * v * v;
+        for (node, weight) in GAUSS {
+            powers.add_node(weight * h, motion.at(before.tau + node * h)?.v);
         }
         path += (end.q - before.q).abs();
         before = end;
