@@ -1,7 +1,5 @@
-//! The interface of what the loop and the replay without a terminal run, the events to which the loop reacts, and how
-//! effects are carried out.
+//! The interface of what the loop runs, the events to which it reacts, and the outcomes of effects.
 
-use std::io;
 use std::path::Path;
 
 use ratatui::backend::TestBackend;
@@ -137,28 +135,4 @@ pub struct ReplayResult<M> {
     pub unmet: Option<ScriptError>,
     /// Why the first file that was to be written was not.
     pub unwritten: Option<String>,
-}
-
-/// Runs an application and carries out its effects.
-pub trait Host {
-    type Application: Application;
-
-    fn application(&mut self) -> &mut Self::Application;
-
-    fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome>;
-
-    /// Gives the application a message and carries out the resulting effects in their order.
-    fn give(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
-        for effect in self.application().update(msg) {
-            let stop = match self.carry_out(effect)? {
-                EffectOutcome::Done => None,
-                EffectOutcome::Told(msg) => self.give(msg)?,
-                EffectOutcome::Stop(stop) => Some(stop),
-            };
-            if stop.is_some() {
-                return Ok(stop);
-            }
-        }
-        Ok(None)
-    }
 }

@@ -1,4 +1,5 @@
-//! The explorer: a session, drawn for the present terminal.
+//! The explorer: a session, drawn for the present terminal; and a keystroke file played on one without a terminal, in
+//! the same loop and with the same workers.
 
 use std::cell::Cell;
 use std::io;
@@ -6,13 +7,15 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use crossbeam_channel::unbounded;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect, Size};
 
-use super::application::Application;
+use super::application::{Application, Event, ReplayResult};
+use super::effects::Files;
 use super::launch::launch;
-use super::pump::Options;
-use super::workers::{Tell, Work};
+use super::pump::{Options, Pump};
+use super::workers::{Tell, Work, Workers};
 use super::{print, provenance_file, scanning};
 use crate::figure::{self, FileForm};
 use crate::fit::Unfit;
@@ -20,8 +23,9 @@ use crate::flow::{Limits, Reason};
 use crate::question::{self, Fineness, Fit, Recording, Resources};
 use crate::scan::grid::Scan;
 use crate::scene::{Finding, Request};
+use crate::session::replay::Script;
 use crate::session::{Effect, Key, Msg, PointerTarget, Session, save, settings, update};
-use crate::terminal::Environment;
+use crate::terminal::{Environment, Screen};
 use crate::view::{self, Look};
 
 /// A session and its appearance in the present terminal.
@@ -145,4 +149,59 @@ fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit, Re
 /// terminal cannot be used, or goes away while it is written to.
 pub fn explore(session: Session, environment: Environment, options: Options) -> io::Result<u8> {
     launch(Explorer::new(session, environment), Arc::new(answer), options)
+}
+
+/// Plays a file on a session at its size, until the file ends, an expectation is not met, or the session quits.
+///
+/// Effects outside the program are not carried out: a replay copies nothing, and writes files only if it may. It
+/// does read the files that the session asks for.
+pub fn play(
+    session: Session,
+    environment: Environment,
+    script: Script,
+    may_play_write: bool,
+) -> io::Result<ReplayResult<Explorer>> {
+    let crate::session::Size { width, height } = session.size;
+    let (send, events) = unbounded();
+    let report = Arc::new(move |msg| drop(send.send(Event::Session(msg))));
+    let workers = Workers::new(Arc::new(answer), report);
+    let screen = Screen::new(io::sink(), Size { width, height })?;
+    let files = Files { may_play_write, ..Files::default() };
+    let options = Options { replay: Some(script), files, ..Options::default() };
+    let explorer = Explorer::new(session, environment);
+    Pump::new(explorer, screen, workers, events, options, Size::default).unattended()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::find;
+    use crate::scene::library::PLAIN;
+    use crate::session::replay::parse;
+
+    /// Plays a file on the plain scene.
+    fn played(file: &str) -> ReplayResult<Explorer> {
+        let size = crate::session::Size { width: 80, height: 24 };
+        let session = Session::new(find(PLAIN).unwrap(), size);
+        play(session, Environment::default(), parse(file).unwrap(), false).unwrap()
+    }
+
+    #[test]
+    fn the_screen_has_the_size_that_the_file_sets() {
+        let end = played("<right> <resize 100x30>");
+        assert_eq!(end.screen.area.as_size(), Size { width: 100, height: 30 });
+    }
+
+    #[test]
+    fn quitting_ends_it_and_later_keys_are_not_pressed() {
+        let end = played("q <expect \"no such text\">");
+        assert_eq!(end.unmet, None);
+    }
+
+    #[test]
+    fn waiting_for_every_answer_and_for_none_end_on_the_same_numbers() {
+        let slow = played("<right*30>").application.session().problem;
+        let fast = played("<async> <right*30>").application.session().problem;
+        assert_eq!(slow, fast);
+    }
 }

@@ -10,7 +10,6 @@ pub mod bounded;
 pub mod effects;
 pub mod explorer;
 pub mod failure;
-pub mod headless;
 pub mod input;
 mod journal;
 pub mod launch;
@@ -30,8 +29,7 @@ pub mod standard;
 pub mod workers;
 
 pub use application::{Application, Event, LoopEnd};
-pub use explorer::{Explorer, explore};
-pub use headless::play;
+pub use explorer::{Explorer, explore, play};
 pub use launch::launch;
 pub use pump::{Options, Pump};
 pub use record::RecordingFile;

@@ -12,9 +12,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError};
+use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::application::{Application, EffectOutcome, Event, Host, LoopEnd};
+use super::application::{Application, EffectOutcome, Event, LoopEnd};
 use super::effects::Files;
 use super::new_file::Readers;
 use super::record::RecordingFile;
@@ -27,11 +28,9 @@ use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
 use crate::view;
 
-mod play;
 mod playing;
-mod unattended;
 
-use play::Playing;
+use playing::Playing;
 
 /// How long a frame waits for the worker before it shows the old answers, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
@@ -87,7 +86,9 @@ pub struct Pump<M, W: Write> {
     writing: bool,
     /// Whether there is no terminal: a file is played, and no frame drawn.
     unattended: bool,
-    /// The first expectation of that file that was not met.
+    /// The pictures that this file asks for by name.
+    kept: Vec<(String, Buffer)>,
+    /// Its first expectation that was not met.
     unmet: Option<ScriptError>,
     terminal_size: fn() -> Size,
 }
@@ -121,6 +122,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             held_back: VecDeque::new(),
             writing: false,
             unattended: false,
+            kept: Vec::new(),
             unmet: None,
             terminal_size,
         }
@@ -282,8 +284,8 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// When to draw; `None` if the screen is up to date and nothing moves.
     fn due(&self) -> Option<Instant> {
-        if self.held {
-            return None;
+        if self.held || self.unattended {
+            return self.changed.filter(|_| !self.held);
         }
         let Some(changed) = self.changed else {
             // Motion is drawn as often as frames may be sent, which over a slow line is less often.
@@ -312,24 +314,32 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     fn draw(&mut self) -> io::Result<()> {
-        self.pass_time();
-        let application = &self.application;
-        self.screen.draw(Instant::now(), |frame| application.draw(frame))?;
+        if !self.unattended {
+            self.pass_time();
+            let application = &self.application;
+            self.screen.draw(Instant::now(), |frame| application.draw(frame))?;
+        }
         self.changed = None;
         Ok(())
     }
-}
 
-impl<M: Application, W: Write> Host for Pump<M, W> {
-    type Application = M;
-
-    fn application(&mut self) -> &mut M {
-        &mut self.application
+    /// Gives the application a message and carries out the resulting effects in their order.
+    fn give(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
+        for effect in self.application.update(msg) {
+            let stop = match self.carry_out(effect)? {
+                EffectOutcome::Done => None,
+                EffectOutcome::Told(msg) => self.give(msg)?,
+                EffectOutcome::Stop(stop) => Some(stop),
+            };
+            if stop.is_some() {
+                return Ok(stop);
+            }
+        }
+        Ok(None)
     }
 
     fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome> {
-        let refusal = self.refusal(&effect).map(EffectOutcome::Told);
-        if let Some(outcome) = refusal.or_else(|| self.omission(&effect)) {
+        if let Some(outcome) = self.withheld(&effect) {
             return Ok(outcome);
         }
         let notice = match effect {

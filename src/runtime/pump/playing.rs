@@ -1,17 +1,78 @@
 //! Files played in the loop, the effect of the user's keys meanwhile, and what is recorded.
 //!
-//! A recording has the steps that a replay has given to the session instead of the command that asked for it.
+//! A recording has the steps that a replay has given to the session instead of the command that asked for it. Without a
+//! terminal nothing waits for time to pass, no frame is drawn, and the end of the file is that of the loop.
 
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::play::{Pause, Playing};
+use ratatui::layout::Size;
+
 use super::{Application, EffectOutcome, Files, Pump};
-use crate::runtime::application::{Event, LoopEnd};
+use crate::runtime::application::{Event, LoopEnd, ReplayResult};
 use crate::session::read::waiting::forgets;
-use crate::session::replay::{Action, Script};
+use crate::session::replay::{Action, Player, Script, ScriptError};
 use crate::session::{Code, Effect, Key, Msg, Notice};
 use crate::view;
+
+/// Why a replay is paused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pause {
+    Not,
+    /// A caption waits to be read.
+    Caption,
+    /// The user asked for it.
+    Wished,
+}
+
+/// A file that is being played.
+#[derive(Debug)]
+pub(super) struct Playing {
+    player: Player,
+    /// The whole script, to start over.
+    script: Script,
+    /// Number of captions to skip on the way to the wanted one.
+    passed: usize,
+    /// Whether keys had their usual effect since the present caption was shown.
+    tried: bool,
+    pause: Pause,
+    /// Why the first file that it asked for was not written.
+    unwritten: Option<String>,
+}
+
+impl Playing {
+    pub(super) fn new(script: Script) -> Self {
+        Playing {
+            player: Player::new(script.clone()),
+            script,
+            passed: 0,
+            tried: false,
+            pause: Pause::Not,
+            unwritten: None,
+        }
+    }
+
+    /// Goes back to the previous caption: plays everything again up to there.
+    fn go_back(&mut self) {
+        if let Some(passed) = self.player.said().checked_sub(2) {
+            self.play_again(passed);
+        }
+    }
+
+    /// Continues to the next caption. If the user has tried keys, plays everything again up to here to undo
+    /// them.
+    fn go_on(&mut self) {
+        if self.tried {
+            self.play_again(self.player.said());
+        }
+        self.pause = Pause::Not;
+    }
+
+    fn play_again(&mut self, passed: usize) {
+        self.player = Player::new(self.script.clone());
+        (self.passed, self.pause, self.tried) = (passed, Pause::Not, false);
+    }
+}
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
 const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
@@ -89,26 +150,36 @@ impl<M: Application, W: Write> Pump<M, W> {
             return Ok(EffectOutcome::Done);
         };
         let Err(unmet) = playing.player.interject(script) else { return Ok(EffectOutcome::Done) };
-        if self.unattended {
-            self.unmet = Some(unmet);
-            return Ok(EffectOutcome::Stop(LoopEnd::Quit));
-        }
-        let stop = self.played(true, format!("replay stopped: {unmet}"))?;
-        Ok(stop.map_or(EffectOutcome::Done, EffectOutcome::Stop))
+        Ok(self.fail(unmet)?.map_or(EffectOutcome::Done, EffectOutcome::Stop))
     }
 
-    /// The refusal of an effect that writes a file, if a file that may not do so is played.
-    pub(super) fn refusal(&mut self, effect: &Effect) -> Option<Msg> {
+    /// The outcome of an effect that is not carried out while a file is played: one that writes a file if the played one
+    /// may not do so, and without a terminal one that needs it; `None` for one that is.
+    pub(super) fn withheld(&mut self, effect: &Effect) -> Option<EffectOutcome> {
         let playing = self.playing.as_mut()?;
-        if self.options.files.may_play_write {
-            return None;
-        }
-        let path = effect.writes()?.display();
-        let text = format!("{path} not written: a keystroke file writes only with --allow-write");
+        let forbidden = effect.writes().filter(|_| !self.options.files.may_play_write);
+        let text = match (forbidden.map(Path::display), effect) {
+            (Some(path), _) => {
+                format!("{path} not written: a keystroke file writes only with --allow-write")
+            }
+            _ if !self.unattended => return None,
+            (_, Effect::Record { .. }) => "a replay records nothing".to_owned(),
+            (
+                _,
+                Effect::Suspend
+                | Effect::Repaint
+                | Effect::Copy(_)
+                | Effect::CopyScreen
+                | Effect::Mouse(_)
+                | Effect::PutAside(_),
+            ) => return Some(EffectOutcome::Done),
+            _ => return None,
+        };
         playing.unwritten.get_or_insert(text.clone());
         let notice = Notice { error: true, text };
         let is_figure = matches!(effect, Effect::Figure { .. });
-        Some(if is_figure { Msg::Written(notice) } else { Msg::Told(notice) })
+        let told = if is_figure { Msg::Written(notice) } else { Msg::Told(notice) };
+        Some(EffectOutcome::Told(told))
     }
 
     /// Notes that a file which a replay asked for was not written.
@@ -137,21 +208,58 @@ impl<M: Application, W: Write> Pump<M, W> {
         };
         loop {
             return match playing.player.next(idle, screen) {
-                Ok(Action::Give(Msg::Resize { .. }) | Action::Keep(_)) => continue,
+                Ok(Action::Keep(name)) => {
+                    if self.unattended {
+                        self.kept.push((name, application.picture(size)));
+                    }
+                    continue;
+                }
+                Ok(Action::Give(Msg::Resize { .. })) if !self.unattended => continue,
                 Ok(Action::Wait) => Ok(None),
                 Ok(Action::Give(msg)) => {
-                    if matches!(msg, Msg::Say(..)) && playing.player.said() > playing.passed {
+                    let is_caption = matches!(msg, Msg::Say(..)) && !self.unattended;
+                    if is_caption && playing.player.said() > playing.passed {
                         playing.pause = Pause::Caption;
+                    }
+                    if let Msg::Resize { width, height } = msg {
+                        self.screen.repaint(Size { width, height })?;
                     }
                     self.record(msg)
                 }
+                Ok(Action::Done) if self.unattended => Ok(Some(LoopEnd::Quit)),
                 Ok(Action::Done) => match playing.unwritten.take() {
                     Some(why) => self.played(true, format!("replay done, but {why}")),
                     None => self.played(false, "replay done".to_owned()),
                 },
-                Err(unmet) => self.played(true, format!("replay stopped: {unmet}")),
+                Err(unmet) => self.fail(unmet),
             };
         }
+    }
+
+    /// Plays a file without a terminal until it ends, an expectation is not met, or the session quits.
+    pub fn unattended(mut self) -> io::Result<ReplayResult<M>> {
+        self.unattended = true;
+        let Size { width, height } = self.screen.size();
+        self.give(Msg::Resize { width, height })?;
+        self.run()?;
+        // A figure that has been begun is written.
+        while self.writing {
+            let Ok(event) = self.events.recv() else { break };
+            self.handle(event)?;
+        }
+        let screen = self.application.picture(self.screen.size());
+        let unwritten = self.playing.and_then(|playing| playing.unwritten);
+        let Pump { application, kept, unmet, .. } = self;
+        Ok(ReplayResult { application, screen, kept, unmet, unwritten })
+    }
+
+    /// Ends a replay whose file cannot be played further.
+    fn fail(&mut self, unmet: ScriptError) -> io::Result<Option<LoopEnd>> {
+        if !self.unattended {
+            return self.played(true, format!("replay stopped: {unmet}"));
+        }
+        self.unmet = Some(unmet);
+        Ok(Some(LoopEnd::Quit))
     }
 
     /// Ends a replay.
