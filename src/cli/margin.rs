@@ -16,7 +16,7 @@ use crate::portrait::proved::agreed;
 use crate::proof;
 use crate::proof::{ParameterBox, prove};
 use crate::report::About;
-use crate::report::margin::{basin, basin_of_machine, kicks, margins, margins_of_machine};
+use crate::report::margin::{basin, basin_of_machine, kicks, margins};
 
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Debug, Args)]
@@ -42,7 +42,9 @@ impl MarginCommand {
         let (known, bound) = (self.source.start.known()?, bound.unwrap_or(0.0));
         let ask = || guarantee(&known, bound, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the margin could not be computed", ask)?;
-        self.output.print(margins(&About::boxed(&known), &found, seconds))
+        let about = About::boxed(&known);
+        let answer = margins(&about, found.nominal, found.guaranteed, bound);
+        self.output.print(answer.cost(found.cost, seconds))
     }
 
     /// Answers about a machine; what is known exactly has its own margin for certain.
@@ -59,8 +61,8 @@ impl MarginCommand {
         };
         let uncertain = subject.of_belt().map(|belt| tolerances.intervals(belt));
         let about = case.about().within(&uncertain.unwrap_or_default());
-        let bound = tolerances.disturbance;
-        self.output.print(margins_of_machine(&about, &found, certain, bound, seconds))
+        let answer = margins(&about, found.margin, certain, tolerances.disturbance);
+        self.output.print(answer.portrayed(&found, seconds))
     }
 }
 

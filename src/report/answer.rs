@@ -66,6 +66,22 @@ impl<'a> Answer<'a> {
         Answer { head: [name.to_owned(), subject], ..Answer::default() }
     }
 
+    /// With a field of its document.
+    pub(super) fn with(self, name: &'static str, value: impl Serialize) -> Self {
+        let value = json::value(&value);
+        self.fields(move |all| all.with(name, value))
+    }
+
+    /// With a field of its document that lists these rows.
+    pub(super) fn objects<R: 'a>(
+        self,
+        name: &'static str,
+        columns: Columns<'a, R>,
+        rows: impl IntoIterator<Item: Borrow<R>> + 'a,
+    ) -> Self {
+        self.fields(move |all| all.with(name, columns.objects(rows)))
+    }
+
     /// With fields of its document.
     pub(super) fn fields(mut self, more: impl FnOnce(Document) -> Document + 'a) -> Self {
         self.fields.push(Box::new(more));
@@ -143,7 +159,7 @@ impl<'a> Answer<'a> {
     }
 
     /// With its cost: of a machine, the steps.
-    pub(super) fn cost(self, cost: Cost, seconds: f64) -> Self {
+    pub fn cost(self, cost: Cost, seconds: f64) -> Self {
         let (line, counted) = if self.by_steps {
             (format!("{} steps", cost.steps), Document::default().with("steps", cost.steps))
         } else {
@@ -154,8 +170,8 @@ impl<'a> Answer<'a> {
 
     /// With a line about its cost, and the same as fields.
     pub(super) fn costing(self, line: String, counted: Document, seconds: f64) -> Self {
-        let answer = self.fields(move |all| all.with("cost", counted.with("seconds", seconds)));
-        Answer { cost: Some(line), ..answer }
+        let cost = Some(line);
+        Answer { cost, ..self.with("cost", counted.with("seconds", seconds)) }
     }
 
     /// The answer in a form.
@@ -300,9 +316,10 @@ impl About {
         match self.machine.clone() {
             Some((name, title)) => Answer { by_steps: true, ..Answer::new(&name, title) }
                 .lines([numbers])
-                .fields(move |all| all.with("machine", name).with("parameters", parameters)),
-            None => Answer::new("", numbers).fields(|all| all.with("parameters", parameters)),
+                .with("machine", name),
+            None => Answer::new("", numbers),
         }
+        .with("parameters", parameters)
     }
 
     /// A quantity of a machine in its SI unit; of the oscillator of the paper a pure number with this many digits.

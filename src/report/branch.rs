@@ -6,7 +6,7 @@ use super::certified::{
 };
 use super::cycle_numbers::{cycle_fields, machine_cycles, number_columns};
 use super::table::digits;
-use super::{About, Answer, Columns, Document, Quantity};
+use super::{About, Answer, Columns, Quantity};
 use crate::branch::fold::{Boundary, BoundaryPoint};
 use crate::branch::jump::Jump;
 use crate::branch::machine::MachineBranch;
@@ -75,13 +75,11 @@ pub fn branch<'a>(
         .number("q_max", special, |it| it.q_max);
     let answer = about
         .answer()
-        .fields(move |all| {
-            all.with("parameter", branch.parameter)
-                .with("points", point_columns("value", shown).objects(rows()))
-                .with("special", &branch.special)
-                .with("vague", &branch.vague)
-                .with_any("certified", certified.map(decided))
-        })
+        .with("parameter", branch.parameter)
+        .objects("points", point_columns("value", shown), rows())
+        .with("special", &branch.special)
+        .with("vague", &branch.vague)
+        .fields(move |all| all.with_any("certified", certified.map(decided)))
         .csv(point_columns(name, shown).and(proved), rows().chain(parts))
         .table(point_columns(name, shown), rows())
         .lines(branch.pieces.is_empty().then_some("no limit cycle"))
@@ -144,11 +142,9 @@ pub fn border<'a>(
     let document = |all: &[BorderProof]| all.iter().map(BorderProof::document).collect::<Vec<_>>();
     about
         .answer()
-        .fields(move |all| {
-            all.with("parameter", found.second)
-                .with("points", &found.points)
-                .with_any("certified", certified.map(document))
-        })
+        .with("parameter", found.second)
+        .with("points", &found.points)
+        .fields(move |all| all.with_any("certified", certified.map(document)))
         .rows(columns, rows)
         .lines(given_up)
         .cost(found.cost, seconds)
@@ -188,12 +184,10 @@ pub fn of_machine<'a>(
     let cost = Cost { steps: found.cost.steps, ..Cost::default() };
     about
         .answer()
-        .fields(move |all| {
-            all.with("parameter", name)
-                .with("unit", unit)
-                .with("points", columns("value").objects(rows()))
-                .with("special", &found.special)
-        })
+        .with("parameter", name)
+        .with("unit", unit)
+        .objects("points", columns("value"), rows())
+        .with("special", &found.special)
         .rows(columns(name), rows().collect::<Vec<_>>())
         .table(special_columns(varied, |special| special), &found.special)
         .cost(cost, seconds)
@@ -259,16 +253,14 @@ pub fn border_of_machine<'a>(
         .flat_map(|(value, all)| all.iter().map(move |special| (*value, special)))
         .collect();
     let nothing = rows.is_empty().then(|| format!("nothing changes along {along_name}"));
+    let points = Columns::default()
+        .field("value", |(value, _): &(f64, Vec<Special>)| *value)
+        .field("special", |(_, special)| special.clone());
     about
         .answer()
-        .fields(move |all| {
-            let point = |(value, special): &(f64, Vec<Special>)| {
-                Document::default().with("value", value).with("special", special)
-            };
-            all.with("parameter", over_name)
-                .with("along", along_name)
-                .with("points", found.iter().map(point).collect::<Vec<_>>())
-        })
+        .with("parameter", over_name)
+        .with("along", along_name)
+        .objects("points", points, found)
         .rows(columns, rows)
         .lines(nothing)
         .cost(Cost::default(), seconds)

@@ -59,7 +59,7 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
 pub fn claims(examined: &[ClaimResult], seconds: f64) -> Answer<'_> {
     let reason = |it: &ClaimResult| it.finding.as_ref().err().map(ToString::to_string);
     Answer::default()
-        .fields(move |all| all.with("claims", columns().field("reason", reason).objects(examined)))
+        .objects("claims", columns().field("reason", reason), examined)
         .csv(columns(), examined)
         .captioned("", move || columns().table(examined).unbroken())
         .costing(

@@ -28,12 +28,11 @@ pub fn cycles<'a>(
         .number("amplitude", SHORT, |it| it.amplitude)
         .number("mean", SHORT, |it| it.mean);
     let answer = with_proof(about.answer(), move || ProvedRow::found(&found.cycles, proof), proof)
+        .with("harmonic", &found.harmonic)
         .fields(move |all| {
-            let balance = rungs.map(|rungs| balance_columns().objects(balances(rungs)));
-            all.with("harmonic", &found.harmonic)
-                .with_any("balance", balance)
-                .with("basin", Document::default().with("edge", found.border))
+            all.with_any("balance", rungs.map(|rungs| balance_columns().objects(balances(rungs))))
         })
+        .with("basin", Document::default().with("edge", found.border))
         .lines([border(found.border)])
         .lines(found.harmonic.is_empty().then_some("by one harmonic: no cycle"))
         .table(harmonic, &found.harmonic);
@@ -49,21 +48,23 @@ pub fn cycles<'a>(
 /// Every cycle of a machine, and what borders the basin.
 pub fn of_machine<'a>(about: &About, found: &'a Portrait, seconds: f64) -> Answer<'a> {
     let columns = machine_cycles(|cycle: &Cycle| Some(*cycle));
-    let objects = columns.clone();
     about
         .answer()
-        .fields(move |all| {
-            // The number of cycles is not proved; where the search did not settle is known.
-            let count = Document::default().with("proved", false).with("open", &found.unresolved);
-            all.with("cycles", objects.objects(&found.cycles))
-                .with("count", count)
-                .with("neutral", found.neutral)
-                .with("basin", Document::default().with("edge", found.border))
-        })
+        .objects("cycles", columns.clone(), &found.cycles)
+        // The number of cycles is not proved; where the search did not settle is known.
+        .with("count", Document::default().with("proved", false).with("open", &found.unresolved))
+        .with("neutral", found.neutral)
+        .with("basin", Document::default().with("edge", found.border))
         .rows(columns, &found.cycles)
         .lines(found.cycles.is_empty().then_some(NO_CYCLE))
-        .lines(known(found))
-        .cost(steps(found), seconds)
+        .portrayed(found, seconds)
+}
+
+impl Answer<'_> {
+    /// With what is known of the motions of a machine, and what its portrait cost.
+    pub fn portrayed(self, portrait: &Portrait, seconds: f64) -> Self {
+        self.lines(known(portrait)).cost(steps(portrait), seconds)
+    }
 }
 
 /// What stands in place of an empty table of cycles.

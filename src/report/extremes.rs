@@ -36,12 +36,9 @@ pub fn extremes<'a>(
     });
     let answers = verdicts.iter().flat_map(|it| it.answers.iter().map(move |answer| (it, answer)));
     Answer::default()
-        .fields(move |all| {
-            all.with("tolerance", tolerance)
-                .with("budget", BUDGET)
-                .with("motions", verdicts)
-                .with("named", named())
-        })
+        .with("tolerance", tolerance)
+        .with("budget", BUDGET)
+        .fields(move |all| all.with("motions", verdicts).with("named", named()))
         .csv(method_columns(), answers)
         .lines([format!(
             "Below the name of a method: digits lost of those that the tolerance {tolerance:e} asks for,\n\
@@ -146,7 +143,8 @@ pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer<'_> {
         cycles.chain(none).map(move |cycle| (verdict, cycle))
     });
     Answer::default()
-        .fields(move |all| all.with("budget", BUDGET_OF_SET).with("sets", verdicts))
+        .with("budget", BUDGET_OF_SET)
+        .with("sets", verdicts)
         .csv(set_columns(), rows.clone())
         .lines([format!(
             "Every limit cycle by amplitude, or why the search gave up within {BUDGET_OF_SET} evaluations of a half \

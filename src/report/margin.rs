@@ -4,7 +4,6 @@ use super::certified::kick_columns;
 use super::{About, Answer, Columns, Document, Quantity, cycles};
 use crate::portrait::basin::{Counts, SurveyedBasin};
 use crate::portrait::guarantee::Uncertain;
-use crate::portrait::guarantee::oscillator::Guarantee;
 use crate::portrait::kicks::RandomKick;
 use crate::portrait::kicks::repeated::Repeated;
 use crate::portrait::{Border, Margin, Portrait};
@@ -47,27 +46,9 @@ pub(super) fn margin_columns<'a>(about: &About, digits: usize) -> Columns<'a, Ma
     )
 }
 
-/// The margins of the oscillator of the paper, nominal and guaranteed.
-pub fn margins<'a>(about: &About, found: &Guarantee, seconds: f64) -> Answer<'a> {
-    let Guarantee { nominal, guaranteed, disturbance, .. } = *found;
-    both(about, nominal, guaranteed, disturbance).cost(found.cost, seconds)
-}
-
-/// The margins of a machine as it is, and those for certain whatever a force of at most `disturbance` does.
-pub fn margins_of_machine<'a>(
-    about: &About,
-    nominal: &Portrait,
-    certain: Result<Margin, Uncertain>,
-    disturbance: f64,
-    seconds: f64,
-) -> Answer<'a> {
-    both(about, nominal.margin, certain, disturbance)
-        .lines(cycles::known(nominal))
-        .cost(cycles::steps(nominal), seconds)
-}
-
-/// One row for the nominal and one for the guaranteed margin, or why nothing is guaranteed.
-fn both<'a>(
+/// The margins, nominal and those for certain whatever a force of at most `disturbance` does: a row for each, or why
+/// nothing is guaranteed.
+pub fn margins<'a>(
     about: &About,
     nominal: Margin,
     certain: Result<Margin, Uncertain>,
@@ -89,13 +70,10 @@ fn both<'a>(
     let bound = about.quantity("N", 12).text(disturbance);
     about
         .answer_to(&format!("; disturbance {bound}"))
-        .fields(move |all| {
-            let certain = Document::default().and(&guaranteed).with("reason", reason);
-            all.with("nominal", nominal)
-                .with(GUARANTEED, certain)
-                .with("disturbance", disturbance)
-                .with("parameters", known)
-        })
+        .with("nominal", nominal)
+        .with(GUARANTEED, Document::default().and(&guaranteed).with("reason", reason))
+        .with("disturbance", disturbance)
+        .with("parameters", known)
         .csv(columns.clone(), rows)
         .captioned("", move || columns.table(&rows[..shown]).transposed())
         .lines(nothing)
@@ -111,13 +89,13 @@ struct WindowShare {
 }
 
 impl WindowShare {
-    /// The answer, whose one row has more columns: an area before, and others after the part that comes to rest.
-    fn answer<'a>(
+    /// An answer with this, whose one row has more columns: an area before, and others after the part that comes to rest.
+    fn told<'a>(
         self,
+        answer: Answer<'a>,
         about: &About,
         area: Columns<'a, MarginRow>,
         more: Columns<'a, MarginRow>,
-        notes: Vec<String>,
     ) -> Answer<'a> {
         let WindowShare { border, counts, margin, captured } = self;
         let ending = Quantity::pure(10).or("not known");
@@ -139,15 +117,11 @@ impl WindowShare {
             .titled("part of the window that comes to rest")
             .and(more);
         let row = ("", margin);
-        about
-            .answer()
-            .fields(move |all| {
-                all.with("edge", border)
-                    .with("counts", counts)
-                    .with("margin", margin)
-                    .with("captured", captured)
-            })
-            .lines(notes)
+        answer
+            .with("edge", border)
+            .with("counts", counts)
+            .with("margin", margin)
+            .with("captured", captured)
             .csv(columns.clone(), [row])
             .captioned("", move || columns.table([row]).transposed())
     }
@@ -172,7 +146,7 @@ pub fn basin<'a>(
         .titled("Lyapunov's disk (24), a part of the margin");
     let too_large = lyapunov_share.is_some_and(|share| share > 1.0);
     window
-        .answer(about, shown, share.and(proved), vec![cycles::border(border)])
+        .told(about.answer().lines([cycles::border(border)]), about, shown, share.and(proved))
         .fields(move |all| {
             all.and(found).with_any("certified", certified.map(|it| kick_columns().object(&it)))
         })
@@ -189,8 +163,9 @@ pub fn basin_of_machine<'a>(
     seconds: f64,
 ) -> Answer<'a> {
     let window = WindowShare { border: found.border, counts, margin: found.margin, captured };
+    let answer = about.answer().lines(cycles::known(found));
     window
-        .answer(about, Columns::default(), Columns::default(), cycles::known(found))
+        .told(answer, about, Columns::default(), Columns::default())
         .cost(cycles::steps(found), seconds)
 }
 
@@ -206,16 +181,16 @@ pub fn kicks<'a>(
     let density = Columns::default()
         .file("q", |(q, _): &(f64, f64)| *q)
         .file("density", |(_, density)| *density);
+    let repeated = Document::default()
+        .with("lost", found.later)
+        .with("mean", found.mean)
+        .with("error", found.error)
+        .with("density", &found.density);
     about
         .answer_to(&format!("; kicks {law}"))
-        .fields(move |all| {
-            let repeated = Document::default()
-                .with("lost", found.later)
-                .with("mean", found.mean)
-                .with("error", found.error)
-                .with("density", &found.density);
-            all.with("kicks", law.to_string()).with("lost", found.first).with("repeated", repeated)
-        })
+        .with("kicks", law.to_string())
+        .with("lost", found.first)
+        .with("repeated", repeated)
         .csv(density, found.places(held))
         .lines(lost(found))
         .cost(found.cost, seconds)
