@@ -85,7 +85,7 @@ impl BeltCommand {
         let mut case = MachineCase::named(&self.machine)?;
         case.set(&self.set)?;
         case.set(&self.start)?;
-        let tolerances = &mut case.problem.tolerances;
+        let tolerances = &mut case.described.problem.tolerances;
         tolerances.disturbance = self.disturbance.unwrap_or(tolerances.disturbance);
         case.checked()
     }
@@ -103,10 +103,10 @@ impl BeltCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let second = second(self.method)?;
         let mut case = self.case()?;
-        case.problem.subject.tolerance = self.own(second);
+        case.described.problem.subject.tolerance = self.own(second);
         let about = case.about();
         let (found, seconds) =
-            timed(self.output.repeat, || self.answer(&case.problem, &about, second));
+            timed(self.output.repeat, || self.answer(&case.described.problem, &about, second));
         let answer = MachineAnswer { seconds, ..found.map_err(troubled)? };
         if let Some(path) = &self.report {
             let (pictures, provenance) = (pictures(&case)?, provenance_file::of_process());

@@ -43,7 +43,7 @@ impl BranchCommand {
         let over = read("--over", &self.over, |text| self.source.numbers().over(text))?;
         let Sweep { symbol, from, to, count, .. } = over;
         if let Some(case) = case {
-            let subject = &case.problem.subject;
+            let subject = &case.described.problem.subject;
             let follow =
                 || crate::branch::machine::branch(subject.clone(), symbol, (from, to), count);
             let (found, seconds) = timed(self.output.repeat, follow);
@@ -115,7 +115,7 @@ impl BorderCommand {
 
     fn of_machine(&self, case: &MachineCase, over: &Sweep) -> Result<(), Failure> {
         let along = given("--along", self.along.as_ref(), |text| MACHINE.over(text))?;
-        let subject = &case.problem.subject;
+        let subject = &case.described.problem.subject;
         let own = |Belt { belt_speed, .. }: &Belt| {
             let (from, to) = (0.1 * belt_speed, 3.0 * belt_speed);
             Sweep { symbol: Knob::BeltSpeed, from, to, count: 60, spacing: Spacing::Even }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
-use super::wrapped::columns;
+use super::output::columns;
 use super::{Failure, SourceOptions, input, print, write};
 use crate::figure::{self as forms, FileForm};
 use crate::flow::Limits;
@@ -91,7 +91,8 @@ impl FigureCommand {
 
 /// A session of a scene with everything on show computed for print, and its plots.
 pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>), Failure> {
-    let width = columns().unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
+    let width = columns().and_then(|width| u16::try_from(width).ok());
+    let width = width.unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
     let mut session = Session::new(scene, Size { width, height: PANEL.1 });
     complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(topic, reason)| {
         Failure::Unanswered(format!("{} not computed: {reason}", topic.name()))

@@ -3,10 +3,9 @@
 use clap::Args;
 use rayon::prelude::*;
 
-use super::output::sourced;
+use super::output::{self, sourced};
 use super::scene_cost::measured;
 use super::settings::Settings;
-use super::wrapped::on_terminal;
 use super::{Failure, Output, input, print};
 use crate::accuracy::extremes::verdict::TOLERANCE;
 use crate::accuracy::extremes::{Case, cases, judge, judge_set, named, sets};
@@ -87,8 +86,8 @@ impl KeysCommand {
             // A document lists them.
             .field("keys", |row| row.keys.clone())
             .word("meaning", |row| row.meaning);
-        let told = Answer::list_of(columns, rows).told(self.list.format);
-        print(&if self.list.format == Format::Table { on_terminal(&told) } else { told })?;
+        let list = Answer::list_of(columns, rows).within(output::columns());
+        print(&list.told(self.list.format))?;
         if let (Some(path), Format::Table) = (self.settings.path(), self.list.format) {
             let there = if path.exists() { "" } else { " (not there)" };
             tell(format!("settings file: {}{there}", path.display()));

@@ -35,7 +35,7 @@ impl MarginCommand {
         let knob = self.source.numbers().disturbance;
         let bound = number("--disturbance", self.disturbance.as_ref(), knob)?;
         if let Some(mut case) = self.source.portrayed()? {
-            let known = &mut case.problem.tolerances;
+            let known = &mut case.described.problem.tolerances;
             known.disturbance = bound.unwrap_or(known.disturbance);
             return self.of_machine(&case.checked()?);
         }
@@ -49,7 +49,7 @@ impl MarginCommand {
 
     /// Answers about a machine; what is known exactly has its own margin for certain.
     fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let MachineProblem { subject, tolerances, .. } = &case.problem;
+        let MachineProblem { subject, tolerances, .. } = &case.described.problem;
         let (found, mut seconds) = case.portrait(&self.output)?;
         let certain = match subject.of_belt().filter(|_| !tolerances.is_none()) {
             None => Ok(found.margin),

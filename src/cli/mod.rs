@@ -28,7 +28,6 @@ mod settings;
 mod shell;
 mod source;
 mod timing;
-mod wrapped;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -36,7 +36,7 @@ impl MotionOptions {
     /// The motion of a machine, if it is about one.
     fn of_machine(&self) -> Result<Option<MachineCase>, Failure> {
         let Some(mut case) = self.source.machine()? else { return Ok(None) };
-        case.problem.until = self.end()?.unwrap_or(case.problem.until);
+        case.described.problem.until = self.end()?.unwrap_or(case.described.problem.until);
         case.checked().map(Some)
     }
 
@@ -93,7 +93,7 @@ impl TrajectoryCommand {
     fn of_machine(&self, case: MachineCase) -> Result<(), Failure> {
         let about = case.about();
         let MotionOptions { source, output, .. } = &self.asked;
-        let MachineProblem { subject, start: (q, v), until, .. } = case.problem;
+        let MachineProblem { subject, start: (q, v), until, .. } = case.described.problem;
         let model = subject.model().map_err(troubled)?;
         let way = second(source.start.method)?;
         let own = if way.is_some() { Knob::Tolerance.usual() } else { model.tolerance };
@@ -123,7 +123,7 @@ impl TradeCommand {
         let detail = Detail::default();
         if let Some(case) = self.asked.of_machine()? {
             let about = case.about();
-            let MachineProblem { subject, start: (q, v), until, .. } = case.problem;
+            let MachineProblem { subject, start: (q, v), until, .. } = case.described.problem;
             let model = subject.model().map_err(troubled)?;
             let problem = Problem { initial: State { q, v }, until, ..Problem::default() };
             let found = Trade::of_machine(&model, &problem).map_err(troubled)?;

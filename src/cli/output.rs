@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::wrapped::on_terminal;
 use super::{Failure, timed};
 use crate::flow::Reason;
 use crate::report::{Answer, Format};
@@ -45,10 +44,7 @@ impl Output {
 
     /// Prints a list whose last column is text, wrapped to the width of a terminal.
     pub fn print_list(&self, answer: Answer) -> Result<(), Failure> {
-        if self.write.is_none() && self.format == Format::Table {
-            return print(&on_terminal(&answer.told(self.format)));
-        }
-        self.print(answer)
+        self.print(answer.within(columns().filter(|_| self.write.is_none())))
     }
 
     /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other
@@ -71,6 +67,11 @@ pub fn sourced(format: Format, answer: &str) -> String {
         Format::Json => provenance_file::of_process().within(answer),
         Format::Table | Format::Csv => printable::lines(answer).into_owned(),
     }
+}
+
+/// Number of columns of the terminal to which the output goes; `None` if it goes elsewhere.
+pub fn columns() -> Option<usize> {
+    rustix::termios::tcgetwinsize(rustix::stdio::stdout()).map(|size| size.ws_col.into()).ok()
 }
 
 /// Whether an answer is also enclosed.

@@ -241,10 +241,10 @@ impl ScanCommand {
             let name = measure.spec().name;
             return Err(Failure::Usage(format!("{name} of a machine needs {needs}")));
         }
-        let MachineProblem { until: end, tolerances, .. } = &mut case.problem;
+        let MachineProblem { until: end, tolerances, .. } = &mut case.described.problem;
         *end = until.unwrap_or(*end);
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
-        Ok((ScanSource::Machine(Box::new(case.checked()?.problem)), conditions))
+        Ok((ScanSource::Machine(Box::new(case.checked()?.described.problem)), conditions))
     }
 
     /// Where the rows go, with those that are already there.

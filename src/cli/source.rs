@@ -52,7 +52,7 @@ impl SourceOptions {
         let Some(name) = &self.machine else { return Ok(None) };
         let mut case = MachineCase::named(name)?;
         case.set(&self.start.assigned(&MACHINE)?)?;
-        case.problem.subject.tolerance = self.start.tol;
+        case.described.problem.subject.tolerance = self.start.tol;
         Ok(Some(case))
     }
 }

@@ -37,6 +37,8 @@ pub struct Answer<'a> {
     cost: Option<String>,
     /// Whether its steps are all that was counted.
     by_steps: bool,
+    /// The width within which the tables of a list are shown.
+    width: Option<usize>,
     csv: Option<Box<dyn FnOnce() -> String + 'a>>,
     fields: Vec<Box<dyn FnOnce(Document) -> Document + 'a>>,
     /// What its document consists of, if that is a list.
@@ -174,6 +176,11 @@ impl<'a> Answer<'a> {
         Answer { cost, ..self.with("cost", counted.with("seconds", seconds)) }
     }
 
+    /// The same with tables whose last column is wrapped to a width, if one is given.
+    pub fn within(self, width: Option<usize>) -> Self {
+        Answer { width, ..self }
+    }
+
     /// The answer in a form.
     pub fn told(self, format: Format) -> String {
         match format {
@@ -197,7 +204,7 @@ impl<'a> Answer<'a> {
         let mut after_table = false;
         for part in self.parts.into_iter().chain(self.cost.map(Part::Line)) {
             let is_table = matches!(part, Part::Table { .. });
-            let text = part.text();
+            let text = part.text(self.width);
             if text.is_empty() {
                 continue;
             }
@@ -211,14 +218,14 @@ impl<'a> Answer<'a> {
 }
 
 impl Part<'_> {
-    fn text(self) -> String {
+    fn text(self, width: Option<usize>) -> String {
         let line = |text: String| if text.is_empty() { text } else { text + "\n" };
         match self {
             Part::Heading(_) => String::new(),
             Part::Statement { text, .. } | Part::Line(text) => line(text),
             Part::Table { caption, table } => match table() {
                 table if table.is_empty() => String::new(),
-                table => table.to_string() + &line(caption),
+                table => table.within(width).to_string() + &line(caption),
             },
         }
     }

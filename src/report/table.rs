@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::numerics::elementary::powi;
+use crate::words::wrapped;
 
 /// Width of a screen that every table fits.
 const SCREEN: usize = 80;
@@ -12,8 +13,10 @@ const SCREEN: usize = 80;
 pub struct Table {
     pub(super) titles: Vec<String>,
     pub(super) rows: Vec<Vec<String>>,
-    /// Whether its lines may be longer than a screen is wide, as where they are wrapped.
+    /// Whether its lines may be longer than a screen is wide.
     is_unbroken: bool,
+    /// The width within which words at the end of a line go on below themselves.
+    width: Option<usize>,
 }
 
 /// How the cells of a column are set.
@@ -31,12 +34,17 @@ enum Alignment {
 impl Table {
     /// A table of these titles and rows.
     pub(super) fn new(titles: Vec<String>, rows: Vec<Vec<String>>) -> Self {
-        Table { titles, rows, is_unbroken: false }
+        Table { titles, rows, ..Table::default() }
     }
 
     /// The same with lines of any length.
     pub(super) fn unbroken(self) -> Self {
         Table { is_unbroken: true, ..self }
+    }
+
+    /// The same, with words at the end of a line wrapped to a width, if one is given.
+    pub(super) fn within(self, width: Option<usize>) -> Self {
+        Table { width, ..self }
     }
 
     /// Whether there is nothing to show.
@@ -94,10 +102,31 @@ impl Table {
         Alignment::Numbers { whole: whole.max(title.saturating_sub(part)), part }
     }
 
-    /// The table on lines of any length.
+    /// The table on lines of any length, or the last cells of those longer than the width wrapped between words; where
+    /// that leaves little room, they go on below their row.
     fn lines(&self) -> String {
-        let lines = self.padded().into_iter();
-        lines.map(|line| line.join("  ").trim_end().to_owned() + "\n").collect()
+        /// Narrowest readable column.
+        const NARROWEST: usize = 30;
+        /// Blanks before text that goes on below its row.
+        const INDENT: usize = 4;
+        let length = |text: &str| text.chars().count();
+        let line = |mut cells: Vec<String>| {
+            let whole = cells.join("  ").trim_end().to_owned();
+            let last = cells.pop().unwrap_or_default();
+            let head = cells.iter().map(|cell| cell.clone() + "  ").collect::<String>();
+            let start = length(&head);
+            let width = self.width.filter(|width| *width > INDENT + NARROWEST);
+            let Some(width) = width.filter(|width| length(&whole) > start.max(*width)) else {
+                return whole + "\n";
+            };
+            let (head, indent) = if width >= start + NARROWEST {
+                (head, start)
+            } else {
+                (format!("{}\n{:INDENT$}", head.trim_end(), ""), INDENT)
+            };
+            head + &wrapped(&last, width - indent).join(&format!("\n{:indent$}", "")) + "\n"
+        };
+        self.padded().into_iter().map(line).collect()
     }
 
     /// Columns that fit a screen together, and those of the tables that continue it; each begins with the first. Words at
@@ -203,6 +232,17 @@ mod tests {
         assert!(shown.lines().all(|line| line.len() <= SCREEN), "{shown}");
         // Fifteen of the other columns, and fourteen.
         assert_eq!((shown.matches("aaa").count(), shown.lines().count()), (2 * 31, 5));
+    }
+
+    #[test]
+    fn the_last_column_goes_on_below_itself_or_where_there_is_little_room_below_its_row() {
+        let list = table(&["key", "meaning"], &[&["a", "one two three four five six seven"]]);
+        let shown = |width| Table { width: Some(width), ..list.clone() }.unbroken().to_string();
+        assert_eq!(shown(35), "key  meaning\na    one two three four five six\n     seven\n");
+        assert_eq!([shown(38), shown(30)], [list.to_string(), list.to_string()]);
+        let wide = table(&["a".repeat(38).as_str(), "b"], &[&["a", "one two three four five six"]]);
+        let wide = Table { width: Some(58), ..wide }.unbroken().to_string();
+        assert!(wide.ends_with("\na\n    one two three four five six\n"), "{wide}");
     }
 
     #[test]

@@ -8,7 +8,6 @@ use crossterm::clipboard::CopyToClipboard;
 use super::bounded;
 use super::new_file::{self, Readers};
 use crate::fit::decoded;
-use crate::session::Notice;
 
 /// The destination of copies besides the clipboard: terminals do not report whether they accept a copy.
 #[derive(Clone, Debug, Default)]
@@ -28,19 +27,15 @@ impl Files {
         sequence
     }
 
-    /// Saves a copy, and reports the result.
-    pub fn copy(&self, text: &str) -> Notice {
-        /// Length in characters up to which the notice quotes the text.
+    /// Saves a copy; says so, or why it is not saved.
+    pub fn copy(&self, text: &str) -> Result<String, String> {
+        /// Length in characters up to which the line quotes the text.
         const SHORT: usize = 60;
         let told = if text.chars().count() <= SHORT && !text.contains('\n') { text } else { "" };
         let sent = format!("{told} sent to the terminal's clipboard").trim_start().to_owned();
-        match &self.copies {
-            None => Notice { error: false, text: sent },
-            Some(path) => {
-                let Notice { error, text } = Files::write(path, text, true, Readers::Owner);
-                Notice { error, text: format!("{sent}; {text}") }
-            }
-        }
+        let Some(path) = &self.copies else { return Ok(sent) };
+        let told = |line| format!("{sent}; {line}");
+        Files::write(path, text, true, Readers::Owner).map(told).map_err(told)
     }
 
     /// Whether a file may be written. Fails with one line if it exists and is not to be replaced, or is not a
@@ -57,21 +52,17 @@ impl Files {
         }
     }
 
-    /// Writes a file, and reports the result; an existing file is replaced only on demand.
+    /// Writes a file; an existing one is replaced only on demand. Says so in one line, or fails with one.
     pub fn write(
         path: &Path,
         content: impl AsRef<[u8]>,
         replace: bool,
         readers: Readers,
-    ) -> Notice {
-        if let Err(text) = Files::admit(path, replace) {
-            return Notice { error: true, text };
-        }
+    ) -> Result<String, String> {
+        Files::admit(path, replace)?;
         let path = at_home(path);
-        match new_file::write(&path, content.as_ref(), readers, None) {
-            Ok(()) => Notice { error: false, text: format!("written to {}", path.display()) },
-            Err(why) => Notice { error: true, text: why.to_string() },
-        }
+        let written = new_file::write(&path, content.as_ref(), readers, None);
+        written.map(|()| format!("written to {}", path.display())).map_err(|why| why.to_string())
     }
 
     /// The text of a file. Fails with one line that names the file and says why there is no text.
@@ -107,8 +98,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("copy.txt");
         let files = Files { copies: Some(path.clone()), ..Files::default() };
-        let notice = files.copy("q = 1");
-        assert!(!notice.error && notice.text.contains("copy.txt"), "{notice:?}");
+        assert!(files.copy("q = 1").unwrap().contains("copy.txt"));
         assert_eq!(std::fs::read_to_string(path).unwrap(), "q = 1");
         assert_eq!(Files::clipboard("q = 1"), "\x1b]52;c;cSA9IDE=\x1b\\");
     }
@@ -116,8 +106,9 @@ mod tests {
     #[test]
     fn a_file_that_cannot_be_written_is_told_by_name() {
         let folder = tempfile::tempdir().unwrap();
-        let notice = Files::write(&folder.path().join("no/such/folder"), "", true, Readers::Owner);
-        assert!(notice.error && notice.text.contains("no/such/folder"), "{notice:?}");
+        let path = folder.path().join("no/such/folder");
+        let refused = Files::write(&path, "", true, Readers::Owner).unwrap_err();
+        assert!(refused.contains("no/such/folder"), "{refused}");
     }
 
     #[test]
@@ -125,14 +116,13 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("session.toml");
         let write = |text, replace| Files::write(&path, text, replace, Readers::Owner);
-        assert!(!write("one", false).error);
-        let notice = write("two", false);
-        assert!(notice.error && notice.text.contains("is there already"), "{notice:?}");
+        assert!(write("one", false).is_ok());
+        assert!(write("two", false).unwrap_err().contains("is there already"));
         assert_eq!(Files::read(&path).unwrap(), "one");
-        assert!(!write("two", true).error);
+        assert!(write("two", true).is_ok());
         assert_eq!(Files::read(&path).unwrap(), "two");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
         let device = Files::write(Path::new("/dev/null"), "two", true, Readers::Owner);
-        assert!(device.error && device.text == "/dev/null is not a file", "{device:?}");
+        assert_eq!(device.unwrap_err(), "/dev/null is not a file");
     }
 }

@@ -82,8 +82,7 @@ fn keep<M: Application, W: io::Write>(
     let text = catch_unwind(AssertUnwindSafe(|| pump.running().what_to_keep())).ok().flatten();
     let Some(text) = text else { return Ok(()) };
     let path = path.ok_or("there is no folder for it; XDG_STATE_HOME names one")?;
-    let written = Files::write(path, &text, true, Readers::Owner);
-    if written.error { Err(written.text) } else { Ok(()) }
+    Files::write(path, &text, true, Readers::Owner).map(drop)
 }
 
 /// Runs the loop through all pauses until it ends.

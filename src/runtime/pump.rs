@@ -251,7 +251,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         self.give(msg)
     }
 
-    fn copy(&mut self, text: &str) -> io::Result<Notice> {
+    fn copy(&mut self, text: &str) -> io::Result<Result<String, String>> {
         self.screen.control(&Files::clipboard(text))?;
         Ok(self.options.files.copy(text))
     }
@@ -273,10 +273,8 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Writes the recording to a file, without the key presses that asked for this.
-    fn write_record(&self, path: &Path, forget: u32, replace: bool) -> Notice {
-        if let Err(text) = RecordingFile::admit(path, replace, "! behind the command replaces it") {
-            return Notice { error: true, text };
-        }
+    fn write_record(&self, path: &Path, forget: u32, replace: bool) -> Result<String, String> {
+        RecordingFile::admit(path, replace, "! behind the command replaces it")?;
         let mut recorder = self.options.recorder.clone();
         recorder.forget(forget);
         Files::write(path, recorder.text(&self.options.started), true, Readers::Owner)
@@ -342,7 +340,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         if let Some(outcome) = self.withheld(&effect) {
             return Ok(outcome);
         }
-        let notice = match effect {
+        let done = match effect {
             Effect::Quit => return Ok(EffectOutcome::Stop(LoopEnd::Quit)),
             Effect::Suspend => return Ok(EffectOutcome::Stop(LoopEnd::Suspend)),
             Effect::Mouse(on) => return Ok(EffectOutcome::Stop(LoopEnd::Mouse(on))),
@@ -374,6 +372,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             }
             Effect::Record { path, forget, replace } => self.write_record(&path, forget, replace),
         };
+        let notice = done.into();
         self.note_unwritten(&notice);
         Ok(EffectOutcome::Told(Msg::Told(notice)))
     }

@@ -21,7 +21,6 @@ use super::standard;
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::scan::grid::{Scan, ScanRow};
-use crate::session::Notice;
 use crate::words::provenance::{Checksum, Provenance};
 
 /// A file to which rows are added.
@@ -188,11 +187,11 @@ fn opened(path: &Path) -> Result<File, Failure> {
     }
 }
 
-/// Writes known rows to a file, in the form given by its extension, and reports the result.
+/// Writes known rows to a file, in the form given by its extension; says so in one line, or fails with one.
 ///
 /// If the file holds the beginning of the same scan, it is continued; a file with any other content is left
 /// alone. A new file is complete or not there at all.
-pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
+pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String> {
     let path = &at_home(path);
     let is_new = !path.exists();
     let (form, points) = (Format::of_file(path), 0..scan.points());
@@ -205,14 +204,11 @@ pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
             }
             Ok(scan.points() - file.left())
         });
-    match written {
-        Ok(count) => Notice { error: false, text: format!("{} has {count} rows", path.display()) },
-        Err(why) => {
-            if is_new {
-                drop(fs::remove_file(path));
-                drop(fs::remove_file(provenance_file::beside(path)));
-            }
-            Notice { error: true, text: why.to_string() }
-        }
+    if written.is_err() && is_new {
+        drop(fs::remove_file(path));
+        drop(fs::remove_file(provenance_file::beside(path)));
     }
+    written
+        .map(|count| format!("{} has {count} rows", path.display()))
+        .map_err(|why| why.to_string())
 }

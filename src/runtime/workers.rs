@@ -21,7 +21,7 @@ use super::panics::caught;
 use crate::flow::{Limits, Reason};
 use crate::question::NoAnswer;
 use crate::scene::{Answered, Finding, Request};
-use crate::session::{Msg, Notice};
+use crate::session::Msg;
 
 /// Called by a job with its results so far; its return value is the last piece.
 pub type Tell<'a> = dyn Fn(Finding) + 'a;
@@ -148,14 +148,12 @@ impl Workers {
         let (report, told) = (Arc::clone(&self.report), failed.clone());
         let begun = start("figures", move |limits| {
             let made = caught(|| work(limits));
-            report(Msg::Written(match made {
-                _ if (limits.interrupted)() => {
-                    Notice { error: false, text: format!("{told}: stopped") }
-                }
-                Ok(Ok(content)) => Files::write(&path, &content, replace, Readers::Usual),
-                Ok(Err(text)) => Notice { error: true, text },
-                Err(why) => Notice { error: true, text: format!("{told}: internal error: {why}") },
-            }));
+            let written = match made {
+                _ if (limits.interrupted)() => Ok(format!("{told}: stopped")),
+                Ok(made) => made.and_then(|it| Files::write(&path, &it, replace, Readers::Usual)),
+                Err(why) => Err(format!("{told}: internal error: {why}")),
+            };
+            report(Msg::Written(written.into()));
         });
         let (stop, thread) = begun.map_err(|why| format!("{failed}: {why}"))?;
         (self.figure, self.writer) = (Some(stop), Some(thread));

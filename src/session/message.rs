@@ -79,6 +79,13 @@ pub struct Notice {
     pub text: String,
 }
 
+impl From<Result<String, String>> for Notice {
+    fn from(told: Result<String, String>) -> Self {
+        let error = told.is_err();
+        Notice { error, text: told.unwrap_or_else(|why| why) }
+    }
+}
+
 /// What the mouse did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {

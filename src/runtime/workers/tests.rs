@@ -6,6 +6,7 @@ use super::*;
 use crate::flow::{Cost, Problem};
 use crate::model::Parameters;
 use crate::portrait::{Border, Cycles};
+use crate::session::Notice;
 
 /// A request that can be told apart from others by its number.
 fn request(number: f64) -> Request {
