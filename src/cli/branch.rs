@@ -127,8 +127,10 @@ impl BorderCommand {
         })?;
         let knobs = (along.symbol, over.symbol);
         if knobs.0 == knobs.1 {
-            let line = format!("{} is varied twice, by --along and by --over", over.symbol);
-            return Err(Failure::Usage(line));
+            return Err(Failure::usage(format!(
+                "{} is varied twice, by --along and by --over",
+                over.symbol
+            )));
         }
         let three = |sweep: &Sweep| (sweep.symbol, (sweep.from, sweep.to), sweep.count);
         let (found, seconds) = timed(self.output.repeat, || {

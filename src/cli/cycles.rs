@@ -65,8 +65,9 @@ impl CyclesCommand {
     /// Answers for all parameters in a box.
     fn run_box(&self, known: &ParameterBox) -> Result<(), Failure> {
         if self.harmonics.is_some() {
-            let line = "intervals of parameters: --harmonics has no place for them";
-            return Err(Failure::Usage(line.to_owned()));
+            return Err(Failure::usage(
+                "intervals of parameters: --harmonics has no place for them",
+            ));
         }
         let proof = prove(known, &[]);
         self.certify(&proof)?;

@@ -6,9 +6,8 @@ use std::time::SystemTime;
 
 use clap::Args;
 
-use super::places::Memory;
 use super::replay::script;
-use super::settings::{Looks, Settings};
+use super::settings::{Looks, Memory, Settings};
 use super::{Failure, MachineCase, StartOptions};
 use crate::numerics::similar::similar;
 use crate::runtime::effects::Files;
@@ -132,7 +131,7 @@ fn played(path: &Path) -> Result<Vec<Instruction>, Failure> {
 /// Replaces a session with the one saved in a file.
 pub fn open(session: &mut Session, path: &Path) -> Result<(), Failure> {
     let text = Files::read(path).map_err(Failure::Usage)?;
-    let refused = |why| Failure::Usage(format!("{}: {why}", path.display()));
+    let refused = |why| Failure::file(path, why);
     save::open(session, &text).map_err(refused)
 }
 

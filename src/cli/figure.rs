@@ -81,9 +81,9 @@ impl FigureCommand {
         }
         let start = &self.source.start;
         let Some(name) = self.named.as_deref().or(start.scene.as_deref()) else {
-            let line =
-                "which figure? Every scene has one, such as fig17; hopfscope scenes lists them";
-            return Err(Failure::Usage(line.to_owned()));
+            return Err(Failure::usage(
+                "which figure? Every scene has one, such as fig17; hopfscope scenes lists them",
+            ));
         };
         start.scene(Some(name))
     }

@@ -18,7 +18,7 @@ use crate::model::Knob;
 use crate::model::unit::{Dimension, Measured, measured};
 use crate::question::record::RecordOptions;
 use crate::report::fit as forms;
-use crate::runtime::{bounded, provenance_file, source_file};
+use crate::runtime::{bounded, provenance_file};
 use crate::words::fit::signed;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
@@ -85,7 +85,7 @@ impl FitCommand {
         }
         if let Some(path) = &self.report {
             let pictures = figure::panels(&Figure::of_fit(&fitted));
-            let source = source_file::of(&self.file, &bytes);
+            let source = provenance_file::source(&self.file, &bytes);
             let title = "Fit of a recorded motion";
             let page = forms::fit(&fitted).page(title, &pictures, &provenance, &[source]);
             write(path, page.as_bytes(), self.force)?;

@@ -20,19 +20,12 @@ use crate::scene::library;
 use crate::session::commands;
 use crate::session::state::context::{ContextSpec, contexts};
 
-/// How a list is printed.
-#[derive(Debug, Args)]
-struct ListFormat {
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
-    format: Format,
-}
-
 /// Lists the scenes
 #[derive(Debug, Args)]
 pub struct ScenesCommand {
-    #[command(flatten)]
-    list: ListFormat,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    format: Format,
     /// Shows what each scene computes, what that costs, and what a step of each number recomputes
     #[arg(long)]
     cost: bool,
@@ -40,11 +33,10 @@ pub struct ScenesCommand {
 
 impl ScenesCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        let format = self.list.format;
         if self.cost {
-            return print(&costs(&measured()?).told(format));
+            return print(&costs(&measured()?).told(self.format));
         }
-        print(&scenes(library()).told(format))
+        print(&scenes(library()).told(self.format))
     }
 }
 
@@ -53,8 +45,9 @@ impl ScenesCommand {
 pub struct KeysCommand {
     #[command(flatten)]
     settings: Settings,
-    #[command(flatten)]
-    list: ListFormat,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    format: Format,
 }
 
 /// A command in a context.
@@ -87,8 +80,8 @@ impl KeysCommand {
             .field("keys", |row| row.keys.clone())
             .word("meaning", |row| row.meaning);
         let list = Answer::list_of(columns, rows).within(output::columns());
-        print(&list.told(self.list.format))?;
-        if let (Some(path), Format::Table) = (self.settings.path(), self.list.format) {
+        print(&list.told(self.format))?;
+        if let (Some(path), Format::Table) = (self.settings.path(), self.format) {
             let there = if path.exists() { "" } else { " (not there)" };
             tell(format!("settings file: {}{there}", path.display()));
         }
@@ -116,8 +109,9 @@ impl PaperCommand {
 /// With --cycles, finds the limit cycles there instead.
 #[derive(Debug, Args)]
 pub struct ExtremesCommand {
-    #[command(flatten)]
-    list: ListFormat,
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    format: Format,
     /// Every motion of the lattice instead of every eleventh; every set of parameters instead of every seventh
     #[arg(long)]
     long: bool,
@@ -131,7 +125,7 @@ pub struct ExtremesCommand {
 
 impl ExtremesCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        let (limits, format) = (&Limits::PATIENT, self.list.format);
+        let (limits, format) = (&Limits::PATIENT, self.format);
         let told = if self.cycles {
             let sets: Vec<Parameters> = sets(!self.long).collect();
             let verdicts: Vec<_> = sets.par_iter().map(|set| judge_set(set, limits)).collect();

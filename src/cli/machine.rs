@@ -12,7 +12,7 @@ use crate::portrait::Portrait;
 use crate::report::About;
 use crate::report::page::SourceFile;
 use crate::runtime::standard::tell;
-use crate::runtime::{bounded, source_file};
+use crate::runtime::{bounded, provenance_file};
 use crate::scene::machine::Description;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{find, machines};
@@ -44,11 +44,11 @@ impl MachineCase {
             }
         };
         let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-        let mut sources = vec![source_file::of(path, text.as_bytes())];
+        let mut sources = vec![provenance_file::source(path, text.as_bytes())];
         let fetch = |table: &str| {
             let beside = path.with_file_name(table);
             let text = bounded::text(&beside).map_err(|why| why.to_string())?;
-            sources.push(source_file::of(&beside, text.as_bytes()));
+            sources.push(provenance_file::source(&beside, text.as_bytes()));
             Ok(text)
         };
         let described = parse(&title, name, &text, fetch);

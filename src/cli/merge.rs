@@ -117,8 +117,10 @@ impl MergeCommand {
             }
         }
         if sources.is_empty() {
-            let line = format!("{}: there is no part of a scan", self.parts[0].display());
-            return Err(Failure::Usage(line));
+            return Err(Failure::usage(format!(
+                "{}: there is no part of a scan",
+                self.parts[0].display()
+            )));
         }
         Ok((sources, absent))
     }

@@ -18,7 +18,6 @@ mod merge;
 mod motion;
 mod output;
 mod part;
-mod places;
 mod plan;
 mod progress;
 mod replay;
@@ -27,7 +26,6 @@ mod scene_cost;
 mod settings;
 mod shell;
 mod source;
-mod timing;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -41,9 +39,8 @@ use signal_hook::flag;
 pub(super) use crate::runtime::failure::Failure;
 pub(super) use input::{given, number, read};
 pub(super) use machine::{MachineCase, second, troubled};
-pub(super) use output::{Certify, Output, print, write};
+pub(super) use output::{Certify, Output, in_turn, print, timed, write};
 pub(super) use source::{SourceOptions, StartOptions};
-pub(super) use timing::{in_turn, timed};
 
 use crate::words::usage;
 

@@ -85,8 +85,7 @@ fn anywhere() -> Environment {
 
 /// A keystroke file, parsed completely before anything runs.
 pub fn script(file: &Path) -> Result<Script, Failure> {
-    parse(&bounded::text(file)?)
-        .map_err(|error| Failure::Usage(format!("{}: {error}", file.display())))
+    parse(&bounded::text(file)?).map_err(|error| Failure::file(file, error))
 }
 
 /// Writes each screen that a replay kept to a file with its name.

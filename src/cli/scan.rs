@@ -290,8 +290,9 @@ impl ScanCommand {
         let of_file = || self.output.as_deref().map_or(Format::Csv, Format::of_file);
         let form = self.format.unwrap_or_else(of_file);
         if form == Format::Table && self.resume {
-            let line = "--format table rounds its numbers; --resume needs csv or json";
-            return Err(Failure::Usage(line.to_owned()));
+            return Err(Failure::usage(
+                "--format table rounds its numbers; --resume needs csv or json",
+            ));
         }
         Ok(form)
     }

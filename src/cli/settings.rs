@@ -1,10 +1,12 @@
-//! The user's settings: the file, its path and its content, and the options that say how the screen looks.
+//! The user's settings: the file, its path and its content, and the options that say how the screen looks; the directories
+//! for settings and for state, by the XDG conventions.
 
 use std::path::PathBuf;
+use std::time::SystemTime;
 
 use clap::Args;
 
-use super::{Failure, places};
+use super::Failure;
 use crate::runtime::bounded;
 use crate::session::config::{Config, parse};
 use crate::session::settings::{Colors, DisplaySettings, Glyphs, NamedValue, Theme, choices};
@@ -33,7 +35,7 @@ impl Settings {
 
     /// The file that is read, whether it exists or not.
     pub fn path(&self) -> Option<PathBuf> {
-        if self.no_config { None } else { self.config.clone().or_else(places::settings) }
+        if self.no_config { None } else { self.config.clone().or_else(own_settings) }
     }
 }
 
@@ -79,4 +81,75 @@ fn help<T: NamedValue>(what: &str) -> String {
 
 fn one_of<T: NamedValue>(name: &str) -> Result<T, String> {
     words::one_of("", name, choices())
+}
+
+/// Prefix of the file names of interrupted sessions.
+const INTERRUPTED: &str = "interrupted-";
+
+/// File name of the last session.
+const LAST: &str = "last.toml";
+
+/// A path from the environment, if the variable is set and not empty.
+fn variable(name: &str) -> Option<PathBuf> {
+    std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)
+}
+
+/// The directory in a variable if that is an absolute path, else one below the user's home.
+fn base(name: &str, below_home: &str) -> Option<PathBuf> {
+    let named = variable(name).filter(|path| path.is_absolute());
+    named.or_else(|| variable("HOME").map(|home| home.join(below_home)))
+}
+
+/// The user's own settings file, whether it exists or not; `None` if there is no directory for it.
+fn own_settings() -> Option<PathBuf> {
+    Some(base("XDG_CONFIG_HOME", ".config")?.join("hopfscope/config.toml"))
+}
+
+/// The directory in which the program keeps its state.
+#[derive(Clone, Debug)]
+pub struct Memory {
+    folder: PathBuf,
+    /// Whether the directory did not exist before: this is the first start.
+    pub is_new: bool,
+}
+
+impl Memory {
+    /// Creates the directory if needed; `None` if that is impossible.
+    pub fn open() -> Option<Memory> {
+        let folder = base("XDG_STATE_HOME", ".local/state")?.join("hopfscope");
+        let is_new = !folder.exists();
+        std::fs::create_dir_all(&folder).ok()?;
+        Some(Memory { folder, is_new })
+    }
+
+    /// The file that holds the last copy.
+    pub fn copies(&self) -> PathBuf {
+        self.folder.join("copy.txt")
+    }
+
+    /// The file in which this process saves its session if it is interrupted.
+    pub fn keep(&self) -> PathBuf {
+        self.folder.join(format!("{INTERRUPTED}{}.toml", std::process::id()))
+    }
+
+    /// The file of the session that was left or put aside last.
+    pub fn last(&self) -> PathBuf {
+        self.folder.join(LAST)
+    }
+
+    /// The files of interrupted sessions that have not been put aside since, with the times at which they
+    /// ended, the newest first.
+    pub fn interrupted(&self) -> Vec<(SystemTime, PathBuf)> {
+        let Ok(entries) = std::fs::read_dir(&self.folder) else { return Vec::new() };
+        let kept = entries.filter_map(|entry| {
+            let entry = entry.ok()?;
+            let name = entry.file_name().into_string().ok()?;
+            let is_kept = name.starts_with(INTERRUPTED);
+            let when = entry.metadata().and_then(|data| data.modified());
+            is_kept.then(|| (when.unwrap_or(SystemTime::UNIX_EPOCH), entry.path()))
+        });
+        let mut kept: Vec<_> = kept.collect();
+        kept.sort_by(|one, other| other.cmp(one));
+        kept
+    }
 }

@@ -40,9 +40,9 @@ impl SourceOptions {
             return Ok(None);
         };
         if second(self.start.method)?.is_some() {
-            let line =
-                "all motions of a machine are followed by Taylor series: --method auto or taylor";
-            return Err(Failure::Usage(line.to_owned()));
+            return Err(Failure::usage(
+                "all motions of a machine are followed by Taylor series: --method auto or taylor",
+            ));
         }
         Ok(Some(case.checked()?))
     }

@@ -1,40 +1,10 @@
-//! The oscillator of the paper as a machine: its margins in physical units, and where a motion of it reaches
-//! the speed of the belt, which is not a part of its equation.
-
-use serde::Serialize;
+//! The oscillator of the paper as a machine: where a motion of it reaches the speed of the belt, which is not a part of
+//! its equation.
 
 use crate::flow::Trajectory;
-use crate::model::belt::Units;
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::polynomial::Hermite;
 use crate::numerics::root::{TO_ROUNDING, bisect};
-use crate::portrait::{Margin, RestMargin};
-
-/// Margins in physical units; `None` where every kick is survived.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct PhysicalMargin {
-    /// Smallest displacement from the static one, in m, from which the mass does not come to rest.
-    pub displacement: Option<f64>,
-    /// Smallest impulse there, in N s, after which it does not.
-    pub impulse: Option<f64>,
-    /// The velocity that this impulse gives, in m/s.
-    pub velocity: Option<f64>,
-    /// The smallest kicks, in m and N s, if the mass rests where they do most.
-    pub from_rest: RestMargin,
-}
-
-impl PhysicalMargin {
-    /// A margin in these units.
-    pub fn new(margin: &Margin, units: &Units) -> Self {
-        let physical = margin.map(|size| size * units.displacement, |size| size * units.impulse);
-        PhysicalMargin {
-            displacement: physical.displacement,
-            impulse: physical.impulse,
-            velocity: margin.impulse.map(|size| size * units.velocity),
-            from_rest: physical.from_rest,
-        }
-    }
-}
 
 /// A motion until it first reaches a velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]

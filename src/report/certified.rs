@@ -1,7 +1,6 @@
 //! Enclosures of motions, kicks, ranges and borders, for tables and documents.
 
-use super::columns::bounds;
-use super::enclosure::certain;
+use super::columns::{bounds, certain};
 use super::{Columns, Document, Quantity};
 use crate::branch::fold::BoundaryPoint;
 use crate::numerics::Interval;

@@ -10,7 +10,6 @@ pub mod claims;
 pub mod columns;
 mod cycle_numbers;
 pub mod cycles;
-mod enclosure;
 pub mod extremes;
 pub mod fit;
 pub mod json;

@@ -1,7 +1,7 @@
 //! Proofs about limit cycles, for tables and documents.
 
+use super::columns::{certain, ends};
 use super::cycle_numbers::{CycleNumber, NUMBERS, cycle_fields, number_columns};
-use super::enclosure::{certain, ends};
 use super::{About, Answer, Columns, Document, Format};
 use crate::check::{Bounds, Certificate, StepKind};
 use crate::model::ParameterBox;

@@ -18,9 +18,14 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// A file that cannot be read.
-    pub fn file(path: &Path, error: &io::Error) -> Self {
-        Failure::Usage(format!("{}: {error}", path.display()))
+    /// Wrong input.
+    pub fn usage(line: impl Into<String>) -> Self {
+        Failure::Usage(line.into())
+    }
+
+    /// A file that cannot be read, or holds what it should not.
+    pub fn file(path: &Path, why: impl fmt::Display) -> Self {
+        Failure::Usage(format!("{}: {why}", path.display()))
     }
 
     /// A file that cannot be written: wrong input if no file can have this path.

@@ -24,7 +24,6 @@ pub mod scan_file;
 pub mod scan_part;
 pub mod scanning;
 pub mod signals;
-pub mod source_file;
 pub mod standard;
 pub mod workers;
 

@@ -1,15 +1,20 @@
 //! The file that tells where rows come from: `rows.csv.provenance` beside `rows.csv`.
 //!
-//! The file of rows itself stays as other programs expect it, with nothing before the line of column names.
+//! The file of rows itself stays as other programs expect it, with nothing before the line of column names. And what
+//! identifies a file that an answer was computed from: its name, its date and its SHA-256.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
-use std::os::unix::fs::FileExt;
+use std::os::unix::fs::{FileExt, MetadataExt};
 use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+use time::OffsetDateTime;
 
 use super::bounded;
 use super::failure::Failure;
 use super::new_file::{self, Readers};
+use crate::report::page::SourceFile;
 use crate::words::provenance::{Checksum, Provenance};
 
 /// Appended to the name of the file of rows.
@@ -74,7 +79,7 @@ impl RunningChecksum {
 pub fn read(path: &Path) -> Result<Provenance, Failure> {
     let path = beside(path);
     serde_json::from_slice(&bounded::bytes(&path)?)
-        .map_err(|error| Failure::file(&path, &error.into()))
+        .map_err(|error| Failure::file(&path, error))
 }
 
 /// The files in a folder that have a file of provenance, sorted by name. Fails if the folder cannot be read.
@@ -84,4 +89,47 @@ pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut found: Vec<_> = paths.filter(|path| path.is_file() && beside(path).is_file()).collect();
     found.sort();
     Ok(found)
+}
+
+/// The file that held these bytes when it was read.
+pub fn source(path: &Path, bytes: &[u8]) -> SourceFile {
+    let regular = fs::metadata(path).ok().filter(fs::Metadata::is_file);
+    SourceFile {
+        name: path.display().to_string(),
+        changed: regular.map(|file| date(file.mtime())),
+        sha256: sha256(bytes),
+    }
+}
+
+/// The SHA-256 in hexadecimal digits.
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |hex, byte| format!("{hex}{byte:02x}"))
+}
+
+/// Seconds since 1970 as `2026-03-02 10:11:12 UTC`.
+fn date(seconds: i64) -> String {
+    let Ok(at) = OffsetDateTime::from_unix_timestamp(seconds) else { return String::new() };
+    let ((hours, minutes, seconds), month) = (at.to_hms(), u8::from(at.month()));
+    format!("{}-{month:02}-{:02} {hours:02}:{minutes:02}:{seconds:02} UTC", at.year(), at.day())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        // By `date -u -d @..`.
+        for (seconds, shown) in [
+            (0, "1970-01-01 00:00:00 UTC"),
+            (-1, "1969-12-31 23:59:59 UTC"),
+            (951_782_399, "2000-02-28 23:59:59 UTC"),
+            (951_782_400, "2000-02-29 00:00:00 UTC"),
+            (1_709_251_199, "2024-02-29 23:59:59 UTC"),
+            (1_772_446_272, "2026-03-02 10:11:12 UTC"),
+            (4_107_542_400, "2100-03-01 00:00:00 UTC"),
+        ] {
+            assert_eq!(date(seconds), shown);
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
+use super::{DesignAnswer, MachineAnswer, OnBelt, excess, in_units};
 use crate::flow::{Fate, Sample, Trajectory};
 use crate::model::Group;
 use crate::model::belt::{Derivatives, FrictionLaw};
@@ -17,7 +17,7 @@ pub(super) fn document(all: Document, answer: &MachineAnswer) -> Document {
     let MachineAnswer { course, on_belt, rest_share, .. } = answer;
     let on_belt = on_belt.as_ref();
     let certain = |belt: &OnBelt| Some(guaranteed(belt, belt.certain.as_ref()?));
-    let expanded = |belt: &OnBelt| expansion::document(&belt.expansion, &course.portrait);
+    let expanded = |belt: &OnBelt| expansion(&belt.expansion, &course.portrait);
     let quantities = on_belt.map(|belt| quantities(&belt.expansion));
     all.with("model", "whole")
         .and(&quantities.unwrap_or_default())
@@ -153,6 +153,64 @@ fn design(designed: &DesignAnswer) -> Document {
         .with("R", designed.force())
         .with("needed", designed.needed)
         .with("message", designed.sentence())
+}
+
+/// The answer of the expansion, for a document.
+fn expansion(expansion: &CubicExpansion, portrait: &Portrait) -> Document {
+    let found = expansion.cycles.as_ref();
+    let cycles = found.iter().flat_map(|found| &found.cycles);
+    let cycles: Vec<_> = cycles.map(|cycle| expanded(cycle, expansion, portrait)).collect();
+    let margin = expansion.margin().map(|own| expanded_margin(&own, expansion, &portrait.margin));
+    Document::default()
+        .with("parameters", expansion.reduced.parameters)
+        .with_any("reason", found.err().map(ToString::to_string))
+        .with("cycles", cycles)
+        .with("edge", found.ok().map(|found| found.border))
+        .with("margin", margin)
+}
+
+/// A cycle of the expansion in SI units, with the differences to the nearest cycle of the same stability of the whole
+/// model, and the error of the cubic over its velocities.
+fn expanded(cycle: &Cycle, expansion: &CubicExpansion, portrait: &Portrait) -> Document {
+    let CubicExpansion { belt, reduced, .. } = expansion;
+    let units = &reduced.units;
+    let physical = cycle.scaled(units.displacement, units.omega_0);
+    let alike = portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
+    let distance = |whole: &Cycle| (whole.q_max - physical.q_max).abs();
+    let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
+    let taylor = belt.taylor_error((physical.v_min, physical.v_max));
+    Document::default()
+        .with("stable", cycle.stable)
+        .and(&numbers(&physical, &Cycle::default()))
+        // There the expansion does not hold.
+        .with("reaches_belt", cycle.v_max >= reduced.sticking_velocity)
+        .with("taylor", taylor.filter(|error| error.force.is_finite()))
+        .with("error", nearest.map(|whole| numbers(&physical, whole)))
+        .with("dimensionless", cycle)
+}
+
+/// The numbers of a cycle, less those of another.
+fn numbers(cycle: &Cycle, other: &Cycle) -> Document {
+    Document::default()
+        .with("x_min", cycle.q_min - other.q_min)
+        .with("x_max", cycle.q_max - other.q_max)
+        .with("v_min", cycle.v_min - other.v_min)
+        .with("v_max", cycle.v_max - other.v_max)
+        .with("period", cycle.period - other.period)
+}
+
+/// A margin of the expansion with its differences to that of the whole model, in SI units and dimensionless.
+fn expanded_margin(own: &Margin, expansion: &CubicExpansion, whole: &Margin) -> Document {
+    let physical = in_units(own, expansion);
+    let error = Document::default()
+        .with("displacement", excess(physical.displacement, whole.displacement))
+        .with("impulse", excess(physical.impulse, whole.impulse));
+    let velocity = own.impulse.map(|impulse| impulse * expansion.reduced.units.velocity);
+    Document::default()
+        .and(&physical)
+        .with("velocity", velocity)
+        .with("dimensionless", own)
+        .with("error", error)
 }
 
 /// The columns of a cycle, beside which `x` is the displacement.

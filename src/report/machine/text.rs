@@ -1,10 +1,10 @@
 //! The answer about a machine in sentences.
 
-use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
+use super::{DesignAnswer, MachineAnswer, OnBelt, excess, in_units};
 use crate::flow::{Fate, Sample, Trajectory};
 use crate::model::belt::{Derivatives, FrictionLaw};
-use crate::portrait::Course;
 use crate::portrait::design::{FrictionNeeded, Kick};
+use crate::portrait::{Course, CubicExpansion, Margin, Portrait};
 use crate::report::answer::{PLACES, interval};
 use crate::words::number::rounded_down;
 use crate::words::{significant, with_unit};
@@ -79,9 +79,38 @@ pub(super) fn remarks(found: &MachineAnswer) -> Vec<String> {
             .to_owned(),
     }));
     let expansion = found.on_belt.as_ref().map(|belt| &belt.expansion);
-    all.extend(expansion.map(|it| expansion::sentence(it, &found.course.portrait)));
+    all.extend(expansion.map(|it| by_expansion(it, &found.course.portrait)));
     all.extend(found.design.as_ref().map(DesignAnswer::sentence));
     all
+}
+
+/// The result of the cubic expansion, in a sentence.
+fn by_expansion(expansion: &CubicExpansion, portrait: &Portrait) -> String {
+    let lead = "friction as a cubic (the oscillator of the paper) says: ";
+    let found = match &expansion.cycles {
+        Ok(found) => found,
+        Err(reason) => return format!("{lead}nothing; {reason}"),
+    };
+    let Some(own) = expansion.margin() else { return format!("{lead}nothing; ") };
+    let margin = margin_sentence(&in_units(&own, expansion), &portrait.margin);
+    let count = |stable| found.cycles.iter().filter(|cycle| cycle.stable == stable).count();
+    let (unstable, stable) = (count(false), count(true));
+    format!("{lead}{margin}; {unstable} unstable and {stable} stable cycles")
+}
+
+/// How large the margin of the expansion is, and how wrong.
+fn margin_sentence(physical: &Margin, whole: &Margin) -> String {
+    let Some(own) = physical.displacement else {
+        return "every kick is survived".to_owned();
+    };
+    let judged = match excess(Some(own), whole.displacement) {
+        Some(error) if error != 0.0 && own != error => {
+            let percent = significant(100.0 * error.abs() / (own - error).abs(), 2);
+            format!(", {percent} % too {}", if error > 0.0 { "large" } else { "small" })
+        }
+        _ => String::new(),
+    };
+    format!("margin {}{judged}", with_unit(own, PLACES, "m"))
 }
 
 impl DesignAnswer {
