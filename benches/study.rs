@@ -15,7 +15,7 @@ use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::closing::all::STEP;
 use hopfscope::portrait::closing::equation::{Equation, Route};
-use hopfscope::runtime::scanning::{Processors, rows};
+use hopfscope::runtime::scanning::rows;
 use hopfscope::scan::grid::Scan;
 use hopfscope::scan::measure::Measure;
 use hopfscope::scan::sweep::{Spacing, Sweep};
@@ -117,6 +117,6 @@ fn a_scan_of_margins_and_cycles() -> usize {
         counted += 1;
         std::ops::ControlFlow::Continue(())
     };
-    rows(&scan, 0..scan.points(), Processors::all(), &|| false, &mut count).unwrap();
+    rows(&scan, 0..scan.points(), None, 0, &|| false, &mut count).unwrap();
     counted
 }

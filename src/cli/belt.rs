@@ -90,20 +90,11 @@ impl BeltCommand {
         case.checked()
     }
 
-    /// The tolerance of the second method.
-    fn dial(&self) -> f64 {
-        self.tol.unwrap_or(Knob::Tolerance.usual())
-    }
-
-    /// The tolerance of the Taylor steps; `None` with a second method, to which `--tol` then applies.
-    fn own(&self, second: Option<Method>) -> Option<f64> {
-        self.tol.filter(|_| second.is_none())
-    }
-
     pub fn run(&self) -> Result<(), Failure> {
         let second = second(self.method)?;
         let mut case = self.case()?;
-        case.described.problem.subject.tolerance = self.own(second);
+        // A second method takes the tolerance for itself.
+        case.described.problem.subject.tolerance = self.tol.filter(|_| second.is_none());
         let about = case.about();
         let (found, seconds) =
             timed(self.output.repeat, || self.answer(&case.described.problem, &about, second));
@@ -134,7 +125,7 @@ impl BeltCommand {
         let on_belt = subject.of_belt().map(on_belt).transpose()?;
         let mut course = Course::new(&subject.model()?, *start, *until)?;
         if let Some(way) = second {
-            course.follow_by(way, self.dial());
+            course.follow_by(way, self.tol.unwrap_or(Knob::Tolerance.usual()));
         }
         let rest_share = self.share(&course.portrait);
         let design = self.designed(subject, tolerances)?;

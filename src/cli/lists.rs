@@ -1,24 +1,26 @@
 //! `hopfscope scenes`, `keys`, `paper` and `extremes`: what there is, what of the paper holds, and how exact the extremes are.
 
+use std::sync::Arc;
+
 use clap::Args;
 use rayon::prelude::*;
 
 use super::output::{self, sourced};
-use super::scene_cost::measured;
 use super::settings::Settings;
-use super::{Failure, Output, input, print};
+use super::{Failure, Output, input, print, timed};
 use crate::accuracy::extremes::verdict::TOLERANCE;
 use crate::accuracy::extremes::{Case, cases, judge, judge_set, named, sets};
 use crate::flow::Limits;
 use crate::model::Parameters;
 use crate::paper::examine_all;
+use crate::question::answer;
 use crate::report::extremes::{extreme_cycles, extremes};
-use crate::report::scenes::{costs, scenes};
+use crate::report::scenes::{QuestionCost, SceneCost, StepCost, costs, scenes};
 use crate::report::{Answer, Columns, Format, claims};
 use crate::runtime::standard::tell;
-use crate::scene::library;
-use crate::session::commands;
+use crate::scene::{Scene, library};
 use crate::session::state::context::{ContextSpec, contexts};
+use crate::session::{self, Msg, Row, Session, Size, commands, update};
 
 /// Lists the scenes
 #[derive(Debug, Args)]
@@ -34,7 +36,8 @@ pub struct ScenesCommand {
 impl ScenesCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if self.cost {
-            return print(&costs(&measured()?).told(self.format));
+            let measured = library().iter().map(cost_of).collect::<Result<Vec<_>, _>>()?;
+            return print(&costs(&measured).told(self.format));
         }
         print(&scenes(library()).told(self.format))
     }
@@ -138,4 +141,59 @@ impl ExtremesCommand {
         };
         print(&sourced(format, &told))
     }
+}
+
+/// Number of times that a quickly answered question is measured for the median of its times.
+const TIMES: u32 = 5;
+
+/// Time in seconds below which a single measurement is unreliable.
+const QUICK: f64 = 2e-3;
+
+/// What a scene costs: it is opened and stepped as in the explorer, and its questions are timed.
+fn cost_of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
+    let mut session = Session::new(Arc::clone(scene), Size { width: 120, height: 40 });
+    let questions = settle(&mut session, scene)?;
+    let rows = session.rows().into_iter().filter(|row| *row != Row::Method);
+    let step = |row: Row| {
+        let mut stepped = session.stepped(row, 1);
+        update(&mut stepped, Msg::Elapsed { seconds: 0.0 });
+        let kept = stepped.requirements().into_iter().map(|part| part.request);
+        let reused = kept.filter(|request| !stepped.is_open(request));
+        let reused = reused.map(|request| request.topic()).collect();
+        let recomputed = settle(&mut stepped, scene)?;
+        let name = row.name_in(&session.problem);
+        Ok(StepCost { name, recomputed, reused })
+    };
+    Ok(SceneCost {
+        scene: Arc::clone(scene),
+        formulas: session.drawn_by_formulas().iter().map(|layer| layer.spec().name).collect(),
+        questions,
+        steps: rows.map(step).collect::<Result<_, Failure>>()?,
+    })
+}
+
+/// Answers the questions of a session until it asks no more, and returns their costs.
+fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>, Failure> {
+    let mut answered = Vec::new();
+    let mut failed = None;
+    session::settle(session, |session, request| {
+        let layers = session.requirements().into_iter();
+        let layers = layers.filter(|part| part.request == *request).flat_map(|part| part.layers);
+        let layers = layers.map(|layer| layer.spec().name).collect();
+        let ask = || answer(request, &Limits::PATIENT);
+        let (result, once) = timed(1, ask);
+        let seconds = if once < QUICK { timed(TIMES, ask).1 } else { once };
+        let topic = request.topic();
+        match result {
+            Ok(found) => {
+                answered.push(QuestionCost { topic, layers, cost: found.cost(), seconds });
+                Some(Msg::answered(request.clone(), Ok(found), seconds))
+            }
+            Err(reason) => {
+                failed = Some(format!("scene {}: {}: {reason}", scene.name, topic.name()));
+                None
+            }
+        }
+    });
+    failed.map_or(Ok(answered), |why| Err(Failure::Unanswered(why)))
 }

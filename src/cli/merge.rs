@@ -12,9 +12,9 @@ use super::part::Shard;
 use super::scan::{ScanCommand, ScanRequest};
 use crate::flow::Limits;
 use crate::report::Format;
-use crate::runtime::merging::{PartFile, merge};
 use crate::runtime::new_file::{NewFile, Readers};
 use crate::runtime::provenance_file;
+use crate::runtime::scan_part::{PartFile, merge};
 use crate::runtime::standard::tell;
 use crate::words::provenance::{Checksum, Provenance};
 

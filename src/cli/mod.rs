@@ -22,7 +22,6 @@ mod plan;
 mod progress;
 mod replay;
 mod scan;
-mod scene_cost;
 mod settings;
 mod shell;
 mod source;

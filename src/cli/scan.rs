@@ -22,7 +22,7 @@ use crate::report::Format;
 use crate::runtime::provenance_file;
 use crate::runtime::scan_file::ScanFile;
 use crate::runtime::scan_part::ScanPart;
-use crate::runtime::scanning::{Processors, rows};
+use crate::runtime::scanning::rows;
 use crate::runtime::signals::exit_code;
 use crate::runtime::standard::tell;
 use crate::scan::grid::Scan;
@@ -150,8 +150,7 @@ impl ScanCommand {
         let mut file = self.opened(asked.part, &interrupted)?;
         let (left, open) = (file.left(), file.open());
         let done = all - left + file.ahead();
-        let mut processors = Processors::all();
-        processors.jobs = self.jobs.map_or(processors.jobs, usize::from);
+        let jobs = self.jobs.map(usize::from);
         let place = match (io::stderr().is_terminal(), &self.output) {
             (true, None) if io::stdout().is_terminal() => Outlet::Nowhere,
             (true, _) => Outlet::Line,
@@ -159,7 +158,7 @@ impl ScanCommand {
         };
         let mut progress = StatusLine::new(place);
         let (mut computed, mut given_up, mut broken) = (0, 0, None);
-        let took = rows(&scan, open, processors, &interrupted, &mut |index, row| {
+        let took = rows(&scan, open, jobs, 0, &interrupted, &mut |index, row| {
             broken = file.add(index, &row).err();
             if broken.is_some() {
                 return ControlFlow::Break(());

@@ -74,6 +74,14 @@ impl<'a> Answer<'a> {
         self.fields(move |all| all.with(name, value))
     }
 
+    /// With a field of its document, or without it if there is no value.
+    pub(super) fn with_any(self, name: &'static str, value: Option<impl Serialize>) -> Self {
+        match value {
+            Some(value) => self.with(name, value),
+            None => self,
+        }
+    }
+
     /// With a field of its document that lists these rows.
     pub(super) fn objects<R: 'a>(
         self,

@@ -29,9 +29,7 @@ pub fn cycles<'a>(
         .number("mean", SHORT, |it| it.mean);
     let answer = with_proof(about.answer(), move || ProvedRow::found(&found.cycles, proof), proof)
         .with("harmonic", &found.harmonic)
-        .fields(move |all| {
-            all.with_any("balance", rungs.map(|rungs| balance_columns().objects(balances(rungs))))
-        })
+        .with_any("balance", rungs.map(|rungs| balance_columns().objects(balances(rungs))))
         .with("basin", Document::default().with("edge", found.border))
         .lines([border(found.border)])
         .lines(found.harmonic.is_empty().then_some("by one harmonic: no cycle"))

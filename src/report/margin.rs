@@ -147,9 +147,8 @@ pub fn basin<'a>(
     let too_large = lyapunov_share.is_some_and(|share| share > 1.0);
     window
         .told(about.answer().lines([cycles::border(border)]), about, shown, share.and(proved))
-        .fields(move |all| {
-            all.and(found).with_any("certified", certified.map(|it| kick_columns().object(&it)))
-        })
+        .fields(move |all| all.and(found))
+        .with_any("certified", certified.map(|it| kick_columns().object(&it)))
         .lines(too_large.then_some("Lyapunov's disk is too large, as it ignores D2 and D3"))
         .cost(found.cost, seconds)
 }

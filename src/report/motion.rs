@@ -61,22 +61,20 @@ pub fn motion<'a>(
         Outcome::GaveUp { reason, .. } => (None, Some(reason.to_string())),
         _ => (None, None),
     };
+    let outcome = Document::default().and(&motion.outcome);
+    let rests = machine && matches!(motion.outcome, Outcome::Captured { .. });
     let answer = if machine { about.answer() } else { about.answer_to(&from(problem)) };
     answer
         .lines(lead)
-        .fields(move |all| {
-            let outcome = Document::default().and(&motion.outcome);
-            let rests = machine && matches!(motion.outcome, Outcome::Captured { .. });
-            all.with("initial", problem.initial)
-                .with("method", motion.method)
-                .with("tolerance", problem.tolerance)
-                .with("outcome", outcome.with_any("v", rests.then_some(0.0)))
-                .with("events", &motion.crossings)
-                .with_any("phases", machine.then(|| phases(&motion.legs, ["tau", "q"])))
-                .with("energy", energy)
-                .with_any("evaluations", machine.then_some(motion.cost.evaluations))
-                .with_any("certified", certified.map(|it| followed(it, problem.until)))
-        })
+        .with("initial", problem.initial)
+        .with("method", motion.method)
+        .with("tolerance", problem.tolerance)
+        .with("outcome", outcome.with_any("v", rests.then_some(0.0)))
+        .with("events", &motion.crossings)
+        .with_any("phases", machine.then(|| phases(&motion.legs, ["tau", "q"])))
+        .with("energy", energy)
+        .with_any("evaluations", machine.then_some(motion.cost.evaluations))
+        .with_any("certified", certified.map(|it| followed(it, problem.until)))
         .rows(columns.and(certified.map(|_| proved)), points(motion, certified, machine))
         .table(energy_columns(about.quantity("J", 6)), amounts)
         .lines(how)

@@ -20,15 +20,12 @@ pub struct Table {
 }
 
 /// How the cells of a column are set.
-enum Alignment {
-    Words {
-        width: usize,
-    },
-    Numbers {
-        /// Characters before the decimal points, and from there on.
-        whole: usize,
-        part: usize,
-    },
+struct Alignment {
+    is_number: bool,
+    /// Characters before the decimal points of numbers, or of words.
+    whole: usize,
+    /// Characters from the decimal points on.
+    part: usize,
 }
 
 impl Table {
@@ -85,7 +82,7 @@ impl Table {
     }
 
     pub(super) fn is_number(&self, at: usize) -> bool {
-        matches!(self.alignment(at), Alignment::Numbers { .. })
+        self.alignment(at).is_number
     }
 
     fn alignment(&self, at: usize) -> Alignment {
@@ -93,13 +90,13 @@ impl Table {
         let cells = || self.rows.iter().map(|row| row[at].as_str());
         let title = length(&self.titles[at]);
         if cells().all(is_gap) || !cells().all(|cell| is_gap(cell) || is_number(cell)) {
-            let width = cells().map(length).fold(title, usize::max);
-            return Alignment::Words { width };
+            let whole = cells().map(length).fold(title, usize::max);
+            return Alignment { is_number: false, whole, part: 0 };
         }
         let (whole, part) = cells().map(split).fold((0, 0), |widest, (whole, part)| {
             (widest.0.max(length(whole)), widest.1.max(length(part)))
         });
-        Alignment::Numbers { whole: whole.max(title.saturating_sub(part)), part }
+        Alignment { is_number: true, whole: whole.max(title.saturating_sub(part)), part }
     }
 
     /// The table on lines of any length, or the last cells of those longer than the width wrapped between words; where
@@ -163,20 +160,14 @@ impl fmt::Display for Table {
 
 impl Alignment {
     fn title(&self, title: &str) -> String {
-        match self {
-            Alignment::Words { width } => format!("{title:width$}"),
-            Alignment::Numbers { whole, part } => format!("{title:>0$}", whole + part),
-        }
+        let width = self.whole + self.part;
+        if self.is_number { format!("{title:>width$}") } else { format!("{title:width$}") }
     }
 
     fn cell(&self, cell: &str) -> String {
-        match self {
-            Alignment::Words { width } => format!("{cell:width$}"),
-            Alignment::Numbers { whole, part } => {
-                let (before, after) = split(cell);
-                format!("{before:>whole$}{after:part$}")
-            }
-        }
+        let Alignment { is_number, whole, part } = *self;
+        let (before, after) = split(cell);
+        if is_number { format!("{before:>whole$}{after:part$}") } else { format!("{cell:whole$}") }
     }
 }
 

@@ -165,23 +165,21 @@ pub fn trade<'a>(
         format!("{}{setting}: {}", row.point.problem.method, row.reason().unwrap_or_default())
     });
     let given_up: Vec<_> = given_up.collect();
+    let without_error = Columns::default()
+        .file("method", |row: &TradeRow| row.point.problem.method)
+        .and(dial_columns())
+        .file("reason", TradeRow::reason)
+        .file("evaluations", |row| row.point.cost.evaluations);
     let answer = if about.is_machine() { about.answer() } else { about.answer_to(&until) };
     let answer = answer
-        .fields(move |all| {
-            let without_error = Columns::default()
-                .file("method", |row: &TradeRow| row.point.problem.method)
-                .and(dial_columns())
-                .file("reason", TradeRow::reason)
-                .file("evaluations", |row| row.point.cost.evaluations);
-            all.with("initial", problem.initial)
-                .with("until", problem.until)
-                .with("reference", reference(&timed.trade))
-                .with("reference_error", known.error)
-                .with("scale", known.scale)
-                .with("turns", known.turns.len())
-                .with("rows", columns().objects(timed.rows().0))
-                .with("unanswered", without_error.objects(timed.rows().1))
-        })
+        .with("initial", problem.initial)
+        .with("until", problem.until)
+        .with("reference", reference(&timed.trade))
+        .with("reference_error", known.error)
+        .with("scale", known.scale)
+        .with("turns", known.turns.len())
+        .objects("rows", columns(), timed.rows().0)
+        .objects("unanswered", without_error, timed.rows().1)
         .csv(
             columns().file("reason", TradeRow::reason),
             timed.rows().0.into_iter().chain(unanswered),

@@ -13,7 +13,6 @@ pub mod failure;
 pub mod input;
 mod journal;
 pub mod launch;
-pub mod merging;
 pub mod new_file;
 pub mod panics;
 pub mod print;

@@ -78,8 +78,7 @@ impl RunningChecksum {
 /// Reads the provenance of a file. Fails if there is none, or it cannot be read or understood.
 pub fn read(path: &Path) -> Result<Provenance, Failure> {
     let path = beside(path);
-    serde_json::from_slice(&bounded::bytes(&path)?)
-        .map_err(|error| Failure::file(&path, error))
+    serde_json::from_slice(&bounded::bytes(&path)?).map_err(|error| Failure::file(&path, error))
 }
 
 /// The files in a folder that have a file of provenance, sorted by name. Fails if the folder cannot be read.

@@ -21,37 +21,29 @@ use crate::scene::Finding;
 /// the others, few enough to be held in memory.
 const AHEAD: usize = 32;
 
-/// The processor resources that a scan may use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Processors {
-    pub jobs: usize,
-    /// Whether other threads, such as those that react to keys, have priority.
-    pub polite: bool,
-}
-
-impl Processors {
-    pub fn all() -> Self {
-        Processors { jobs: available_parallelism().map_or(1, usize::from), polite: false }
-    }
-}
-
 /// Computes the rows of these points, in ascending order, and passes each to `take` as soon as it is known, until that
-/// breaks off or `interrupted` returns true.
+/// breaks off or `interrupted` returns true. There are as many threads as jobs, or as cores if none are given; other
+/// threads have priority by this niceness.
 ///
 /// If the computation of a row panics, the row states the panic as its reason. Fails if the system provides no
 /// threads.
 pub fn rows(
     scan: &Scan,
     points: impl IntoIterator<Item = usize>,
-    processors: Processors,
+    jobs: Option<usize>,
+    niceness: i32,
     interrupted: &(dyn Fn() -> bool + Sync),
     take: &mut dyn FnMut(usize, ScanRow) -> ControlFlow<()>,
 ) -> io::Result<()> {
-    let jobs = processors.jobs.clamp(1, scan.points());
+    let cores = || available_parallelism().map_or(1, usize::from);
+    let jobs = jobs.unwrap_or_else(cores).clamp(1, scan.points());
     let pool = ThreadPoolBuilder::new()
         .num_threads(jobs)
         .thread_name(|index| format!("scan {index}"))
-        .start_handler(move |_| step_back(processors.polite))
+        // If that fails, the rows are the same, but other programs are slowed down more.
+        .start_handler(move |_| {
+            let _ = rustix::process::nice(niceness);
+        })
         .build()
         .map_err(io::Error::other)?;
     let stopped = AtomicBool::new(false);
@@ -101,12 +93,13 @@ pub fn rows(
 pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<Rows, Reason> {
     /// Interval at which gathered rows are told: some frames.
     const EVERY: Duration = Duration::from_millis(60);
+    /// That the threads that react to keys have priority; the maximum is 19.
+    const POLITE: i32 = 10;
     let mut piece = Rows { first: from, rows: Vec::new() };
     let mut told: Option<Instant> = None;
     // Rows whose turn has not come.
     let mut ahead = BTreeMap::new();
-    let processors = Processors { polite: true, ..Processors::all() };
-    rows(scan, from..scan.points(), processors, limits.interrupted, &mut |index, row| {
+    rows(scan, from..scan.points(), None, POLITE, limits.interrupted, &mut |index, row| {
         ahead.insert(index, row);
         while let Some(row) = ahead.remove(&(piece.first + piece.rows.len())) {
             piece.rows.push(row);
@@ -130,15 +123,5 @@ fn computed(scan: &Scan, index: usize, limits: &Limits) -> Option<ScanRow> {
     match caught(|| scan.row(index, limits)) {
         Ok(row) => row.ok(),
         Err(why) => Some(scan.failed(format!("internal error: {why}"))),
-    }
-}
-
-/// Lowers the priority of this thread if `polite`, where the system supports that.
-fn step_back(polite: bool) {
-    /// Increase of niceness; the maximum is 19.
-    const STEPS: i32 = 10;
-    if polite {
-        // If that fails, the rows are the same, but other programs are slowed down more.
-        let _ = rustix::process::nice(STEPS);
     }
 }
