@@ -17,7 +17,7 @@ use hopfscope::numerics::elementary::hypot;
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::question::{NoAnswer, answer};
 use hopfscope::scene::{Finding, Request, TOPICS, Topic, library};
-use hopfscope::session::{Msg, Row, Session, Size, update};
+use hopfscope::session::{AnswerState, Msg, Row, Session, Size, update};
 
 const LIMITS: &Limits = &Limits::PATIENT;
 
@@ -163,7 +163,8 @@ fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
             let wanted = open(&stepped);
             for request in wanted.iter().cloned() {
                 let refines = request.draft().is_some_and(|draft| wanted.contains(&draft));
-                if !refines && !stepped.is_refinement(&request) {
+                if !refines && !matches!(stepped.answers.standing(&request), AnswerState::Draft(_))
+                {
                     evaluations += give(&mut stepped, request);
                 }
             }

@@ -10,8 +10,11 @@ use crate::scene::View::{
 };
 use crate::scene::{LAYERS, Layer, LayerSpec, Scene};
 use crate::session::Context::{
-    self, Always, Count, Entry, Everywhere, Help, Interrupted, Layers, Letter, Lists, Offer,
-    Palette, Paper, Parameters, Plots, Prompt, Scenes, Search, View as In, Views, Walk,
+    self, Always, Count, Entry, Everywhere, Letter, List as On, Lists, Offer, Palette, Parameters,
+    Plots, Prompt, Search, View as In, Walk,
+};
+use crate::session::Listed::{
+    Cost, Interrupted, Layers, Palette as Everything, Paper, Scenes, Views,
 };
 use crate::session::act::{
     copy, files, general, history, lists, motions, parameters, plots, prompt, scan, screen_setup,
@@ -20,9 +23,7 @@ use crate::session::act::{
 use crate::session::command_row::CommandAction::{self, Act, Choose, Toggle, Try};
 use crate::session::command_row::{CommandRow, row};
 use crate::session::lines::{LINES, lines};
-use crate::session::{
-    Command, Effect, Input, Keymap, Letter as Ask, Listed, Pending, Session, Size,
-};
+use crate::session::{Command, Effect, Input, Keymap, Letter as Ask, Pending, Session, Size};
 
 /// Characters with which a number can begin.
 const NUMERIC: &[&str] = &["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "-", "."];
@@ -82,13 +83,13 @@ const COMMANDS: &[CommandRow] = &[
         "Set both parameters of the chart to the values under the cursor", Try(plots::jump_here)),
 
     row("next-abscissa", &[(In(Diagram), &["X"])], "axes",
-        "Draw the diagram over the next parameter: D, D2, D3, r", Act(|s, _| plots::next_abscissa(s))),
+        "Draw the diagram over the next parameter: D, D2, D3, r", Act(|s, _| plots::next_parameter(s, false))),
     row("next-ordinate", &[(In(Diagram), &["Y"]), (Walk, &["Y"])], "axes",
         "Show the next property of the cycles: q_max, q_min, v_max and so on", Act(|s, _| plots::next_ordinate(s))),
     row("next-chart-right", &[(In(Regimes), &["X"])], "axes",
-        "Draw the chart over the next parameter to the right: D, D2, D3, r", Act(|s, _| plots::next_of_chart(s, false))),
+        "Draw the chart over the next parameter to the right: D, D2, D3, r", Act(|s, _| plots::next_parameter(s, false))),
     row("next-chart-up", &[(In(Regimes), &["Y"])], "axes",
-        "Draw the chart over the next parameter upwards", Act(|s, _| plots::next_of_chart(s, true))),
+        "Draw the chart over the next parameter upwards", Act(|s, _| plots::next_parameter(s, true))),
     row("next-unit", &[(In(Diagram), &["N"]), (Walk, &["N"])], "",
         "Measure lengths of the cycles in units of r, or not", Try(plots::next_unit)),
     row("walk", &[(In(Diagram), &["w"])], "walk",
@@ -185,9 +186,9 @@ const COMMANDS: &[CommandRow] = &[
     row("enlarge", &[(Everywhere, &["z"])], "",
         "Give one plot the room of all, or share it again", Act(|s, _| s.enlarged = !s.enlarged)),
     row("paper", &[(Everywhere, &["<f10>", "<A-p>"])], "",
-        "List the claims of the paper against computation", Act(|s, _| lists::open(s, Listed::Paper))),
+        "List the claims of the paper against computation", Act(|s, _| lists::open(s, Paper))),
     row("views", &[(Everywhere, &["V"])], "view",
-        "Pick what the plot in use shows", Act(|s, _| lists::open(s, Listed::Views))),
+        "Pick what the plot in use shows", Act(|s, _| lists::open(s, Views))),
     row("next-view", &[(Everywhere, &[";"])], "",
         "Show the next view in the plot in use", Act(|s, _| screen_setup::next_view(s, 1))),
     row("previous-view", &[(Everywhere, &[","])], "",
@@ -201,18 +202,18 @@ const COMMANDS: &[CommandRow] = &[
     row("arrange", &[(Everywhere, &["Z"])], "",
         "Arrange the plots: as suits them best, in columns, in rows", Act(|s, _| screen_setup::arrange(s))),
     row("help", &[(Everywhere, &["?", "<f1>"]), (Walk, &["?", "<f1>"])], "help",
-        "List everything: keys, scenes, views, layers, machines, claims", Act(|s, _| lists::open(s, Listed::Palette))),
+        "List everything: keys, scenes, views, layers, machines, claims", Act(|s, _| lists::open(s, Everything))),
     row("palette", &[(Everywhere, &["<space>", "<C-p>"]), (Walk, &["<space>", "<C-p>"])], "all",
         "Search everything that has a name, and run it", Act(|s, _| {
-            lists::open(s, Listed::Palette);
+            lists::open(s, Everything);
             lists::search(s);
         })),
     row("prompt", &[(Everywhere, &[":"]), (Walk, &[":"])], "command",
         "Type a command by its name: set, scene, until and so on", Act(|s, _| prompt::open(s, ""))),
     row("scenes", &[(Everywhere, &["s"])], "scenes",
-        "Pick a scene", Act(|s, _| lists::open(s, Listed::Scenes))),
+        "Pick a scene", Act(|s, _| lists::open(s, Scenes))),
     row("layers", &[(Everywhere, &["v"])], "layers",
-        "List the layers, to switch them on and off", Act(|s, _| lists::open(s, Listed::Layers))),
+        "List the layers, to switch them on and off", Act(|s, _| lists::open(s, Layers))),
     row("undo", &[(Everywhere, &["u"]), (Walk, &["u"])], "undo",
         "Undo the last change of a parameter or scene", Try(history::undo)),
     row("redo", &[(Everywhere, &["<C-r>", "U"])], "",
@@ -249,7 +250,7 @@ const COMMANDS: &[CommandRow] = &[
     row("more-harmonics", &[(Everywhere, &[")"])], "",
         "More harmonics", Try(|s| general::harmonics(s, true))),
     row("take-speed", &[(In(Speeds), &["<enter>"])], "take it",
-        "Set the belt to the speed under the cursor", Try(plots::take_speed)),
+        "Set the belt to the speed under the cursor", Try(plots::jump_here)),
 
     row("count", &[(Plots, DIGITS), (Walk, DIGITS), (Lists, DIGITS), (Count, MORE_DIGITS)], "",
         "A digit: press the next key that many times, as one change", Act(general::count)),
@@ -272,15 +273,15 @@ const COMMANDS: &[CommandRow] = &[
         "Resume the interrupted session; of several, list them", Try(files::restore)),
     row("forget-interrupted", &[(Everywhere, &["<f4>"])], "",
         "Forget the interrupted sessions: they are not offered again", Try(files::forget)),
-    row("restore-selected", &[(Interrupted, &["<enter>"])], "resume",
+    row("restore-selected", &[(On(Interrupted), &["<enter>"])], "resume",
         "Resume the selected session", Act(|s, _| files::restore_selected(s))),
-    row("forget-one", &[(Interrupted, &["x", "<del>"])], "forget it",
+    row("forget-one", &[(On(Interrupted), &["x", "<del>"])], "forget it",
         "Forget the selected session", Try(files::forget_selected)),
-    row("forget-all", &[(Interrupted, &["X", "<f4>"])], "forget all",
+    row("forget-all", &[(On(Interrupted), &["X", "<f4>"])], "forget all",
         "Forget all of these sessions", Try(files::forget)),
 
     row("costs", &[(Everywhere, &["$"])], "",
-        "List what the picture costs, and what each step recomputes", Act(|s, _| lists::open(s, Listed::Cost))),
+        "List what the picture costs, and what each step recomputes", Act(|s, _| lists::open(s, Cost))),
     row("retry", &[(Everywhere, &["<f5>"])], "",
         "Compute again what has failed", Act(|s, _| general::retry(s))),
     row("save-figure", &[(Everywhere, &["<A-f>"]), (Walk, &["<A-f>"])], "",
@@ -307,7 +308,7 @@ const COMMANDS: &[CommandRow] = &[
         "Hide the cursor; stop a scan, a fit or a figure; never quits", Act(|s, _| plots::drop_cursor(s))),
     row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Prompt, &["<esc>"]), (Palette, &["<esc>"]), (Offer, &["<esc>"])], "close",
         "Close what is open", Act(|s, _| s.overlay = None)),
-    row("close-again", &[(Help, &["?", "<f1>", "$"]), (Scenes, &["s"]), (Layers, &["v"]), (Views, &["V"]), (Paper, &["<f10>", "<A-p>"]), (Interrupted, &["<f3>"])], "",
+    row("close-again", &[(On(Everything), &["?", "<f1>", "$"]), (On(Scenes), &["s"]), (On(Layers), &["v"]), (On(Views), &["V"]), (On(Paper), &["<f10>", "<A-p>"]), (On(Interrupted), &["<f3>"])], "",
         "Close with the key that opened", Act(|s, _| s.overlay = None)),
     row("quit", &[(Everywhere, &["q"]), (Walk, &["q"]), (Always, &["<C-c>"])], "quit",
         "Quit: leave the explorer", Act(|s, _| general::quit(s))),
@@ -326,17 +327,17 @@ const COMMANDS: &[CommandRow] = &[
         "Go to the last row", Act(|s, _| lists::move_by(s, isize::MAX))),
     row("search", &[(Lists, &["/"])], "search",
         "Show only the rows that contain some text", Act(|s, _| lists::search(s))),
-    row("open-scene", &[(Scenes, &["<enter>", "<space>"])], "open",
+    row("open-scene", &[(On(Scenes), &["<enter>", "<space>"])], "open",
         "Open the selected scene", Choose(prompt::choose)),
-    row("toggle-letter", &[(Layers, LETTERS)], "",
+    row("toggle-letter", &[(On(Layers), LETTERS)], "",
         "Switch the layer that has this letter", Act(lists::toggle_letter)),
-    row("toggle-layer", &[(Layers, &["<enter>", "<space>"])], "on/off",
+    row("toggle-layer", &[(On(Layers), &["<enter>", "<space>"])], "on/off",
         "Switch the selected layer on or off", Choose(prompt::choose)),
-    row("show-claim", &[(Paper, &["<enter>"])], "its scene",
+    row("show-claim", &[(On(Paper), &["<enter>"])], "its scene",
         "Open the scene that shows the selected claim", Choose(prompt::choose)),
-    row("show-view", &[(Views, &["<enter>", "<space>"])], "show",
+    row("show-view", &[(On(Views), &["<enter>", "<space>"])], "show",
         "Show the selected view", Choose(prompt::choose)),
-    row("run-command", &[(Palette, &["<enter>"]), (Help, &["<enter>"])], "run",
+    row("run-command", &[(Palette, &["<enter>"]), (On(Everything), &["<enter>"])], "run",
         "Run what is selected", Choose(prompt::choose)),
     row("search-done", &[(Search, &["<enter>"])], "done",
         "Keep the rows found; in a picker, take the selected one", Choose(prompt::search_done)),

@@ -168,14 +168,6 @@ pub fn use_method(session: &mut Session) -> Done {
     Ok(())
 }
 
-/// Sets the belt to the speed under the cursor.
-pub fn take_speed(session: &mut Session) -> Done {
-    let Point { x, .. } = cursor(session)?;
-    let setup = session.with(&session.setup(), Knob::BeltSpeed, x)?;
-    put(session, setup);
-    Ok(())
-}
-
 /// Starts a motion at the cursor, in the phase plane beside the present ones: at the state under the cursor, at
 /// the state of the motion at that time, at rest at that displacement, or on that cycle.
 pub fn start_here(session: &mut Session) -> Done {
@@ -200,14 +192,18 @@ pub fn start_here(session: &mut Session) -> Done {
     Ok(())
 }
 
-/// Sets the parameter of a diagram, or both of a chart, to the values under the cursor.
+/// Sets the parameter of a diagram, both of a chart, or the speed of the belt to the values under the cursor.
 pub fn jump_here(session: &mut Session) -> Done {
-    let cursor = cursor(session)?;
-    let Plot { view, axes, .. } = session.plots[session.plot];
-    let upwards = (view == View::Regimes).then_some((axes.against, cursor.y));
+    let Point { x, y } = cursor(session)?;
+    let Plot { view, axes: Axes { abscissa, against, .. }, .. } = session.plots[session.plot];
+    let numbers = match view {
+        View::Regimes => vec![(abscissa, x), (against, y)],
+        View::Speeds => vec![(Knob::BeltSpeed, x)],
+        _ => vec![(abscissa, x)],
+    };
     let mut setup = session.setup();
-    for (symbol, value) in [(axes.abscissa, cursor.x)].into_iter().chain(upwards) {
-        setup = session.with(&setup, symbol, value)?;
+    for (knob, value) in numbers {
+        setup = session.with(&setup, knob, value)?;
     }
     put(session, setup);
     Ok(())
@@ -221,28 +217,26 @@ fn after(parameter: Knob, places: usize) -> Knob {
     Knob::PARAMETERS[(parameter.place() + places) % Knob::PARAMETERS.len()]
 }
 
-/// Draws the diagram in focus over the next parameter, cycling; this needs another branch.
-pub fn next_abscissa(session: &mut Session) {
-    let Some(plot) = session.focused() else { return };
-    let axes = plot.axes;
-    let symbol = after(axes.abscissa, 1);
-    set_axes(session, Axes { abscissa: symbol, ..axes });
-    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
-}
-
-/// Draws the chart in focus over the next parameter to the right or upwards; both axes always differ.
-pub fn next_of_chart(session: &mut Session, upwards: bool) {
-    let Some(plot) = session.focused_mut() else { return };
-    let Axes { abscissa, against, .. } = plot.axes;
+/// Draws the diagram or the chart in focus over the next parameter to the right or upwards, cycling; both axes of a chart
+/// always differ.
+pub fn next_parameter(session: &mut Session, upwards: bool) {
+    let Some(&Plot { view, axes, .. }) = session.focused() else { return };
+    let Axes { abscissa, against, .. } = axes;
     let (present, other) = if upwards { (against, abscissa) } else { (abscissa, against) };
-    let next = after(present, 1);
-    let symbol = if next == other { after(present, 2) } else { next };
-    let axis = if upwards { &mut plot.axes.against } else { &mut plot.axes.abscissa };
-    *axis = symbol;
-    // No scene sets a window for these axes: starts from the usual one, which is then fitted to include the
-    // present point.
-    let Plot { view, axes, family, .. } = *plot;
-    plot.fit_from(PlotSetup { view, axes, window: None, family }.opening());
+    let (chart, next) = (view == View::Regimes, after(present, 1));
+    let symbol = if chart && next == other { after(present, 2) } else { next };
+    let axes =
+        if upwards { Axes { against: symbol, ..axes } } else { Axes { abscissa: symbol, ..axes } };
+    match session.focused_mut().filter(|_| chart) {
+        // No scene sets a window for these axes: starts from the usual one, which is then fitted to include the
+        // present point.
+        Some(plot) => {
+            plot.axes = axes;
+            let family = plot.family;
+            plot.fit_from(PlotSetup { view, axes, window: None, family }.opening());
+        }
+        None => set_axes(session, axes),
+    }
     inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
 }
 

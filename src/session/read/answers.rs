@@ -170,11 +170,6 @@ impl Session {
         asked.all(|(_, request)| self.answers.standing(&request).is_fresh())
     }
 
-    /// Whether the answer to the draft of this question is there to be shown meanwhile.
-    pub fn is_refinement(&self, request: &Request) -> bool {
-        matches!(self.answers.standing(request), AnswerState::Draft(_))
-    }
-
     /// Whether a question has neither an answer nor a failure.
     pub fn is_open(&self, request: &Request) -> bool {
         if request.topic() == Topic::Scan {

@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use crate::scene::{VIEWS, View};
+use crate::session::Listed;
 
 /// A context in which a key can have a meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -17,19 +18,9 @@ pub enum Context {
     Plots,
     /// No overlay is open.
     Everywhere,
-    /// The help is open.
-    Help,
-    /// The scene picker is open.
-    Scenes,
-    /// The layer list is open.
-    Layers,
-    /// The picker of views is open.
-    Views,
-    /// The claims of the paper are open.
-    Paper,
-    /// The list of interrupted sessions is open.
-    Interrupted,
-    /// The palette is open.
+    /// This list is open and not being searched; that of the costs has the keys of the palette.
+    List(Listed),
+    /// The palette is being searched.
     Palette,
     /// A count is being typed before a key.
     Count,
@@ -93,12 +84,12 @@ const OTHERS: [ContextSpec; 19] = [
     row(Context::Walk, "walk", "Walking along the branch", ContextKind::Held),
     row(Context::Plots, "plots", "Every plot", ContextKind::Shared),
     row(Context::Everywhere, "everywhere", "Everywhere", ContextKind::Shared),
-    row(Context::Help, "help", "In this list", ContextKind::List),
-    row(Context::Scenes, "scenes", "In the scene picker", ContextKind::List),
-    row(Context::Layers, "layers", "In the layer list", ContextKind::List),
-    row(Context::Views, "views", "In the picker of views", ContextKind::List),
-    row(Context::Paper, "paper", "In the list of claims", ContextKind::List),
-    row(Context::Interrupted, "interrupted", "In the list of interrupted sessions", ContextKind::List),
+    row(Context::List(Listed::Palette), "help", "In this list", ContextKind::List),
+    row(Context::List(Listed::Scenes), "scenes", "In the scene picker", ContextKind::List),
+    row(Context::List(Listed::Layers), "layers", "In the layer list", ContextKind::List),
+    row(Context::List(Listed::Views), "views", "In the picker of views", ContextKind::List),
+    row(Context::List(Listed::Paper), "paper", "In the list of claims", ContextKind::List),
+    row(Context::List(Listed::Interrupted), "interrupted", "In the list of interrupted sessions", ContextKind::List),
     row(Context::Palette, "palette", "While searching the list", ContextKind::Text),
     row(Context::Count, "count", "After a count", ContextKind::Question),
     row(Context::Letter, "letter", "Before the letter of a mark", ContextKind::Question),

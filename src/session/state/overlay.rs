@@ -15,7 +15,7 @@ pub enum Overlay {
     Offer(Script),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Listed {
     /// The scenes, to pick one.
     Scenes,
