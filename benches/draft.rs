@@ -76,7 +76,11 @@ impl Application for Watched {
         self.explorer.draw(frame);
         let session = self.explorer.session();
         let missing = |request: &Request| {
-            request.topic() != Topic::Reference && !session.is_refinement(request)
+            request.topic() != Topic::Reference
+                && !matches!(
+                    session.answers.standing(request),
+                    hopfscope::session::AnswerState::Draft(_)
+                )
         };
         self.complete.store(!self.explorer.wants().iter().any(missing), Ordering::Release);
     }

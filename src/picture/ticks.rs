@@ -13,6 +13,7 @@
 )]
 
 use crate::numerics::elementary::{log10, pow};
+use crate::numerics::round::{StepSize, decade, decimal};
 use crate::scene::Span;
 
 /// A tick: where it stands and what it says.
@@ -132,13 +133,13 @@ impl Ticks {
 
     /// The finest ticks that `fit`; none at all if not even a single one fits.
     pub fn fitting(axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
-        let mut step = TickStep::at_least(axis.width() / MOST);
+        let mut step = StepSize::at_least(axis.width() / MOST);
         loop {
-            let ticks = step.ticks(axis);
+            let ticks = ticks(step, axis);
             if ticks.ticks.is_empty() || fit(&ticks.ticks) {
                 return ticks;
             }
-            step = step.coarser();
+            step = step.larger();
         }
     }
 }
@@ -158,48 +159,23 @@ fn decades(axis: Span, sign: &str, digits: &[i64], every: usize) -> Vec<Tick> {
     numbers.map(tick).filter(on_the_axis).map(clamped).collect()
 }
 
-/// A distance between ticks: `digit * 10^power` with digit 1, 2 or 5.
-#[derive(Clone, Copy)]
-struct TickStep {
-    digit: i64,
-    power: i32,
-}
-
-impl TickStep {
-    /// The smallest round step not below `width`.
-    fn at_least(width: f64) -> Self {
-        let mut step = TickStep { digit: 1, power: decade(width) };
-        while decimal(step.digit, step.power) < width {
-            step = step.coarser();
-        }
-        step
-    }
-
-    fn coarser(self) -> Self {
-        match self.digit {
-            1 => TickStep { digit: 2, ..self },
-            2 => TickStep { digit: 5, ..self },
-            _ => TickStep { digit: 1, power: self.power + 1 },
-        }
-    }
-
-    /// All multiples of this step on the axis.
-    fn ticks(self, axis: Span) -> Ticks {
-        let (base, value) = origin(axis, self.power).unzip();
-        let value = value.unwrap_or(0.0);
-        let (low, high) = (axis.from() - value, axis.to() - value);
-        let width = decimal(self.digit, self.power);
-        let first = (low / width - ROUNDING).ceil() as i64;
-        let last = (high / width + ROUNDING).floor() as i64;
-        let place = |number| ((decimal(number, self.power) - low) / axis.width()).clamp(0.0, 1.0);
-        let numbers: Vec<i64> = (first..=last).map(|count| count * self.digit).collect();
-        let largest = numbers.iter().map(|number| number.abs()).max().unwrap_or(0);
-        let tick = |number| Tick {
-            fraction: place(number),
-            label: label(number, self.power, largest, base.is_some()),
-        };
-        Ticks { ticks: numbers.into_iter().map(tick).collect(), base }
-    }
+/// All multiples of a step on the axis.
+fn ticks(step: StepSize, axis: Span) -> Ticks {
+    let (digit, power) = step.parts();
+    let (base, value) = origin(axis, power).unzip();
+    let value = value.unwrap_or(0.0);
+    let (low, high) = (axis.from() - value, axis.to() - value);
+    let width = step.value();
+    let first = (low / width - ROUNDING).ceil() as i64;
+    let last = (high / width + ROUNDING).floor() as i64;
+    let place = |number| ((decimal(number, power) - low) / axis.width()).clamp(0.0, 1.0);
+    let numbers: Vec<i64> = (first..=last).map(|count| count * digit).collect();
+    let largest = numbers.iter().map(|number| number.abs()).max().unwrap_or(0);
+    let tick = |number| Tick {
+        fraction: place(number),
+        label: label(number, power, largest, base.is_some()),
+    };
+    Ticks { ticks: numbers.into_iter().map(tick).collect(), base }
 }
 
 /// The number from which labels count, where they would be long if they counted from zero; first as it is written.
@@ -213,16 +189,6 @@ fn origin(axis: Span, power: i32) -> Option<(String, f64)> {
     let digits = (decade(axis.from().abs()) - coarse).clamp(0, 16);
     let value = format!("{:.*e}", digits as usize, axis.from()).parse().ok()?;
     Some((crate::words::number::exact(value, 24), value))
-}
-
-/// The power of ten at or below a positive number; far below all others for zero.
-fn decade(value: f64) -> i32 {
-    log10(value).floor().max(-400.0) as i32
-}
-
-/// `number * 10^power`, correctly rounded.
-fn decimal(number: i64, power: i32) -> f64 {
-    format!("{number}e{power}").parse().unwrap_or(0.0)
 }
 
 /// Writes `number * 10^power`: plainly while the largest of its kind stays short, else with exponent.

@@ -45,7 +45,7 @@ pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snap
 pub use state::keymap::{Candidates, Command, Keymap, NextCommand};
 pub use state::overlay::{Completion, Entry, Input, List, Listed, Overlay, Prompt, SessionCaption};
 pub use state::plot::{Framing, Pane, Plot};
-pub use state::rows::{Row, StepSize, StepSizes};
+pub use state::rows::{Row, StepSizes};
 pub use state::scan::{ScanOnShow, ScanProgress};
 pub use state::session::{
     BranchStop, Kept, Letter, Pace, Pending, Playback, Price, Recomputation, Session, Size, Waiting,

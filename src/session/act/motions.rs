@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 
 use crate::model::State;
 use crate::numerics::decimal::shortest;
+use crate::numerics::round::decimal_sum;
 use crate::portrait::Cycles;
 use crate::scene::{Layer, Topic};
 use crate::session::act::inform;
 use crate::session::act::parameters::put;
-use crate::session::state::rows::decimal_sum;
 use crate::session::state::session::PACES;
 use crate::session::{Done, MOST_MOTIONS, Pace, Session, Setup};
 

@@ -4,6 +4,7 @@
 use crate::flow::Problem;
 use crate::model::{Knob, State};
 use crate::numerics::decimal::shortest;
+use crate::numerics::round::StepSize;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Axes, ORDINATES, PlotSetup, Point, Span, Unit, View, Window};
 use crate::session::act::general::flip;
@@ -11,9 +12,7 @@ use crate::session::act::motions::start;
 use crate::session::act::parameters::{change, put};
 use crate::session::act::screen_setup::focus_on;
 use crate::session::act::{history, inform, lists, refuse, scan, with_keys};
-use crate::session::{
-    Done, Effect, Framing, Gesture, Pane, Plot, Pointed, PointerTarget, Session, StepSize,
-};
+use crate::session::{Done, Effect, Framing, Gesture, Pane, Plot, Pointed, PointerTarget, Session};
 
 /// Number of cursor steps in a far move.
 pub const FAR: i32 = 8;
