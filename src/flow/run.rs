@@ -10,7 +10,7 @@ use super::stop::ComingToRest;
 use super::swing::{Swing, swing};
 use crate::model::parameters::energy;
 use crate::model::parameters::rests;
-use crate::model::{HalfPlane, Ledger, Parameters, Reason, Side, State};
+use crate::model::{HalfPlane, Ledger, Reason, Side, State};
 use crate::numerics::count::real;
 use crate::numerics::scalar::Scalar;
 use crate::numerics::scaling::times_power;
@@ -25,15 +25,9 @@ pub struct MotionRun<N = f64> {
     /// The results so far.
     found: Trajectory<N>,
     time: Sum<N>,
-    works: Works,
-}
-
-/// Work of the damping terms and path length, in the units of the problem.
-#[derive(Default)]
-struct Works {
-    linear: f64,
-    quadratic: f64,
-    cubic: f64,
+    /// Work of the linear, the quadratic and the cubic damping.
+    works: [f64; 3],
+    /// Length of the path.
     path: f64,
 }
 
@@ -60,7 +54,8 @@ impl<N: Scalar> MotionRun<N> {
                 cost: Cost::default(),
             },
             time: Sum::default(),
-            works: Works::default(),
+            works: [0.0; 3],
+            path: 0.0,
         }
     }
 
@@ -97,7 +92,10 @@ impl<N: Scalar> MotionRun<N> {
             && let Some((q, v)) = outcome.state()
         {
             let end = State { q: q.value(), v: v.value() };
-            let ledger = self.works.balance(initial, end, &parameters);
+            let [linear, quadratic, cubic] = self.works;
+            let works = [linear, quadratic, cubic, -parameters.r * self.path];
+            let energies = (energy(initial), energy(end));
+            let ledger = Ledger::of_terms(&parameters, energies, works);
             // Energies may overflow where states do not.
             self.found.ledger = ledger.residual.is_finite().then_some(ledger);
         }
@@ -190,7 +188,7 @@ impl<N: Scalar> MotionRun<N> {
             match end {
                 Err(reason) => return self.gives_up(reason),
                 Ok(end) if !crossed => {
-                    self.works.path += (end.x - point.x).value();
+                    self.path += (end.x - point.x).value();
                     let v = N::of(side.sign()) * end.v;
                     return self.stopped(StepPoint { x: side.displacement(end.x, r), v });
                 }
@@ -203,7 +201,7 @@ impl<N: Scalar> MotionRun<N> {
                         return self.gives_up(Reason::OutOfRange);
                     }
                     self.found.crossings.push(Crossing { tau, q });
-                    self.works.path += way;
+                    self.path += way;
                     // The next half swing starts from its clearance, which is known more accurately than q - r.
                     let (clearance, of) = match stop {
                         Some(stop) => {
@@ -245,7 +243,7 @@ impl<N: Scalar> MotionRun<N> {
                 });
             }
             if detail.energy {
-                works.add(&stepper.powers(), &field, unit);
+                add_works(works, &stepper.powers(), &field, unit);
             }
         }
     }
@@ -314,25 +312,17 @@ impl MotionRun {
             self.glide(stepper, field, limits, see)
         };
         self.found.crossings = crossings;
-        self.works.path = path;
+        self.path = path;
         self.close(outcome, stepper.cost())
     }
 }
 
-impl Works {
-    /// Adds the work of the damping terms over one step measured in units of `2^unit`.
-    fn add(&mut self, powers: &Powers, field: &HalfPlane, unit: i32) {
-        let field = field.in_units(unit);
-        let energy = |work: f64| times_power(times_power(work, unit), unit);
-        self.linear += energy(-2.0 * field.d * powers.second);
-        self.quadratic += energy(-field.d2 * powers.third);
-        self.cubic += energy(-field.d3 * powers.fourth);
-    }
-
-    fn balance(&self, start: State, end: State, parameters: &Parameters) -> Ledger {
-        let friction = -parameters.r * self.path;
-        let works = [self.linear, self.quadratic, self.cubic, friction];
-        Ledger::of_terms(parameters, (energy(start), energy(end)), works)
+/// Adds the work of the damping terms over one step measured in units of `2^unit`.
+fn add_works(works: &mut [f64; 3], powers: &Powers, field: &HalfPlane, unit: i32) {
+    let HalfPlane { d, d2, d3 } = field.in_units(unit);
+    let rates = [-2.0 * d * powers.second, -d2 * powers.third, -d3 * powers.fourth];
+    for (work, rate) in works.iter_mut().zip(rates) {
+        *work += times_power(times_power(rate, unit), unit);
     }
 }
 

@@ -12,7 +12,7 @@ use crate::flow::{Detail, Limits, Problem, Reason};
 use crate::model::belt::{FrictionLaw, ReducedBelt};
 use crate::model::{Belt, State};
 use crate::numerics::root::try_bisect;
-use crate::portrait::on_belt::FollowedOnBelt;
+use crate::portrait::on_belt::first_at;
 
 /// Speeds of the belt at which a stable cycle exists, in m/s.
 const SPEEDS: [f64; 6] = [0.05, 0.1, 0.2, 0.25, 0.3, 0.33];
@@ -68,7 +68,7 @@ pub fn stays_slower(limits: &Limits) -> Result<Finding, Reason> {
         };
         let detail = Detail { crossings: true, samples_per_step: 8, energy: false };
         let motion = trajectory(&problem, detail, limits);
-        let slower = FollowedOnBelt::of(&motion, sticking_velocity).sticks.is_none();
+        let slower = first_at(&motion, sticking_velocity).is_none();
         cases.push(Ok((format!("v0 = {speed} m/s"), below && slower)));
     }
     Finding::always(cases)

@@ -6,7 +6,7 @@ use crate::flow::machine::series::ORDER;
 use crate::flow::{
     Cost, Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow,
 };
-use crate::model::{Belt, Ledger, Model, Parameters, State};
+use crate::model::{Belt, Model, Parameters, State};
 use crate::portrait::basin::cycle::cycles_drawn;
 use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, Portrait, survey};
 
@@ -24,8 +24,6 @@ pub struct WholeMotion {
 /// What is known of a machine beside its cycles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WholeCycles {
-    /// Sources and sinks of the energy over one turn of each cycle, in the units of the paper's oscillator.
-    pub works: Vec<Ledger>,
     /// The kicks that are survived by the whole model and by the cubic expansion, without units; every kick where the
     /// expansion has no answer.
     pub margins: [Margin; 2],
@@ -94,7 +92,6 @@ pub fn portrait(
     let expanded = expansion.as_ref().ok().and_then(|found| found.picture.as_ref());
     let expanded = expanded.map(|picture| picture.margin);
     let kinds = found.as_ref().ok().map(|found| WholeCycles {
-        works: works(found),
         margins: [margin(&found.model, &found.margin), expanded.unwrap_or(Margin::ENDLESS)],
         neutral: found.neutral,
     });
@@ -102,28 +99,21 @@ pub fn portrait(
     Ok((drawn, kinds))
 }
 
-/// The energy ledgers of the cycles over one turn, in drawing units.
-fn works(found: &Portrait) -> Vec<Ledger> {
-    let model = &found.model;
-    let unit = model.stiffness * model.pull * model.pull;
-    let mut flow = Flow::new(model);
-    let around = |cycle| flow.works_around(cycle).unwrap_or_default().scaled(1.0 / unit);
-    found.cycles.iter().map(around).collect()
-}
-
 fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
     let model = &found.model;
     let mut flow = Flow::new(model);
-    let mut curves = Vec::new();
+    let unit = model.stiffness * model.pull * model.pull;
+    let (mut curves, mut works) = (Vec::new(), Vec::new());
     for cycle in &found.cycles {
         let mut curve = MachineCurve::default();
         flow.around(cycle.q_max, cycle.is_followed_backward(), &mut curve)?;
         curves.push(places(&curve, model, points));
+        works.push(flow.works_around(cycle).unwrap_or_default().scaled(1.0 / unit));
     }
     let border = found.border_curve().map(|curve| places(curve, model, points));
     let picture = BasinPicture {
         curves,
-        works: Vec::new(),
+        works,
         border: border.unwrap_or_default(),
         margin: margin(model, &found.margin),
         area: None,

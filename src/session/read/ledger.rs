@@ -45,9 +45,7 @@ impl Session {
         if self.layers.contains(&Layer::CycleWorks)
             && let Some(found) = self.cycles()
         {
-            let kinds = self.kinds().filter(|_| whole).map(|kinds| &kinds.works);
-            let works = found.picture.as_ref().map(|picture| &picture.works).filter(|_| !whole);
-            let works = works.or(kinds).into_iter().flatten();
+            let works = found.picture.iter().flat_map(|picture| &picture.works);
             for (cycle, works) in found.cycles.iter().zip(works) {
                 add(&mut lines, Owner::Cycle(*cycle), works, None);
             }

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use crate::flow::{Method, Outcome, Problem, Sample, Trajectory};
 use crate::model::{Parameters, State};
 use crate::numerics::elementary::tanh;
-use crate::portrait::on_belt::FollowedOnBelt;
+use crate::portrait::on_belt::first_at;
 use crate::scene::{Finding, Topic};
 use crate::session::{Pace, Session};
 
@@ -149,7 +149,7 @@ impl Session {
             return None;
         }
         let sticking = self.running()?.reduced.sticking_velocity;
-        FollowedOnBelt::of(motion, sticking).sticks
+        first_at(motion, sticking)
     }
 
     /// Dimensionless time per second at a pace.
