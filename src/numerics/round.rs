@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::elementary::{ln, log10};
+use super::elementary::{ln, log10, powi};
 
 /// A step size: 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -105,8 +105,18 @@ pub fn decade(value: f64) -> i32 {
 }
 
 /// `number * 10^power`, correctly rounded.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "numbers beyond the range of exact doubles are parsed"
+)]
 pub fn decimal(number: i64, power: i32) -> f64 {
-    format!("{number}e{power}").parse().unwrap_or(0.0)
+    /// Powers of ten up to this one, and the whole numbers below, are doubles: one operation on them rounds correctly.
+    const EXACT: (i32, u64) = (22, 1 << 53);
+    if power.abs() > EXACT.0 || number.unsigned_abs() > EXACT.1 {
+        return format!("{number}e{power}").parse().unwrap_or(0.0);
+    }
+    let factor = powi(10.0, power.abs());
+    if power < 0 { number as f64 / factor } else { number as f64 * factor }
 }
 
 /// The sum of two decimal numbers, rounded to the decimals that the larger one can have; never `-0.0`.
@@ -169,6 +179,11 @@ mod tests {
             let value = decimal(digits, -decimals);
             let step = StepSize { place: 3 * size };
             prop_assert_eq!(step.from(step.from(value, 1), -1), value);
+        }
+
+        #[test]
+        fn a_decimal_is_what_its_digits_say(number in -10_000_000..10_000_000_i64, power in -40..40_i32) {
+            prop_assert_eq!(decimal(number, power), format!("{number}e{power}").parse().unwrap());
         }
 
         #[test]

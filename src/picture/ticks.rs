@@ -208,8 +208,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::numerics::elementary::{log10, powi};
-
     fn span(low: f64, high: f64) -> Span {
         Span::covering([low, high]).unwrap()
     }

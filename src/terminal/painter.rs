@@ -89,7 +89,8 @@ impl<W: Write> Painter<W> {
     fn put(&mut self, text: &str) {
         if !text.is_empty() {
             let begin = if self.frame.is_empty() { BEGIN } else { "" };
-            self.frame.extend([begin, text].concat().into_bytes());
+            self.frame.extend_from_slice(begin.as_bytes());
+            self.frame.extend_from_slice(text.as_bytes());
         }
     }
 }

@@ -80,19 +80,19 @@ struct Binding {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keymap {
     commands: Vec<&'static Command>,
-    bindings: BTreeMap<(Context, Key), Binding>,
+    bindings: BTreeMap<Context, BTreeMap<Key, Binding>>,
 }
 
 impl Keymap {
     /// A keymap of commands with their default keys, in the order of the help.
     pub fn new(commands: impl Iterator<Item = &'static Command>) -> Self {
         let commands: Vec<_> = commands.collect();
-        let mut bindings = BTreeMap::new();
+        let mut bindings: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
         for command in &commands {
             for (context, keys) in command.keys {
                 let keys = keys.iter().filter_map(|text| text.parse().ok()).enumerate();
-                bindings
-                    .extend(keys.map(|(rank, key)| ((*context, key), Binding { command, rank })));
+                let bound = keys.map(|(rank, key)| (key, Binding { command, rank }));
+                bindings.entry(*context).or_default().extend(bound);
             }
         }
         Keymap { commands, bindings }
@@ -120,7 +120,9 @@ impl Keymap {
 
     /// Removes all keys of a command in a context.
     pub fn unbind(&mut self, context: Context, command: &Command) {
-        self.bindings.retain(|(at, _), bound| *at != context || bound.command != command);
+        if let Some(bindings) = self.bindings.get_mut(&context) {
+            bindings.retain(|_, bound| bound.command != command);
+        }
     }
 
     /// Binds a key to a command in a context. Fails with one line if the key means something else where this
@@ -139,7 +141,7 @@ impl Keymap {
                 "{key} types a character here; use a key that types none, as <f6>"
             ));
         }
-        let taken = contexts.iter().find_map(|at| Some((*at, *self.bindings.get(&(*at, key))?)));
+        let taken = contexts.iter().find_map(|at| Some((*at, *self.bindings.get(at)?.get(&key)?)));
         if let Some((context, bound)) = taken.filter(|(_, bound)| bound.command != command) {
             let (bound, context) = (bound.command.name, context.name());
             return Err(format!(
@@ -147,22 +149,22 @@ impl Keymap {
             ));
         }
         let rank = self.keys_in(context, command).count();
-        self.bindings.entry((context, key)).or_insert(Binding { command, rank });
+        let bindings = self.bindings.entry(context).or_default();
+        bindings.entry(key).or_insert(Binding { command, rank });
         Ok(())
     }
 
     /// The command of a key in contexts that hold together.
     pub fn command(&self, contexts: &[Context], key: Key) -> Option<&'static Command> {
-        let mut bound = contexts.iter().filter_map(|context| self.bindings.get(&(*context, key)));
+        let mut bound = contexts.iter().filter_map(|context| self.bindings.get(context)?.get(&key));
         bound.next().map(|bound| bound.command)
     }
 
     /// The keys of a command in a context, in the order in which they were bound.
     pub fn keys_in(&self, context: Context, command: &Command) -> impl Iterator<Item = Key> {
-        let bound = self.bindings.iter();
-        let of_it = bound.filter(|((at, _), bound)| *at == context && bound.command == command);
-        let mut keys: Vec<(usize, Key)> =
-            of_it.map(|((_, key), bound)| (bound.rank, *key)).collect();
+        let bound = self.bindings.get(&context).into_iter().flatten();
+        let of_it = bound.filter(|(_, bound)| bound.command == command);
+        let mut keys: Vec<(usize, Key)> = of_it.map(|(key, bound)| (bound.rank, *key)).collect();
         keys.sort_unstable();
         keys.into_iter().map(|(_, key)| key)
     }

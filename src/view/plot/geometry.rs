@@ -49,7 +49,8 @@ impl Geometry {
         };
         let spaced = |gap| Ticks::on(scales[0], window.x, |ticks| apart(ticks, inner.width, gap));
         // Two ticks make a scale: rather closer together than only one.
-        let rightward = Some(spaced(3)).filter(|ticks| ticks.ticks.len() > 1).unwrap_or(spaced(1));
+        let wide = Some(spaced(3)).filter(|ticks| ticks.ticks.len() > 1);
+        let rightward = wide.unwrap_or_else(|| spaced(1));
         Geometry { inner, roomy, rightward, upward }
     }
 }

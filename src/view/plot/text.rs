@@ -65,14 +65,18 @@ impl Canvas<'_> {
 
     /// The cells that a curve runs through.
     fn cells_of(&self, curve: &[Point]) -> Vec<(i32, i32)> {
-        let followed = curve.windows(2).flat_map(|pair| {
-            let [from, to] = [pair[0], pair[1]].map(|point| self.place(point));
-            along(from, to, 2.0).filter_map(|at| self.dots.cell_at(at))
-        });
-        let mut cells: Vec<_> =
-            followed.map(|(column, row)| (i32::from(column), i32::from(row))).collect();
+        let places: Vec<_> = curve.iter().map(|point| self.place(*point)).collect();
+        let mut cells = Vec::new();
+        for ends in places.windows(2) {
+            let [from, to] = [ends[0], ends[1]];
+            if self.dots.cell_at(from) == self.dots.cell_at(to) {
+                cells.extend(self.dots.cell_at(to));
+            } else {
+                cells.extend(along(from, to, 2.0).filter_map(|at| self.dots.cell_at(at)));
+            }
+        }
         cells.dedup();
-        cells
+        cells.into_iter().map(|(column, row)| (i32::from(column), i32::from(row))).collect()
     }
 
     fn cell(&self, point: Point) -> Option<(i32, i32)> {
