@@ -208,6 +208,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::numerics::elementary::powi;
     fn span(low: f64, high: f64) -> Span {
         Span::covering([low, high]).unwrap()
     }
