@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::{
     BEND, Beginning, Covariance, Extreme, NAMES, Optimum, Runs, SLOPE, Task, UNKNOWNS, Unfit,
-    Unknowns, autocorrelations, drift, interrupted, moved, robust, scattered,
+    Unknowns, autocorrelations, drift, interrupted, middle_of, moved, robust, scattered,
 };
 use crate::numerics::count::real;
 use crate::numerics::elementary::powi;
@@ -91,8 +91,7 @@ pub fn drift_of_swings(t: &[f64], extremes: &[Extreme]) -> [f64; 2] {
         .windows(3)
         .map(|three| {
             let [slope, bend] = drift(t, three[1].t);
-            let middle = 0.25 * (three[0].x + 2.0 * three[1].x + three[2].x);
-            (vec![1.0, slope, bend], middle)
+            (vec![1.0, slope, bend], middle_of(three))
         })
         .collect();
     let width = if rows.len() < FEWEST { 2 } else { 3 };

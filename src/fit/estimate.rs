@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{
     BEND, Choice, Covariance, Data, Extreme, FittedDrift, HIDDEN, Left, LeftDrift, NAMES, NameSpec,
     Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, Signal, StartKind,
-    Task, UNKNOWNS, Unfit, Unknowns, Whiteness, left_over, whiteness,
+    Task, UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, left_over, whiteness,
 };
 use crate::model::State;
 
@@ -142,7 +142,7 @@ impl Estimate {
     /// Smallest and largest half peak-to-peak amplitude in the record.
     #[must_use]
     pub fn amplitudes(&self) -> (f64, f64) {
-        let halves = self.extremes.windows(2).map(|two| 0.5 * (two[1].x - two[0].x).abs());
+        let halves = amplitudes(&self.extremes).into_iter();
         halves.fold((f64::INFINITY, 0.0), |(low, high), half| (low.min(half), high.max(half)))
     }
 

@@ -1,12 +1,12 @@
 //! Fitting the oscillator to a recorded motion: estimates of all its numbers, with honest errors.
 //!
-//! [`record`] reads the files of instruments. [`mod@guess`] makes a first guess from the turning points, by the
-//! decrements of averaging ([`decrements`]). [`motion`] follows a motion with its exact derivatives, half swing by
+//! [`record`] reads the files of instruments. [`mod@guess`] makes a first guess from the [`mod@turning_points`], by the
+//! decrements of averaging. [`motion`] follows a motion with its exact derivatives, half swing by
 //! half swing ([`half_swing`]); [`observation`] compares it with the record. [`task`] says what is estimated,
-//! [`levenberg_marquardt`] minimizes the loss, and [`search`] finds the right [`valley`] for it. [`mod@samples`] and
-//! [`mod@peaks`] combine these steps. [`mod@estimate`] assesses the result: covariance, also for correlated noise
+//! [`levenberg_marquardt`] minimizes the loss, and [`search`] finds the right [`valley`] for it. [`mod@samples`]
+//! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for correlated noise
 //! ([`uncertainty`], [`residuals`]); intervals where the loss is not quadratic ([`profile`]); numbers of which only
-//! combinations are known ([`separable`]); and the resulting uncertainty of the margin ([`margin`]). What all of this
+//! combinations are known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What all of this
 //! rests on is tested by the record itself ([`mod@conditions`]).
 //!
 //! Nothing here reads or writes files: text goes in, estimates come out.
@@ -36,29 +36,24 @@
 mod cells;
 mod conditions;
 mod curves;
-mod decrements;
 mod drift;
 mod estimate;
 mod fitted;
 mod guess;
 mod half_swing;
-mod header;
 mod levenberg_marquardt;
 mod margin;
 mod motion;
 mod noise;
 mod observation;
-mod peaks;
 mod posterior;
 mod profile;
-mod quantiles;
 mod question;
 mod record;
 mod refit;
 mod residuals;
 mod samples;
 mod search;
-mod separable;
 mod signal;
 mod task;
 mod turning_points;
@@ -91,43 +86,43 @@ pub(crate) use {
     curves::{Curves, Extent, PlotPoint, memory},
     drift::FittedDrift,
     estimate::{LeftOut, left_out},
-    fitted::{EstimatedNumber, kicks, rows},
+    fitted::{Combination, EstimatedNumber, combinations, kicks, rows},
     margin::MarginSpread,
     question::{assigned, listed},
     record::decoded,
     refit::{RISES, contour, held},
-    separable::{Combination, combinations},
     signal::quantity,
 };
 
 // What the files of this ring use of each other.
 pub(crate) use {
-    cells::{cells, clock_seconds, lines, read, separator},
+    cells::{Header, TIME_UNITS, cells, clock_seconds, lines, read, seconds_in, separator},
     conditions::repeated,
-    decrements::{averaged, regressions, robust},
     drift::{LeftDrift, drift_of_swings, without_drift},
     estimate::judged,
     guess::{Beginning, Guess, guess, period_of},
     half_swing::{Jet, Stretch, WAYS},
-    header::{Header, TIME_UNITS, seconds_in},
     motion::{FittedTurn, Gradient, MotionLost, follow},
     noise::{
         IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,
     },
     observation::{Bound, Region, Seen, drift},
-    peaks::peaks,
     posterior::{Drawn, FEWEST, drawn},
     profile::{Left, Profile, ProfileInterval},
-    quantiles::{chi_squared, deviation_of_95_percent, normal_at},
     question::{Loss, placed, reach},
-    residuals::{Whiteness, autocorrelations, whiteness},
-    samples::samples,
+    residuals::{
+        Whiteness, autocorrelations, chi_squared, deviation_of_95_percent, normal_at, whiteness,
+    },
+    samples::{peaks, samples},
     search::released_before,
     signal::{SignalUnit, measure, value_of, with_latin_micro},
     task::{
         FitVerdict, HIDDEN, Optimum, RUN, interrupted, longest_run, mean_square, moved, scattered,
     },
-    turning_points::{Extreme, dominant_frequency, smoothed, turning_points, without_jumps},
+    turning_points::{
+        Extreme, amplitudes, averaged, dominant_frequency, middle_of, regressions, robust,
+        smoothed, turning_points, without_jumps,
+    },
     uncertainty::{Covariance, left_over, ratio_of_kinds},
     valley::{WIDE, by_cost, through_the_valley},
 };
