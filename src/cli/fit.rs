@@ -10,8 +10,8 @@ use super::progress::{Outlet, StatusLine};
 use super::{Failure, Output, input, timed, write};
 use crate::figure::{self, Figure, FileForm};
 use crate::fit::{
-    Curves, D, DRAWS, Estimate, Fitted, Inertia, MarginQuestion, NameSpec, R, RISES, Record, Runs,
-    Unfit, assigned, contour, estimate, length_in_metres, margins,
+    D, DRAWS, Estimate, Fitted, Inertia, MarginQuestion, NameSpec, R, RISES, Record, Runs, Unfit,
+    assigned, contour, estimate, length_in_metres, margins,
 };
 use crate::flow::Limits;
 use crate::model::Knob;
@@ -100,7 +100,6 @@ impl FitCommand {
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
         let record = self.record.read(bytes).map_err(|error| bad(&error))?;
         let asked = self.margin_question(&record).map_err(|problem| bad(&problem))?;
-        let inertia = asked.inertia;
         self.record.unambiguous().map_err(Failure::Usage)?;
         let question = self.record.question();
         let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
@@ -128,8 +127,7 @@ impl FitCommand {
         let drawn = self.pictures.is_some() || self.report.is_some();
         let contours = if drawn { contours(&estimate) } else { Vec::new() };
         let name = short_name(&self.file);
-        let curves = Curves::of(&estimate, &margins);
-        Ok(Fitted { name, record, estimate, margins, curves, contours, inertia, seconds })
+        Ok(Fitted { contours, seconds, ..Fitted::new(name, record, estimate, margins) })
     }
 
     fn margin_question(&self, record: &Record) -> Result<MarginQuestion, String> {

@@ -33,20 +33,31 @@ pub struct Fitted {
     /// For the pictures: the contours in the plane of D and r along which chi-squared has risen by each of
     /// [`RISES`](super::RISES).
     pub contours: Vec<Vec<[f64; 2]>>,
-    /// Mass or stiffness, if known, and the unit of the displacements in m.
-    pub inertia: Option<(Inertia, f64)>,
     /// Wall-clock seconds.
     pub seconds: f64,
 }
 
 impl Fitted {
+    /// A fit with its curves, but without contours.
+    #[must_use]
+    pub fn new(name: String, record: Record, estimate: Estimate, margins: Margins) -> Self {
+        let (curves, contours) = (Curves::of(&estimate, &margins), Vec::new());
+        Fitted { name, record, estimate, margins, curves, contours, seconds: 0.0 }
+    }
+
+    /// Mass or stiffness, if known, and the unit of the displacements in m.
+    #[must_use]
+    pub fn inertia(&self) -> Option<(Inertia, f64)> {
+        self.margins.question.inertia
+    }
+
     /// The units of time, length, velocity, force and impulse; the last two are NaN if neither mass nor
     /// stiffness is known. `None` without an estimated frequency or a known unit of length.
     #[must_use]
     pub fn units(&self) -> Option<Units> {
         let displacement = length_in_metres(self.unit()).filter(|_| self.estimate.free[OMEGA0])?;
         let omega_0 = self.estimate.p[OMEGA0];
-        let mass = self.inertia.map_or(f64::NAN, |(inertia, _)| inertia.times(omega_0, 0));
+        let mass = self.inertia().map_or(f64::NAN, |(inertia, _)| inertia.times(omega_0, 0));
         let velocity = omega_0 * displacement;
         let (impulse, force) = (mass * velocity, mass * omega_0 * velocity);
         Some(Units { omega_0, displacement, velocity, time: 1.0 / omega_0, impulse, force })
@@ -86,6 +97,9 @@ pub struct EstimatedNumber {
     /// Its symbol.
     #[serde(skip)]
     pub name: &'static str,
+    /// The place of the unknown that it follows from, beside the frequency.
+    #[serde(skip)]
+    pub unknown: Option<usize>,
     /// Its value.
     pub value: f64,
     /// Its standard error.
@@ -118,7 +132,7 @@ const LAWS: [Law; 6] = [
 /// The physical numbers with standard errors from the covariance of the fit; none if neither mass nor stiffness is
 /// known.
 pub fn rows(fitted: &Fitted) -> Vec<EstimatedNumber> {
-    let Some((inertia, metres)) = fitted.inertia else { return Vec::new() };
+    let Some((inertia, metres)) = fitted.inertia() else { return Vec::new() };
     LAWS.iter().map(|law| row(fitted, law, inertia, metres)).collect()
 }
 
@@ -132,12 +146,13 @@ fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNu
     let mut gradient = vec![(OMEGA0, constant * number * power / omega0)];
     gradient.extend(law.unknown.map(|unknown| (unknown, constant)));
     let standard_error = estimate.covariance.error_of(&gradient);
-    EstimatedNumber { name: law.name, value: constant * number, standard_error, unit: law.unit }
+    let value = constant * number;
+    EstimatedNumber { name: law.name, unknown: law.unknown, value, standard_error, unit: law.unit }
 }
 
 /// Factors that convert a displacement of the record to metres, and a velocity over `omega0` to an impulse.
 pub fn kicks(fitted: &Fitted) -> Option<(f64, f64)> {
-    let (inertia, metres) = fitted.inertia?;
+    let (inertia, metres) = fitted.inertia()?;
     Some((metres, metres * inertia.times(fitted.estimate.p[OMEGA0], 1)))
 }
 

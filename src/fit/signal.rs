@@ -57,11 +57,8 @@ impl Signal {
     /// The factor that makes the signal of an oscillation with this frequency swing as its displacement does.
     #[must_use]
     pub fn as_displacement(self, omega0: f64) -> f64 {
-        match self {
-            Signal::Displacement => 1.0,
-            Signal::Velocity => 1.0 / omega0,
-            Signal::Acceleration => -1.0 / (omega0 * omega0),
-        }
+        let sign = if self == Signal::Acceleration { -1.0 } else { 1.0 };
+        sign / self.scale(omega0)
     }
 
     /// What its dimensionless value is multiplied by for a motion with this frequency.

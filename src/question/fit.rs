@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::fit::{
-    self, Choice, Curves, D, D2, D3, Dropped, Estimate, Inertia, LAST, LossName, MarginQuestion,
-    Margins, NAMES, OMEGA0, Q0, Question, R, Record, Runs, Signal, StartKind, Unfit, estimate,
+    self, Choice, D, D2, D3, Dropped, Estimate, Inertia, LAST, LossName, MarginQuestion, Margins,
+    NAMES, OMEGA0, Q0, Question, R, Record, Runs, Signal, StartKind, Unfit, estimate,
     length_in_metres, margins, parameters,
 };
 use crate::flow::{Limits, Problem, Reason};
@@ -155,8 +155,8 @@ impl Fit {
         let inertia = metric(recording);
         let asked = MarginQuestion { draws: DRAWN, inertia, ..MarginQuestion::default() };
         let margins = margins(&estimate, &asked, limits)?;
-        let named = (recording.name.clone(), &recording.record);
-        Ok(Fit::with(named, estimate, (margins, true), inertia, 0.0))
+        let (name, record) = (recording.name.clone(), &recording.record);
+        Ok(Fit::with(name, record, estimate, margins, (0.0, true)))
     }
 
     /// The fit with those of D, D2, D3 and r held that have a value. Unless `drawn`, the distribution of the
@@ -197,21 +197,18 @@ impl Fit {
             }
             None => fit.margins.clone(),
         };
-        let named = (fit.name.clone(), &fit.record);
-        Ok(Fit::with(named, estimate, (margins, drawn.is_some()), fit.inertia, rise))
+        Ok(Fit::with(fit.name.clone(), &fit.record, estimate, margins, (rise, drawn.is_some())))
     }
 
     fn with(
-        (name, record): (String, &Record),
+        name: String,
+        record: &Record,
         estimate: Estimate,
-        (margins, drawn): (Margins, bool),
-        inertia: Option<(Inertia, f64)>,
-        rise: f64,
+        margins: Margins,
+        (rise, drawn): (f64, bool),
     ) -> Self {
-        let (points, curves) = (points(record, &estimate), Curves::of(&estimate, &margins));
-        let (record, contours, seconds) = (record.clone(), Vec::new(), 0.0);
-        let fit =
-            fit::Fitted { name, record, estimate, margins, curves, contours, inertia, seconds };
+        let points = points(record, &estimate);
+        let fit = fit::Fitted::new(name, record.clone(), estimate, margins);
         Fit(Arc::new(Ok(ShownFit { fit, points, rise, drawn })))
     }
 

@@ -173,7 +173,9 @@ impl EstimateRow {
     }
 
     /// A number in SI units.
-    fn physical(EstimatedNumber { name, value, standard_error, unit }: EstimatedNumber) -> Self {
+    fn physical(
+        EstimatedNumber { name, value, standard_error, unit, .. }: EstimatedNumber,
+    ) -> Self {
         EstimateRow {
             name: name.to_owned(),
             value: Some(value),

@@ -24,8 +24,10 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
         let error = error.map(|error| format!("{sign}{}", with_unit(error, 2, unit)));
         format!("{} {}", with_unit(value, 4, unit), error.as_deref().unwrap_or("held"))
     };
-    let named = rows(&found.fit).into_iter().find(|row| row.name == stands_for(symbol));
-    let physical = if let Some(row) = named {
+    let place = named(symbol.spec().name).map(|row| row.place);
+    let mut physical = rows(&found.fit).into_iter();
+    let physical = physical.find(|row| row.unknown.is_some() && row.unknown == place);
+    let physical = if let Some(row) = physical {
         let error = error.map(|_| row.standard_error);
         Some(format!("{} {}", row.name, with_error(row.value, error, row.unit)))
     } else {
@@ -47,17 +49,6 @@ fn unit(symbol: Knob, length: &str) -> String {
         _ => named(symbol.spec().name),
     };
     row.filter(|_| !length.is_empty()).map_or_else(String::new, |row| row.unit(length))
-}
-
-/// The number of a mass on a spring that a parameter is a measure of.
-fn stands_for(symbol: Knob) -> &'static str {
-    match symbol {
-        Knob::D => "d1",
-        Knob::D2 => "d2",
-        Knob::D3 => "d3",
-        Knob::R => "R",
-        _ => "",
-    }
 }
 
 /// Where the smallest shift from rest that is not survived lies with 95 %, with numbers held how much worse the fit is,

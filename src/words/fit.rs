@@ -224,13 +224,13 @@ pub fn signed(fitted: &Fitted) -> Statement {
     let margins = &fitted.margins;
     let MarginQuestion { confidence, disturbance, .. } = margins.question;
     let velocity = |omega0: f64, margin: &Margin| Some(margin.from_rest.impulse? * omega0);
-    let has_mass = fitted.inertia.is_some();
+    let has_mass = fitted.inertia().is_some();
     let length = if fitted.unit().is_empty() { "unit" } else { fitted.unit() };
     let units = if has_mass { ["N s", "m", "N"] } else { [length; 3] };
     let [impulse, displacement, disturbed] = units.map(str::to_owned);
     // Those of a displacement and of a velocity over omega0.
     let scales = |omega0: f64| {
-        fitted.inertia.map_or((1.0, 1.0), |(it, metres)| (metres, metres * it.times(omega0, 1)))
+        fitted.inertia().map_or((1.0, 1.0), |(it, metres)| (metres, metres * it.times(omega0, 1)))
     };
     let reach = margins.certain(|_, margin| margin.displacement);
     let reach = reach.map(|reach| reach / fitted.estimate.amplitudes().1);
@@ -261,7 +261,7 @@ pub fn signed(fitted: &Fitted) -> Statement {
 
 fn sentence(fitted: &Fitted, statement: &Statement) -> String {
     let confidence = format!("{} % confidence", significant(100.0 * statement.confidence, 6));
-    let amount = |value: f64, unit: &str| match fitted.inertia {
+    let amount = |value: f64, unit: &str| match fitted.inertia() {
         Some(_) => with_unit(rounded_down(value, 3), 3, unit),
         None => format!("{} {unit}", significant(rounded_down(value, 3), 3)),
     };
@@ -285,7 +285,7 @@ fn sentence(fitted: &Fitted, statement: &Statement) -> String {
                 amount(velocity, &format!("{length}/s"))
             )
         }
-        (Some(impulse), None, _) if fitted.inertia.is_some() => {
+        (Some(impulse), None, _) if fitted.inertia().is_some() => {
             format!("an impulse below {} is survived", amount(impulse, impulse_unit))
         }
         (Some(impulse), None, _) => {
@@ -311,7 +311,7 @@ fn sentence(fitted: &Fitted, statement: &Statement) -> String {
 /// `a force of at most 0.5 N`.
 fn force(fitted: &Fitted, statement: &Statement) -> Option<String> {
     let Statement { disturbance, units, .. } = statement;
-    let size = match fitted.inertia {
+    let size = match fitted.inertia() {
         Some(_) => with_unit(*disturbance, 6, "N"),
         None => {
             format!("{} {} times the stiffness", significant(*disturbance, 6), units.disturbance)
