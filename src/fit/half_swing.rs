@@ -3,11 +3,11 @@
 //! Along with the motion `x' = v, v' = f(x, v)`, four solutions of the variational equation
 //! `y' = w, w' = -y + (df/dv) w + g` are computed: a homogeneous one that starts across the flow, and those for D, D2
 //! and D3 with `g = -2 v, -v^2, -v^3`. The Taylor coefficients of motion and derivatives obey one
-//! recurrence. If the damping is linear and stays so, everything has a closed form, which is several times faster.
+//! recurrence.
 
 use crate::model::HalfPlane;
 use crate::numerics::count::real;
-use crate::numerics::elementary::{atan2, exp, pow, sin_cos};
+use crate::numerics::elementary::pow;
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 
 /// Number of solutions of the variational equation: across the flow, and by D, D2 (of this frame) and D3.
@@ -41,51 +41,31 @@ pub struct Jet {
     pub w: [f64; WAYS],
 }
 
-/// A part of a half swing that is described by one formula.
+/// A part of a half swing that is described by one series.
 #[derive(Clone, Debug)]
 pub struct Stretch {
     field: HalfPlane,
     /// Whether derivatives are computed.
     with_derivatives: bool,
-    formula: Formula,
-    /// Time for which the formula holds.
+    /// Taylor coefficients.
+    terms: Box<[Lanes; ORDER + 1]>,
+    /// Time for which the series holds.
     pub duration: f64,
     /// Whether the stretch ends at `v = 0`.
     pub arrives: bool,
 }
 
-#[derive(Clone, Debug)]
-enum Formula {
-    /// The linear oscillation from this point, `abs(D) < 1`, with frequency `omega`.
-    Linear { start: Jet, omega: f64 },
-    /// Taylor coefficients.
-    Series(Box<[Lanes; ORDER + 1]>),
-}
-
-/// Damping above which the closed form loses digits because `omega` is small.
-const OSCILLATORY: f64 = 0.9;
-
 impl Stretch {
-    /// The first stretch of the half swing from `start`; in closed form if `linear` is set and the damping allows it.
-    /// `linear` requires `D2 = D3 = 0` and leaves out the derivatives with respect to them.
-    ///
-    /// `None` if numbers overflow.
-    pub fn new(field: HalfPlane, start: Jet, linear: bool, with_derivatives: bool) -> Option<Self> {
-        let is_closed = linear && field.d.abs() < OSCILLATORY;
-        let omega = ((1.0 - field.d) * (1.0 + field.d)).sqrt();
-        let formula = if is_closed {
-            Formula::Linear { start, omega }
-        } else {
-            Formula::Series(Box::new([[0.0; 8]; ORDER + 1]))
-        };
-        let duration = atan2(omega * start.v, start.x + field.d * start.v) / omega;
-        let mut first = Stretch { field, with_derivatives, formula, duration, arrives: true };
-        (is_closed || first.advance(start)).then_some(first)
+    /// The first stretch of the half swing from `start`; `None` if numbers overflow.
+    pub fn new(field: HalfPlane, start: Jet, with_derivatives: bool) -> Option<Self> {
+        let terms = Box::new([[0.0; 8]; ORDER + 1]);
+        let mut first = Stretch { field, with_derivatives, terms, duration: 0.0, arrives: false };
+        first.advance(start).then_some(first)
     }
 
     /// Replaces the stretch with the one that begins at `start`; `false` if numbers overflow.
     pub fn advance(&mut self, start: Jet) -> bool {
-        let Formula::Series(terms) = &mut self.formula else { return false };
+        let terms = &mut self.terms;
         let duration = if self.with_derivatives {
             expand::<true>(terms, &self.field, &start)
         } else {
@@ -97,17 +77,11 @@ impl Stretch {
         duration > 0.0 && end.is_finite()
     }
 
-    /// The point `t` after the start of this stretch; of a series without the derivatives of the velocity.
+    /// The point `t` after the start of this stretch, without the derivatives of the velocity.
     #[inline]
     pub fn at(&self, t: f64) -> Jet {
-        let terms = match &self.formula {
-            Formula::Linear { start, omega } => {
-                return linear_jet(self.field.d, *omega, start, t);
-            }
-            Formula::Series(terms) => terms,
-        };
-        let mut sum = terms[ORDER];
-        for term in terms[..ORDER].iter().rev() {
+        let mut sum = self.terms[ORDER];
+        for term in self.terms[..ORDER].iter().rev() {
             for (sum, term) in sum.iter_mut().zip(term) {
                 *sum = *sum * t + term;
             }
@@ -119,30 +93,13 @@ impl Stretch {
     /// The point `t` after the start of this stretch, with all derivatives.
     pub fn jet(&self, t: f64) -> Jet {
         let mut jet = self.at(t);
-        let Formula::Series(terms) = &self.formula else { return jet };
-        for (order, term) in terms.iter().enumerate().skip(1).rev() {
+        for (order, term) in self.terms.iter().enumerate().skip(1).rev() {
             for (w, term) in jet.w.iter_mut().zip(&term[FIRST..]) {
                 *w = *w * t + real(order) * term;
             }
         }
         jet
     }
-}
-
-/// The linear oscillation: `C = cos(omega t)`, `S = sin(omega t)/omega`, both times `e^(-D t)`.
-fn linear_jet(d: f64, omega: f64, start: &Jet, t: f64) -> Jet {
-    let decay = exp(-d * t);
-    let (sine, cosine) = sin_cos(omega * t);
-    let (c, s) = (decay * cosine, decay * sine / omega);
-    let flow = |x: f64, v: f64| (c * x + s * (v + d * x), c * v - s * (x + d * v));
-    let Jet { x, v, y, w } = *start;
-    let (across, sped) = flow(y[0], w[0]);
-    // dC/dD = t D S and dS/dD = -D (t C - S)/omega^2; the decay adds a factor -t.
-    let (c_by_d, s_by_d) = (t * (d * s - c), -t * s - d / (omega * omega) * (t * c - s));
-    let y = [across, c_by_d * x + s_by_d * (v + d * x) + s * x, 0.0, 0.0];
-    let w = [sped, c_by_d * v - s_by_d * (x + d * v) - s * v, 0.0, 0.0];
-    let (x, v) = flow(x, v);
-    Jet { x, v, y, w }
 }
 
 /// Computes the Taylor coefficients; returns the time for which they are accurate enough.

@@ -73,8 +73,6 @@ pub struct FollowedMotion {
 /// How a motion is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Way {
-    /// Whether D2 and D3 are zero, and derivatives by them not wanted.
-    pub linear: bool,
     /// Whether derivatives are wanted.
     pub with_derivatives: bool,
     /// Displacement or velocity beyond which a motion counts as lost.
@@ -89,7 +87,7 @@ impl Default for Way {
     /// Every displacement, without derivatives.
     fn default() -> Self {
         let (reach, turns, signal) = (f64::MAX, usize::MAX, Signal::Displacement);
-        Way { linear: false, with_derivatives: false, reach, turns, signal }
+        Way { with_derivatives: false, reach, turns, signal }
     }
 }
 
@@ -205,9 +203,9 @@ impl FittedSwing {
         way: Way,
         see: &mut impl FnMut(usize, MotionPoint),
     ) -> Result<Option<FittedTurn>, MotionLost> {
-        let Way { linear, with_derivatives, reach, signal, .. } = way;
+        let Way { with_derivatives, reach, signal, .. } = way;
         let mut stretch =
-            Stretch::new(self.field, self.start, linear, with_derivatives).ok_or(MotionLost)?;
+            Stretch::new(self.field, self.start, with_derivatives).ok_or(MotionLost)?;
         let mut from = self.tau;
         for _ in 0..STEPS {
             let until = from + stretch.duration;
@@ -393,23 +391,6 @@ mod tests {
                 let is = if moves { -force - q.q - friction } else { 0.0 };
                 assert!((a.signal - is).abs() < 1e-12 * start.q.abs(), "{parameters:?} {a:?}");
                 assert!(moves || (v.signal, a.by, v.by) == (0.0, [0.0; NUMBERS], [0.0; NUMBERS]));
-            }
-        }
-    }
-
-    #[test]
-    fn the_closed_form_and_the_series_are_one_motion() {
-        let (parameters, moving) = MOTIONS[3];
-        for start in [moving, State { q: 4.0, v: 0.0 }, State { q: -4.0, v: 0.0 }] {
-            let formula = points(&parameters, start, &times(), Way { linear: true, ..way(true) });
-            let series = points(&parameters, start, &times(), way(true));
-            for (formula, series) in formula.iter().zip(&series) {
-                assert!((formula.q - series.q).abs() < 1e-12, "{start:?}");
-                // With respect to D, r, q0 and v0; the closed form leaves out D2 and D3.
-                for p in [0, 3, 4, 5] {
-                    let off = (formula.by[p] - series.by[p]).abs();
-                    assert!(off < 1e-11 * formula.by[p].abs().max(1.0), "number {p}: {off}");
-                }
             }
         }
     }

@@ -175,8 +175,7 @@ impl Data {
         if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
             return Err(MotionLost);
         }
-        let linear = way.linear && p[D2] == 0.0 && p[D3] == 0.0;
-        let way = Way { linear, signal: self.signal, ..way };
+        let way = Way { signal: self.signal, ..way };
         match self.peaks {
             None => self.samples(start, p, way),
             Some(ratio) => peaks(p, self, ratio, way),

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    BEND, D2, D3, Data, IMPOSSIBLE, Loss, OMEGA0, Region, Residual, SLOPE, Seen, StartKind,
-    UNKNOWNS, Unfit, Unknowns, Way, robust_deviation, whiteness,
+    BEND, Data, IMPOSSIBLE, Loss, OMEGA0, Region, Residual, SLOPE, Seen, StartKind, UNKNOWNS,
+    Unfit, Unknowns, Way, robust_deviation, whiteness,
 };
 use crate::numerics::count::real;
 
@@ -196,8 +196,7 @@ impl<'a> Task<'a> {
             return Err(Unfit::GaveUp { motions: runs.most, closest: runs.closest });
         }
         *(if with_derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
-        let linear = !self.free[D2] && !self.free[D3];
-        let way = Way { linear, with_derivatives, reach: self.reach, ..Way::default() };
+        let way = Way { with_derivatives, reach: self.reach, ..Way::default() };
         self.data.compare(self.start, p, way).map_err(|_| Unfit::NoMotion)
     }
 
