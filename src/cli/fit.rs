@@ -10,8 +10,8 @@ use super::progress::{Outlet, StatusLine};
 use super::{Failure, Output, input, timed, write};
 use crate::figure::{self, Figure, FileForm};
 use crate::fit::{
-    D, DRAWS, Estimate, Fitted, Inertia, MarginQuestion, NameSpec, R, RISES, Record, Runs, Unfit,
-    assigned, contour, estimate, length_in_metres, margins,
+    D, DRAWS, Fitted, Inertia, MarginQuestion, NameSpec, Record, Unfit, assigned, estimate,
+    length_in_metres, margins,
 };
 use crate::flow::Limits;
 use crate::model::Knob;
@@ -124,10 +124,8 @@ impl FitCommand {
             Unfit::TooFew { .. } | Unfit::NotAlternating { .. } => bad(&reason),
             _ => Failure::Unanswered(format!("{name}: {reason}")),
         })?;
-        let drawn = self.pictures.is_some() || self.report.is_some();
-        let contours = if drawn { contours(&estimate) } else { Vec::new() };
         let name = short_name(&self.file);
-        Ok(Fitted { contours, seconds, ..Fitted::new(name, record, estimate, margins) })
+        Ok(Fitted { seconds, ..Fitted::new(name, record, estimate, margins) })
     }
 
     fn margin_question(&self, record: &Record) -> Result<MarginQuestion, String> {
@@ -162,15 +160,6 @@ fn disturbance(
             "in N takes --mass or --stiffness; without them it is the force over the stiffness, a length".to_owned(),
         )),
     }
-}
-
-/// The contours in D and r; none unless both were estimated.
-fn contours(found: &Estimate) -> Vec<Vec<[f64; 2]>> {
-    if !(found.free[D] && found.free[R]) {
-        return Vec::new();
-    }
-    let mut runs = Runs::new(&|| false);
-    RISES.iter().filter_map(|rise| contour(found, [D, R], *rise, &mut runs).ok()).collect()
 }
 
 fn short_name(path: &Path) -> String {

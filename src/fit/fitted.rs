@@ -30,19 +30,16 @@ pub struct Fitted {
     pub margins: Margins,
     /// The curves in its pictures.
     pub curves: Curves,
-    /// For the pictures: the contours in the plane of D and r along which chi-squared has risen by each of
-    /// [`RISES`](super::RISES).
-    pub contours: Vec<Vec<[f64; 2]>>,
     /// Wall-clock seconds.
     pub seconds: f64,
 }
 
 impl Fitted {
-    /// A fit with its curves, but without contours.
+    /// A fit with its curves.
     #[must_use]
     pub fn new(name: String, record: Record, estimate: Estimate, margins: Margins) -> Self {
-        let (curves, contours) = (Curves::of(&estimate, &margins), Vec::new());
-        Fitted { name, record, estimate, margins, curves, contours, seconds: 0.0 }
+        let curves = Curves::of(&estimate, &margins);
+        Fitted { name, record, estimate, margins, curves, seconds: 0.0 }
     }
 
     /// Mass or stiffness, if known, and the unit of the displacements in m.

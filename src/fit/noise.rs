@@ -75,11 +75,10 @@ impl Noise {
         const FEW: f64 = 12.0;
         /// Fraction of impossible second differences above which a record has outliers.
         const SHARE: f64 = 0.003;
-        let differences = [0.0, 2.0, -1.0];
-        let [level, one, two] = Some(x)
-            .filter(|_| samples_per_period < FEW)
-            .and_then(told_by_two)
-            .unwrap_or(differences);
+        // The constant and the weights of the two preceding samples in the best prediction of a sample.
+        let told = || least_squares(x.windows(3).map(|it| ([1.0, it[1], it[0]], it[2])));
+        let few = samples_per_period < FEW;
+        let [level, one, two] = few.then(told).flatten().unwrap_or([0.0, 2.0, -1.0]);
         let second: Vec<f64> = x
             .windows(3)
             .map(|three| (three[2] - one * three[1] - two * three[0] - level).abs())
@@ -130,11 +129,6 @@ fn alternates(x: &[f64]) -> bool {
     let fourth: Vec<f64> = fourth.filter(|value| *value != 0.0).collect();
     let changes = fourth.windows(2).filter(|two| two[0] * two[1] < 0.0).count();
     2 * changes > fourth.len()
-}
-
-/// The constant and the weights of the two preceding samples in the best linear prediction of a sample.
-fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
-    least_squares(x.windows(3).map(|three| ([1.0, three[1], three[0]], three[2])))
 }
 
 /// Which samples lie within full scale. A converter that saturates repeats its largest or smallest value far more

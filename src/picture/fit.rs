@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 
 use super::{CycleStyle, Dash, Item, LineStyle, Mark, Marks, Picture, Role, cycle_style};
 use crate::fit::{
-    D, D3, Dropped, Extent, Fitted, PlotPoint, Q0, R, Signal, memory as memory_of, parameters,
+    D, D3, Dropped, Extent, Fitted, PlotPoint, Q0, R, RISES, Runs, Signal, contour,
+    memory as memory_of, parameters,
 };
 use crate::flow::Limits;
 use crate::model::{Parameters, State};
@@ -183,13 +184,17 @@ fn border(picture: &mut Picture, parameters: &Parameters, largest: f64, line: Li
 fn together(fitted: &Fitted) -> Option<Picture<'static>> {
     const LINES: [(&str, Dash); 2] =
         [("delta chi^2 = 2.3 (68 %)", Dash::Solid), ("delta chi^2 = 6 (95 %)", Dash::Dashed)];
-    let p = &fitted.estimate.p;
+    let estimate = &fitted.estimate;
+    let p = &estimate.p;
+    if !(estimate.free[D] && estimate.free[R]) {
+        return None;
+    }
     let r = with_unit("r", fitted.unit());
     let mut picture = Picture::new("D and r together", "D", r, EMPTY);
-    for (contour, (name, dash)) in fitted.contours.iter().zip(LINES) {
-        if !contour.is_empty() {
-            let line = LineStyle::new(name, Role::Trajectory, dash);
-            picture.curve(line, contour.iter().map(|[d, r]| at(*d, *r)));
+    for (rise, (name, dash)) in RISES.into_iter().zip(LINES) {
+        let contour = contour(estimate, [D, R], rise, &mut Runs::new(&|| false));
+        if let Some(contour) = contour.ok().filter(|it| !it.is_empty()) {
+            picture.curve(LineStyle::new(name, Role::Trajectory, dash), points(&contour));
         }
     }
     picture.window = around(&picture)?;
