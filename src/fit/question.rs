@@ -199,14 +199,15 @@ impl Choice {
 }
 
 /// The question that a fit answers.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Question {
+    /// Whether the record is a list of peaks.
+    pub peaks: bool,
     /// Which numbers are estimated and which are held.
     pub choice: Choice,
     /// How residuals are weighted.
     pub loss: LossName,
-    /// Whether the record is a list of peaks.
-    pub peaks: bool,
 }
 
 /// The mass or stiffness, which a record does not contain.

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::fit::{
-    self, Choice, D, D2, D3, Dropped, Estimate, Inertia, LAST, LossName, MarginQuestion, Margins,
-    NAMES, OMEGA0, Q0, Question, R, Record, Runs, Signal, StartKind, Unfit, estimate,
-    length_in_metres, margins, parameters,
+    self, D, D2, D3, Dropped, Estimate, Inertia, LAST, MarginQuestion, Margins, NAMES, OMEGA0, Q0,
+    Question, R, Record, Runs, Signal, StartKind, Unfit, estimate, length_in_metres, margins,
+    parameters,
 };
 use crate::flow::{Limits, Problem, Reason};
 use crate::model::{Knob, State};
@@ -35,15 +35,9 @@ pub struct Opened {
     /// Mass or stiffness, if known; the record then names its unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<Inertia>,
-    /// Whether the rows are successive turning points.
-    #[serde(default)]
-    pub peaks: bool,
-    /// What is estimated and what is held.
-    #[serde(default)]
-    pub choice: Choice,
-    /// Loss function of the residuals.
-    #[serde(default)]
-    pub loss: LossName,
+    /// What is asked about it.
+    #[serde(flatten)]
+    pub question: Question,
 }
 
 /// An opened record. Copies share their data, so that comparing them is immediate.
@@ -145,8 +139,8 @@ impl Fit {
             report(motions.get());
             (limits.interrupted)()
         };
-        let peaks = recording.peaks || recording.record.t.is_none();
-        let question = Question { peaks, choice: recording.choice.clone(), loss: recording.loss };
+        let mut question = recording.question.clone();
+        question.peaks |= recording.record.t.is_none();
         let estimate = match estimate(&recording.record, &question, &interrupted) {
             Ok(estimate) => estimate,
             Err(Unfit::Interrupted) => return Err(Reason::Interrupted),

@@ -178,7 +178,7 @@ fn what_is_free_held_and_how_residuals_count_may_stand_behind_the_file() {
     assert!(found.holds(Knob::R) && found.holds(Knob::D2) && !found.holds(Knob::D));
     assert_eq!(trial.session.problem.parameters.r, 0.05);
     let recording = trial.session.scene.recording.as_ref().unwrap();
-    assert_eq!(recording.loss, hopfscope::fit::LossName::Cauchy);
+    assert_eq!(recording.question.loss, hopfscope::fit::LossName::Cauchy);
     // A reopened session asks the same again.
     reopened(&trial.session);
 }

@@ -4,7 +4,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::fit::Question;
 use crate::question::Opened;
 use crate::question::record::{RecordOptions, apart};
 use crate::scene::machine::NO_BELT;
@@ -225,7 +224,6 @@ pub(crate) fn opened(path: &Path, words: &str, text: &str) -> Result<Opened, Str
     let options = RecordOptions::of_words(words)?;
     let record = options.read(text.as_bytes()).map_err(|error| error.to_string())?;
     let inertia = options.inertia(&record)?.map(|(inertia, _)| inertia);
-    let Question { peaks, choice, loss } = options.question();
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    Ok(Opened { name, record, inertia, peaks, choice, loss })
+    Ok(Opened { name, record, inertia, question: options.question() })
 }
