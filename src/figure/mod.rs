@@ -120,17 +120,10 @@ impl Figure {
             units: "lengths in the unit of the record, times in s, velocities and impulses over omega0",
             parameters: parameters(p),
             initial: estimate.start.beginning(p, &[]).1,
-            until: duration(fitted),
+            until: p[OMEGA0] * estimate.data.duration(),
             method: "half swings with exact derivatives".into(),
             tolerance: 1e-13,
             panels: pictures(fitted).iter().map(Panel::of).collect(),
         }
     }
-}
-
-/// The dimensionless duration of the record.
-fn duration(fitted: &Fitted) -> f64 {
-    let t = &fitted.estimate.data.t;
-    let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
-    fitted.estimate.p[OMEGA0] * span
 }

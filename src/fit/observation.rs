@@ -90,6 +90,12 @@ impl Data {
         if self.has_peaks() { 2.0 } else { rate(&self.t) * std::f64::consts::TAU / omega0 }
     }
 
+    /// The time from the first measurement to the last one; 0 without times.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.t.last().zip(self.t.first()).map_or(0.0, |(last, first)| last - first)
+    }
+
     /// The offset at a time.
     #[must_use]
     pub fn zero(&self, p: &Unknowns, time: f64) -> f64 {

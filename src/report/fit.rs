@@ -9,7 +9,7 @@ use crate::fit::{
 };
 use crate::portrait::Kicks;
 use crate::words::fit::{left_out as counts, remarks, sentences, signed};
-use crate::words::number::resolved;
+use crate::words::number::{in_unit, resolved, with_error};
 use crate::words::{duration, significant};
 
 /// The whole answer of a fit: in rows one for each estimated number, then the margins.
@@ -269,7 +269,7 @@ fn subject(fitted: &Fitted) -> String {
         let times = if t.is_empty() { "without" } else { "with" };
         format!("{} peaks {times} times", x.len())
     } else {
-        let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
+        let span = estimate.data.duration();
         let begin = match estimate.start {
             StartKind::Release => "released within it",
             StartKind::Moving if estimate.count(Dropped::Before) > 0 => "since the mass was struck",
@@ -288,8 +288,7 @@ fn start(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
     let number = |name: &str, place: usize, unit: &str| {
         let error = estimate.covariance.error(place);
-        let value = resolved(estimate.p[place], 0.05 * error);
-        format!("{name} = {value} +- {} {unit}", significant(error, 2)).trim_end().to_owned()
+        format!("{name} = {}", with_error(estimate.p[place], error, unit))
     };
     let unit = fitted.unit();
     let mut parts = vec![number("q0", Q0, unit)];
@@ -300,8 +299,8 @@ fn start(fitted: &Fitted) -> String {
         });
     }
     let noise = significant(estimate.covariance.deviation, 3);
-    let line = format!("start: {}; noise {noise} {}", parts.join(", "), fitted.signal_unit());
-    line.trim_end().to_owned()
+    let noise = in_unit(&noise, &fitted.signal_unit());
+    format!("start: {}; noise {noise}", parts.join(", "))
 }
 
 /// The correlations between the estimated numbers; empty for a single one.

@@ -6,6 +6,7 @@ use crate::model::Knob;
 use crate::scene::ShownFit;
 use crate::session::{Row, Session};
 use crate::words::fit::signed;
+use crate::words::number::in_unit;
 use crate::words::{significant, with_unit};
 
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
@@ -15,7 +16,7 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
     let told = match error {
         Some(error) => {
             let bare = format!("{sign}{}", significant(error, 2));
-            vec![format!("{bare} {}", unit(symbol, found.fit.unit())).trim_end().to_owned(), bare]
+            vec![in_unit(&bare, &unit(symbol, found.fit.unit())), bare]
         }
         None if found.holds(symbol) => vec!["held".to_owned()],
         None => return Vec::new(),

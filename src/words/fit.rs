@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::counted;
-use super::number::{resolved, rounded_down, significant, with_unit};
+use super::number::{in_unit, rounded_down, significant, with_error, with_unit};
 use crate::fit::{
     Combination, Condition, D, Dropped, Fitted, FittedDrift, MarginQuestion, Margins, NAMES,
     NameSpec, R, Rival, StartKind, combinations, conditions,
@@ -38,33 +38,25 @@ fn listed(names: &[&str]) -> String {
     }
 }
 
+/// Why samples are left out, in the order in which that is said.
+const REASONS: [(Dropped, &str); 6] = [
+    (Dropped::Before, "at rest before the mass was struck"),
+    (Dropped::After, "after the mass was excited again: fit them as a file of their own"),
+    (Dropped::Saturated, "flattened at full scale"),
+    (Dropped::Jump, "next to the turning points, where an acceleration jumps"),
+    (Dropped::Alike, "at rest that the steps of the converter round alike"),
+    (Dropped::Outlier, "impossible for this motion and noise (4.5 deviations)"),
+];
+
 /// What was left out of a record, and why, a sentence each.
 pub fn left_out(fitted: &Fitted) -> Vec<String> {
-    let dropped = |why| fitted.estimate.count(why);
-    let counts = [
+    let rows = [
         (fitted.record.missing, "row", "without a number"),
         (fitted.record.repeated, "row", "repeating another one"),
-        (dropped(Dropped::Before), "sample", "at rest before the mass was struck"),
-        (
-            dropped(Dropped::After),
-            "sample",
-            "after the mass was excited again: fit them as a file of their own",
-        ),
-        (dropped(Dropped::Saturated), "sample", "flattened at full scale"),
-        (
-            dropped(Dropped::Jump),
-            "sample",
-            "next to the turning points, where an acceleration jumps",
-        ),
-        (dropped(Dropped::Alike), "sample", "at rest that the steps of the converter round alike"),
-        (
-            dropped(Dropped::Outlier),
-            "sample",
-            "impossible for this motion and noise (4.5 deviations)",
-        ),
     ];
-    let said = counts.iter().filter(|(count, ..)| *count > 0);
-    said.map(|(count, what, why)| format!("left out: {} {why}", counted(*count, what))).collect()
+    let samples = REASONS.map(|(why, words)| (fitted.estimate.count(why), "sample", words));
+    let said = rows.into_iter().chain(samples).filter(|(count, ..)| *count > 0);
+    said.map(|(count, what, why)| format!("left out: {} {why}", counted(count, what))).collect()
 }
 
 /// How far the zero drifts.
@@ -72,11 +64,7 @@ fn drift(fitted: &Fitted) -> Option<String> {
     let FittedDrift { change, standard_error, bend, bend_standard_error } =
         fitted.estimate.drift()?;
     let unit = fitted.signal_unit();
-    let number = |value: f64, error: f64| {
-        format!("{} +- {} {unit}", resolved(value, 0.05 * error), significant(error, 2))
-            .trim_end()
-            .to_owned()
-    };
+    let number = |value: f64, error: f64| with_error(value, error, &unit);
     let along = if bend == 0.0 {
         "along a line".to_owned()
     } else {
@@ -327,8 +315,8 @@ fn changes(fitted: &Fitted) -> String {
     let mut all = String::new();
     for (row, half) in rows {
         let (start, verb) = if all.is_empty() { (", even if", " changes") } else { (" and", "") };
-        let half = format!("{} {}", significant(half, 6), row.unit(fitted.unit()));
-        all += &format!("{start} {}{verb} by up to {}", row.name, half.trim_end());
+        let half = in_unit(&significant(half, 6), &row.unit(fitted.unit()));
+        all += &format!("{start} {}{verb} by up to {half}", row.name);
     }
     all
 }
@@ -349,8 +337,7 @@ fn lost(fitted: &Fitted, force: Option<String>) -> String {
 fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
     let (low, high) = fitted.estimate.amplitudes();
     let unit = fitted.unit();
-    let range = format!("{} .. {} {unit}", significant(low, 3), significant(high, 3));
-    let range = range.trim_end();
+    let range = in_unit(&format!("{} .. {}", significant(low, 3), significant(high, 3)), unit);
     let holds = reach.is_some_and(|it| it == 0.0 || (it <= 1.0 && it * high >= low));
     let detail = match (reach, fitted.margins.allowed) {
         (Some(reach), _) if holds || reach > 1.0 => format!(
@@ -365,7 +352,7 @@ fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
             "amplitudes measured were {range}; with {name} = {}, which the record does not exclude, a displacement of {} \
              is not survived, {} times the largest amplitude",
             significant(value, 2),
-            format!("{} {unit}", significant(at, 3)).trim_end(),
+            in_unit(&significant(at, 3), unit),
             significant(at / high, 2)
         ),
         (None, None) => {

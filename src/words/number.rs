@@ -44,6 +44,17 @@ pub fn resolved(value: f64, resolution: f64) -> String {
     if ratio < 0.0 { "0".into() } else { significant(value, digits) }
 }
 
+/// Writes `value` and its standard error, each with the digits that count, and their unit.
+pub fn with_error(value: f64, error: f64, unit: &str) -> String {
+    let value = resolved(value, 0.05 * error);
+    in_unit(&format!("{value} +- {}", significant(error, 2)), unit)
+}
+
+/// A number with its unit, if that is known.
+pub fn in_unit(number: &str, unit: &str) -> String {
+    format!("{number} {unit}").trim_end().to_owned()
+}
+
 /// Writes `value` so that it reads back as the same number, if that fits into `width` columns; otherwise rounds
 /// it until it fits.
 pub fn exact(value: f64, width: usize) -> String {
