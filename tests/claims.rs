@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use hopfscope::flow::{Limits, Reason};
-use hopfscope::paper::{Certainty, ClaimResult, Finding, Sense, UNSAID, Verdict, claims, examine};
+use hopfscope::paper::{Certainty, ClaimResult, Evidence, Sense, UNSAID, Verdict, claims, examine};
 use hopfscope::scene::find;
 
 /// Change of energy of the piecewise linear motion with D = -0.1, r = 0.1 from rest at q = 1.5 until tau = 20,
@@ -14,13 +14,13 @@ const CHANGE_OF_ENERGY: f64 = 21.673_075_535_168_95;
 static ALL: LazyLock<Vec<ClaimResult>> =
     LazyLock::new(|| claims().map(|claim| examine(claim, &Limits::PATIENT).unwrap()).collect());
 
-/// The findings about an equation whose statement contains some words.
-fn about(equation: &str, words: &str) -> &'static Finding {
+/// The evidence about an equation whose statement contains some words.
+fn about(equation: &str, words: &str) -> &'static Evidence {
     let matching =
         |one: &&ClaimResult| one.claim.equation == equation && one.claim.statement.contains(words);
     let found: Vec<_> = ALL.iter().filter(matching).collect();
     assert_eq!(found.len(), 1, "{equation} {words}");
-    found[0].finding.as_ref().unwrap_or_else(|reason| panic!("{equation} {words}: {reason}"))
+    found[0].evidence.as_ref().unwrap_or_else(|reason| panic!("{equation} {words}: {reason}"))
 }
 
 #[test]
@@ -28,15 +28,18 @@ fn every_claim_is_decided_by_numbers() {
     let mut told = std::collections::BTreeSet::new();
     for one in ALL.iter() {
         let name = format!("{} {}", one.claim.equation, one.claim.statement);
-        let finding = one.finding.as_ref().unwrap_or_else(|reason| panic!("{name}: {reason}"));
-        assert!(finding.computed.value.is_finite() && finding.computed.error >= 0.0, "{name}");
-        assert!(finding.bound() >= 0.0 && finding.difference().unwrap().is_finite(), "{name}");
-        assert!((1..).contains(&finding.cases) && finding.held <= finding.cases, "{name}");
+        let evidence = one.evidence.as_ref().unwrap_or_else(|reason| panic!("{name}: {reason}"));
+        assert!(evidence.computed.value.is_finite() && evidence.computed.error >= 0.0, "{name}");
+        assert!(evidence.bound() >= 0.0 && evidence.difference().unwrap().is_finite(), "{name}");
+        assert!((1..).contains(&evidence.cases) && evidence.held <= evidence.cases, "{name}");
         // A claim stands once, with what it is compared with.
         assert!(told.insert(one.claim.statement) && !one.claim.basis.is_empty(), "{name}");
-        assert_eq!(finding.paper.is_none(), one.claim.section == UNSAID, "{name}");
+        assert_eq!(evidence.paper.is_none(), one.claim.section == UNSAID, "{name}");
         // Computed numbers are known well enough to decide: to six digits, or as a count.
-        assert!(finding.computed.error <= 1e-5 * finding.computed.value.abs().max(1e-5), "{name}");
+        assert!(
+            evidence.computed.error <= 1e-5 * evidence.computed.value.abs().max(1e-5),
+            "{name}"
+        );
     }
 }
 
@@ -61,9 +64,12 @@ fn misprints_fail_and_their_corrections_hold() {
         ("before (52)", "8 D3"),
         ("(53)", "A_01"),
     ] {
-        let finding = about(equation, words);
-        assert!(matches!(finding.verdict(), Verdict::Corrected { .. }), "{equation}: {finding:?}");
-        assert!(finding.miss() > 1e-3, "{equation}: {finding:?}");
+        let evidence = about(equation, words);
+        assert!(
+            matches!(evidence.verdict(), Verdict::Corrected { .. }),
+            "{equation}: {evidence:?}"
+        );
+        assert!(evidence.miss() > 1e-3, "{equation}: {evidence:?}");
     }
 }
 
@@ -76,8 +82,8 @@ fn false_statements_are_found_false() {
         ("(51)", "amplitude of the cycle"),
         ("6.4", "with D2 as without"),
     ] {
-        let finding = about(equation, words);
-        assert_eq!(finding.verdict(), Verdict::False, "{equation}: {finding:?}");
+        let evidence = about(equation, words);
+        assert_eq!(evidence.verdict(), Verdict::False, "{equation}: {evidence:?}");
     }
 }
 
@@ -91,9 +97,9 @@ fn general_statements_fail_in_some_cases() {
         ("6.4", "for all values of D", "D = -1"),
         ("6.4, Fig. 13", "merely distorts", "D = -0.07, D2 = 0.2, r = 0.5"),
     ] {
-        let finding = about(equation, words);
-        assert_eq!(finding.verdict(), Verdict::InPart, "{equation}: {finding:?}");
-        assert_eq!(finding.place, format!("first fails at {fails}"), "{equation} {words}");
+        let evidence = about(equation, words);
+        assert_eq!(evidence.verdict(), Verdict::InPart, "{equation}: {evidence:?}");
+        assert_eq!(evidence.place, format!("first fails at {fails}"), "{equation} {words}");
     }
 }
 
@@ -108,9 +114,9 @@ fn approximations_are_judged_over_a_range() {
         ("(51)", "small amplitude", 2, 0.294),
         ("(52)", "large amplitude", 2, 0.446),
     ] {
-        let finding = about(equation, words);
-        assert_eq!((finding.verdict(), finding.held), (Verdict::InPart, held), "{finding:?}");
-        assert!((finding.miss() - off).abs() < 2e-3, "{equation}: {finding:?}");
+        let evidence = about(equation, words);
+        assert_eq!((evidence.verdict(), evidence.held), (Verdict::InPart, held), "{evidence:?}");
+        assert!((evidence.miss() - off).abs() < 2e-3, "{equation}: {evidence:?}");
     }
 }
 
@@ -146,7 +152,7 @@ fn the_rates_of_the_energy_add_up_to_its_change() {
 fn nothing_passes_as_an_approximation_that_is_off_by_more_than_a_tenth() {
     for one in ALL.iter() {
         if let Some(Verdict::Approximates { within }) = one.verdict() {
-            let limit = matches!(one.finding.as_ref().unwrap().sense, Sense::Tends { .. });
+            let limit = matches!(one.evidence.as_ref().unwrap().sense, Sense::Tends { .. });
             assert!(within <= 0.1 || limit, "{} {within}", one.claim.statement);
         }
     }
@@ -184,20 +190,20 @@ fn numbers_computed_elsewhere_are_found_again() {
 
 #[test]
 fn what_proofs_reach_carries_a_mark_and_no_mark_contradicts_a_verdict() {
-    let marked = ALL.iter().filter(|one| one.finding.as_ref().unwrap().mark.is_some()).count();
+    let marked = ALL.iter().filter(|one| one.evidence.as_ref().unwrap().mark.is_some()).count();
     assert!(3 * marked >= 2 * ALL.len(), "{marked} claims are marked");
     for one in ALL.iter() {
-        let finding = one.finding.as_ref().unwrap();
-        let (mark, name) = (finding.mark, one.claim.statement);
-        match finding.verdict() {
+        let evidence = one.evidence.as_ref().unwrap();
+        let (mark, name) = (evidence.mark, one.claim.statement);
+        match evidence.verdict() {
             Verdict::Agrees | Verdict::Approximates { .. } => {
                 assert_ne!(mark, Some(Certainty::Refuted), "{name}");
             }
             _ => assert!([None, Some(Certainty::Refuted)].contains(&mark), "{name}: {mark:?}"),
         }
-        if let Some(bounds) = finding.computed.bounds {
+        if let Some(bounds) = evidence.computed.bounds {
             // A number found by the search lies within the proved bounds, up to its own error.
-            let (value, slack) = (finding.computed.value, finding.computed.error);
+            let (value, slack) = (evidence.computed.value, evidence.computed.error);
             let within = bounds.lower() - slack <= value && value <= bounds.upper() + slack;
             assert!(within, "{name}: {value} {bounds}");
         }

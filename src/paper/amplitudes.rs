@@ -8,7 +8,7 @@ use super::measure::{
     amplitude, beside_proof, cycles, everywhere, extent, largest, last_cycle, missing, oscillator,
     over, place, smallest, towards,
 };
-use super::{Check, Finding};
+use super::{Check, Evidence};
 use crate::branch::fold::fold;
 use crate::branch::special::FoldPoint;
 use crate::closed_form::harmonic::{self, amplitudes};
@@ -21,13 +21,13 @@ pub const CHECKS: &[Check] = &[
     ("unstable amplitude", |limits| {
         over(BRANCH.map(both_cycles), |parameters| {
             let cycle = smallest(parameters, limits)?;
-            Ok(Finding::near(amplitudes(parameters)[0].amplitude, amplitude(&cycle)))
+            Ok(Evidence::near(amplitudes(parameters)[0].amplitude, amplitude(&cycle)))
         })
     }),
     ("stable amplitude", |limits| {
         over(BRANCH.map(both_cycles), |parameters| {
             let cycle = largest(parameters, limits)?;
-            Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
+            Ok(Evidence::near(largest_amplitude(parameters)?, amplitude(&cycle)))
         })
     }),
     ("discriminant", |_| {
@@ -40,7 +40,7 @@ pub const CHECKS: &[Check] = &[
             let computed = Known::new(cube - square, error);
             let scale = powi(16.0 / (3.0 * d3), 2) / 3.0;
             let formula = scale * (-8.0 * d * d * (d / d3) - powi(9.0 / PI, 2) * r * r);
-            Ok(Finding::equal(formula, computed))
+            Ok(Evidence::equal(formula, computed))
         })
     }),
     ("number of roots", |_| {
@@ -71,16 +71,16 @@ pub const CHECKS: &[Check] = &[
         counted(limits, cases, |it| usize::from(it.d <= 0.0))
     }),
     ("fold", |limits| {
-        Finding::worst(
+        Evidence::worst(
             [1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| fold_against(limits, 0.0, d3, 1.0)),
         )
     }),
     ("fold with D2", |limits| {
-        Finding::worst([0.2, 0.5].map(|d2| fold_against(limits, d2, 0.01, 0.1)))
+        Evidence::worst([0.2, 0.5].map(|d2| fold_against(limits, d2, 0.01, 0.1)))
     }),
     ("basin about the fold", |limits| {
         let cases = [0.0, 0.2, 0.5, 1.0].into_iter().flat_map(|d2| [(d2, 0.9), (d2, 1.1)]);
-        Finding::always(cases.map(|(d2, part)| {
+        Evidence::always(cases.map(|(d2, part)| {
             let d = part * printed_fold(0.01, 0.1);
             let found = cycles(&oscillator(d, d2, 0.01, 0.1), limits)?;
             let finite = found.map(|found| !found.is_empty());
@@ -89,13 +89,13 @@ pub const CHECKS: &[Check] = &[
         }))
     }),
     ("amplitude at the fold", |limits| {
-        Finding::worst([1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| {
+        Evidence::worst([1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| {
             let parameters = oscillator(0.0, 0.0, d3, 1.0);
             let found = found_fold(&parameters, limits)?;
             let formula = cbrt(8.0 * parameters.r / (3.0 * PI * parameters.d3));
             // Next to a fold an amplitude is known to the root of what D is.
             let computed = Known::relative(found.q_max, 1e-7);
-            Ok(Finding::near(formula, computed).at(format!("D3 = {d3}, r = 1")))
+            Ok(Evidence::near(formula, computed).at(format!("D3 = {d3}, r = 1")))
         }))
     }),
     ("amplitude at D = 0", |limits| {
@@ -103,7 +103,7 @@ pub const CHECKS: &[Check] = &[
         over(cases, |parameters| {
             let cycle = smallest(parameters, limits)?;
             let formula = cbrt(-16.0 * parameters.r / (3.0 * PI * parameters.d3));
-            Ok(Finding::near(formula, amplitude(&cycle)))
+            Ok(Evidence::near(formula, amplitude(&cycle)))
         })
     }),
     ("A_1 as a root", |_| {
@@ -111,23 +111,23 @@ pub const CHECKS: &[Check] = &[
             let (d, root) = (parameters.d, largest_amplitude(parameters)?);
             let left = 4.0 * parameters.r / PI + 2.0 * d * root;
             let computed = Known::new(root - left / (2.0 * d), f64::EPSILON * root);
-            Ok(Finding::equal(small(parameters), computed))
+            Ok(Evidence::equal(small(parameters), computed))
         })
     }),
     ("A_1 as an amplitude", |limits| {
         let cases = [-0.9, -0.7, -0.4, -0.1, -0.01].map(|d| oscillator(d, 0.0, 0.0, 0.1));
         over(cases, |parameters| {
-            Ok(Finding::equal(small(parameters), extent(&smallest(parameters, limits)?)))
+            Ok(Evidence::equal(small(parameters), extent(&smallest(parameters, limits)?)))
         })
     }),
     ("A_1 with D3", |limits| {
         over(BRANCH.map(both_cycles), |parameters| {
-            Ok(Finding::near(small(parameters), amplitude(&smallest(parameters, limits)?)))
+            Ok(Evidence::near(small(parameters), amplitude(&smallest(parameters, limits)?)))
         })
     }),
     ("A_1 in short", |_| {
         let parameters = oscillator(-1.0, 0.0, 0.0, 1.0);
-        Ok(Finding::near(0.6, Known::relative(largest_amplitude(&parameters)?, 1e-15)))
+        Ok(Evidence::near(0.6, Known::relative(largest_amplitude(&parameters)?, 1e-15)))
     }),
     ("divided equation", |_| {
         let parameters = both_cycles(-0.3);
@@ -135,17 +135,17 @@ pub const CHECKS: &[Check] = &[
         let root = largest_amplitude(&parameters)?;
         let computed = Known::relative(-2.0 * r / (PI * d), 1e-14);
         let terms = |factor: f64| root + factor * d3 / d * powi(root, 3);
-        let finding = Finding::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0));
-        Ok(finding.at(place(&parameters)))
+        let evidence = Evidence::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0));
+        Ok(evidence.at(place(&parameters)))
     }),
     ("A_2", |limits| {
         over(BRANCH.map(both_cycles), |parameters| {
-            Ok(Finding::near(large(parameters), amplitude(&largest(parameters, limits)?)))
+            Ok(Evidence::near(large(parameters), amplitude(&largest(parameters, limits)?)))
         })
     }),
     ("asymptotes for D3 > 0", |_| {
         let smallest = |it: &Parameters| amplitudes(it).first().map(|root| root.amplitude);
-        Finding::worst([
+        Evidence::worst([
             approached(0.5, -1.0, smallest, small),
             approached(0.5, -1.0, |it| largest_amplitude(it).ok(), large),
         ])
@@ -164,7 +164,7 @@ pub const CHECKS: &[Check] = &[
     }),
     ("asymptotes for D3 < 0", |_| {
         let solution = |it: &Parameters| largest_amplitude(it).ok();
-        Finding::worst([
+        Evidence::worst([
             approached(-0.5, -1.0, solution, small),
             approached(-0.5, 1.0, solution, large),
         ])
@@ -202,7 +202,7 @@ fn counted(
     limits: &Limits,
     cases: impl IntoIterator<Item = Parameters>,
     expected: fn(&Parameters) -> usize,
-) -> Result<Finding, Reason> {
+) -> Result<Evidence, Reason> {
     everywhere(cases, |parameters| {
         // The search has nothing to go by where the motion is linear and no swing ends.
         let found = if parameters.omega().is_none() && parameters.is_piecewise_linear() {
@@ -224,12 +224,12 @@ pub(crate) fn found_fold(parameters: &Parameters, limits: &Limits) -> Result<Fol
 }
 
 /// (48) against the fold of the cycles.
-fn fold_against(limits: &Limits, d2: f64, d3: f64, r: f64) -> Result<Finding, Reason> {
+fn fold_against(limits: &Limits, d2: f64, d3: f64, r: f64) -> Result<Evidence, Reason> {
     let parameters = oscillator(0.0, d2, d3, r);
     let found = found_fold(&parameters, limits)?;
     let asymmetry = if d2 == 0.0 { String::new() } else { format!("D2 = {d2}, ") };
     let at = format!("{asymmetry}D3 = {d3}, r = {r}");
-    Ok(Finding::near(printed_fold(d3, r), last_cycle(&parameters, found.d, 1e-12)).at(at))
+    Ok(Evidence::near(printed_fold(d3, r), last_cycle(&parameters, found.d, 1e-12)).at(at))
 }
 
 /// (51).
@@ -248,7 +248,7 @@ fn approached(
     direction: f64,
     solution: impl Fn(&Parameters) -> Option<f64>,
     formula: fn(&Parameters) -> f64,
-) -> Result<Finding, Reason> {
+) -> Result<Evidence, Reason> {
     towards([0.3, 0.95].map(|size| oscillator(direction * size, 0.0, d3, 0.1)), |parameters| {
         let root = solution(parameters).ok_or(missing("a stationary amplitude"))?;
         Ok((formula(parameters), Known::relative(root, 1e-14)))

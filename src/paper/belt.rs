@@ -3,7 +3,7 @@
 //! The paper assumes it; nothing in the equation keeps a motion to it. It is tested on the belt
 //! that comes with the program: friction that falls exponentially with the relative velocity.
 
-use super::Finding;
+use super::Evidence;
 use super::known::Known;
 use super::measure::{largest, smallest};
 use crate::closed_form::harmonic::amplitudes;
@@ -54,7 +54,7 @@ fn at(speed: f64) -> Result<ReducedBelt, Reason> {
 
 /// Whether the vibrations at some speeds of the belt stay below it: the stable cycle, and a motion that
 /// comes to it from just outside of the unstable one. Fails with the [`Reason`] why a cycle was not found.
-pub fn stays_slower(limits: &Limits) -> Result<Finding, Reason> {
+pub fn stays_slower(limits: &Limits) -> Result<Evidence, Reason> {
     let mut cases = Vec::new();
     for speed in SPEEDS {
         let ReducedBelt { parameters, sticking_velocity, .. } = at(speed)?;
@@ -71,12 +71,12 @@ pub fn stays_slower(limits: &Limits) -> Result<Finding, Reason> {
         let slower = first_at(&motion, sticking_velocity).is_none();
         cases.push(Ok((format!("v0 = {speed} m/s"), below && slower)));
     }
-    Finding::always(cases)
+    Evidence::always(cases)
 }
 
 /// The speed of the belt at which the stable cycle just reaches it, by one harmonic and computed. Fails with the
 /// [`Reason`] why a cycle was not found.
-pub fn contact(limits: &Limits) -> Result<Finding, Reason> {
+pub fn contact(limits: &Limits) -> Result<Evidence, Reason> {
     let harmonic = root(|speed| {
         let ReducedBelt { parameters, sticking_velocity, .. } = at(speed)?;
         let found = amplitudes(&parameters).into_iter().rfind(|answer| answer.stable);
@@ -88,7 +88,7 @@ pub fn contact(limits: &Limits) -> Result<Finding, Reason> {
     })?;
     let place = "m = 2 kg, c = 5 kN/m, F = 100 N, R = 1 N; in m/s";
     // The cycle's velocity is known to more digits than the speeds between which its sign changes.
-    Ok(Finding::near(harmonic, Known::relative(computed, 1e-10)).at(place))
+    Ok(Evidence::near(harmonic, Known::relative(computed, 1e-10)).at(place))
 }
 
 /// Where a function that falls over the speeds is zero, by bisection.

@@ -7,7 +7,7 @@ use super::measure::{
     BoundedCycle, arcs, at_rest, cycles, enclosed, half_swing, last_cycle, missing, motion,
     of_cycle, oscillator, place, smallest, state_at, towards,
 };
-use super::{Check, Finding, belt};
+use super::{Check, Evidence, belt};
 use crate::branch::escape::escape_point;
 use crate::flow::{Limits, Outcome, Reason};
 use crate::model::{Parameters, State};
@@ -20,7 +20,7 @@ pub const CHECKS: &[Check] = &[
     ("contact with the belt", belt::contact),
     ("multiplier", |limits| {
         let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
-        Finding::worst(cycles(&parameters, limits)?.value.into_iter().map(|cycle| {
+        Evidence::worst(cycles(&parameters, limits)?.value.into_iter().map(|cycle| {
             let Parameters { d, d3, r, .. } = parameters;
             let [rise, fall] = arcs(&parameters, &cycle, limits)?;
             let square = rise.area() + fall.area();
@@ -31,7 +31,7 @@ pub const CHECKS: &[Check] = &[
                 * exp(-2.0 * d * cycle.period - 3.0 * d3 * square);
             let computed = return_slope(&parameters, &cycle, limits)?;
             let at = format!("{}, q_max = {:.6}", place(&parameters), cycle.q_max);
-            Ok(Finding::equal(formula, computed).at(at))
+            Ok(Evidence::equal(formula, computed).at(at))
         }))
     }),
     ("linear multiplier", |limits| {
@@ -40,7 +40,7 @@ pub const CHECKS: &[Check] = &[
         let omega = (1.0 - parameters.d * parameters.d).sqrt();
         let computed = return_slope(&parameters, &cycle, limits)?;
         let formula = exp(-2.0 * PI * parameters.d / omega);
-        Ok(Finding::equal(formula, computed).at(place(&parameters)))
+        Ok(Evidence::equal(formula, computed).at(place(&parameters)))
     }),
     ("first integral", |limits| {
         let parameters = oscillator(0.0, 0.4, 0.0, 0.0);
@@ -51,7 +51,7 @@ pub const CHECKS: &[Check] = &[
         let error = 4.0 * (q.error + v.error) + 64.0 * f64::EPSILON;
         let at = format!("{}, from (0.3, 0.6) until tau = 4", place(&parameters));
         let bounds = q.bounds.zip(v.bounds).map(|(q, v)| enclosed_integral(parameters.d2, q, v));
-        Ok(Finding::equal(before, Known::new(after, error).within(bounds)).at(at))
+        Ok(Evidence::equal(before, Known::new(after, error).within(bounds)).at(at))
     }),
     ("no return", |limits| {
         let oscillators = [
@@ -61,7 +61,7 @@ pub const CHECKS: &[Check] = &[
             oscillator(0.3, 0.3, 0.3, 0.0),
         ];
         let cases = oscillators.iter().flat_map(|it| [0.2, 1.0, 3.0].map(|q| (it, q)));
-        Finding::always(cases.map(|(parameters, q)| {
+        Evidence::always(cases.map(|(parameters, q)| {
             let returned = returns_to(parameters, q, limits)?;
             Ok((format!("{}, q = {q}", place(parameters)), returned.is(false)))
         }))
@@ -74,8 +74,8 @@ pub const CHECKS: &[Check] = &[
             let formula = (0.5 / (parameters.d2 * parameters.d2)).sqrt();
             Ok((formula, Known::relative(impulse, 1e-12)))
         };
-        let finding = Finding::tends(impulse(1.0)?, impulse(0.01)?);
-        Ok(finding.at("D = -1e-5, D2 = 0.5, r = 1e-4"))
+        let evidence = Evidence::tends(impulse(1.0)?, impulse(0.01)?);
+        Ok(evidence.at("D = -1e-5, D2 = 0.5, r = 1e-4"))
     }),
     ("escape beyond the cycle", |limits| {
         let mut cases = Vec::new();
@@ -92,15 +92,15 @@ pub const CHECKS: &[Check] = &[
                 cases.push(Ok((case, Certain { value, certain })));
             }
         }
-        Finding::always(cases)
+        Evidence::always(cases)
     }),
     ("end of the cycle", |limits| {
-        Finding::worst([0.02, 0.05, 0.1, 0.25, 0.5, 1.0].map(|d2| {
+        Evidence::worst([0.02, 0.05, 0.1, 0.25, 0.5, 1.0].map(|d2| {
             let parameters = oscillator(0.0, d2, 0.0, 1.0);
             let end = end_of_cycle(&parameters, limits)?;
             let computed = last_cycle(&parameters, end, 1e-12);
             let formula = -(2.0 / PI).sqrt() * d2;
-            Ok(Finding::near(formula, computed).at(format!("D2 = {d2}, r = 1")))
+            Ok(Evidence::near(formula, computed).at(format!("D2 = {d2}, r = 1")))
         }))
     }),
     ("cycles about D_c", |limits| {
@@ -113,16 +113,16 @@ pub const CHECKS: &[Check] = &[
                 cases.push(Ok((case, cycles(&parameters, limits)?.map(Vec::len).is(expected))));
             }
         }
-        Finding::always(cases)
+        Evidence::always(cases)
     }),
     ("left turning point", |limits| {
         let end = end_of_cycle(&oscillator(0.0, 0.5, 0.0, 0.1), limits)?;
         let cases = [2.0, 1.000_001].map(|part| oscillator(part * end, 0.5, 0.0, 0.1));
-        let finding = towards(cases, |parameters| {
+        let evidence = towards(cases, |parameters| {
             let (cycle, minus) = (smallest(parameters, limits)?, Interval::point(-1.0));
             Ok((0.0, of_cycle(&cycle, -1.0 / cycle.q_min, |it| minus / it.q_min)))
         })?;
-        Ok(finding.at("D = 1.000001 D_c, D2 = 0.5, r = 0.1"))
+        Ok(evidence.at("D = 1.000001 D_c, D2 = 0.5, r = 0.1"))
     }),
 ];
 

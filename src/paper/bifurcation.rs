@@ -9,7 +9,7 @@ use super::measure::{
     amplitude, at_rest, beside_proof, captured, cycles, edge, energy_change, everywhere, extent,
     largest, mean, missing, of_cycle, oscillator, over, smallest, towards,
 };
-use super::{Check, Finding};
+use super::{Check, Evidence};
 use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
@@ -28,25 +28,25 @@ pub const CHECKS: &[Check] = &[
         let exponent = ln(large.value / small.value) / ln(double.value / size.value);
         let error = large.error / large.value.abs() + small.error / small.value.abs();
         let computed = Known::new(exponent, 2.0 * error);
-        Ok(Finding::near(2.0, computed).at("D = -0.1 .. -0.05, D2 = 0.2, r = 0.01"))
+        Ok(Evidence::near(2.0, computed).at("D = -0.1 .. -0.05, D2 = 0.2, r = 0.01"))
     }),
     ("A_01", |_| {
         over([-0.9, -0.3, -0.01].map(shifted), |parameters| {
             let Parameters { d, d2, r, .. } = *parameters;
             let computed = Known::relative(harmonic_mean(d2, -2.0 * r / (PI * d)), 1e-15);
-            let finding = Finding::equal(2.0 * r * r / PI * d2 / d, computed);
-            Ok(finding.corrected(asymptotes(parameters)[0]))
+            let evidence = Evidence::equal(2.0 * r * r / PI * d2 / d, computed);
+            Ok(evidence.corrected(asymptotes(parameters)[0]))
         })
     }),
     ("A_02", |_| {
         over([-0.9, -0.3, -0.01].map(shifted), |parameters| {
             let amplitude = (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt();
             let computed = Known::relative(harmonic_mean(parameters.d2, amplitude), 1e-15);
-            Ok(Finding::equal(asymptotes(parameters)[1], computed))
+            Ok(Evidence::equal(asymptotes(parameters)[1], computed))
         })
     }),
     ("asymptotes of the mean", |_| {
-        Finding::worst([0, 1].map(|which| {
+        Evidence::worst([0, 1].map(|which| {
             towards([-0.1, -0.9].map(shifted), |parameters| {
                 let found = amplitudes(parameters);
                 let solution = [found.first(), found.last()][which];
@@ -90,7 +90,7 @@ pub const CHECKS: &[Check] = &[
         })
     }),
     ("attraction of the set", |limits| {
-        Finding::always([0.5, 0.1, 0.0, -0.5, -0.9, -0.99, -1.0].map(|d| {
+        Evidence::always([0.5, 0.1, 0.0, -0.5, -0.9, -0.99, -1.0].map(|d| {
             let parameters = oscillator(d, 0.0, 0.0, 1.0);
             let rests = captured(&parameters, at_rest(1.0 + 1e-10), 100.0, limits)?;
             Ok((format!("D = {d}"), rests))
@@ -113,21 +113,21 @@ pub const CHECKS: &[Check] = &[
         let place = |r: f64| found_fold(&oscillator(0.0, 0.0, 0.5, r), limits);
         let (far, near) = (place(1e-3)?.d, place(1e-6)?.d);
         let exponent = ln(far / near) / ln(1e3);
-        Ok(Finding::near(2.0 / 3.0, Known::new(exponent, 1e-11)).at("D3 = 0.5, r = 1e-6 .. 1e-3"))
+        Ok(Evidence::near(2.0 / 3.0, Known::new(exponent, 1e-11)).at("D3 = 0.5, r = 1e-6 .. 1e-3"))
     }),
     ("exponent of A_Z", |limits| {
         let crossing = |r: f64| smallest(&oscillator(0.0, 0.0, -0.5, r), limits);
         let (far, near) = (crossing(1e-3)?.q_max, crossing(1e-6)?.q_max);
         let exponent = ln(far / near) / ln(1e3);
-        Ok(Finding::near(1.0 / 3.0, Known::new(exponent, 1e-12)).at("D3 = -0.5, r = 1e-6 .. 1e-3"))
+        Ok(Evidence::near(1.0 / 3.0, Known::new(exponent, 1e-12)).at("D3 = -0.5, r = 1e-6 .. 1e-3"))
     }),
     ("work of damping", |limits| {
         let [_, linear, _] = exponents(limits)?;
-        Ok(Finding::near(2.0, linear).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
+        Ok(Evidence::near(2.0, linear).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
     }),
     ("work of friction", |limits| {
         let [_, _, friction] = exponents(limits)?;
-        Ok(Finding::near(1.0, friction).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
+        Ok(Evidence::near(1.0, friction).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
     }),
     ("large amplitudes", |limits| {
         towards([-0.3, -0.9].map(|d| oscillator(d, 0.0, 0.5, 0.1)), |parameters| {
@@ -150,12 +150,12 @@ pub const CHECKS: &[Check] = &[
     }),
     ("little friction", |limits| {
         let cases = [-1e-2, -1e-4].map(|d| oscillator(d, 0.0, 0.0, 1e-6));
-        let finding = towards(cases, |parameters| {
+        let evidence = towards(cases, |parameters| {
             let Parameters { d, r, .. } = *parameters;
             let cycle = smallest(parameters, limits)?;
             Ok((2.0 / PI, of_cycle(&cycle, -d * cycle.q_max / r, |it| it.q_max * -d / r)))
         })?;
-        Ok(finding.at("times abs(D), which makes it 2/pi, at D = -1e-4"))
+        Ok(evidence.at("times abs(D), which makes it 2/pi, at D = -1e-4"))
     }),
 ];
 

@@ -6,7 +6,7 @@ use super::known::{Certain, Known};
 use super::measure::{
     at_rest, captured, enclosed, energy_change, half_swing, motion, oscillator, over, place,
 };
-use super::{Check, Finding};
+use super::{Check, Evidence};
 use crate::closed_form::lyapunov::{self, Disk};
 use crate::flow::{Limits, Outcome, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
@@ -20,7 +20,7 @@ use crate::proof::{ParameterBox, prove};
 
 pub const CHECKS: &[Check] = &[
     ("rest", |limits| {
-        Finding::always(displacements().map(|q| {
+        Evidence::always(displacements().map(|q| {
             let rests = captured(&PLAIN, at_rest(q), 1e-3, limits)?;
             Ok((format!("q = {q}"), rests.is(q.abs() <= PLAIN.r)))
         }))
@@ -39,12 +39,12 @@ pub const CHECKS: &[Check] = &[
             let [simple, _] = half_swing(&linear(-0.3), start, limits)?;
             Ok((simple.plus(parameters.r).value, full.plus(parameters.r)))
         };
-        let finding = Finding::tends(swing(0.1)?, swing(0.001)?);
-        Ok(finding.at(format!("{}, from q = -0.101", place(&parameters))))
+        let evidence = Evidence::tends(swing(0.1)?, swing(0.001)?);
+        Ok(evidence.at(format!("{}, from q = -0.101", place(&parameters))))
     }),
     ("shift of the centre", |limits| shifted(limits, -1.0)),
     ("stability of the set", |limits| {
-        Finding::always([-0.99, -0.9, -0.5, -0.1, 0.0, 0.5, 0.99].map(|d| {
+        Evidence::always([-0.99, -0.9, -0.5, -0.1, 0.0, 0.5, 0.99].map(|d| {
             let parameters = oscillator(d, 0.3, -0.5, 1.0);
             // At D = -0.99 the clearance of the basin is some 1e-10.
             let rests = captured(&parameters, at_rest(1.0 + 1e-12), 1e3, limits)?;
@@ -52,7 +52,7 @@ pub const CHECKS: &[Check] = &[
         }))
     }),
     ("single equilibria", |limits| {
-        Finding::always([-0.8, -0.3, 0.0, 0.5].map(|part| {
+        Evidence::always([-0.8, -0.3, 0.0, 0.5].map(|part| {
             let q = part * PLAIN.r;
             let start = State { q, v: 1e-3 };
             let end = motion(&PLAIN, start, 10.0, limits)?.outcome;
@@ -70,8 +70,8 @@ pub const CHECKS: &[Check] = &[
             let rate = |it: &Parameters| lyapunov::energy_rate(it, State { q: 0.0, v });
             (rate(&linear(-0.3)), Known::relative(rate(&parameters), 1e-15))
         };
-        let finding = Finding::tends(rates(0.1), rates(0.001));
-        Ok(finding.at(format!("{}, v = 0.001", place(&parameters))))
+        let evidence = Evidence::tends(rates(0.1), rates(0.001));
+        Ok(evidence.at(format!("{}, v = 0.001", place(&parameters))))
     }),
     ("sign of V'", |_| {
         let cases = [-0.9, -0.5, -0.1, -0.01].into_iter().flat_map(|d| {
@@ -81,27 +81,27 @@ pub const CHECKS: &[Check] = &[
                 Ok((format!("D = {d}, v = {v}"), (rate < 0.0) == (part.abs() < 1.0)))
             })
         });
-        Finding::always(cases)
+        Evidence::always(cases)
     }),
     ("Lyapunov's circle", |limits| {
         over([-0.95, -0.7, -0.4, -0.1, -0.01].map(linear), |parameters| {
-            Ok(Finding::at_most(circle(parameters), least_kick(parameters, limits)?))
+            Ok(Evidence::at_most(circle(parameters), least_kick(parameters, limits)?))
         })
     }),
     ("size of the circle", |limits| {
         over([-0.9, -0.7, -0.4, -0.1, -0.01].map(linear), |parameters| {
             let least = least_kick(parameters, limits)?;
             let part = circle(parameters) / least.value;
-            Ok(Finding::near(0.5 / 0.6, Known::relative(part, least.error / least.value)))
+            Ok(Evidence::near(0.5 / 0.6, Known::relative(part, least.error / least.value)))
         })
     }),
     ("circle with D2", |limits| {
         let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
         let least = least_kick(&parameters, limits)?;
-        let finding = Finding::at_most(circle(&parameters), least).at(place(&parameters));
+        let evidence = Evidence::at_most(circle(&parameters), least).at(place(&parameters));
         Ok(match lyapunov::full_disk(&parameters) {
-            Disk::Radius(radius) => finding.corrected(radius),
-            Disk::Plane => finding,
+            Disk::Radius(radius) => evidence.corrected(radius),
+            Disk::Plane => evidence,
         })
     }),
 ];
@@ -126,7 +126,7 @@ fn crossings(
     limits: &Limits,
     condition: fn(f64, f64) -> (bool, bool),
     crosses: bool,
-) -> Result<Finding, Reason> {
+) -> Result<Evidence, Reason> {
     let (mut printed, mut corrected, mut computed) = (0.0, 0.0, 0.0);
     let mut certain = true;
     // At the ends of the set one of the limits vanishes, and neither condition speaks of them.
@@ -149,31 +149,31 @@ fn crossings(
     }
     let at = format!("{} places beside the ends, {}", 11, place(&PLAIN));
     let computed = Known::exact(computed).within(certain.then_some(Interval::point(computed)));
-    Ok(Finding::equal(printed, computed).corrected(corrected).at(at))
+    Ok(Evidence::equal(printed, computed).corrected(corrected).at(at))
 }
 
 /// Where a half swing above `v = 0` ends, if the motion is linear in `q - shift r`.
-pub(crate) fn shifted(limits: &Limits, shift: f64) -> Result<Finding, Reason> {
+pub(crate) fn shifted(limits: &Limits, shift: f64) -> Result<Evidence, Reason> {
     let parameters = oscillator(-0.1, 0.0, 0.0, 0.2);
     let start = at_rest(-1.0);
     let [end, _] = half_swing(&parameters, start, limits)?;
     let (d, r) = (parameters.d, parameters.r);
     let growth = exp(-PI * d / (1.0 - d * d).sqrt());
     let around = |centre: f64| centre - (start.q - centre) * growth;
-    let finding = Finding::equal(around(shift * r), end);
-    let finding = if shift < 0.0 { finding } else { finding.corrected(around(-r)) };
-    Ok(finding.at(format!("{}, from q = -1", place(&parameters))))
+    let evidence = Evidence::equal(around(shift * r), end);
+    let evidence = if shift < 0.0 { evidence } else { evidence.corrected(around(-r)) };
+    Ok(evidence.at(format!("{}, from q = -1", place(&parameters))))
 }
 
 /// Change of the energy along a motion by (19), with friction's part multiplied by `sign`.
-fn energy(limits: &Limits, sign: f64) -> Result<Finding, Reason> {
+fn energy(limits: &Limits, sign: f64) -> Result<Evidence, Reason> {
     let parameters = oscillator(-0.1, 0.0, 0.0, 0.1);
     let [change, linear, friction] = energy_change(&parameters, at_rest(1.5), 20.0, limits)?;
     let by_rate = |sign: f64| linear.value + sign * friction.value;
     let error = change.error + linear.error + friction.error;
-    let finding = Finding::equal(by_rate(sign), Known { error, ..change });
-    let finding = if sign > 0.0 { finding } else { finding.corrected(by_rate(1.0)) };
-    Ok(finding.at(format!("{}, from q = 1.5 until tau = 20", place(&parameters))))
+    let evidence = Evidence::equal(by_rate(sign), Known { error, ..change });
+    let evidence = if sign > 0.0 { evidence } else { evidence.corrected(by_rate(1.0)) };
+    Ok(evidence.at(format!("{}, from q = 1.5 until tau = 20", place(&parameters))))
 }
 
 /// Radius (24).

@@ -7,7 +7,7 @@ use super::measure::{
     amplitude, at_rest, enclosed, extent, half_swing, largest, mean, missing, of_cycle, oscillator,
     over, place, smallest, speed, towards,
 };
-use super::{Check, Finding};
+use super::{Check, Evidence};
 use crate::accuracy::harmonic_error::harmonic_balance;
 use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::closed_form::harmonics::HarmonicCycle;
@@ -22,7 +22,7 @@ pub const CHECKS: &[Check] = &[
         let parameters = linear(-0.7);
         let [few, many] = [3, 31].map(|number| by_harmonics(&parameters, number, limits));
         let computed = amplitude(&smallest(&parameters, limits)?);
-        Ok(Finding::tends((few?, computed), (many?, computed)).at(place(&parameters)))
+        Ok(Evidence::tends((few?, computed), (many?, computed)).at(place(&parameters)))
     }),
     ("second derivative", |_| {
         // Central differences of the velocity - A eta sin(eta tau), two of them.
@@ -33,15 +33,15 @@ pub const CHECKS: &[Check] = &[
                 / (12.0 * h)
         };
         let computed = Known::twice(slope(1e-3), slope(2e-3));
-        let finding = Finding::equal(0.0, computed).corrected(-size * eta * eta);
-        Ok(finding.at("A = 0.7, eta = 1.3"))
+        let evidence = Evidence::equal(0.0, computed).corrected(-size * eta * eta);
+        Ok(evidence.at("A = 0.7, eta = 1.3"))
     }),
     ("frequency of cycles", |limits| {
         over(DAMPINGS.map(linear), |parameters| {
             let cycle = smallest(parameters, limits)?;
             let frequency =
                 of_cycle(&cycle, TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
-            Ok(Finding::near(1.0, frequency))
+            Ok(Evidence::near(1.0, frequency))
         })
     }),
     ("harmonic cycles", |limits| {
@@ -56,11 +56,11 @@ pub const CHECKS: &[Check] = &[
         over(cases, |parameters| {
             let cycle = largest(parameters, limits)?;
             let formula = harmonic_mean(parameters.d2, largest_amplitude(parameters)?);
-            Ok(Finding::near(formula, mean(parameters, &cycle, limits)?))
+            Ok(Evidence::near(formula, mean(parameters, &cycle, limits)?))
         })
     }),
     ("slow change of amplitude", |limits| {
-        Finding::worst([0.5, 1.0, 2.0].map(|size| {
+        Evidence::worst([0.5, 1.0, 2.0].map(|size| {
             let parameters = oscillator(-1e-3, 0.0, 2e-3, 1e-3);
             let [left, _] = half_swing(&parameters, at_rest(size), limits)?;
             let [right, _] = half_swing(&parameters, at_rest(left.value), limits)?;
@@ -69,14 +69,14 @@ pub const CHECKS: &[Check] = &[
             let computed = Known::new(right.value - size, right.error + left.error).within(bounds);
             let Parameters { d, d3, r, .. } = parameters;
             let printed = -4.0 * r / PI - 2.0 * d * size - 0.75 * d3 * powi(size, 3);
-            let finding = Finding::near(TAU * printed, computed).corrected(PI * printed);
-            Ok(finding.at(format!("{}, A = {size}", place(&parameters))))
+            let evidence = Evidence::near(TAU * printed, computed).corrected(PI * printed);
+            Ok(evidence.at(format!("{}, A = {size}", place(&parameters))))
         }))
     }),
     ("amplitude as size", |limits| {
         over(DAMPINGS.map(linear), |parameters| {
             let cycle = smallest(parameters, limits)?;
-            Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
+            Ok(Evidence::near(largest_amplitude(parameters)?, amplitude(&cycle)))
         })
     }),
     ("A_q at D = -1", |limits| {
@@ -131,8 +131,8 @@ pub(crate) fn largest_amplitude(parameters: &Parameters) -> Result<f64, Reason> 
 fn harmonic_against_extents(
     limits: &Limits,
     holds: fn(f64, f64, f64) -> bool,
-) -> Result<Finding, Reason> {
-    Finding::always((1..20).map(|number| {
+) -> Result<Evidence, Reason> {
+    Evidence::always((1..20).map(|number| {
         let parameters = linear(-0.05 * f64::from(number));
         let cycle = smallest(&parameters, limits)?;
         let harmonic = largest_amplitude(&parameters)?;

@@ -9,7 +9,7 @@ use super::measure::{
     at_rest, cycles, edge, extent, half_swing, of_cycle, oscillator, over, place, smallest, speed,
     state_at,
 };
-use super::{Check, Finding};
+use super::{Check, Evidence};
 use crate::flow::{Limits, Reason};
 use crate::model::{Parameters, State};
 use crate::numerics::Interval;
@@ -25,10 +25,10 @@ pub const CHECKS: &[Check] = &[
         // A basin without a border would need none.
         let needed = f64::from(u8::from(found.value != Border::None));
         let bounds = found.certain.then_some(Interval::point(cycles));
-        Ok(Finding::equal(needed, Known::exact(cycles).within(bounds)).at(at))
+        Ok(Evidence::equal(needed, Known::exact(cycles).within(bounds)).at(at))
     }),
     ("one cycle", |limits| {
-        Finding::always(DAMPINGS.map(|d| {
+        Evidence::always(DAMPINGS.map(|d| {
             let found = cycles(&units_of_friction(d), limits)?;
             let further = found.map(|found| found.len() == 1 && found[0].clearance > 0.0);
             Ok((format!("D = {d}"), further))
@@ -36,7 +36,7 @@ pub const CHECKS: &[Check] = &[
     }),
     ("circle of radius r", |limits| {
         over(DAMPINGS.map(units_of_friction), |parameters| {
-            Ok(Finding::at_most(parameters.r, least_kick(parameters, limits)?))
+            Ok(Evidence::at_most(parameters.r, least_kick(parameters, limits)?))
         })
     }),
     ("duration of a swing", |limits| over_swings(limits, |swing| PI / swing.omega, |[_, tau]| tau)),
@@ -51,7 +51,7 @@ pub const CHECKS: &[Check] = &[
             let (sine, cosine) = sin_cos(swing.omega * tau);
             let formula = -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
             let at = format!("{}, from q = -2, at tau = {tau:.4}", place(parameters));
-            Ok(Finding::equal(formula * exp(-d * tau), velocity).at(at))
+            Ok(Evidence::equal(formula * exp(-d * tau), velocity).at(at))
         })
     }),
     ("end of a swing", |limits| {
@@ -65,7 +65,7 @@ pub const CHECKS: &[Check] = &[
             let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
             let bounds = cycle.bounds.map(|it| it.clearance);
             let computed = Known::relative(cycle.clearance, error).within(bounds);
-            Ok(Finding::equal(swing.clearance(), computed))
+            Ok(Evidence::equal(swing.clearance(), computed))
         })
     }),
     ("border over the angle", on_the_curve),
@@ -73,14 +73,14 @@ pub const CHECKS: &[Check] = &[
         over(DAMPINGS.map(units_of_friction), |parameters| {
             let LinearSwing { growth, .. } = LinearSwing::of(parameters);
             let formula = (growth + 1.0) / (growth - 1.0);
-            Ok(Finding::equal(formula, extent(&smallest(parameters, limits)?)))
+            Ok(Evidence::equal(formula, extent(&smallest(parameters, limits)?)))
         })
     }),
     ("A_v", |limits| {
         over(DAMPINGS.map(units_of_friction), |parameters| {
             let swing = LinearSwing::of(parameters);
             let computed = speed(&smallest(parameters, limits)?);
-            let printed = Finding::equal(swing.printed_velocity(), computed);
+            let printed = Evidence::equal(swing.printed_velocity(), computed);
             Ok(printed.corrected(swing.largest_velocity()))
         })
     }),
@@ -90,7 +90,7 @@ pub const CHECKS: &[Check] = &[
         let ratio = three.q_max / one.q_max;
         let unit = one.bounds.map_or(Interval::ALL, |it| it.q_max);
         let ratio = of_cycle(&three, ratio, |it| it.q_max / unit);
-        Ok(Finding::equal(3.0, ratio).at("D = -0.4, D2 = D3 = 0"))
+        Ok(Evidence::equal(3.0, ratio).at("D = -0.4, D2 = D3 = 0"))
     }),
 ];
 
@@ -144,18 +144,18 @@ fn over_swings(
     limits: &Limits,
     formula: fn(&LinearSwing) -> f64,
     read: fn([Known; 2]) -> Known,
-) -> Result<Finding, Reason> {
+) -> Result<Evidence, Reason> {
     over(DAMPINGS.map(units_of_friction), |parameters| {
         let computed = read(half_swing(parameters, at_rest(-2.0), limits)?);
         let at = format!("{}, from q = -2", place(parameters));
-        Ok(Finding::equal(formula(&LinearSwing::of(parameters)), computed).at(at))
+        Ok(Evidence::equal(formula(&LinearSwing::of(parameters)), computed).at(at))
     })
 }
 
 /// Both coordinates of (31) against the motion that starts at the turning point of the cycle.
-fn on_the_curve(limits: &Limits) -> Result<Finding, Reason> {
+fn on_the_curve(limits: &Limits) -> Result<Evidence, Reason> {
     const ANGLE: f64 = 2.0;
-    let mut findings = Vec::new();
+    let mut cases = Vec::new();
     for parameters in DAMPINGS.map(units_of_friction) {
         let swing = LinearSwing::of(&parameters);
         let start = at_rest(swing.curve(0.0).q);
@@ -166,8 +166,8 @@ fn on_the_curve(limits: &Limits) -> Result<Finding, Reason> {
         for (name, formula, known) in [("q", q, state[0]), ("v", v, state[1])] {
             let known = Known { error: known.error + rounded, ..known };
             let at = format!("{name} at {}", place(&parameters));
-            findings.push(Ok(Finding::equal(formula, known).at(at)));
+            cases.push(Ok(Evidence::equal(formula, known).at(at)));
         }
     }
-    Finding::worst(findings)
+    Evidence::worst(cases)
 }

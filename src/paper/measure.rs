@@ -5,7 +5,7 @@
 
 use std::ops::Deref;
 
-use super::Finding;
+use super::Evidence;
 use super::known::{Certain, Known};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
@@ -92,12 +92,12 @@ fn short(value: f64) -> String {
 /// The worst comparison over some oscillators; its place is the oscillator, unless it has one.
 pub fn over(
     cases: impl IntoIterator<Item = Parameters>,
-    compare: impl Fn(&Parameters) -> Result<Finding, Reason>,
-) -> Result<Finding, Reason> {
-    Finding::worst(cases.into_iter().map(|parameters| {
-        let finding = compare(&parameters)?;
-        let unnamed = finding.place.is_empty();
-        Ok(if unnamed { finding.at(place(&parameters)) } else { finding })
+    compare: impl Fn(&Parameters) -> Result<Evidence, Reason>,
+) -> Result<Evidence, Reason> {
+    Evidence::worst(cases.into_iter().map(|parameters| {
+        let evidence = compare(&parameters)?;
+        let unnamed = evidence.place.is_empty();
+        Ok(if unnamed { evidence.at(place(&parameters)) } else { evidence })
     }))
 }
 
@@ -105,16 +105,16 @@ pub fn over(
 pub fn everywhere<A: Into<Certain<bool>>>(
     cases: impl IntoIterator<Item = Parameters>,
     holds: impl Fn(&Parameters) -> Result<A, Reason>,
-) -> Result<Finding, Reason> {
-    Finding::always(cases.into_iter().map(|it| Ok((place(&it), holds(&it)?))))
+) -> Result<Evidence, Reason> {
+    Evidence::always(cases.into_iter().map(|it| Ok((place(&it), holds(&it)?))))
 }
 
 /// How a formula and what it should approach differ far from the limit and near it.
 pub fn towards(
     [far, near]: [Parameters; 2],
     compare: impl Fn(&Parameters) -> Result<(f64, Known), Reason>,
-) -> Result<Finding, Reason> {
-    Ok(Finding::tends(compare(&far)?, compare(&near)?).at(place(&near)))
+) -> Result<Evidence, Reason> {
+    Ok(Evidence::tends(compare(&far)?, compare(&near)?).at(place(&near)))
 }
 
 pub fn at_rest(q: f64) -> State {

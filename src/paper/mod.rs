@@ -2,9 +2,9 @@
 //!
 //! `assets/claims.txt` is the table. A [`Claim`] says where it stands, what it says, and holds a function, by its name in the
 //! files of this folder, that evaluates the paper's formula and computes the same thing without it: by integrating
-//! motions, by searching cycles, by differentiating the physical law. That function returns a [`Finding`], numbers
+//! motions, by searching cycles, by differentiating the physical law. That function returns a [`Evidence`], numbers
 //! and nothing else; the [`Verdict`] follows from the numbers by one rule for all claims
-//! ([`Finding::verdict`]). Where a proof encloses what was computed, a [`Certainty`] says what is certain.
+//! ([`Evidence::verdict`]). Where a proof encloses what was computed, a [`Certainty`] says what is certain.
 
 mod amplitudes;
 pub(crate) mod belt;
@@ -19,7 +19,7 @@ mod model;
 mod verdict;
 
 pub use known::{Certainty, POOR, Sense};
-pub use verdict::{Finding, Verdict};
+pub use verdict::{Evidence, Verdict};
 
 use std::sync::LazyLock;
 
@@ -40,11 +40,11 @@ pub struct Claim {
     /// A scene that shows it.
     pub scene: Option<&'static str>,
     /// Evaluates the formula and computes the same thing otherwise.
-    pub check: fn(&Limits) -> Result<Finding, Reason>,
+    pub check: fn(&Limits) -> Result<Evidence, Reason>,
 }
 
 /// The function that puts a claim to the test, by the name that the table has for it.
-type Check = (&'static str, fn(&Limits) -> Result<Finding, Reason>);
+type Check = (&'static str, fn(&Limits) -> Result<Evidence, Reason>);
 
 /// Stands for the section of what the paper does not say.
 pub const UNSAID: &str = "-";
@@ -54,19 +54,19 @@ pub const UNSAID: &str = "-";
 pub struct ClaimResult {
     pub claim: &'static Claim,
     /// The numbers, or why there are none.
-    pub finding: Result<Finding, Reason>,
+    pub evidence: Result<Evidence, Reason>,
 }
 
 impl PartialEq for ClaimResult {
     fn eq(&self, other: &Self) -> bool {
-        std::ptr::eq(self.claim, other.claim) && self.finding == other.finding
+        std::ptr::eq(self.claim, other.claim) && self.evidence == other.evidence
     }
 }
 
 impl ClaimResult {
     /// What the numbers say; `None` where they could not be computed.
     pub fn verdict(&self) -> Option<Verdict> {
-        self.finding.as_ref().ok().map(Finding::verdict)
+        self.evidence.as_ref().ok().map(Evidence::verdict)
     }
 }
 
@@ -113,10 +113,10 @@ pub fn examine_all(limits: &Limits) -> Result<Vec<ClaimResult>, Reason> {
 pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult, Reason> {
     match (claim.check)(limits) {
         Err(Reason::Interrupted) => Err(Reason::Interrupted),
-        Ok(finding) if claim.section == UNSAID => {
-            Ok(ClaimResult { claim, finding: Ok(finding.unsaid()) })
+        Ok(evidence) if claim.section == UNSAID => {
+            Ok(ClaimResult { claim, evidence: Ok(evidence.unsaid()) })
         }
-        finding => Ok(ClaimResult { claim, finding }),
+        evidence => Ok(ClaimResult { claim, evidence }),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::known::Known;
 use super::measure::{at_rest, half_swing, oscillator};
-use super::{Check, Finding, belt};
+use super::{Check, Evidence, belt};
 use crate::closed_form::linear::Linear;
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
@@ -15,50 +15,50 @@ pub const CHECKS: &[Check] = &[
         let stiffness = derivatives(|x| -acceleration(x, 0.0, 0.0))[0];
         let value = stiffness.value.sqrt();
         let computed = Known::new(value, 0.5 * stiffness.error / value);
-        Ok(Finding::equal(C / M, computed).corrected(omega()).at(MASS))
+        Ok(Evidence::equal(C / M, computed).corrected(omega()).at(MASS))
     }),
     ("linear damping", |_| {
         let computed = coefficient(0, -0.5);
         let form = |mu: f64| (D1 + NORMAL * mu) / (2.0 * M * omega());
-        Ok(Finding::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
+        Ok(Evidence::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
     }),
     ("quadratic damping", |_| {
         let computed = coefficient(1, -0.5);
         let form = NORMAL * falling() * shift() / (2.0 * M);
-        Ok(Finding::equal(form, computed).corrected(-form).at(MASS))
+        Ok(Evidence::equal(form, computed).corrected(-form).at(MASS))
     }),
     ("cubic damping", |_| {
         let computed = coefficient(2, -1.0 / 6.0);
         let unit = omega() * shift() * shift() / M;
         let form = |mu: f64| (D3 + NORMAL * mu / 6.0) * unit;
-        Ok(Finding::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
+        Ok(Evidence::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
     }),
     ("friction", |_| {
         let jump = dimensionless(0.0, JOINT) - dimensionless(0.0, -JOINT);
         let printed = JOINT / (M * powi(omega(), 2));
         let computed = Known::relative(0.5 * jump, 1e-14);
-        Ok(Finding::equal(printed, computed).corrected(printed / shift()).at(MASS))
+        Ok(Evidence::equal(printed, computed).corrected(printed / shift()).at(MASS))
     }),
     ("oscillation", |_| {
         let cases = [-1.0, -0.999_999, -0.5, 0.0, 0.5, 0.999_999, 1.0];
         let returns = |d: f64| Linear::new(d).first_standstill(-1.0, 0.0).is_some();
-        Finding::always(cases.map(|d| Ok((format!("D = {d}"), returns(d)))))
+        Evidence::always(cases.map(|d| Ok((format!("D = {d}"), returns(d)))))
     }),
     ("sign of friction", |limits| {
         let parameters = oscillator(0.0, 0.0, 0.0, 0.1);
         let [end, _] = half_swing(&parameters, at_rest(1.0), limits)?;
         let gained = (-end).plus(-1.0);
         let fed = 2.0 * parameters.r;
-        Ok(Finding::equal(fed, gained).corrected(-fed).at("D = 0, r = 0.1, from q = 1"))
+        Ok(Evidence::equal(fed, gained).corrected(-fed).at("D = 0, r = 0.1, from q = 1"))
     }),
-    ("rate of growth", |limits| over_damping(limits, |d, growth, _| Finding::equal(-d, growth))),
+    ("rate of growth", |limits| over_damping(limits, |d, growth, _| Evidence::equal(-d, growth))),
     ("frequency of growth", |limits| {
         over_damping(limits, |d, _, frequency| {
-            Finding::equal(1.0, frequency).corrected((1.0 - d * d).sqrt())
+            Evidence::equal(1.0, frequency).corrected((1.0 - d * d).sqrt())
         })
     }),
     ("smooth stability", |limits| {
-        Finding::always([-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9].map(|d| {
+        Evidence::always([-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9].map(|d| {
             let parameters = oscillator(d, 0.2, 0.5, 0.0);
             let [end, _] = half_swing(&parameters, at_rest(-1e-6), limits)?;
             Ok((format!("D = {d}"), end.exceeds(1e-6).is(d < 0.0)))
@@ -69,9 +69,9 @@ pub const CHECKS: &[Check] = &[
 /// Rate and frequency of small motions without friction, at some values of D.
 fn over_damping(
     limits: &Limits,
-    compare: impl Fn(f64, Known, Known) -> Finding,
-) -> Result<Finding, Reason> {
-    Finding::worst([-0.7, -0.4, -0.1, 0.3].map(|d| {
+    compare: impl Fn(f64, Known, Known) -> Evidence,
+) -> Result<Evidence, Reason> {
+    Evidence::worst([-0.7, -0.4, -0.1, 0.3].map(|d| {
         let parameters = Parameters { d, d2: 0.0, d3: 0.0, r: 0.0 };
         let [end, duration] = half_swing(&parameters, at_rest(-1.0), limits)?;
         let relative = end.error / end.value + duration.error / duration.value;

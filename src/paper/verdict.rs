@@ -9,7 +9,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The numbers that decide a claim.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
+pub struct Evidence {
     /// What is claimed about them.
     pub sense: Sense,
     /// Where: parameters, start, what is counted.
@@ -49,7 +49,7 @@ pub enum Verdict {
     False,
 }
 
-impl Finding {
+impl Evidence {
     /// A formula and what it should be equal to.
     pub fn equal(paper: f64, computed: Known) -> Self {
         Self::new(Sense::Equal, paper, computed)
@@ -58,8 +58,9 @@ impl Finding {
     fn new(sense: Sense, paper: f64, computed: Known) -> Self {
         let mark = Certainty::of(sense, paper, &computed);
         let (place, paper, corrected) = (String::new(), Some(paper), None);
-        let finding = Finding { sense, place, paper, corrected, computed, cases: 1, held: 0, mark };
-        Finding { held: usize::from(paper.is_some_and(|value| finding.holds(value))), ..finding }
+        let evidence =
+            Evidence { sense, place, paper, corrected, computed, cases: 1, held: 0, mark };
+        Evidence { held: usize::from(paper.is_some_and(|value| evidence.holds(value))), ..evidence }
     }
 
     /// A formula and what it should approximate.
@@ -76,7 +77,7 @@ impl Finding {
     pub fn tends(far: (f64, Known), near: (f64, Known)) -> Self {
         let before = Self::near(far.0, far.1).miss();
         let mark = Certainty::of_limit((far.0, &far.1), (near.0, &near.1));
-        Finding { mark, ..Self::new(Sense::Tends { before }, near.0, near.1) }
+        Evidence { mark, ..Self::new(Sense::Tends { before }, near.0, near.1) }
     }
 
     /// What should hold in each of these cases; the place becomes the first in which it does not. Fails with the
@@ -102,7 +103,7 @@ impl Finding {
         let mark =
             if refuted { Some(Certainty::Refuted) } else { certain.then_some(Certainty::Proved) };
         let mark = mark.filter(|_| all > 0);
-        Ok(Finding {
+        Ok(Evidence {
             place,
             cases,
             held,
@@ -113,36 +114,36 @@ impl Finding {
 
     /// The same, but the paper is silent: its formula is one of ours.
     pub fn unsaid(self) -> Self {
-        Finding { corrected: self.paper.or(self.corrected), paper: None, ..self }
+        Evidence { corrected: self.paper.or(self.corrected), paper: None, ..self }
     }
 
     /// With the formula as it should read.
     pub fn corrected(self, value: f64) -> Self {
-        Finding { corrected: Some(value), ..self }
+        Evidence { corrected: Some(value), ..self }
     }
 
     /// With a description of the place.
     pub fn at(self, place: impl fmt::Display) -> Self {
-        Finding { place: place.to_string(), ..self }
+        Evidence { place: place.to_string(), ..self }
     }
 
-    /// Of several findings about one claim, the one that misses most; first of all one that the corrected formula
+    /// Of several cases of one claim, the one that misses most; first of all one that the corrected formula
     /// misses too. Fails with the first error among them.
-    pub fn worst<E>(findings: impl IntoIterator<Item = Result<Self, E>>) -> Result<Self, E> {
+    pub fn worst<E>(each: impl IntoIterator<Item = Result<Self, E>>) -> Result<Self, E> {
         let mut worst = Self::new(Sense::Always, 0.0, Known::exact(0.0));
         let (mut cases, mut held, mut mark) = (0, 0, Some(Certainty::Proved));
-        for finding in findings {
-            let finding = finding?;
+        for evidence in each {
+            let evidence = evidence?;
             cases += 1;
-            held += finding.held;
-            mark = Certainty::and(mark, finding.mark);
+            held += evidence.held;
+            mark = Certainty::and(mark, evidence.mark);
             let order =
                 |it: &Self| (it.corrected.is_some_and(|value| !it.holds(value)), it.strain());
-            if cases == 1 || order(&finding) > order(&worst) {
-                worst = finding;
+            if cases == 1 || order(&evidence) > order(&worst) {
+                worst = evidence;
             }
         }
-        Ok(Finding { cases, held, mark, ..worst })
+        Ok(Evidence { cases, held, mark, ..worst })
     }
 
     /// The paper's number minus the computed one; the corrected one's where the paper is silent.
@@ -197,7 +198,7 @@ impl Finding {
     /// Decides.
     ///
     /// The difference between the paper's number and the computed one is compared with
-    /// [`Finding::bound`]: the known error for an equation (with the rounding of the formula), a tenth
+    /// [`Evidence::bound`]: the known error for an equation (with the rounding of the formula), a tenth
     /// for an approximation, the difference further away for a limit. What fails is corrected if the
     /// corrected formula passes the same comparison in all cases; a statement about cases or an approximation holds
     /// in part if it holds in any.
@@ -255,8 +256,8 @@ mod tests {
 
     #[test]
     fn an_equation_holds_as_far_as_the_number_is_known() {
-        assert_eq!(Finding::equal(2.0 + 0.9e-9, known(2.0)).verdict(), Verdict::Agrees);
-        let wrong = Finding::equal(2.0 + 2e-9, known(2.0));
+        assert_eq!(Evidence::equal(2.0 + 0.9e-9, known(2.0)).verdict(), Verdict::Agrees);
+        let wrong = Evidence::equal(2.0 + 2e-9, known(2.0));
         assert_eq!(wrong.verdict(), Verdict::False);
         let replaced = wrong.clone().corrected(2.0);
         assert_eq!(replaced.verdict(), Verdict::Corrected { within: None });
@@ -265,64 +266,64 @@ mod tests {
 
     #[test]
     fn an_approximation_holds_within_a_tenth_and_says_how_well() {
-        let near = Finding::near(1.09, known(1.0)).verdict();
+        let near = Evidence::near(1.09, known(1.0)).verdict();
         assert!(matches!(near, Verdict::Approximates { within } if (within - 0.09).abs() < 1e-12));
-        assert_eq!(Finding::near(1.11, known(1.0)).verdict(), Verdict::False);
-        assert_eq!(Finding::near(0.89, known(1.0)).verdict(), Verdict::False);
-        let replaced = Finding::near(-1.0, known(1.0)).corrected(1.01).verdict();
+        assert_eq!(Evidence::near(1.11, known(1.0)).verdict(), Verdict::False);
+        assert_eq!(Evidence::near(0.89, known(1.0)).verdict(), Verdict::False);
+        let replaced = Evidence::near(-1.0, known(1.0)).corrected(1.01).verdict();
         assert!(matches!(replaced, Verdict::Corrected { within: Some(within) } if within < 0.011));
     }
 
     #[test]
     fn a_limit_holds_if_the_difference_falls() {
-        let falls = Finding::tends((1.0, known(1.2)), (1.0, known(1.1))).verdict();
+        let falls = Evidence::tends((1.0, known(1.2)), (1.0, known(1.1))).verdict();
         assert!(matches!(falls, Verdict::Approximates { within } if within < 0.1));
-        let grows = Finding::tends((1.0, known(1.1)), (1.0, known(1.2))).verdict();
+        let grows = Evidence::tends((1.0, known(1.1)), (1.0, known(1.2))).verdict();
         assert_eq!(grows, Verdict::False);
-        let to_zero = Finding::tends((0.0, known(0.2)), (0.0, known(1e-6))).verdict();
+        let to_zero = Evidence::tends((0.0, known(0.2)), (0.0, known(1e-6))).verdict();
         assert_eq!(to_zero, Verdict::Approximates { within: 1e-6 });
     }
 
     #[test]
     fn a_lower_bound_may_lie_far_below_but_not_above() {
-        assert_eq!(Finding::at_most(0.1, known(1.0)).verdict(), Verdict::Agrees);
-        assert_eq!(Finding::at_most(1.1, known(1.0)).verdict(), Verdict::False);
+        assert_eq!(Evidence::at_most(0.1, known(1.0)).verdict(), Verdict::Agrees);
+        assert_eq!(Evidence::at_most(1.1, known(1.0)).verdict(), Verdict::False);
     }
 
     #[test]
     fn marks_follow_from_bounds() {
         let known = known(1.0).within(Interval::new(0.99, 1.01));
-        let mark = |finding: Finding| finding.mark.unwrap();
-        assert_eq!(mark(Finding::equal(1.005, known)), Certainty::Enclosed);
-        assert_eq!(mark(Finding::equal(1.02, known)), Certainty::Refuted);
-        assert_eq!(mark(Finding::near(1.08, known)), Certainty::Proved);
-        assert_eq!(mark(Finding::near(1.1, known)), Certainty::Enclosed);
-        assert_eq!(mark(Finding::near(1.12, known)), Certainty::Refuted);
-        assert_eq!(mark(Finding::at_most(0.98, known)), Certainty::Proved);
-        assert_eq!(mark(Finding::at_most(1.0, known)), Certainty::Enclosed);
-        assert_eq!(mark(Finding::at_most(1.02, known)), Certainty::Refuted);
-        assert_eq!(mark(Finding::tends((1.5, known), (1.1, known))), Certainty::Proved);
-        assert_eq!(mark(Finding::tends((1.1, known), (1.5, known))), Certainty::Refuted);
-        assert_eq!(Finding::near(1.0, self::known(1.0)).mark, None);
+        let mark = |evidence: Evidence| evidence.mark.unwrap();
+        assert_eq!(mark(Evidence::equal(1.005, known)), Certainty::Enclosed);
+        assert_eq!(mark(Evidence::equal(1.02, known)), Certainty::Refuted);
+        assert_eq!(mark(Evidence::near(1.08, known)), Certainty::Proved);
+        assert_eq!(mark(Evidence::near(1.1, known)), Certainty::Enclosed);
+        assert_eq!(mark(Evidence::near(1.12, known)), Certainty::Refuted);
+        assert_eq!(mark(Evidence::at_most(0.98, known)), Certainty::Proved);
+        assert_eq!(mark(Evidence::at_most(1.0, known)), Certainty::Enclosed);
+        assert_eq!(mark(Evidence::at_most(1.02, known)), Certainty::Refuted);
+        assert_eq!(mark(Evidence::tends((1.5, known), (1.1, known))), Certainty::Proved);
+        assert_eq!(mark(Evidence::tends((1.1, known), (1.5, known))), Certainty::Refuted);
+        assert_eq!(Evidence::near(1.0, self::known(1.0)).mark, None);
         // A bound on one side decides or says nothing.
         let above = self::known(1.0).within(Interval::new(f64::NEG_INFINITY, 1.01));
-        assert_eq!(Finding::at_most(1.02, above).mark, Some(Certainty::Refuted));
-        assert_eq!(Finding::at_most(0.5, above).mark, None);
+        assert_eq!(Evidence::at_most(1.02, above).mark, Some(Certainty::Refuted));
+        assert_eq!(Evidence::at_most(0.5, above).mark, None);
         // One case that certainly fails refutes, all that certainly hold prove.
         let case = |value, certain| Ok::<_, ()>((String::new(), Certain { value, certain }));
-        let mark_of = |cases: [_; 2]| Finding::always(cases).unwrap().mark;
+        let mark_of = |cases: [_; 2]| Evidence::always(cases).unwrap().mark;
         assert_eq!(mark_of([case(true, true), case(true, true)]), Some(Certainty::Proved));
         assert_eq!(mark_of([case(true, true), case(true, false)]), None);
         assert_eq!(mark_of([case(true, false), case(false, true)]), Some(Certainty::Refuted));
-        let several = [Finding::near(1.0, known), Finding::near(1.12, known)].map(Ok::<_, ()>);
-        assert_eq!(Finding::worst(several).unwrap().mark, Some(Certainty::Refuted));
+        let several = [Evidence::near(1.0, known), Evidence::near(1.12, known)].map(Ok::<_, ()>);
+        assert_eq!(Evidence::worst(several).unwrap().mark, Some(Certainty::Refuted));
     }
 
     #[test]
     fn of_several_cases_all_or_some_or_none_hold() {
         let holds = |does: [bool; 3]| {
             let cases = does.into_iter().enumerate();
-            Finding::always(cases.map(|(case, does)| Ok::<_, ()>((case.to_string(), does))))
+            Evidence::always(cases.map(|(case, does)| Ok::<_, ()>((case.to_string(), does))))
                 .unwrap()
         };
         assert_eq!(holds([true; 3]).verdict(), Verdict::Agrees);
@@ -334,8 +335,8 @@ mod tests {
     #[test]
     fn an_approximation_over_a_range_may_hold_in_a_part_of_it() {
         let over = |papers: [f64; 3]| {
-            let near = papers.map(|paper| Ok::<_, ()>(Finding::near(paper, known(1.0))));
-            Finding::worst(near).unwrap()
+            let near = papers.map(|paper| Ok::<_, ()>(Evidence::near(paper, known(1.0))));
+            Evidence::worst(near).unwrap()
         };
         assert!(matches!(over([1.0, 1.09, 0.95]).verdict(), Verdict::Approximates { .. }));
         let part = over([1.3, 1.05, 0.8]);
@@ -344,8 +345,8 @@ mod tests {
         assert_eq!(over([1.3, 1.2, 0.8]).verdict(), Verdict::False);
         // A correction that fails anywhere is none.
         let mended = |corrected: [f64; 2]| {
-            let of = |value| Ok::<_, ()>(Finding::near(-3.0, known(1.0)).corrected(value));
-            Finding::worst(corrected.map(of)).unwrap().verdict()
+            let of = |value| Ok::<_, ()>(Evidence::near(-3.0, known(1.0)).corrected(value));
+            Evidence::worst(corrected.map(of)).unwrap().verdict()
         };
         assert!(matches!(mended([1.0, 1.05]), Verdict::Corrected { .. }));
         assert_eq!(mended([1.0, 1.2]), Verdict::False);
@@ -353,11 +354,11 @@ mod tests {
 
     #[test]
     fn the_worst_of_several_findings_is_the_one_nearest_to_failing() {
-        let findings = [1.0, 0.9, 1.05].map(|paper| Ok::<_, ()>(Finding::near(paper, known(1.0))));
-        let worst = Finding::worst(findings).unwrap();
+        let cases = [1.0, 0.9, 1.05].map(|paper| Ok::<_, ()>(Evidence::near(paper, known(1.0))));
+        let worst = Evidence::worst(cases).unwrap();
         assert_eq!((worst.paper, worst.cases), (Some(0.9), 3));
         // A lower bound that lies far below is not worse than one that all but touches.
-        let bounds = [0.1, 0.95].map(|paper| Ok::<_, ()>(Finding::at_most(paper, known(1.0))));
-        assert_eq!(Finding::worst(bounds).unwrap().paper, Some(0.95));
+        let bounds = [0.1, 0.95].map(|paper| Ok::<_, ()>(Evidence::at_most(paper, known(1.0))));
+        assert_eq!(Evidence::worst(bounds).unwrap().paper, Some(0.95));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Answer, Columns, Document, Quantity};
 use crate::numerics::Interval;
-use crate::paper::{Certainty, ClaimResult, Finding, Sense, Verdict};
+use crate::paper::{Certainty, ClaimResult, Evidence, Sense, Verdict};
 use crate::words::{claim, duration};
 
 fn sense(sense: Sense) -> &'static str {
@@ -16,13 +16,13 @@ fn sense(sense: Sense) -> &'static str {
 }
 
 /// Something of what was found; `None` if nothing could be computed.
-fn found<T>(examined: &ClaimResult, part: impl Fn(&Finding) -> T) -> Option<T> {
-    examined.finding.as_ref().ok().map(part)
+fn found<T>(examined: &ClaimResult, part: impl Fn(&Evidence) -> T) -> Option<T> {
+    examined.evidence.as_ref().ok().map(part)
 }
 
 fn columns<'a>() -> Columns<'a, ClaimResult> {
     const NUMBER: Quantity = Quantity::pure(6);
-    let place = |it: &Finding| Some(it.place.clone()).filter(|place| !place.is_empty());
+    let place = |it: &Evidence| Some(it.place.clone()).filter(|place| !place.is_empty());
     let end = |it: &ClaimResult, end: fn(Interval) -> f64| {
         found(it, |it| it.computed.bounds).flatten().map(end).filter(|end| end.is_finite())
     };
@@ -43,8 +43,8 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
         .number("corrected", NUMBER, |it| found(it, |it| it.corrected).flatten())
         .number("computed", NUMBER, |it| found(it, |it| it.computed.value))
         .file("error", |it| found(it, |it| it.computed.error))
-        .file("difference", |it| found(it, Finding::difference).flatten())
-        .file("bound", |it| found(it, Finding::bound))
+        .file("difference", |it| found(it, Evidence::difference).flatten())
+        .file("bound", |it| found(it, Evidence::bound))
         .file("verdict", |it| claim::name(it))
         .file("within", |it| it.verdict().and_then(Verdict::within))
         .file("scene", |it| it.claim.scene)
@@ -57,7 +57,7 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
 
 /// Every claim, and the reason if nothing could be computed.
 pub fn claims(examined: &[ClaimResult], seconds: f64) -> Answer<'_> {
-    let reason = |it: &ClaimResult| it.finding.as_ref().err().map(ToString::to_string);
+    let reason = |it: &ClaimResult| it.evidence.as_ref().err().map(ToString::to_string);
     Answer::default()
         .objects("claims", columns().field("reason", reason), examined)
         .csv(columns(), examined)
@@ -71,15 +71,15 @@ pub fn claims(examined: &[ClaimResult], seconds: f64) -> Answer<'_> {
 
 /// What is certain: `proved`, `refuted` or `enclosed`.
 fn proof(examined: &ClaimResult) -> Option<&'static str> {
-    found(examined, |finding| finding.mark).flatten().map(Certainty::name)
+    found(examined, |evidence| evidence.mark).flatten().map(Certainty::name)
 }
 
 /// The claim, and where it was tested.
 fn sentence(examined: &ClaimResult) -> String {
     let statement = examined.claim.statement;
-    match &examined.finding {
-        Ok(finding) if finding.place.is_empty() => statement.to_owned(),
-        Ok(finding) => format!("{statement} [{}]", finding.place),
+    match &examined.evidence {
+        Ok(evidence) if evidence.place.is_empty() => statement.to_owned(),
+        Ok(evidence) => format!("{statement} [{}]", evidence.place),
         Err(reason) => format!("{statement} [not computed: {reason}]"),
     }
 }

@@ -72,7 +72,7 @@ fn role(examined: &ClaimResult) -> Role {
 fn about(claim: &Claim, examined: Option<&ClaimResult>, look: &Look) -> Vec<Line<'static>> {
     let text = |text: String| Line::styled(text, look.style(Role::Text));
     let mut lines = vec![text(format!("{}: {}", claim.equation, claim.statement))];
-    match examined.map(|examined| &examined.finding) {
+    match examined.map(|examined| &examined.evidence) {
         None => {}
         Some(Err(reason)) => lines.push(text(format!("not computed: {reason}"))),
         Some(Ok(finding)) => {

@@ -1,34 +1,34 @@
 //! The verdicts on the claims of the paper.
 
 use super::number::significant;
-use crate::paper::{Certainty, ClaimResult, Finding, POOR, Sense, Verdict};
+use crate::paper::{Certainty, ClaimResult, Evidence, POOR, Sense, Verdict};
 
 /// The name of the verdict if no number could be computed.
 const UNKNOWN: &str = "unknown";
 
 /// The name of the verdict in documents.
 pub fn name(examined: &ClaimResult) -> &'static str {
-    examined.finding.as_ref().map_or(UNKNOWN, |finding| Finding::verdict(finding).name())
+    examined.evidence.as_ref().map_or(UNKNOWN, |evidence| Evidence::verdict(evidence).name())
 }
 
 pub fn verdict(examined: &ClaimResult) -> String {
     let percent = |part: f64| format!("{} %", significant(100.0 * part, 2));
-    let Ok(finding) = &examined.finding else { return UNKNOWN.to_owned() };
-    let counts = || format!("{} of {}", finding.held, finding.cases);
-    match finding.verdict() {
-        Verdict::Agrees if finding.paper.is_none() => "holds".to_owned(),
+    let Ok(evidence) = &examined.evidence else { return UNKNOWN.to_owned() };
+    let counts = || format!("{} of {}", evidence.held, evidence.cases);
+    match evidence.verdict() {
+        Verdict::Agrees if evidence.paper.is_none() => "holds".to_owned(),
         Verdict::Agrees => "agrees".to_owned(),
-        Verdict::Approximates { within } if finding.scale() == 1.0 => {
+        Verdict::Approximates { within } if evidence.scale() == 1.0 => {
             format!("within {}", significant(within, 2))
         }
         Verdict::Approximates { within } => format!("within {}", percent(within)),
         Verdict::Corrected { within: None } => "corrected: holds".to_owned(),
         Verdict::Corrected { within: Some(within) } => format!("corrected: {}", percent(within)),
-        Verdict::InPart if finding.sense == Sense::Always => format!("in {}", counts()),
-        Verdict::InPart => format!("in {}: {} off", counts(), percent(finding.miss())),
-        Verdict::False if finding.sense == Sense::Always => format!("false: {}", counts()),
-        Verdict::False if finding.computed.value == 0.0 => "false".to_owned(),
-        Verdict::False => format!("false: {} off", percent(finding.miss())),
+        Verdict::InPart if evidence.sense == Sense::Always => format!("in {}", counts()),
+        Verdict::InPart => format!("in {}: {} off", counts(), percent(evidence.miss())),
+        Verdict::False if evidence.sense == Sense::Always => format!("false: {}", counts()),
+        Verdict::False if evidence.computed.value == 0.0 => "false".to_owned(),
+        Verdict::False => format!("false: {} off", percent(evidence.miss())),
     }
 }
 
@@ -59,7 +59,7 @@ pub fn summary(examined: &[ClaimResult]) -> String {
         counts.filter(|(count, _)| *count > 0).map(|(count, words)| format!("{count} {words}"));
     let marked = |mark: Certainty| {
         let carries =
-            |one: &&ClaimResult| one.finding.as_ref().is_ok_and(|it| it.mark == Some(mark));
+            |one: &&ClaimResult| one.evidence.as_ref().is_ok_and(|it| it.mark == Some(mark));
         let count = examined.iter().filter(carries).count();
         (count > 0).then(|| format!("{count} {}", mark.name()))
     };
