@@ -1,5 +1,4 @@
-//! The oscillator of the paper as a machine: where a motion of it reaches the speed of the belt, which is not a part of
-//! its equation.
+//! Where a motion of the oscillator of the paper reaches the speed of the belt, which is not a part of its equation.
 
 use crate::flow::Trajectory;
 use crate::model::{HalfPlane, Parameters, Side, State};

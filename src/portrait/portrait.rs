@@ -9,11 +9,12 @@ use rayon::prelude::*;
 use super::return_map::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
 use super::without_belt::{self, WithoutBelt};
 use super::{Border, Cycle, Margin, Reach, RestMargin};
-use crate::flow::machine::curve::{CurvePiece, MachineCurve, PhaseWindow};
+use crate::flow::machine::curve::{CurvePiece, MachineCurve};
 use crate::flow::{Fate, Flow, Reason};
-use crate::model::{ContactState, Model, Phase};
+use crate::model::{ContactState, Model, Phase, State};
 use crate::numerics::root::bisect;
 use crate::portrait::basin::orbit::{POINTS, filled, inner_radius};
+use crate::portrait::basin::stability::part_within;
 use crate::portrait::basin::{Basin, Counts, StartWindow, between};
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
@@ -266,16 +267,21 @@ impl Portrait {
     /// Between which velocities, in m/s, motions from a displacement (m) lie within the border of the basin.
     #[must_use]
     pub fn span_at(&self, x: f64) -> Option<(f64, f64)> {
-        let (low, high) = match &self.traced {
-            Traced::Nothing => return None,
-            Traced::Basin(basin) => basin.borders.first()?.span_at(x)?,
+        let (low, high) = self.span_within(x)?;
+        Some((low * self.model.omega_0, high * self.model.omega_0))
+    }
+
+    /// The same, divided by the natural frequency.
+    fn span_within(&self, x: f64) -> Option<(f64, f64)> {
+        match &self.traced {
+            Traced::Nothing => None,
+            Traced::Basin(basin) => basin.borders.first()?.span_at(x),
             Traced::Curve(curve) => {
                 let (up, down) = curve.velocities_at(x, self.model.speed);
                 // Next to a turning point only one of both may be met.
-                (down.or(up.map(|_| 0.0))?, up.unwrap_or(0.0))
+                Some((down.or(up.map(|_| 0.0))?, up.unwrap_or(0.0)))
             }
-        };
-        Some((low * self.model.omega_0, high * self.model.omega_0))
+        }
     }
 
     /// The fate of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
@@ -290,7 +296,7 @@ impl Portrait {
         if let Traced::Basin(basin) = &self.traced
             && !self.model.holds_more_at_rest()
         {
-            return Ok(without_belt::fate(basin, x, y));
+            return Ok(basin.fate(State { q: x, v: y }));
         }
         let mut flow = Flow::new(&self.model);
         let turn = match flow.to_the_right(x, y) {
@@ -326,7 +332,7 @@ impl Portrait {
     /// The fate of a motion that turns on the right at `x`.
     fn fate_of_turn(&self, x: f64) -> Fate {
         if let Traced::Basin(basin) = &self.traced {
-            return without_belt::fate(basin, x, 0.0);
+            return basin.fate(State { q: x, v: 0.0 });
         }
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
         gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
@@ -338,7 +344,7 @@ impl Portrait {
         let area = match &self.traced {
             Traced::Nothing => None,
             Traced::Basin(basin) => basin.area(),
-            Traced::Curve(curve) => Some(curve.area(self.model.speed).abs()),
+            Traced::Curve(curve) => Some(curve.area(self.model.speed)),
         };
         area.map(|area| area * self.model.omega_0)
     }
@@ -347,16 +353,12 @@ impl Portrait {
     /// divided by the natural frequency; `None` where there is none.
     #[must_use]
     pub fn inner_radius(&self) -> Option<f64> {
-        let speed = self.model.speed;
         match &self.traced {
             Traced::Nothing => None,
             Traced::Basin(basin) => basin.inner_radius(),
             Traced::Curve(curve) => {
-                let span = |x: f64| {
-                    let (up, down) = curve.velocities_at(x, speed);
-                    up.or(down).map(|_| (down.unwrap_or(0.0), up.unwrap_or(0.0)))
-                };
-                inner_radius(&curve.points(POINTS, speed), &span)
+                let points = curve.points(POINTS, self.model.speed);
+                inner_radius(&points, &|x| self.span_within(x))
             }
         }
     }
@@ -402,15 +404,13 @@ impl Portrait {
     /// leave the known range.
     #[must_use]
     pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> Option<f64> {
-        let y = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
-        let window = PhaseWindow { x, y };
+        let window = StartWindow { q: x, v };
         match &self.traced {
             Traced::Basin(basin) => {
-                without_belt::rest_share(basin, &StartWindow { q: window.x, v: window.y })
+                let v = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
+                without_belt::rest_share(basin, &StartWindow { v, ..window })
             }
-            Traced::Curve(curve) => {
-                Some(curve.area_within(&window, self.model.speed) / window.area())
-            }
+            Traced::Curve(_) => Some(part_within(&|x| self.span_at(x), &window).part),
             Traced::Nothing if self.border == Border::NoBasin => Some(0.0),
             // Above v = 0, motions do not cross, and those from the upper end of a vertical edge go farther out than
             // those from below. Along a horizontal edge, dv/dt changes sign once, because the spring is linear:

@@ -6,8 +6,8 @@
 
 use super::{Border, Cycle, Reach};
 use crate::closed_form::harmonic::is_centre;
-use crate::flow::{Fate, Limits, Reason};
-use crate::model::{Model, State};
+use crate::flow::{Fate, Limits};
+use crate::model::Model;
 use crate::portrait::basin::arc::Arc;
 use crate::portrait::basin::cycle::cycles_and_closings;
 use crate::portrait::basin::{Basin, StartWindow, basin};
@@ -76,17 +76,6 @@ fn reach_of(basin: &Basin, model: &Model) -> Option<Reach> {
         displacement: (turn(&border.lower), turn(&border.upper)),
         velocity: (high * model.omega_0, -low * model.omega_0),
     })
-}
-
-/// Where a motion from displacement `x` and velocity `y` (divided by the natural frequency) ends.
-pub fn fate(basin: &Basin, x: f64, y: f64) -> Fate {
-    match basin.fate(State { q: x, v: y }) {
-        Fate::Rest => Fate::Rest,
-        Fate::Cycle(index) => Fate::Cycle(index),
-        Fate::Neutral => Fate::Neutral,
-        Fate::Escapes => Fate::Escapes,
-        Fate::Moving | Fate::Unknown(_) => Fate::Unknown(Reason::Steps),
-    }
 }
 
 /// The fraction of a window, in m and `m omega_0`, from which the mass comes to rest.

@@ -27,8 +27,6 @@ pub struct Slip {
     pub phase: Phase,
     /// Duration, in `1/omega_0`.
     pub duration: f64,
-    /// Where the velocity has its extremum in it.
-    pub peak: Option<f64>,
     offset: f64,
     x: Box<Terms>,
     y: Box<Terms>,
@@ -40,17 +38,6 @@ impl Slip {
         (value(&self.x[..], t) - self.offset, value(&self.y[..], t))
     }
 
-    /// The time at which a series takes a value, in an interval at whose ends it lies on both sides.
-    fn when(terms: &Terms, target: f64, (low, high): (f64, f64)) -> f64 {
-        let bracket = Bracket { low, high, rising: value(terms, high) > value(terms, low) };
-        let settled = PlaceTolerance::Absolute(1e-16 * span(low, high));
-        let height = |t: f64| {
-            let (height, slope) = value_and_slope(terms, t);
-            (height - target, slope)
-        };
-        newton(bracket, bracket.middle(), settled, height).at
-    }
-
     /// The velocity where the step passes a displacement; `None` where it does not.
     fn velocity_at(&self, x: f64) -> Option<f64> {
         let target = x + self.offset;
@@ -58,71 +45,14 @@ impl Slip {
         if from.min(to) > target || from.max(to) < target {
             return None;
         }
-        Some(value(&self.y[..], Self::when(&self.x, target, (0.0, self.duration))))
-    }
-
-    /// The parts of the step between the places where it passes these values of x and y.
-    fn cuts(&self, window: &PhaseWindow) -> Vec<f64> {
-        let mut cuts = vec![0.0];
-        let turns = self.peak.into_iter().chain([self.duration]);
-        let mut from = 0.0;
-        for to in turns {
-            let mut inside = |terms: &Terms, target: f64| {
-                let (left, right) = (value(terms, from), value(terms, to));
-                if left.min(right) < target && target < left.max(right) {
-                    cuts.push(Self::when(terms, target, (from, to)));
-                }
-            };
-            for x in [window.x.0, window.x.1] {
-                inside(&self.x, x + self.offset);
-            }
-            for y in [window.y.0, window.y.1] {
-                inside(&self.y, y);
-            }
-            cuts.push(to);
-            from = to;
-        }
-        cuts.sort_by(f64::total_cmp);
-        cuts
-    }
-
-    /// The integral of the clamped velocity over x, as far as x lies within the window.
-    fn area(&self, window: &PhaseWindow) -> f64 {
-        let cuts = self.cuts(window);
-        let part = |ends: &[f64]| {
-            let (from, length) = (ends[0], ends[1] - ends[0]);
-            let (x, y) = self.at(from + 0.5 * length);
-            if x < window.x.0 || x > window.x.1 {
-                return 0.0;
-            }
-            if y > window.y.0 && y < window.y.1 {
-                let square = |node: f64| powi(value(&self.y[..], from + node * length), 2);
-                gauss(square) * length
-            } else {
-                let width = value(&self.x[..], ends[1]) - value(&self.x[..], from);
-                y.clamp(window.y.0, window.y.1) * width.abs() * y.signum()
-            }
+        let bracket = Bracket { low: 0.0, high: self.duration, rising: to > from };
+        let settled = PlaceTolerance::Absolute(1e-16 * self.duration.abs());
+        let height = |t: f64| {
+            let (height, slope) = value_and_slope(&self.x[..], t);
+            (height - target, slope)
         };
-        cuts.windows(2).map(part).sum()
-    }
-}
-
-fn span(low: f64, high: f64) -> f64 {
-    low.abs().max(high.abs())
-}
-
-/// A rectangle of the phase plane; velocities divided by the natural frequency.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PhaseWindow {
-    /// From which displacement to which.
-    pub x: (f64, f64),
-    /// From which velocity to which.
-    pub y: (f64, f64),
-}
-
-impl PhaseWindow {
-    pub fn area(&self) -> f64 {
-        (self.x.1 - self.x.0) * (self.y.1 - self.y.0)
+        let time = newton(bracket, bracket.middle(), settled, height).at;
+        Some(value(&self.y[..], time))
     }
 }
 
@@ -142,7 +72,6 @@ impl Watch for MachineCurve {
         self.pieces.push(CurvePiece::Slip(Slip {
             phase: step.phase,
             duration: step.duration,
-            peak: step.peak,
             offset: model.offset(step.phase),
             x: Box::new(step.series.x),
             y: Box::new(step.series.y),
@@ -180,10 +109,15 @@ impl MachineCurve {
         found
     }
 
-    /// The area within a closed curve.
+    /// The area within a closed curve: the integral of `y dx` along it, which is that of `y^2` over time.
     pub fn area(&self, speed: f64) -> f64 {
-        let all = (f64::NEG_INFINITY, f64::INFINITY);
-        self.area_within(&PhaseWindow { x: all, y: all }, speed)
+        let of = |piece: &CurvePiece| match piece {
+            CurvePiece::Slip(slip) => {
+                gauss(|part| powi(slip.at(part * slip.duration).1, 2)) * slip.duration
+            }
+            CurvePiece::Line { from, to } => speed * (to - from).abs(),
+        };
+        self.pieces.iter().map(of).sum()
     }
 
     /// Its points, `between` + 1 on each piece; velocities divided by the natural frequency.
@@ -197,19 +131,5 @@ impl MachineCurve {
             (0..=between).map(at).map(|(q, v)| State { q, v }).collect()
         };
         self.pieces.iter().flat_map(on).collect()
-    }
-
-    /// The area that a closed curve has in common with a window: the integral of `y dx` along it, with y
-    /// clamped to the window.
-    pub fn area_within(&self, window: &PhaseWindow, speed: f64) -> f64 {
-        let clamped = speed.clamp(window.y.0, window.y.1);
-        let of = |piece: &CurvePiece| match piece {
-            CurvePiece::Slip(slip) => slip.area(window),
-            CurvePiece::Line { from, to } => {
-                let (left, right) = (from.min(*to).max(window.x.0), from.max(*to).min(window.x.1));
-                clamped * (right - left).max(0.0)
-            }
-        };
-        self.pieces.iter().map(of).sum()
     }
 }

@@ -27,32 +27,33 @@ pub struct Share {
 /// Absolute error to which each interval is integrated.
 const TOLERANCE: f64 = 1e-12;
 
-impl Share {
-    fn of(Integral { value, error }: Integral) -> Self {
-        Share { part: value.clamp(0.0, 1.0), error }
-    }
-}
-
 impl Basin {
     /// The fraction of a window's area that belongs to the basin of the sticking set.
-    ///
-    /// Adaptive Gauss-Kronrod quadrature over the displacements inside the edge. The error is ten times the sum of the
-    /// differences between its two rules.
     pub fn captured_share(&self, window: &StartWindow) -> Share {
         let whole = |part| Share { part, error: 0.0 };
         if self.fates.first() != Some(&Fate::Rest) {
             return whole(0.0);
         }
         let Some(edge) = self.borders.first() else { return whole(1.0) };
-        let span = |q: f64| edge.span_at(q);
-        let Some((left, right)) = support(&span, window.q) else { return whole(0.0) };
-        let (width, height) = (window.q.1 - window.q.0, window.v.1 - window.v.0);
-        let density = |q: f64| {
-            let (low, high) = span(q).unwrap_or((0.0, 0.0));
-            (high.min(window.v.1) - low.max(window.v.0)).max(0.0) / height / width
-        };
-        Share::of(over_scales(density, left, right))
+        part_within(&|q| edge.span_at(q), window)
     }
+}
+
+/// The fraction of a window's area that lies within a border.
+///
+/// Adaptive Gauss-Kronrod quadrature over the displacements inside it. The error is ten times the sum of the
+/// differences between its two rules.
+pub(crate) fn part_within(span: Span, window: &StartWindow) -> Share {
+    let Some((left, right)) = support(span, window.q) else {
+        return Share { part: 0.0, error: 0.0 };
+    };
+    let (width, height) = (window.q.1 - window.q.0, window.v.1 - window.v.0);
+    let density = |q: f64| {
+        let (low, high) = span(q).unwrap_or((0.0, 0.0));
+        (high.min(window.v.1) - low.max(window.v.0)).max(0.0) / height / width
+    };
+    let Integral { value, error } = over_scales(density, left, right);
+    Share { part: value.clamp(0.0, 1.0), error }
 }
 
 /// Integrates over displacements inside an edge, in the angle of a circle over them, in which the turning points of
