@@ -8,7 +8,7 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::model::{Knob, Parameters, State};
 use hopfscope::portrait::basin::cycle::cycles;
-use hopfscope::portrait::basin::{StartWindow, SurveyedBasin};
+use hopfscope::portrait::basin::{StartWindow, basin};
 
 fn main() {
     divan::main();
@@ -120,8 +120,10 @@ fn one_cycle(bencher: Bencher) {
 fn basin_by_ordering(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
     let window = StartWindow { q: (-6.0, 6.0), v: (-6.0, 6.0) };
-    bencher
-        .bench(|| SurveyedBasin::of(black_box(&parameters), &window, (320, 384), &Limits::PATIENT));
+    bencher.bench(|| {
+        let found = basin(black_box(&parameters), 6.0, &Limits::PATIENT).unwrap();
+        found.count(&window, (320, 384), &Limits::PATIENT)
+    });
 }
 
 /// The same basin by brute force, for only 32 by 38 starts: a hundredth of them.

@@ -13,7 +13,7 @@ use hopfscope::flow::{Cost, Detail, Limits, METHODS, Outcome, Problem, Reason};
 use hopfscope::model::{Knob, Parameters, State};
 use hopfscope::portrait::basin::capture::bands;
 use hopfscope::portrait::basin::cycle::cycles;
-use hopfscope::portrait::basin::{StartWindow, SurveyedBasin};
+use hopfscope::portrait::basin::{StartWindow, basin};
 
 /// Maximum number of evaluations between two polls.
 const BETWEEN: u64 = 10_000;
@@ -134,8 +134,13 @@ fn a_fold_stops() {
 fn basins_stop_however_fine_the_grid() {
     let parameters = parameters()[0];
     let window = StartWindow { q: (-2.0, 2.0), v: (-2.0, 2.0) };
-    check("basin", |limits| match SurveyedBasin::of(&parameters, &window, (2_000, 50), limits) {
-        Ok(found) => (None, Some(found.cost)),
+    let counted = |limits: &Limits| {
+        let found = basin(&parameters, 2.0, limits)?;
+        found.count(&window, (2_000, 50), limits)?;
+        Ok(found.cost)
+    };
+    check("basin", |limits| match counted(limits) {
+        Ok(cost) => (None, Some(cost)),
         Err(reason) => (Some(reason), None),
     });
     check("bands of capture", |limits| match bands(&parameters, 10.0, 8, limits) {
@@ -149,7 +154,7 @@ fn basins_stop_however_fine_the_grid() {
         false
     };
     let limits = Limits { interrupted: &count, ..Limits::PATIENT };
-    SurveyedBasin::of(&parameters, &window, (2_000, 50), &limits).unwrap();
+    counted(&limits).unwrap();
     assert!(polls.load(Ordering::Relaxed) >= 2_000);
 }
 

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::flow::Limits;
 use crate::model::MachineProblem;
-use crate::portrait::basin::SurveyedBasin;
+use crate::portrait::basin::basin;
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::guarantee::oscillator::guarantee;
 use crate::portrait::kicks::repeated::{repeated, repeated_by};
@@ -16,7 +16,7 @@ use crate::portrait::proved::agreed;
 use crate::proof;
 use crate::proof::{ParameterBox, prove};
 use crate::report::About;
-use crate::report::margin::{basin, basin_of_machine, kicks, margins};
+use crate::report::margin::{basin_of_machine, basin_of_oscillator, kicks, margins};
 
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Debug, Args)]
@@ -99,17 +99,23 @@ impl BasinCommand {
         }
         let parameters = self.source.start.scene(None)?.problem.parameters;
         let window = window.unwrap_or(WINDOW);
-        let survey = || SurveyedBasin::of(&parameters, &window, self.grid, &Limits::PATIENT);
-        let (found, seconds) = self.output.timed("the basin could not be completed", survey)?;
+        let reach = window.q.0.abs().max(window.q.1.abs());
+        let survey = || {
+            let found = basin(&parameters, reach, &Limits::PATIENT)?;
+            let counts = found.count(&window, self.grid, &Limits::PATIENT)?;
+            Ok((found, counts))
+        };
+        let timed = self.output.timed("the basin could not be completed", survey)?;
+        let ((found, counts), seconds) = timed;
         let enclose = || {
             let proof = prove(&ParameterBox::from(&parameters), &[]);
-            let margin = &found.margin;
+            let margin = found.margin();
             let hints = [margin.displacement, margin.impulse, margin.from_rest.impulse];
             agreed(proof::kicks::kicks(&proof, hints), &found)
         };
         let certified = self.certify.ask(enclose);
         let about = About::oscillator(&parameters);
-        self.output.print(basin(&about, &found, certified.as_ref(), seconds))
+        self.output.print(basin_of_oscillator(&about, &found, counts, certified.as_ref(), seconds))
     }
 }
 

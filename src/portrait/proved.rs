@@ -5,7 +5,7 @@
 
 use thiserror::Error;
 
-use super::basin::SurveyedBasin;
+use super::basin::Basin;
 use super::basin::cycle::Cycles;
 use crate::numerics::Interval;
 use crate::portrait::{Border, Cycle};
@@ -60,9 +60,9 @@ pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     Ok(())
 }
 
-/// What is proved about the edge of a basin; nothing where a survey says otherwise.
+/// What is proved about the edge of a basin; nothing where the search says otherwise.
 #[must_use]
-pub fn agreed(proved: ProvedKicks, found: &SurveyedBasin) -> ProvedKicks {
+pub fn agreed(proved: ProvedKicks, found: &Basin) -> ProvedKicks {
     const DIFFERENT: &str = "not proved, because the proof contradicts the numbers above";
     let edge = match proved.edge {
         Some(ProvedEdge::None) => Some(Border::None),
@@ -70,7 +70,8 @@ pub fn agreed(proved: ProvedKicks, found: &SurveyedBasin) -> ProvedKicks {
         Some(ProvedEdge::Separatrix) => Some(Border::Separatrix),
         None => None,
     };
-    let (margin, from_rest) = (&found.margin, &found.margin.from_rest);
+    let margin = found.margin();
+    let from_rest = margin.from_rest;
     let pairs = [
         (proved.displacement, margin.displacement),
         (proved.impulse, margin.impulse),

@@ -2,7 +2,7 @@
 
 use super::certified::kick_columns;
 use super::{About, Answer, Columns, Document, Quantity, cycles};
-use crate::portrait::basin::{Counts, SurveyedBasin};
+use crate::portrait::basin::{Basin, Counts};
 use crate::portrait::guarantee::Uncertain;
 use crate::portrait::kicks::RandomKick;
 use crate::portrait::kicks::repeated::Repeated;
@@ -128,14 +128,17 @@ impl WindowShare {
 }
 
 /// The basin of the oscillator of the paper over a window, and what is proved of it.
-pub fn basin<'a>(
+pub fn basin_of_oscillator<'a>(
     about: &About,
-    found: &'a SurveyedBasin,
+    found: &Basin,
+    counts: Counts,
     certified: Option<&'a ProvedKicks>,
     seconds: f64,
 ) -> Answer<'a> {
-    let SurveyedBasin { border, counts, margin, area, captured, lyapunov_share, .. } = *found;
-    let window = WindowShare { border, counts, margin, captured: Some(captured) };
+    let (border, parameters) = (found.border, found.parameters);
+    let (area, lyapunov_share) = (found.area(), found.lyapunov_share());
+    let captured = Some(counts.captured_part());
+    let window = WindowShare { border, counts, margin: found.margin(), captured };
     let shown = Columns::default()
         .number("area", Quantity::pure(10), move |_: &MarginRow| area)
         .titled("area of the basin");
@@ -147,7 +150,9 @@ pub fn basin<'a>(
     let too_large = lyapunov_share.is_some_and(|share| share > 1.0);
     window
         .told(about.answer().lines([cycles::border(border)]), about, shown, share.and(proved))
-        .fields(move |all| all.and(found))
+        .with("parameters", parameters)
+        .with("area", area)
+        .with("lyapunov_share", lyapunov_share)
         .with_any("certified", certified.map(|it| kick_columns().object(&it)))
         .lines(too_large.then_some("Lyapunov's disk is too large, as it ignores D2 and D3"))
         .cost(found.cost, seconds)

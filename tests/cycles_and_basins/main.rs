@@ -128,7 +128,7 @@ fn ordered_basins_agree_with_brute_force() {
             };
             assert_eq!(told, brute_fate(&parameters, start), "{parameters:?} {start:?}");
         }
-        let counts = ordered.count(&window, GRID, GRID, &LIMITS).unwrap();
+        let counts = ordered.count(&window, (GRID, GRID), &LIMITS).unwrap();
         let mut one_by_one = Counts::default();
         for index in 0..GRID * GRID {
             let place = |index: usize| -3.0 + 6.0 * index as f64 / (GRID - 1) as f64;
@@ -152,7 +152,7 @@ fn few_starts_of_a_wide_window_come_to_rest_beside_a_large_cycle() {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
     let window = StartWindow { q: (-6.0, 6.0), v: (-6.0, 6.0) };
     let counts =
-        basin(&parameters, 6.0, &LIMITS).unwrap().count(&window, 320, 384, &LIMITS).unwrap();
+        basin(&parameters, 6.0, &LIMITS).unwrap().count(&window, (320, 384), &LIMITS).unwrap();
     assert_eq!(counts, Counts { captured: 358, cycle: 122_522, escaped: 0, undecided: 0 });
 }
 

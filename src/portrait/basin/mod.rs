@@ -77,6 +77,15 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Basin stability: the fraction of the starts that is captured.
+    #[must_use]
+    pub fn captured_part(&self) -> f64 {
+        let all = self.captured + self.cycle + self.escaped + self.undecided;
+        #[expect(clippy::cast_precision_loss, reason = "at most 1e10 starts")]
+        let part = self.captured as f64 / all as f64;
+        part
+    }
+
     /// Both together.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
@@ -201,8 +210,7 @@ impl Basin {
     pub fn count(
         &self,
         window: &StartWindow,
-        columns: usize,
-        rows: usize,
+        (columns, rows): (usize, usize),
         limits: &Limits,
     ) -> Result<Counts, Reason> {
         let mut counts = Counts::default();
@@ -229,58 +237,6 @@ impl Basin {
             counts.add(self.fates[self.borders.len()], (rows - taken) as u64);
         }
         Ok(counts)
-    }
-}
-
-/// A basin, surveyed over a window of starts.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SurveyedBasin {
-    /// The parameters.
-    pub parameters: Parameters,
-    /// What borders the basin of the sticking set.
-    #[serde(rename = "edge")]
-    pub border: Border,
-    /// How many of the starts end where.
-    pub counts: Counts,
-    /// The kicks that are survived.
-    pub margin: Margin,
-    /// Area of the basin, where it is finite.
-    pub area: Option<f64>,
-    /// Basin stability: the fraction of the starts that is captured.
-    pub captured: f64,
-    /// Radius of Lyapunov's disk (24) as a fraction of the margin.
-    pub lyapunov_share: Option<f64>,
-    /// What it cost.
-    #[serde(skip)]
-    pub cost: Cost,
-}
-
-impl SurveyedBasin {
-    /// Surveys a grid of `columns` by `rows` starts.
-    ///
-    /// # Errors
-    /// The [`Reason`] why a border could not be computed.
-    pub fn of(
-        parameters: &Parameters,
-        window: &StartWindow,
-        (columns, rows): (usize, usize),
-        limits: &Limits,
-    ) -> Result<Self, Reason> {
-        let reach = window.q.0.abs().max(window.q.1.abs());
-        let basin = basin(parameters, reach, limits)?;
-        let counts = basin.count(window, columns, rows, limits)?;
-        #[expect(clippy::cast_precision_loss, reason = "at most 1e10 starts")]
-        let captured = counts.captured as f64 / (columns * rows) as f64;
-        Ok(SurveyedBasin {
-            parameters: *parameters,
-            border: basin.border,
-            counts,
-            margin: basin.margin(),
-            area: basin.area(),
-            captured,
-            lyapunov_share: basin.lyapunov_share(),
-            cost: basin.cost,
-        })
     }
 }
 

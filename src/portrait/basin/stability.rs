@@ -177,7 +177,7 @@ mod tests {
         let window = StartWindow { q: (-2.0, 2.0), v: (-1.0, 3.0) };
         let found = basin(&parameters, 2.0, &Limits::PATIENT).unwrap();
         let share = found.captured_share(&window);
-        let counts = found.count(&window, 2001, 2001, &Limits::PATIENT).unwrap();
+        let counts = found.count(&window, (2001, 2001), &Limits::PATIENT).unwrap();
         #[expect(clippy::cast_precision_loss, reason = "four million")]
         let counted = counts.captured as f64 / (2001.0 * 2001.0);
         assert!(share.part > 0.1 && share.part < 0.9, "{share:?}");
