@@ -4,7 +4,6 @@ use rayon::prelude::*;
 
 use super::machine_special::between;
 use super::special::Special;
-use crate::flow::machine::series::ORDER;
 use crate::flow::{Cost, Reason};
 use crate::model::{Knob, Source};
 use crate::portrait::basin::between as evenly;
@@ -40,7 +39,8 @@ type Portraits = Vec<(f64, Result<Portrait, Reason>)>;
 impl MachineBranch {
     fn of(portraits: Portraits, special: Vec<Special>) -> Self {
         let known = portraits.iter().filter_map(|(_, found)| found.as_ref().ok());
-        let steps = known.map(|found| found.steps).sum::<u64>();
+        let mut cost = Cost::default();
+        known.for_each(|found| cost += found.cost);
         let point = |(value, found): (f64, Result<Portrait, Reason>)| {
             let rests = found.as_ref().is_ok_and(|found| found.border != Border::NoBasin);
             let touching = found.as_ref().ok().and_then(|found| {
@@ -49,11 +49,7 @@ impl MachineBranch {
             });
             MachineBranchPoint { value, cycles: found.map(|found| found.cycles), touching, rests }
         };
-        MachineBranch {
-            points: portraits.into_iter().map(point).collect(),
-            special,
-            cost: Cost { evaluations: steps * ORDER as u64, steps, rejected: 0 },
-        }
+        MachineBranch { points: portraits.into_iter().map(point).collect(), special, cost }
     }
 
     /// This one with the points of another, in order.

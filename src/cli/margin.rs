@@ -8,10 +8,11 @@ use super::{
 };
 use crate::flow::Limits;
 use crate::model::MachineProblem;
+use crate::portrait::Portrait;
 use crate::portrait::basin::basin;
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::guarantee::oscillator::guarantee;
-use crate::portrait::kicks::repeated::{repeated, repeated_by};
+use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::agreed;
 use crate::proof;
 use crate::proof::{ParameterBox, prove};
@@ -142,13 +143,17 @@ impl KicksCommand {
         let law = read("--kicks", &self.law, |text| self.source.numbers().kicks(text))?;
         if let Some(case) = self.source.portrayed()? {
             let (portrait, before) = case.portrait(&self.output)?;
-            let follow = || repeated_by(&portrait, &law);
+            let follow = || repeated(&portrait, &law, &Limits::PATIENT);
             let (found, seconds) = self.output.timed(FAILED, follow)?;
             let (about, held) = (case.about(), portrait.model.guide_static);
             return self.output.print(kicks(&about, &law, &found, held, before + seconds));
         }
         let parameters = self.source.start.scene(None)?.problem.parameters;
-        let follow = || repeated(&parameters, &law, &Limits::PATIENT);
+        let reach = law.reach() + parameters.r;
+        let follow = || {
+            let portrait = Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT)?;
+            repeated(&portrait, &law, &Limits::PATIENT)
+        };
         let (found, seconds) = self.output.timed(FAILED, follow)?;
         let about = About::oscillator(&parameters);
         self.output.print(kicks(&about, &law, &found, parameters.r, seconds))

@@ -7,12 +7,13 @@
 use rayon::prelude::*;
 
 use super::return_map::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
-use super::without_belt::{self, WithoutBelt};
-use super::{Border, Cycle, Margin, Reach, RestMargin};
+use super::without_belt;
+use super::{Border, Cycle, Cycles, Margin, Reach, RestMargin};
 use crate::flow::machine::curve::{CurvePiece, MachineCurve};
-use crate::flow::{Fate, Flow, Reason};
-use crate::model::{ContactState, Model, Phase, State};
+use crate::flow::{Cost, Fate, Flow, Limits, Reason};
+use crate::model::{ContactState, Model, Parameters, Phase, State};
 use crate::numerics::root::bisect;
+use crate::portrait::basin::cycle::cycles_and_closings;
 use crate::portrait::basin::orbit::{POINTS, filled, inner_radius};
 use crate::portrait::basin::stability::part_within;
 use crate::portrait::basin::{Basin, Counts, StartWindow, between};
@@ -54,8 +55,8 @@ pub struct Portrait {
     /// Intervals of right turning points in which the search for cycles did not settle: pairs of cycles may
     /// hide there.
     pub unresolved: Vec<(f64, f64)>,
-    /// Number of integration steps.
-    pub steps: u64,
+    /// What it cost.
+    pub cost: Cost,
     gaps: Vec<Gap>,
     traced: Traced,
 }
@@ -66,10 +67,26 @@ impl Portrait {
     /// # Errors
     /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
     pub fn of(model: &Model) -> Result<Self, Reason> {
-        match WithoutBelt::of(model) {
-            Some(found) => Ok(Portrait::without_belt(model, found)),
+        match without_belt::orbits(model) {
+            Some((cycles, basin)) => Ok(Portrait::within(model, cycles, basin)),
             None => Portrait::by_return_map(model),
         }
+    }
+
+    /// The portrait of the oscillator of the paper, whose separatrix is followed as far as `reach`.
+    ///
+    /// # Errors
+    /// [`Reason`] if the search for cycles fails, or a border cannot be traced.
+    pub fn of_oscillator(
+        parameters: &Parameters,
+        reach: f64,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        let Parameters { d, d2, d3, r } = *parameters;
+        let model = Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], r, r)?;
+        let (found, closings) = cycles_and_closings(parameters, limits)?;
+        let basin = Basin::around(parameters, &closings, reach, limits)?;
+        Ok(Portrait::within(&model, found, basin))
     }
 
     /// The portrait of any machine by its return map.
@@ -111,29 +128,31 @@ impl Portrait {
             stop: found.stop,
             known: found.end,
             unresolved: found.unresolved,
-            steps: 0,
+            cost: Cost::default(),
             gaps: gaps(&marks, &ways, found.stop),
             traced: Traced::Nothing,
         };
         portrait.settle_border(&mut flow, &marks)?;
-        portrait.steps = flow.steps;
+        portrait.cost = flow.cost();
         Ok(portrait)
     }
 
-    fn without_belt(model: &Model, found: WithoutBelt) -> Self {
-        let WithoutBelt { cycles, border, reach, basin, steps } = found;
+    /// From the cycles of the oscillator that a model without a belt is, and the orbits that part its motions.
+    fn within(model: &Model, found: Cycles, basin: Basin) -> Self {
+        let mut cost = found.cost;
+        cost += basin.cost;
         let mut portrait = Portrait {
             model: model.clone(),
-            cycles,
+            cycles: found.cycles.iter().map(|cycle| cycle.scaled(1.0, model.omega_0)).collect(),
             neutral: false,
-            border,
-            reach,
+            border: without_belt::border(&basin),
+            reach: without_belt::reach(&basin, model),
             margin: Margin::ENDLESS,
             landmarks: None,
             stop: None,
             known: f64::INFINITY,
             unresolved: Vec::new(),
-            steps,
+            cost,
             gaps: Vec::new(),
             traced: Traced::Basin(Box::new(basin)),
         };

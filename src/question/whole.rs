@@ -2,9 +2,8 @@
 //! motion or cycles draws these as well.
 
 use crate::flow::machine::curve::{CurvePiece, MachineCurve};
-use crate::flow::machine::series::ORDER;
 use crate::flow::{
-    Cost, Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow,
+    Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow,
 };
 use crate::model::{Belt, Model, Parameters, State};
 use crate::portrait::basin::cycle::cycles_drawn;
@@ -119,14 +118,13 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
         area: None,
         lyapunov_share: None,
     };
-    let steps = found.steps;
     Ok(Cycles {
         parameters: *parameters,
         cycles: found.cycles.iter().map(|it| cycle(model, it)).collect(),
         harmonic: Vec::new(),
         border: found.border,
         picture: Some(picture),
-        cost: Cost { evaluations: steps * ORDER as u64, steps, rejected: 0 },
+        cost: found.cost,
     })
 }
 

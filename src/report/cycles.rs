@@ -107,7 +107,7 @@ pub(super) fn known(portrait: &Portrait) -> Vec<String> {
 
 /// What a portrait of a machine cost.
 pub(super) fn steps(portrait: &Portrait) -> Cost {
-    Cost { steps: portrait.steps, ..Cost::default() }
+    Cost { steps: portrait.cost.steps, ..Cost::default() }
 }
 
 /// The harmonic balance for one number of harmonics on the branch of one first-order answer. If the branch was lost

@@ -145,7 +145,7 @@ fn where_motions_take_too_many_steps_the_margin_is_what_was_followed() {
     let margin = found.reach.unwrap();
     assert_eq!((found.stop, margin.displacement.0), (Some(Reason::Steps), found.known));
     assert!(margin.displacement.0 > 10.0 && margin.velocity.1 > 10.0, "{margin:?}");
-    assert!(found.steps < 100_000, "{} steps", found.steps);
+    assert!(found.cost.steps < 100_000, "{} steps", found.cost.steps);
 }
 
 /// A light mass without guide friction, whose law is a table that falls by half up to some slip.
@@ -260,7 +260,7 @@ fn where_motions_run_away_the_search_for_cycles_settles() {
     assert_eq!(found.unresolved, []);
     let outermost = found.cycles.last().unwrap().q_max;
     assert_eq!(found.fate(outermost * (1.0 + 1e-9), 0.0), Ok(Fate::Escapes));
-    assert!(found.steps < 4000, "{} steps", found.steps);
+    assert!(found.cost.steps < 4000, "{} steps", found.cost.steps);
 }
 
 /// A mass carried away from a belt with constant friction by a negative damper.

@@ -5,7 +5,8 @@
 //! exactly once. So the values at the ends of a step and at that maximum decide whether a line was reached,
 //! however shallow the contact; nothing is sampled.
 
-use super::series::PhaseSeries;
+use super::series::{ORDER, PhaseSeries};
+use crate::flow::Cost;
 
 use crate::model::force::ForceBranch;
 use crate::model::model::FINEST;
@@ -114,6 +115,12 @@ impl<'a> Flow<'a> {
     #[must_use]
     pub fn new(model: &'a Model) -> Self {
         Flow { model, series: PhaseSeries::new(), steps: 0 }
+    }
+
+    /// What its steps cost: an evaluation for each term of a series.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        Cost { evaluations: self.steps * ORDER as u64, steps: self.steps, rejected: 0 }
     }
 
     /// Follows a motion from `(x, y)` to the end of its phase, forward in time or backward.

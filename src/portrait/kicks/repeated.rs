@@ -12,11 +12,8 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::RandomKick;
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Fate, Flow, Limits, Outcome, Problem, Reason};
-use crate::model::{Parameters, State};
+use crate::flow::{Cost, Fate, Flow, Limits, Reason};
 use crate::numerics::count::{real, truncated};
-use crate::portrait::basin::basin;
 use crate::portrait::basin::stability::Share;
 use crate::portrait::{Border, Portrait};
 
@@ -48,60 +45,47 @@ const COLUMNS: f64 = 600.0;
 /// Kicks beyond this many spreads are too rare to matter for where kicks end.
 const FAR: f64 = 5.0;
 
-/// Follows kicks until one is lost. Fails with the [`Reason`] why the basin could not be computed;
-/// [`Reason::NotApplicable`] without friction.
+/// What the parts that are lost rest on.
+const NEEDS: Reason = Reason::NotApplicable {
+    needs: "a basin of rest that is known, and no family of periodic motions",
+};
+
+/// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
+/// basin is not known.
+pub fn part_lost(portrait: &Portrait, kicks: &RandomKick) -> Result<Share, Reason> {
+    let all = |part| Ok(Share { part, error: 0.0 });
+    match portrait.border {
+        Border::Unknown(_) => Err(NEEDS),
+        _ if portrait.neutral => Err(NEEDS),
+        Border::None => all(0.0),
+        Border::NoBasin => all(1.0),
+        _ => Ok(kicks.lost_outside(&|x| portrait.span_at(x))),
+    }
+}
+
+/// Follows kicks until one is lost. Fails with the [`Reason`] why a motion could not be followed, with
+/// [`Reason::NotApplicable`] where the basin is not known, or without friction.
 pub fn repeated(
-    parameters: &Parameters,
+    portrait: &Portrait,
     kicks: &RandomKick,
     limits: &Limits,
 ) -> Result<Repeated, Reason> {
-    if parameters.r == 0.0 {
+    let first = part_lost(portrait, kicks)?;
+    if portrait.model.guide_static == 0.0 {
         return Err(WITHOUT);
     }
-    let basin = basin(parameters, kicks.reach() + parameters.r, limits)?;
-    let rest = |start: State| {
-        if basin.fate(start) != Fate::Rest {
-            return Ok((None, Cost::default()));
-        }
-        rest_of(parameters, start, limits)
-    };
-    let kicked = Kicked { half: parameters.r, rest: &rest, lost: &|kicks| kicks.lost(&basin) };
-    let mut found = kicked.repeated(kicks)?;
-    found.cost += basin.cost;
-    Ok(found)
-}
-
-/// Where the motion from a start comes to rest; `None` where it is lost, or where that takes too long.
-type RestOf<'a> = &'a (dyn Fn(State) -> Result<(Option<f64>, Cost), Reason> + Sync);
-
-/// An oscillator that is kicked.
-pub struct Kicked<'a> {
-    /// Farthest place of rest on either side.
-    pub half: f64,
-    pub rest: RestOf<'a>,
-    /// The fraction of kicks from the middle that is lost.
-    pub lost: &'a dyn Fn(&RandomKick) -> Share,
-}
-
-impl Kicked<'_> {
-    /// Follows kicks until one is lost. Fails with the [`Reason`] why a motion could not be followed;
-    /// [`Reason::NotApplicable`] without friction.
-    pub fn repeated(&self, kicks: &RandomKick) -> Result<Repeated, Reason> {
-        if self.half == 0.0 {
-            return Err(WITHOUT);
-        }
-        let coarse = Chain::new(self, kicks, CELLS / 2)?;
-        let fine = Chain::new(self, kicks, CELLS)?;
-        let mut cost = coarse.cost;
-        cost += fine.cost;
-        let (density, later) = fine.settled();
-        let (_, before) = coarse.settled();
-        let mean = fine.mean(later);
-        let relative =
-            |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
-        let error = relative(before, later).max(relative(coarse.mean(before), mean));
-        Ok(Repeated { first: (self.lost)(kicks), later, mean, error, density, cost })
-    }
+    let coarse = Chain::new(portrait, kicks, CELLS / 2, limits)?;
+    let fine = Chain::new(portrait, kicks, CELLS, limits)?;
+    let mut cost = portrait.cost;
+    cost += coarse.cost;
+    cost += fine.cost;
+    let (density, later) = fine.settled();
+    let (_, before) = coarse.settled();
+    let mean = fine.mean(later);
+    let relative =
+        |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
+    let error = relative(before, later).max(relative(coarse.mean(before), mean));
+    Ok(Repeated { first, later, mean, error, density, cost })
 }
 
 /// Why there is no chain without friction.
@@ -117,11 +101,6 @@ impl Repeated {
     }
 }
 
-/// The starts that kicks from a place of rest lead to, as kicks from the origin.
-fn from(kicks: &RandomKick, place: f64) -> RandomKick {
-    RandomKick { q: (kicks.q.0 + place, kicks.q.1), ..*kicks }
-}
-
 /// The chain on cells.
 struct Chain {
     /// Row by row: the chances to come from one cell to another.
@@ -133,17 +112,35 @@ struct Chain {
 }
 
 impl Chain {
-    fn new(kicked: &Kicked, kicks: &RandomKick, cells: usize) -> Result<Self, Reason> {
-        let r = kicked.half;
+    fn new(
+        portrait: &Portrait,
+        kicks: &RandomKick,
+        cells: usize,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        /// Error of a place of rest that matters to no cell.
+        const TOLERANCE: f64 = 1e-7;
+        let mut model = portrait.model.clone();
+        model.tolerance = TOLERANCE;
+        let r = model.guide_static;
         let width = 2.0 * r / real(cells);
         let centres: Vec<f64> = (0..cells).map(|cell| (real(cell) + 0.5) * width - r).collect();
         let fineness = FINENESS * real(cells) / real(CELLS);
         let (columns, rows) = (columns(kicks, &centres, fineness), rows(kicks, fineness));
         let mut cost = Cost::default();
         let mut steps = DMatrix::zeros(cells, cells);
-        let rest = kicked.rest;
+        // Where the motion from a start comes to rest; `None` where it is lost, or where that takes too long.
+        let rest = |q: f64, v: f64| {
+            if (limits.interrupted)() {
+                return Err(Reason::Interrupted);
+            }
+            let mut flow = Flow::new(&model);
+            let comes = portrait.fate(q, v) == Ok(Fate::Rest);
+            let place = comes.then(|| flow.rest_of(q, model.scaled_velocity(v)).ok()).flatten();
+            Ok((place, flow.cost()))
+        };
         let of = |column: &StartColumn| {
-            let rests = rows.iter().map(|&(v, share)| Ok((rest(State { q: column.q, v })?, share)));
+            let rests = rows.iter().map(|&(v, share)| Ok((rest(column.q, v)?, share)));
             rests.collect::<Result<Vec<_>, Reason>>()
         };
         let found: Vec<_> = columns.par_iter().map(of).collect::<Result<_, _>>()?;
@@ -161,8 +158,11 @@ impl Chain {
                 }
             }
         }
-        let lost = centres.iter().map(|&centre| (kicked.lost)(&from(kicks, centre)).part);
-        let lost = DVector::from_iterator(cells, lost);
+        let lost = centres.iter().map(|&centre| {
+            let from = RandomKick { q: (kicks.q.0 + centre, kicks.q.1), ..*kicks };
+            Ok(part_lost(portrait, &from)?.part)
+        });
+        let lost = DVector::from_vec(lost.collect::<Result<_, Reason>>()?);
         for (row, lost) in lost.iter().enumerate() {
             let sum: f64 = steps.row(row).sum();
             let scale = if sum > 0.0 { (1.0 - lost) / sum } else { 0.0 };
@@ -256,78 +256,30 @@ fn steps(mean: f64, half: f64, step: f64) -> impl Iterator<Item = f64> {
     (0..count).map(move |index| mean - half + 2.0 * half * (real(index) + 0.5) / real(count))
 }
 
-/// Where the motion from a start of the basin comes to rest; `None` where that takes too long.
-fn rest_of(
-    parameters: &Parameters,
-    initial: State,
-    limits: &Limits,
-) -> Result<(Option<f64>, Cost), Reason> {
-    /// Error of a place of rest that matters to no cell.
-    const TOLERANCE: f64 = 1e-7;
-    const UNTIL: f64 = 1e4;
-    let problem = Problem {
-        parameters: *parameters,
-        initial,
-        until: UNTIL,
-        tolerance: TOLERANCE,
-        ..Problem::default()
-    };
-    let motion = trajectory(&problem, Detail::default(), limits);
-    match motion.outcome {
-        Outcome::Captured { q, .. } => Ok((Some(q), motion.cost)),
-        Outcome::GaveUp { reason: Reason::Interrupted, .. } => Err(Reason::Interrupted),
-        _ => Ok((None, motion.cost)),
-    }
-}
-
-// Random kicks of a machine: what fraction of them is lost, and where the others come to rest.
-
-/// What the parts that are lost rest on.
-const NEEDS: Reason = Reason::NotApplicable {
-    needs: "a basin of rest that is known, and no family of periodic motions",
-};
-
-/// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
-/// basin is not known.
-pub fn part_lost(portrait: &Portrait, kicks: &RandomKick) -> Result<Share, Reason> {
-    let all = |part| Ok(Share { part, error: 0.0 });
-    match portrait.border {
-        Border::Unknown(_) => Err(NEEDS),
-        _ if portrait.neutral => Err(NEEDS),
-        Border::None => all(0.0),
-        Border::NoBasin => all(1.0),
-        _ => Ok(kicks.lost_outside(&|x| portrait.span_at(x))),
-    }
-}
-
-/// Follows kicks until one is lost. Fails with [`Reason::NotApplicable`] where the basin is not known, or without
-/// friction of the guide.
-pub fn repeated_by(portrait: &Portrait, kicks: &RandomKick) -> Result<Repeated, Reason> {
-    /// Error of a place of rest that matters to no cell.
-    const TOLERANCE: f64 = 1e-7;
-    let first = part_lost(portrait, kicks)?;
-    let mut model = portrait.model.clone();
-    model.tolerance = TOLERANCE;
-    let rest = |State { q, v }: State| {
-        if portrait.fate(q, v) != Ok(Fate::Rest) {
-            return Ok((None, Cost::default()));
-        }
-        let mut flow = Flow::new(&model);
-        let place = flow.rest_of(q, model.scaled_velocity(v)).ok();
-        Ok((place, Cost { steps: flow.steps, ..Cost::default() }))
-    };
-    let lost = |kicks: &RandomKick| part_lost(portrait, kicks).unwrap_or(first);
-    let kicked = Kicked { half: model.guide_static, rest: &rest, lost: &lost };
-    let mut found = kicked.repeated(kicks)?;
-    found.cost.steps += portrait.steps;
-    Ok(found)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::flow::trajectory::trajectory;
+    use crate::flow::{Detail, Outcome, Problem};
+    use crate::model::{Parameters, State};
     use crate::numerics::random::Random;
+    use crate::portrait::basin::basin;
     use crate::portrait::kicks::Distribution;
+
+    /// Where the motion from a start of the basin comes to rest.
+    fn rest_of(parameters: Parameters, initial: State) -> f64 {
+        let problem =
+            Problem { parameters, initial, until: 1e4, tolerance: 1e-7, ..Problem::default() };
+        let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
+        let Outcome::Captured { q, .. } = motion.outcome else { panic!("it is in the basin") };
+        q
+    }
+
+    fn found(parameters: &Parameters, kicks: &RandomKick) -> Result<Repeated, Reason> {
+        let reach = kicks.reach() + parameters.r;
+        let portrait = Portrait::of_oscillator(parameters, reach, &Limits::PATIENT)?;
+        repeated(&portrait, kicks, &Limits::PATIENT)
+    }
 
     /// Kicks one after the other, each from where the last one came to rest: mean number until one is lost, and
     /// its standard error.
@@ -346,7 +298,7 @@ mod tests {
                 if found.fate(start) != Fate::Rest {
                     break;
                 }
-                place = rest_of(parameters, start, &Limits::PATIENT).unwrap().0.unwrap();
+                place = rest_of(*parameters, start);
             }
             (runs, sum, squares) = (runs + 1.0, sum + run, squares + run * run);
         }
@@ -359,7 +311,7 @@ mod tests {
         RandomKick { law: Distribution::Normal, q: (0.0, 0.04), v: (0.02, 0.08) };
 
     fn agrees(parameters: &Parameters, kicks: &RandomKick, drawn_kicks: u32) {
-        let found = repeated(parameters, kicks, &Limits::PATIENT).unwrap();
+        let found = found(parameters, kicks).unwrap();
         let (mean, deviation) = drawn(parameters, kicks, drawn_kicks);
         let error = 3.0 * deviation + found.error * found.mean;
         assert!(
@@ -394,9 +346,9 @@ mod tests {
     fn where_nothing_is_lost_nothing_ever_is() {
         let damped = Parameters { d: 0.2, d2: 0.0, d3: 0.0, r: 0.1 };
         let kicks = RandomKick { q: (0.0, 0.0), ..KICKS };
-        let found = repeated(&damped, &kicks, &Limits::PATIENT).unwrap();
-        assert_eq!((found.first.part, found.later, found.mean), (0.0, 0.0, f64::INFINITY));
+        let nothing = found(&damped, &kicks).unwrap();
+        assert_eq!((nothing.first.part, nothing.later, nothing.mean), (0.0, 0.0, f64::INFINITY));
         let without = Parameters { r: 0.0, ..damped };
-        assert!(repeated(&without, &kicks, &Limits::PATIENT).is_err());
+        assert!(found(&without, &kicks).is_err());
     }
 }

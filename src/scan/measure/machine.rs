@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use super::row::{Cells, Failed};
 use super::table::Measure;
-use crate::flow::{Reason, follow_by_series};
+use crate::flow::{Limits, Reason, follow_by_series};
 use crate::model::{MachineProblem, State};
 use crate::portrait::Portrait;
 use crate::portrait::basin::StartWindow;
 use crate::portrait::design::friction_of_guide;
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::kicks::repeated::{part_lost, repeated_by};
+use crate::portrait::kicks::repeated::{part_lost, repeated};
 
 /// A point, and its portrait once that is known.
 pub(super) struct MachinePoint<'a> {
@@ -58,7 +58,8 @@ impl<'a> MachinePoint<'a> {
                 let Some(portrait) = &self.portrait else { return Ok(()) };
                 // Without friction there is no set of places to rest.
                 if portrait.model.guide_static > 0.0 {
-                    cells.repeated(&repeated_by(portrait, &cells.conditions.kicks)?);
+                    let kicks = &cells.conditions.kicks;
+                    cells.repeated(&repeated(portrait, kicks, &Limits::PATIENT)?);
                 }
             }
             _ => self.portray(cells)?,
@@ -69,7 +70,7 @@ impl<'a> MachinePoint<'a> {
     fn portray(&mut self, cells: &mut Cells) -> Result<(), Reason> {
         let portrait = self.problem.subject.portrait()?;
         let conditions = cells.conditions;
-        cells.cost.steps += portrait.steps;
+        cells.cost.steps += portrait.cost.steps;
         cells.cycles(&portrait.cycles);
         cells.edge(portrait.border, portrait.margin);
         cells.fill(Measure::Stability, || {

@@ -7,7 +7,6 @@ use crate::branch::fold::fold;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Problem, Reason};
 use crate::numerics::Interval;
-use crate::portrait::Cycles;
 use crate::portrait::basin::Basin;
 use crate::portrait::basin::cycle::cycles_and_closings;
 use crate::portrait::closing::all::{STEP, innermost_closing};
@@ -17,6 +16,7 @@ use crate::portrait::design::friction_for;
 use crate::portrait::guarantee::oscillator::guaranteed;
 use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::proved;
+use crate::portrait::{Cycles, Portrait};
 
 /// A point, and its cycles once they are known.
 pub(super) struct OscillatorPoint<'a> {
@@ -69,7 +69,10 @@ impl<'a> OscillatorPoint<'a> {
             // Without friction there is no set of places to rest.
             Measure::Repeated if parameters.r == 0.0 => {}
             Measure::Repeated => {
-                let found = repeated(parameters, &cells.conditions.kicks, limits)?;
+                let kicks = &cells.conditions.kicks;
+                let reach = kicks.reach() + parameters.r;
+                let portrait = Portrait::of_oscillator(parameters, reach, limits)?;
+                let found = repeated(&portrait, kicks, limits)?;
                 cells.cost += found.cost;
                 cells.repeated(&found);
             }

@@ -5,6 +5,7 @@ use super::saved::reopened;
 use crate::flow::Limits;
 use crate::picture;
 use crate::picture::Item;
+use crate::portrait::Portrait;
 use crate::portrait::kicks::repeated::repeated;
 use crate::question::{Finding, Request, answer};
 use crate::scene::{Layer, Topic};
@@ -57,7 +58,8 @@ fn the_part_told_is_that_of_the_headless_command() {
         panic!("{asked:?}")
     };
     let parameters = trial.session.problem.parameters;
-    let whole = repeated(&parameters, &trial.session.kicks, &Limits::PATIENT).unwrap();
+    let portrait = Portrait::of_oscillator(&parameters, 5.0, &Limits::PATIENT).unwrap();
+    let whole = repeated(&portrait, &trial.session.kicks, &Limits::PATIENT).unwrap();
     assert!(found.share.part > 0.02 && found.share.error < 1e-8, "{found:?}");
     assert!((found.share.part - whole.first.part).abs() <= found.share.error + whole.first.error);
 }
