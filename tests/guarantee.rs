@@ -9,7 +9,7 @@ use hopfscope::model::{Interval, Knob, ParameterBox, Parameters, State, Toleranc
 use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::basin::basin;
-use hopfscope::portrait::guarantee::oscillator::{TwoSided, guarantee, zones};
+use hopfscope::portrait::guarantee::oscillator::{TwoSided, guaranteed, nominal};
 use hopfscope::portrait::{Border, Margin};
 use hopfscope::question::answer;
 use hopfscope::question::zones::UncertainSubject;
@@ -153,12 +153,12 @@ fn cases() -> [(ParameterBox, f64); 5] {
 /// Starts disturbed motions at a fraction of the margins, with parameters of the box. Returns how many leave
 /// the interior of the border.
 fn leaving(known: &ParameterBox, w: f64, motions: usize, random: &mut Random) -> u32 {
-    let margin = guarantee(known, w, &Limits::PATIENT).unwrap().guaranteed.unwrap();
+    let margin = guaranteed(known, w, 0.0, &Limits::PATIENT).unwrap().unwrap().1;
     // Values of r, each with the extent of the interior of the border that holds for it.
     let frictions = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| {
         let r = known.r.lower() + part * (known.r.upper() - known.r.lower());
         let known = ParameterBox { r: Interval::new(r, r), ..*known };
-        let safe = zones(&known, w, 0.0, &Limits::PATIENT).unwrap().safe.unwrap();
+        let safe = guaranteed(&known, w, 0.0, &Limits::PATIENT).unwrap().unwrap().0;
         let turning = |sign: f64| {
             let border = safe.borders[0].curve(4);
             border.iter().map(|state| sign * state.q).fold(f64::NEG_INFINITY, f64::max)
@@ -199,17 +199,18 @@ fn leaving(known: &ParameterBox, w: f64, motions: usize, random: &mut Random) ->
 fn the_margin_known_from_elsewhere() {
     let known = case([-0.3; 2], [0.2; 2], [0.5; 2], [0.1; 2], 0.0).0;
     for (w, expected) in [(0.0, 0.2190), (0.02, 0.1743)] {
-        let found = guarantee(&known, w, &Limits::PATIENT).unwrap();
-        let displacement = found.guaranteed.unwrap().displacement.unwrap();
+        let (_, margin) = guaranteed(&known, w, 0.0, &Limits::PATIENT).unwrap().unwrap();
+        let displacement = margin.displacement.unwrap();
         assert!((displacement - expected).abs() < 5e-5, "w = {w}: {displacement}");
-        assert!(displacement < found.nominal.displacement.unwrap());
+        let nominal = nominal(&known, &Limits::PATIENT).unwrap().margin();
+        assert!(displacement < nominal.displacement.unwrap());
     }
 }
 
 #[test]
 fn where_there_may_be_no_friction_nothing_is_guaranteed_and_no_number_is_below_zero() {
     let (known, w) = case([-0.1; 2], [0.0; 2], [0.0; 2], [0.0, 0.1], 0.0);
-    let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.unwrap();
+    let margin = guaranteed(&known, w, 0.0, &Limits::PATIENT).unwrap().unwrap().1;
     assert_eq!(margin, Margin::ZERO);
 }
 
@@ -223,20 +224,20 @@ fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
         let margin = basin(&plain, 0.0, &Limits::PATIENT).unwrap().margin();
         let exact = [plain.d, plain.d2, plain.d3, plain.r].map(|value| [value; 2]);
         let (known, _) = case(exact[0], exact[1], exact[2], exact[3], 0.0);
-        let found = guarantee(&known, 0.0, &Limits::PATIENT).unwrap();
+        let (_, found) = guaranteed(&known, 0.0, 0.0, &Limits::PATIENT).unwrap().unwrap();
         for (sure, one) in [
-            (found.guaranteed.unwrap().displacement, margin.displacement),
-            (found.guaranteed.unwrap().impulse, margin.impulse),
-            (found.guaranteed.unwrap().from_rest.displacement, margin.from_rest.displacement),
-            (found.guaranteed.unwrap().from_rest.impulse, margin.from_rest.impulse),
+            (found.displacement, margin.displacement),
+            (found.impulse, margin.impulse),
+            (found.from_rest.displacement, margin.from_rest.displacement),
+            (found.from_rest.impulse, margin.from_rest.impulse),
         ] {
             let (sure, one) = (sure.unwrap(), one.unwrap());
             assert!((-1e-9..1e-12).contains(&(sure / one - 1.0)), "{d3}: {sure} {one}");
         }
         // Uncertain parameters only reduce the margin.
         let (wide, w) = case(exact[0], [0.3143, 0.3517], [d3, -d3], [0.28, 0.3], 0.06);
-        let found = guarantee(&wide, w, &Limits::PATIENT).unwrap();
-        let least = found.guaranteed.unwrap().displacement.unwrap();
+        let (_, found) = guaranteed(&wide, w, 0.0, &Limits::PATIENT).unwrap().unwrap();
+        let least = found.displacement.unwrap();
         assert!(least < 1.001 * margin.displacement.unwrap() && least > 1.9, "{d3}: {least}");
     }
 }
@@ -255,7 +256,7 @@ fn no_parameters_of_a_box_have_a_smaller_margin() {
     let mut random = Random::new(4);
     let mut looked = 0;
     for (known, _) in cases() {
-        let guaranteed = guarantee(&known, 0.0, &Limits::PATIENT).unwrap().guaranteed.unwrap();
+        let guaranteed = guaranteed(&known, 0.0, 0.0, &Limits::PATIENT).unwrap().unwrap().1;
         let kicks = |Margin { displacement, impulse, from_rest }: Margin| {
             [displacement, impulse, from_rest.displacement, from_rest.impulse]
                 .map(|size| size.unwrap_or(f64::INFINITY))
@@ -278,7 +279,7 @@ fn no_parameters_of_a_box_have_a_smaller_margin() {
 fn the_worst_disturbance_leads_out_from_just_beyond() {
     let mut random = Random::new(3);
     for (known, w) in cases() {
-        let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.unwrap();
+        let margin = guaranteed(&known, w, 0.0, &Limits::PATIENT).unwrap().unwrap().1;
         // The disturbance compensates for the friction that the worst system lacks.
         let worst = TwoSided::worst(&known, 0.0);
         let (q, v) = (margin.displacement.unwrap(), margin.impulse.unwrap());

@@ -10,8 +10,8 @@ use crate::flow::Limits;
 use crate::model::MachineProblem;
 use crate::portrait::Portrait;
 use crate::portrait::basin::basin;
-use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::guarantee::oscillator::guarantee;
+use crate::portrait::guarantee::machine;
+use crate::portrait::guarantee::oscillator::{guaranteed, nominal};
 use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::agreed;
 use crate::proof;
@@ -41,11 +41,17 @@ impl MarginCommand {
             return self.of_machine(&case.checked()?);
         }
         let (known, bound) = (self.source.start.known()?, bound.unwrap_or(0.0));
-        let ask = || guarantee(&known, bound, &Limits::PATIENT);
-        let (found, seconds) = self.output.timed("the margin could not be computed", ask)?;
-        let about = About::boxed(&known);
-        let answer = margins(&about, found.nominal, found.guaranteed, bound);
-        self.output.print(answer.cost(found.cost, seconds))
+        let ask = || {
+            let nominal = nominal(&known, &Limits::PATIENT)?;
+            Ok((nominal, guaranteed(&known, bound, 0.0, &Limits::PATIENT)?))
+        };
+        let timed = self.output.timed("the margin could not be computed", ask)?;
+        let ((nominal, certain), seconds) = timed;
+        let mut cost = nominal.cost;
+        certain.iter().for_each(|(basin, _)| cost += basin.cost);
+        let certain = certain.map(|(_, margin)| margin);
+        let answer = margins(&About::boxed(&known), nominal.margin(), certain, bound);
+        self.output.print(answer.cost(cost, seconds))
     }
 
     /// Answers about a machine; what is known exactly has its own margin for certain.
@@ -55,7 +61,8 @@ impl MarginCommand {
         let certain = match subject.of_belt().filter(|_| !tolerances.is_none()) {
             None => Ok(found.margin),
             Some(belt) => {
-                let (certain, more) = timed(self.output.repeat, || guaranteed(belt, tolerances));
+                let (certain, more) =
+                    timed(self.output.repeat, || machine::guaranteed(belt, tolerances));
                 seconds += more;
                 certain.map_err(troubled)?
             }

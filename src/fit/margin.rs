@@ -68,8 +68,8 @@ impl MarginQuestion {
         for (knob, half_width) in Knob::PARAMETERS.into_iter().zip(self.half_widths) {
             known.widen(knob, half_width);
         }
-        let (found, _) = guaranteed(&known, self.disturbance / scale, limits)?;
-        Ok(found.unwrap_or(Margin::ZERO))
+        let found = guaranteed(&known, self.disturbance / scale, 0.0, limits)?;
+        Ok(found.map_or(Margin::ZERO, |(_, margin)| margin))
     }
 }
 

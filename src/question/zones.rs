@@ -9,7 +9,7 @@ use crate::model::{Belt, ParameterBox, State, Tolerances};
 use crate::portrait::basin::Basin;
 use crate::portrait::basin::cycle::PICTURE_REACH;
 use crate::portrait::guarantee::machine::{best, kicks, worst};
-use crate::portrait::guarantee::oscillator::{guarantee, zones};
+use crate::portrait::guarantee::oscillator::{guaranteed, hopeful, nominal};
 use crate::portrait::{Margin, Portrait, survey};
 
 /// What is not known exactly, and disturbed.
@@ -71,14 +71,19 @@ pub(super) fn of_oscillator(
     limits: &Limits,
 ) -> Result<CertainZones, Reason> {
     let d2 = known.d2.lower().abs().min(known.d2.upper().abs());
-    let found = guarantee(known, disturbance, limits)?;
-    let drawn = zones(known, disturbance, PICTURE_REACH / d2.max(f64::MIN_POSITIVE), limits)?;
+    let reach = PICTURE_REACH / d2.max(f64::MIN_POSITIVE);
+    let nominal = nominal(known, limits)?;
+    let found = guaranteed(known, disturbance, reach, limits)?;
+    let safe = found.as_ref().ok().map(|(basin, _)| basin);
+    let hopeful = hopeful(known, disturbance, reach, limits)?;
+    let mut cost = nominal.cost;
+    safe.into_iter().chain(&hopeful).for_each(|basin| cost += basin.cost);
     Ok(CertainZones {
-        safe: extent(drawn.safe.as_ref(), Extent::Nothing, points),
-        hopeful: extent(drawn.lost.as_ref(), Extent::Everything, points),
-        nominal: found.nominal,
-        guaranteed: found.guaranteed.map_err(|why| why.to_string()),
-        cost: found.cost,
+        safe: extent(safe, Extent::Nothing, points),
+        hopeful: extent(hopeful.as_ref(), Extent::Everything, points),
+        nominal: nominal.margin(),
+        guaranteed: found.map(|(_, margin)| margin).map_err(|why| why.to_string()),
+        cost,
     })
 }
 

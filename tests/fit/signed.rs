@@ -11,7 +11,7 @@ use super::*;
 
 /// The smallest kicks that are lost from the worst rest position under a disturbance.
 pub fn rest_margin(known: &ParameterBox, disturbance: f64) -> RestMargin {
-    guaranteed(known, disturbance, &Limits::PATIENT).unwrap().0.unwrap().from_rest
+    guaranteed(known, disturbance, 0.0, &Limits::PATIENT).unwrap().unwrap().1.from_rest
 }
 
 fn true_parameters(name: &str) -> Parameters {
@@ -153,7 +153,7 @@ fn a_force_beyond_the_friction_leaves_no_kick_and_what_is_unbounded_is_called_ex
     );
     // The library says why, and the friction is indeed smaller: 0.4 mm times 968 N/m.
     let known = ParameterBox::from(&true_parameters("near_fold"));
-    let reason = guaranteed(&known, 0.5 / 0.968, &Limits::PATIENT).unwrap().0.err();
+    let reason = guaranteed(&known, 0.5 / 0.968, 0.0, &Limits::PATIENT).unwrap().err();
     assert!(matches!(reason, Some(Uncertain::Disturbance { .. })));
 
     let ran = run(&["fit", &path("coulomb_rest"), "--confidence", "0.7", "--format", "json"]);

@@ -12,7 +12,7 @@
 
 use super::Uncertain;
 use crate::closed_form::piecewise_linear::LinearCycle;
-use crate::flow::{Cost, Fate, Limits, Reason};
+use crate::flow::{Fate, Limits, Reason};
 use crate::model::{HalfPlane, ParameterBox, Parameters, Side};
 use crate::portrait::basin::orbit::Orbit;
 use crate::portrait::basin::{Basin, basin};
@@ -131,24 +131,8 @@ impl TwoSided {
 /// Relative error of a clearance, of rounding and of steps, where the closing equation is not flat.
 const NOISE: f64 = 1e-12;
 
-/// What is known for certain, beside what holds at the middle of the box without a disturbance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Guarantee {
-    /// The parameters.
-    pub known: ParameterBox,
-    /// Bound on the disturbance.
-    pub disturbance: f64,
-    /// The margin at the middle of the box, undisturbed.
-    pub nominal: Margin,
-    /// The margin that holds for certain, rounded down by its error, or why nothing is certain.
-    pub guaranteed: Result<Margin, Uncertain>,
-    /// What it cost.
-    pub cost: Cost,
-}
-
 /// Why nothing is certain, if so.
-#[must_use]
-pub fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
+fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
     let (d, r) = (known.d.lower(), known.r.lower());
     let worst = TwoSided::worst(known, disturbance).upper;
     if disturbance > 0.0 && worst.r <= 0.0 {
@@ -158,43 +142,37 @@ pub fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
     }
 }
 
-/// The margins for all parameters of a box and all disturbances up to `disturbance`, and the nominal ones.
-///
-/// Guarantee: see the module; the numbers are rounded down by their error, which is estimated, not enclosed.
+/// The basin at the middle of a box, undisturbed.
 ///
 /// # Errors
 /// The [`Reason`] why a border could not be computed.
-pub fn guarantee(
-    known: &ParameterBox,
-    disturbance: f64,
-    limits: &Limits,
-) -> Result<Guarantee, Reason> {
+pub fn nominal(known: &ParameterBox, limits: &Limits) -> Result<Basin, Reason> {
     let middle = known.middle();
-    let nominal = if middle.d > -1.0 {
-        TwoSided { upper: middle, lower: middle }.basin(0.0, limits)?.0
+    if middle.d > -1.0 {
+        Ok(TwoSided { upper: middle, lower: middle }.basin(0.0, limits)?.0)
     } else {
-        basin(&middle, 0.0, limits)?
-    };
-    let mut cost = nominal.cost;
-    let (guaranteed, spent) = guaranteed(known, disturbance, limits)?;
-    cost += spent;
-    Ok(Guarantee { known: *known, disturbance, nominal: nominal.margin(), guaranteed, cost })
+        basin(&middle, 0.0, limits)
+    }
 }
 
-/// The margin that holds for certain, or why nothing is certain, and what it cost.
+/// The basin of the worst system, inside whose first border every motion stays for all parameters of a box and all
+/// disturbances up to `disturbance`, and the margin that holds for certain, or why nothing is certain; `reach` as for
+/// [`basin`].
+///
+/// Guarantee: see the module; the margin is rounded down by its error, which is estimated, not enclosed.
 ///
 /// # Errors
 /// The [`Reason`] why the border could not be computed.
 pub fn guaranteed(
     known: &ParameterBox,
     disturbance: f64,
+    reach: f64,
     limits: &Limits,
-) -> Result<(Result<Margin, Uncertain>, Cost), Reason> {
+) -> Result<Result<(Basin, Margin), Uncertain>, Reason> {
     if let Some(reason) = uncertain(known, disturbance) {
-        return Ok((Err(reason), Cost::default()));
+        return Ok(Err(reason));
     }
-    let worst = TwoSided::worst(known, disturbance);
-    let (basin, error) = worst.basin(0.0, limits)?;
+    let (basin, error) = TwoSided::worst(known, disturbance).basin(reach, limits)?;
     if error > 0.5 {
         return Err(Reason::NoConvergence {
             sought: "the border of the worst system",
@@ -202,7 +180,22 @@ pub fn guaranteed(
         });
     }
     let margin = rounded_down(&basin, farthest_rest(known, disturbance), error);
-    Ok((Ok(margin), basin.cost))
+    Ok(Ok((basin, margin)))
+}
+
+/// The basin of the best system, outside of whose first border nothing comes to rest; `None` where that is not known.
+///
+/// # Errors
+/// The [`Reason`] why the border could not be computed.
+pub fn hopeful(
+    known: &ParameterBox,
+    disturbance: f64,
+    reach: f64,
+    limits: &Limits,
+) -> Result<Option<Basin>, Reason> {
+    let best = TwoSided::best(known, disturbance);
+    let found = (best.upper.d > -1.0).then(|| best.basin(reach, limits)).transpose()?;
+    Ok(found.map(|(basin, _)| basin))
 }
 
 /// How far out a mass may rest before the kick: at the smallest friction, because the gap to the border only grows
@@ -229,33 +222,4 @@ fn rounded_down(basin: &Basin, farthest: f64, error: f64) -> Margin {
             impulse: from_rest.impulse.map(|impulse| shrunk(impulse, beyond)),
         },
     }
-}
-
-/// The starts that are safe for certain, and those that are lost for certain.
-#[derive(Clone, Debug)]
-pub struct Zones {
-    /// The basin of the worst system: inside its first border every motion stays. `None` where nothing is safe.
-    pub safe: Option<Basin>,
-    /// The basin of the best system: outside of its first border nothing comes to rest. `None` where that is
-    /// not known.
-    pub lost: Option<Basin>,
-}
-
-/// Both zones, as far as `reach`.
-///
-/// # Errors
-/// The [`Reason`] why a border could not be computed.
-pub fn zones(
-    known: &ParameterBox,
-    disturbance: f64,
-    reach: f64,
-    limits: &Limits,
-) -> Result<Zones, Reason> {
-    let safe = match uncertain(known, disturbance) {
-        Some(_) => None,
-        None => Some(TwoSided::worst(known, disturbance).basin(reach, limits)?.0),
-    };
-    let best = TwoSided::best(known, disturbance);
-    let lost = (best.upper.d > -1.0).then(|| best.basin(reach, limits)).transpose()?;
-    Ok(Zones { safe, lost: lost.map(|(basin, _)| basin) })
 }

@@ -49,9 +49,10 @@ impl<'a> OscillatorPoint<'a> {
             }
             Measure::Guaranteed => {
                 let known = cells.conditions.around(parameters);
-                let (found, cost) = guaranteed(&known, cells.conditions.disturbance, limits)?;
-                cells.cost += cost;
-                cells.margin(Measure::Guaranteed, found.map_err(|why| why.to_string())?);
+                let found = guaranteed(&known, cells.conditions.disturbance, 0.0, limits)?;
+                let (basin, margin) = found.map_err(|why| why.to_string())?;
+                cells.cost += basin.cost;
+                cells.margin(Measure::Guaranteed, margin);
             }
             Measure::Settling => {
                 let follow = |initial| {
