@@ -105,14 +105,14 @@ fn piecewise_linear_exact(bencher: Bencher) {
 #[divan::bench]
 fn two_cycles(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
-    bencher.bench(|| cycles(black_box(&parameters), false, &Limits::PATIENT));
+    bencher.bench(|| cycles(black_box(&parameters), &Limits::PATIENT));
 }
 
 /// The single cycle of a piecewise linear oscillator with slight asymmetry.
 #[divan::bench]
 fn one_cycle(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.3, d3: 0.0, r: 0.5 };
-    bencher.bench(|| cycles(black_box(&parameters), false, &Limits::PATIENT));
+    bencher.bench(|| cycles(black_box(&parameters), &Limits::PATIENT));
 }
 
 /// The basin of 320 by 384 starts, by ordering.

@@ -58,7 +58,7 @@ fn half_swing_certified(bencher: Bencher, case: usize) {
 /// Existence, uniqueness, all bounds and the multiplier of the inner cycle, from a guess of ten digits.
 #[divan::bench(args = [0, 1])]
 fn one_cycle_enclosed(bencher: Bencher, case: usize) {
-    let inner = cycles(&CASES[case], false, &Limits::PATIENT).unwrap().cycles[0];
+    let inner = cycles(&CASES[case], &Limits::PATIENT).unwrap().cycles[0];
     let guess = inner.clearance * (1.0 + 1e-10);
     let parameters = ParameterBox::from(&CASES[case]);
     bencher.bench_local(|| {
@@ -85,5 +85,5 @@ fn all_cycles_proved(bencher: Bencher, case: usize) {
 /// The search that the proof verifies.
 #[divan::bench(args = [0, 1])]
 fn all_cycles_searched(bencher: Bencher, case: usize) {
-    bencher.bench_local(|| cycles(black_box(&CASES[case]), false, &Limits::PATIENT).is_ok());
+    bencher.bench_local(|| cycles(black_box(&CASES[case]), &Limits::PATIENT).is_ok());
 }

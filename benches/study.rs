@@ -34,7 +34,7 @@ const RANGE: (f64, f64) = (0.1, 2.0);
 
 #[divan::bench]
 fn all_cycles() -> usize {
-    cycles(black_box(&CASE), false, LIMITS).unwrap().cycles.len()
+    cycles(black_box(&CASE), LIMITS).unwrap().cycles.len()
 }
 
 /// Without any guarantee: two cycles closer than the grid are missed.

@@ -5,7 +5,7 @@ use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason, Trajectory
 use hopfscope::model::{Parameters, State};
 use hopfscope::numerics::elementary::{hypot, pow};
 use hopfscope::portrait::Border;
-use hopfscope::portrait::basin::cycle::{cycles, cycles_drawn};
+use hopfscope::portrait::basin::cycle::cycles_drawn;
 use hopfscope::portrait::basin::{Basin, StartWindow, basin};
 use hopfscope::scan::measure::{Measure, Value, measure};
 use hopfscope::session::fate::{End, fate};
@@ -68,7 +68,7 @@ fn borders_are_those_computed_elsewhere() {
 fn the_margin_is_the_extreme_of_the_cycle_that_borders_the_basin() {
     let mut largest = 0.0_f64;
     for row in rows().iter().filter(|row| row.log_multiplier.is_some()) {
-        let found = cycles(&row.parameters, true, &LIMITS).unwrap();
+        let found = cycles_drawn(&row.parameters, 12, &LIMITS).unwrap();
         let cycle = found.cycles[0];
         largest = largest.max(cycle.log_multiplier);
         let expected = row.log_multiplier.unwrap();

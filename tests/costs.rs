@@ -79,7 +79,7 @@ fn all_cycles_take_less_than_a_hundred_half_swings() {
         (-0.2, 0.0, -0.5, 2_400),
         (-0.05, 0.2, 0.0, 4_800),
     ] {
-        let found = cycles(&at(d, d2, d3, 0.1), false, LIMITS).unwrap();
+        let found = cycles(&at(d, d2, d3, 0.1), LIMITS).unwrap();
         let cost = found.cost.evaluations;
         assert!(cost <= most, "D = {d}, D2 = {d2}, D3 = {d3}: {cost} evaluations");
     }
@@ -89,7 +89,7 @@ fn all_cycles_take_less_than_a_hundred_half_swings() {
 fn a_cycle_that_grazes_the_sticking_set_is_the_way_that_leaves_its_end() {
     for d2 in [0.6, -0.6] {
         let point = fold(&at(0.0, d2, 0.125, 2.0), LIMITS).unwrap().0.unwrap();
-        let beside = cycles(&at(point.d * (1.0 + 1e-9), d2, 0.125, 2.0), false, LIMITS).unwrap();
+        let beside = cycles(&at(point.d * (1.0 + 1e-9), d2, 0.125, 2.0), LIMITS).unwrap();
         let [cycle] = beside.cycles[..] else { panic!("{beside:?}") };
         assert!(point.grazes && point.period.is_infinite(), "{point:?}");
         assert!((cycle.q_max / point.q_max - 1.0).abs() < 1e-6, "{point:?} {cycle:?}");

@@ -12,7 +12,7 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Cost, Detail, Limits, METHODS, Outcome, Problem, Reason};
 use hopfscope::model::{Knob, Parameters, State};
 use hopfscope::portrait::basin::capture::bands;
-use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::basin::cycle::cycles_drawn;
 use hopfscope::portrait::basin::{StartWindow, basin};
 
 /// Maximum number of evaluations between two polls.
@@ -98,7 +98,7 @@ fn motions_stop_by_every_method() {
 fn cycles_stop() {
     for parameters in parameters() {
         check(&format!("cycles at {parameters:?}"), |limits| {
-            match cycles(&parameters, true, limits) {
+            match cycles_drawn(&parameters, 12, limits) {
                 Ok(found) => (None, Some(found.cost)),
                 Err(reason) => (Some(reason), None),
             }

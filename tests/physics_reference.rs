@@ -135,7 +135,7 @@ fn relative(found: f64, expected: f64) -> f64 {
 #[test]
 fn cycles_agree_to_ten_digits_and_their_multipliers_to_seven() {
     for reference in references() {
-        let found = cycles(&reference.parameters, false, &Limits::PATIENT).unwrap().cycles;
+        let found = cycles(&reference.parameters, &Limits::PATIENT).unwrap().cycles;
         let apart = |cycle: &Cycle| relative(cycle.q_max, reference.q_max);
         let cycle = found
             .iter()
@@ -163,7 +163,7 @@ fn there_are_no_other_cycles_than_the_reference_ones() {
     for reference in &references {
         let known =
             references.iter().filter(|other| other.parameters == reference.parameters).count();
-        let found = cycles(&reference.parameters, false, &Limits::PATIENT).unwrap().cycles;
+        let found = cycles(&reference.parameters, &Limits::PATIENT).unwrap().cycles;
         assert_eq!(found.len(), known, "{:?}", reference.parameters);
         assert!(found.windows(2).all(|pair| pair[0].q_max < pair[1].q_max));
     }

@@ -62,7 +62,7 @@ pub fn harmonic_balance(
     points: usize,
     limits: &Limits,
 ) -> Result<HarmonicBalance, Reason> {
-    let (exact, cost, unknown) = match cycles(parameters, false, limits) {
+    let (exact, cost, unknown) = match cycles(parameters, limits) {
         Ok(found) => (found.cycles, found.cost, None),
         Err(Reason::Interrupted) => return Err(Reason::Interrupted),
         Err(reason) => (Vec::new(), Cost::default(), Some(reason)),
@@ -209,7 +209,7 @@ mod tests {
             d in -0.9..-0.05, d2 in -0.5..0.5, d3 in 0.05..1.0, r in 0.01..0.3,
         ) {
             let parameters = Parameters { d, d2, d3, r };
-            let exact = cycles(&parameters, false, &Limits::PATIENT).unwrap().cycles;
+            let exact = cycles(&parameters, &Limits::PATIENT).unwrap().cycles;
             prop_assume!(exact.len() == 2);
             for balanced in compare(&parameters, &exact, 31, 0, &Limits::PATIENT).unwrap().balanced {
                 let Some(error) = balanced.error else { panic!("{parameters:?}: {balanced:?}") };

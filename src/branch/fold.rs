@@ -279,7 +279,7 @@ mod tests {
             let d = found(d2, d3, 1.0).d;
             let count = |part: f64| {
                 let parameters = Parameters { d: part * d, d2, d3, r: 1.0 };
-                crate::portrait::basin::cycle::cycles(&parameters, false, &Limits::PATIENT).unwrap()
+                crate::portrait::basin::cycle::cycles(&parameters, &Limits::PATIENT).unwrap()
             };
             assert!(!count(1.0 + 1e-4).cycles.is_empty(), "D2 = {d2}, D3 = {d3}: D_F = {d}");
             let above = count(1.0 - 1e-4);

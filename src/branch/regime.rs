@@ -175,7 +175,7 @@ mod tests {
                 _ => (d2, d3),
             };
             let parameters = oscillator(d, d2, d3, r);
-            let found = cycles(&parameters, false, &Limits::PATIENT).unwrap();
+            let found = cycles(&parameters, &Limits::PATIENT).unwrap();
             let seen = if found.border == Border::None { Regime::Global } else { by_search(&found) };
             prop_assert_eq!(regime(&parameters, &Limits::PATIENT).unwrap(), seen);
         }

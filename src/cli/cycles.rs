@@ -89,7 +89,7 @@ impl CyclesCommand {
     fn find(&self, parameters: &Parameters) -> Result<CyclesAnswer, Failure> {
         let limits = &Limits::PATIENT;
         let gave_up = |reason: Reason| Failure::Unanswered(format!("the search gave up: {reason}"));
-        let found = cycles(parameters, false, limits).map_err(gave_up)?;
+        let found = cycles(parameters, limits).map_err(gave_up)?;
         let proof = proved(&found).map_err(|wrong| Failure::Unanswered(wrong.to_string()))?;
         let compare = |most| convergence(parameters, &found.cycles, most, limits);
         let rungs = self.harmonics.map(compare).transpose().map_err(gave_up)?;

@@ -206,7 +206,7 @@ fn counted(
     everywhere(cases, |parameters| {
         // The search has nothing to go by where the motion is linear and no swing ends.
         let found = if parameters.omega().is_none() && parameters.is_piecewise_linear() {
-            beside_proof(parameters, cycles_of(parameters, false, limits)?.cycles)
+            beside_proof(parameters, cycles_of(parameters, limits)?.cycles)
         } else {
             cycles(parameters, limits)?
         };

@@ -85,7 +85,7 @@ pub const CHECKS: &[Check] = &[
     ("smooth motion without D3", |limits| {
         let cases = [(-0.5, 0.0), (-0.1, 0.0), (-0.5, 0.3), (-0.1, 0.3), (-0.01, 1.0)];
         everywhere(cases.map(|(d, d2)| oscillator(d, d2, 0.0, 0.0)), |parameters| {
-            let found = beside_proof(parameters, all(parameters, false, limits)?.cycles);
+            let found = beside_proof(parameters, all(parameters, limits)?.cycles);
             Ok(found.map(Vec::is_empty))
         })
     }),

@@ -8,7 +8,7 @@ use crate::flow::{
 use crate::model::belt::ReducedBelt;
 use crate::model::{Belt, Model, Source};
 use crate::portrait::Portrait;
-use crate::portrait::basin::cycle::{Cycles, cycles};
+use crate::portrait::basin::cycle::{Cycles, cycles_drawn};
 
 /// A mass on a belt by the cubic expansion of its friction.
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ impl CubicExpansion {
     /// Finds the cycles. Fails with [`Reason`] where the machine has no dimensionless form.
     pub fn new(belt: &Belt, limits: &Limits) -> Result<Self, Reason> {
         let reduced = belt.reduce()?;
-        let cycles = cycles(&reduced.parameters, true, limits);
+        let cycles = cycles_drawn(&reduced.parameters, 12, limits);
         Ok(CubicExpansion { belt: belt.clone(), reduced, cycles })
     }
 }

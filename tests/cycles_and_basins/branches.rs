@@ -127,7 +127,7 @@ fn out_of_order(path: &Path, piece: &[BranchPoint]) -> Option<String> {
 fn ends_missed(path: &Path, found: &Branch) -> Option<String> {
     [path.range.0, path.range.1].into_iter().find_map(|end| {
         let there = set(&path.parameters, path.symbol, end);
-        let all = cycles(&there, false, &LIMITS).ok()?.cycles;
+        let all = cycles(&there, &LIMITS).ok()?.cycles;
         let rows = found.pieces.iter().flatten().filter(|point| point.value == end).count();
         (rows != all.len()).then(|| format!("{rows} rows at {end} for {all:?}"))
     })
@@ -140,7 +140,7 @@ fn no_cycles(path: &Path, found: &Branch, points: Points) -> Option<String> {
     let rows: Vec<&BranchPoint> = found.pieces.iter().flatten().collect();
     rows.into_iter().find_map(|row| {
         let there = set(&path.parameters, path.symbol, row.value);
-        let all = match cycles(&there, false, &LIMITS) {
+        let all = match cycles(&there, &LIMITS) {
             Err(reason) => return Some(format!("{there:?}: {reason}")),
             Ok(found) => found.cycles,
         };

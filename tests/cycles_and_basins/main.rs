@@ -72,7 +72,7 @@ fn no_cycle_is_missed_against_a_dense_scan() {
     let wrong: Vec<_> = parameter_sets(2000)
         .into_par_iter()
         .filter_map(|parameters| {
-            let found = cycles(&parameters, false, &LIMITS).expect("a search within the budget");
+            let found = cycles(&parameters, &LIMITS).expect("a search within the budget");
             let inside = |cycle: &&hopfscope::portrait::Cycle| {
                 -cycle.q_min - parameters.r < 59.0 && -cycle.q_min - parameters.r > 1e-8
             };
@@ -172,7 +172,7 @@ fn the_general_path_gives_the_piecewise_linear_cycle_to_twelve_digits() {
         let route = if d < -0.2 { Route::Backward } else { Route::Mixed };
         let closing = equation.at(route, found[0].node.at).unwrap();
         let cycle = closing.describe(&parameters, Side::Upper);
-        let exact = &cycles(&parameters, false, &LIMITS).unwrap().cycles[0];
+        let exact = &cycles(&parameters, &LIMITS).unwrap().cycles[0];
         let compare = |name: &str, one: f64, other: f64| {
             assert!((one / other - 1.0).abs() < 1e-12, "D = {d}: {name} {one:e} for {other:e}");
         };
@@ -250,7 +250,7 @@ fn every_cycle_lies_between_motions_that_come_closer_and_motions_that_go_further
     const BESIDE: f64 = 1e-4;
     const CLEAR: f64 = 1e-3;
     let wrong = |parameters: &Parameters| -> Vec<hopfscope::portrait::Cycle> {
-        let found = cycles(parameters, false, &LIMITS).expect("a search within the budget");
+        let found = cycles(parameters, &LIMITS).expect("a search within the budget");
         let mut grows = turn_is_larger(*parameters, [Side::Lower, Side::Upper], 1e-13);
         let clear = found.cycles.into_iter().filter(|cycle| cycle.log_multiplier.abs() > CLEAR);
         clear
@@ -317,7 +317,7 @@ fn a_relaxation_by_d2_turns_where_its_slow_curve_does() {
     for d in [-0.1, 0.0, 0.5] {
         for r in [1e-12, 1.0, 1e12] {
             let parameters = Parameters { d, d2: 1e6, d3: -1e-12, r };
-            let found = cycles(&parameters, false, &LIMITS).unwrap().cycles;
+            let found = cycles(&parameters, &LIMITS).unwrap().cycles;
             let outermost = found.last().unwrap();
             if (d, r) == (-0.1, 1e-12) {
                 // Such a small cycle is that of linear damping.
@@ -342,7 +342,7 @@ fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
     // Points of a branch are cycles: the search finds them again at their own parameter.
     for point in found.pieces[0].iter().step_by(7) {
         let there = Parameters { d: point.value, ..parameters };
-        let cycle = &cycles(&there, false, &LIMITS).unwrap().cycles[0];
+        let cycle = &cycles(&there, &LIMITS).unwrap().cycles[0];
         assert!((cycle.q_max / point.cycle.q_max - 1.0).abs() < 1e-9);
     }
 }
@@ -365,7 +365,7 @@ fn the_branch_over_cubic_damping_ends_before_its_cycles_become_uncertain() {
         let points = || found.pieces.iter().flatten();
         for point in points() {
             let there = Parameters { d3: point.value, ..parameters };
-            let cycles = cycles(&there, false, &LIMITS).unwrap().cycles;
+            let cycles = cycles(&there, &LIMITS).unwrap().cycles;
             let cycle = cycles.iter().find(|cycle| cycle.stable == point.cycle.stable).unwrap();
             for (one, other) in [(cycle.q_max, point.cycle.q_max), (cycle.q_min, point.cycle.q_min)]
             {

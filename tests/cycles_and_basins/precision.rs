@@ -19,7 +19,7 @@ fn set([d, d2, d3, r]: [f64; 4]) -> Parameters {
 }
 
 fn found(parameters: [f64; 4]) -> Vec<Cycle> {
-    let answer = cycles(&set(parameters), false, &LIMITS);
+    let answer = cycles(&set(parameters), &LIMITS);
     answer.unwrap_or_else(|reason| panic!("{parameters:?}: {reason}")).cycles
 }
 
@@ -161,7 +161,7 @@ fn assert_cycles(base: [f64; 4], found: &Branch) {
     points.par_iter().for_each(|point| {
         let mut there = set(base);
         found.parameter.set(&mut there, &mut State { q: 0.0, v: 0.0 }, point.value);
-        let all = cycles(&there, false, &LIMITS).unwrap().cycles;
+        let all = cycles(&there, &LIMITS).unwrap().cycles;
         let cycle = all.iter().find(|it| it.stable == point.cycle.stable);
         let cycle = cycle.unwrap_or_else(|| panic!("{base:?}: none like {point:?}"));
         let near = |one: f64, other: f64, errors: f64| (one - other).abs() <= errors;

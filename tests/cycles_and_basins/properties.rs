@@ -88,7 +88,7 @@ proptest! {
         let [d, d2, d3, r] = [d, d2, d3, r].map(within_range);
         let parameters = Parameters { d, d2, d3, r };
         let limits = Limits { evaluations: 10_000, ..Limits::PATIENT };
-        let Ok(found) = cycles(&parameters, false, &limits) else { return Ok(()) };
+        let Ok(found) = cycles(&parameters, &limits) else { return Ok(()) };
         for cycle in &found.cycles {
             let numbers = [
                 cycle.q_min, cycle.q_max, cycle.v_min, cycle.v_max, cycle.period, cycle.clearance,
@@ -117,7 +117,7 @@ fn the_multiplier_beside_the_largest_cubic_damping_is_a_number() {
         r: 7.460_669_323_394_54e-309,
     };
     let limits = Limits { evaluations: 10_000, ..Limits::PATIENT };
-    let found = cycles(&parameters, false, &limits).unwrap();
+    let found = cycles(&parameters, &limits).unwrap();
     let [cycle, outer] = &found.cycles[..] else { panic!("{found:?}") };
     assert!(outer.stable && outer.log_multiplier < 0.0, "{outer:?}");
     // Such a small cycle is unaffected by D3: its multiplier is that of the linear equation, e^(2 x).

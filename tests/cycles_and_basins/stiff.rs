@@ -21,7 +21,7 @@ fn a_cycle_is_found_where_two_ways_to_compute_it_are_equally_good() {
     for index in 0..40 {
         let d = -0.2226 + 2e-5 * f64::from(index);
         let parameters = Parameters { d, d2: 0.2, d3: 0.5, r: 0.1 };
-        let found = cycles(&parameters, false, &Limits::PATIENT).unwrap().cycles;
+        let found = cycles(&parameters, &Limits::PATIENT).unwrap().cycles;
         assert_eq!(found.len(), 2, "D = {d}");
     }
 }
@@ -33,7 +33,7 @@ fn relaxations_have_the_periods_of_van_der_pol() {
     for (mu, period) in [(1.0, 6.663_29), (2.0, 7.629_87), (5.0, 11.612_23), (10.0, 19.078_37)] {
         for d3 in [1e-12, 0.5, 1e6] {
             let parameters = Parameters { d: -0.5 * mu, d2: 0.0, d3, r: 0.0 };
-            let found = cycles(&parameters, false, &Limits::PATIENT).unwrap().cycles;
+            let found = cycles(&parameters, &Limits::PATIENT).unwrap().cycles;
             assert_eq!(found.len(), 1, "mu = {mu}, D3 = {d3}");
             assert!(found[0].stable && (found[0].period - period).abs() < 1e-3, "{:?}", found[0]);
         }
@@ -55,7 +55,7 @@ fn stiff_cycles_are_found_within_a_budget() {
         (2.0, -1e6, -1e6, 1e12),
     ] {
         let parameters = Parameters { d, d2, d3, r };
-        let found = cycles(&parameters, false, &limits);
+        let found = cycles(&parameters, &limits);
         let found = found.unwrap_or_else(|reason| panic!("{parameters:?}: {reason}")).cycles;
         let stable: Vec<bool> = found.iter().map(|cycle| cycle.stable).collect();
         let expected: &[bool] = match (d3 > 0.0, r > 0.0) {

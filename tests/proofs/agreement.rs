@@ -14,7 +14,7 @@ use hopfscope::proof::{ParameterBox, prove};
 
 /// Compares search and proof; returns how many cycles are proved.
 fn compared(parameters: &Parameters) -> usize {
-    let found = cycles(parameters, false, &Limits::PATIENT).unwrap();
+    let found = cycles(parameters, &Limits::PATIENT).unwrap();
     let proof = proved(&found).unwrap_or_else(|wrong| panic!("{parameters:?}: {wrong}"));
     let mut matched = Vec::new();
     for cycle in &found.cycles {

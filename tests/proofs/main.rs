@@ -212,7 +212,7 @@ fn check_sets(count: usize) -> usize {
     let mut open = 0;
     for _ in 0..count {
         let parameters = any_parameters(&mut chance);
-        let proof = match cycles(&parameters, false, &Limits::PATIENT) {
+        let proof = match cycles(&parameters, &Limits::PATIENT) {
             Ok(found) => proved(&found).unwrap_or_else(|wrong| panic!("{parameters:?}: {wrong}")),
             Err(_) => prove(&ParameterBox::from(&parameters), &[]),
         };

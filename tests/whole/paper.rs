@@ -21,7 +21,7 @@ fn the_oscillator_of_the_paper_and_a_machine_without_a_belt_have_the_same_cycles
     for _ in 0..60 {
         let (d, d2, d3) = (between(-1.0, 0.3), between(-1.0, 1.0), between(0.01, 3.0));
         let parameters = Parameters { d, d2, d3, r: between(0.01, 1.0) };
-        let found = cycles(&parameters, false, &Limits::PATIENT).unwrap();
+        let found = cycles(&parameters, &Limits::PATIENT).unwrap();
         let model = Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], parameters.r, parameters.r);
         let model = model.unwrap();
         let portrait = Portrait::by_return_map(&model).unwrap();

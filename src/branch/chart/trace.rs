@@ -168,7 +168,7 @@ impl Tracer<'_> {
             || here.r * here.d2.abs() > -DOUBTFUL;
         if strong && self.range.0 >= -1.0 {
             let end = Parameters { d: self.range.0.max(CRITICAL), ..*here };
-            let found = cycles(&end, false, self.limits)?;
+            let found = cycles(&end, self.limits)?;
             self.cost += found.cost;
             if found.cycles.is_empty() {
                 return Ok(Boundaries { fold: Some(f64::NEG_INFINITY), escape: None });

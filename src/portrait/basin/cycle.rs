@@ -8,7 +8,7 @@
 //! use hopfscope::portrait::basin::cycle::cycles;
 //!
 //! let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
-//! let found = cycles(&parameters, false, &Limits::PATIENT)?;
+//! let found = cycles(&parameters, &Limits::PATIENT)?;
 //! let [inner, outer] = &found.cycles[..] else { panic!("two cycles") };
 //! assert!(!inner.stable && outer.stable && inner.q_max < outer.q_max);
 //! assert_eq!(found.border, Border::Cycle);
@@ -26,21 +26,18 @@ use crate::portrait::closing::equation::Equation;
 use crate::portrait::closing::pair::{Closing, share};
 use crate::portrait::{Border, Cycle, CycleErrors, Margin};
 
-/// Points drawn on each integration step of a curve.
-const CURVE_POINTS: u16 = 12;
-
 /// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
 pub(crate) const PICTURE_REACH: f64 = 20.0;
 
-/// Finds all limit cycles at these parameters; `curves` asks for a picture too.
+/// Finds all limit cycles at these parameters.
 ///
 /// The piecewise linear cycle comes from its closed form, all others from the search. Clearances are
 /// computed to rounding; `error` of each cycle says what that is worth near a fold.
 ///
 /// # Errors
 /// The [`Reason`] why the search could not be completed.
-pub fn cycles(parameters: &Parameters, curves: bool, limits: &Limits) -> Result<Cycles, Reason> {
-    found(parameters, curves.then_some(CURVE_POINTS), limits)
+pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<Cycles, Reason> {
+    Ok(cycles_and_closings(parameters, limits)?.0)
 }
 
 /// The same with a picture, of this many points on each integration step of a curve.
@@ -52,17 +49,11 @@ pub fn cycles_drawn(
     points: u16,
     limits: &Limits,
 ) -> Result<Cycles, Reason> {
-    found(parameters, Some(points), limits)
-}
-
-fn found(parameters: &Parameters, points: Option<u16>, limits: &Limits) -> Result<Cycles, Reason> {
     let (mut answer, closings) = cycles_and_closings(parameters, limits)?;
-    if let Some(points) = points {
-        let reach = PICTURE_REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
-        let basin = Basin::around(parameters, &closings, reach, limits)?;
-        answer.cost += basin.cost;
-        answer.picture = Some(BasinPicture::of(&basin, points));
-    }
+    let reach = PICTURE_REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
+    let basin = Basin::around(parameters, &closings, reach, limits)?;
+    answer.cost += basin.cost;
+    answer.picture = Some(BasinPicture::of(&basin, points));
     Ok(answer)
 }
 

@@ -330,7 +330,7 @@ mod works_tests {
     }
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits, Problem};
-    use crate::portrait::basin::cycle::cycles;
+    use crate::portrait::basin::cycle::cycles_drawn;
 
     #[test]
     fn the_works_over_a_cycle_cancel_to_ten_digits_and_more() {
@@ -346,7 +346,7 @@ mod works_tests {
             (-0.9, -0.3, 2.0, 1e-3),
         ] {
             let parameters = Parameters { d, d2, d3, r };
-            let found = cycles(&parameters, true, &Limits::PATIENT).unwrap();
+            let found = cycles_drawn(&parameters, 12, &Limits::PATIENT).unwrap();
             let ledgers = found.picture.unwrap().works;
             assert_eq!(ledgers.len(), found.cycles.len());
             assert!(!ledgers.is_empty());

@@ -161,7 +161,7 @@ mod tests {
             (-0.4, 0.0, 0.0, 1.0),
         ] {
             let parameters = Parameters { d, d2, d3, r };
-            let found = cycles(&parameters, false, &LIMITS).unwrap();
+            let found = cycles(&parameters, &LIMITS).unwrap();
             assert!(!found.cycles.is_empty());
             for cycle in &found.cycles {
                 for turning in [cycle.q_max, cycle.q_min] {

@@ -4,7 +4,7 @@ use crate::flow::{Detail, Limits, Problem};
 use crate::model::Belt;
 use crate::model::belt::{FrictionLaw, ReducedBelt, TaylorError, Units};
 use crate::paper::belt::machine as paper;
-use crate::portrait::basin::cycle::cycles;
+use crate::portrait::basin::cycle::cycles_drawn;
 
 fn belt() -> Belt {
     Belt { belt_speed: 0.3, ..paper() }
@@ -143,7 +143,7 @@ fn cycles_and_margins_come_back_in_physical_units() {
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4] };
     let linear = Belt { law, cubic_damping: 0.0, ..belt() };
     let ReducedBelt { parameters, units, .. } = linear.reduce().unwrap();
-    let found = cycles(&parameters, true, &Limits::PATIENT).unwrap();
+    let found = cycles_drawn(&parameters, 12, &Limits::PATIENT).unwrap();
     let margin = found.picture.unwrap().margin;
     let margin = margin.map(|q| q * units.displacement, |speed| speed * units.impulse);
     // A_q = r coth(x/2), x = -pi D/omega (equation 32); in metres R/c takes the place of r.
