@@ -120,7 +120,8 @@ impl BeltCommand {
         let on_belt = |belt: &Belt| {
             let expansion = CubicExpansion::new(belt, &Limits::PATIENT)?;
             let certain = (!tolerances.is_none()).then(|| guaranteed(belt, tolerances));
-            Ok::<_, Reason>(OnBelt { expansion, tolerances, certain: certain.transpose()? })
+            let certain = certain.transpose()?.map(|found| found.map(|(_, margin)| margin));
+            Ok::<_, Reason>(OnBelt { expansion, tolerances, certain })
         };
         let on_belt = subject.of_belt().map(on_belt).transpose()?;
         let mut course = Course::new(&subject.model()?, *start, *until)?;

@@ -64,7 +64,7 @@ impl MarginCommand {
                 let (certain, more) =
                     timed(self.output.repeat, || machine::guaranteed(belt, tolerances));
                 seconds += more;
-                certain.map_err(troubled)?
+                certain.map_err(troubled)?.map(|(_, margin)| margin)
             }
         };
         let uncertain = subject.of_belt().map(|belt| tolerances.intervals(belt));

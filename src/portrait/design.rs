@@ -117,27 +117,9 @@ pub fn friction_for(
         cost += found.cost;
         Ok(ln(kick.margin(&found.margin()) / wanted))
     };
-    let blurs = |reason: &Reason| matches!(reason, Reason::NoConvergence { .. });
-    let any = hardly_any(parameters, wanted);
-    let needed = least_friction(wanted, any, &mut excess, blurs)?;
+    let needed = least_friction(wanted, hardly_any(parameters, wanted), &mut excess)?;
     let lost = Reason::NoConvergence { sought: "the friction for a margin", change: f64::NAN };
     Ok(Design { needed: needed.ok_or(lost)?, cost })
-}
-
-/// The least friction at which an increasing function of it, which may jump, becomes positive; `any` is one
-/// that counts as none. `None` where no bracket is found.
-fn least_friction<E>(
-    wanted: f64,
-    any: Option<f64>,
-    excess: &mut impl FnMut(f64) -> Result<f64, E>,
-    blurs: impl Fn(&E) -> bool,
-) -> Result<Option<FrictionNeeded>, E> {
-    if let Some(r) = any
-        && excess(r)? >= 0.0
-    {
-        return Ok(Some(FrictionNeeded::Any));
-    }
-    smallest(wanted, excess, blurs)
 }
 
 /// The friction at which a margin of this size is the one without friction; `None` where that is none,
@@ -152,13 +134,19 @@ fn hardly_any(parameters: &Parameters, wanted: f64) -> Option<f64> {
     }
 }
 
-/// Encloses and narrows the r at which an increasing function, which may jump, becomes positive; an error that `blurs`
-/// ends the search next to a fold.
-fn smallest<E>(
+/// The least friction at which an increasing function of it, which may jump, becomes positive: enclosed, and narrowed
+/// until rounding, or next to a fold until the search for cycles no longer converges. `any` is a friction that counts as
+/// none. `None` where no bracket is found.
+fn least_friction(
     wanted: f64,
-    excess: &mut impl FnMut(f64) -> Result<f64, E>,
-    blurs: impl Fn(&E) -> bool,
-) -> Result<Option<FrictionNeeded>, E> {
+    any: Option<f64>,
+    excess: &mut dyn FnMut(f64) -> Result<f64, Reason>,
+) -> Result<Option<FrictionNeeded>, Reason> {
+    if let Some(r) = any
+        && excess(r)? >= 0.0
+    {
+        return Ok(Some(FrictionNeeded::Any));
+    }
     // A displacement within the sticking set is kept: the first is high enough, or nearly so.
     let mut high = (wanted, excess(wanted)?);
     let mut low = high;
@@ -183,7 +171,7 @@ fn smallest<E>(
         let r = unit * exp(log);
         let here = match excess(r) {
             // The upper end is the safe one, and known: that ends the search where an error would.
-            Err(error) if blurs(&error) && high.0 - low.0 <= BLUR * high.0 => Err(None),
+            Err(Reason::NoConvergence { .. }) if high.0 - low.0 <= BLUR * high.0 => Err(None),
             here => here.map_err(Some),
         }?;
         *(if here < 0.0 { &mut low } else { &mut high }) = (r, here);
@@ -216,7 +204,7 @@ fn guaranteed_excess(
 ) -> Result<f64, Reason> {
     // Only belts have tolerances.
     let Body::Belt(belt) = &subject.body else { return Ok(f64::MIN) };
-    let found = guaranteed(belt, known)?.map_or(0.0, |margin| kick.margin(&margin));
+    let found = guaranteed(belt, known)?.map_or(0.0, |(_, margin)| kick.margin(&margin));
     Ok(ln(found / wanted).max(f64::MIN))
 }
 
@@ -256,7 +244,7 @@ pub fn friction_of_guide(
         }
     }
     let without = (model.damping > 0.0 && known.is_none()).then_some(0.0);
-    let found = least_friction(length, without, &mut excess, |_| false)?;
+    let found = least_friction(length, without, &mut excess)?;
     let force = |r: f64| r * model.stiffness;
     Ok(found.map(|needed| match needed {
         FrictionNeeded::Any => FrictionNeeded::Any,

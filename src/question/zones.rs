@@ -8,7 +8,7 @@ use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Belt, ParameterBox, State, Tolerances};
 use crate::portrait::basin::Basin;
 use crate::portrait::basin::cycle::PICTURE_REACH;
-use crate::portrait::guarantee::machine::{best, kicks, worst};
+use crate::portrait::guarantee::machine;
 use crate::portrait::guarantee::oscillator::{guaranteed, hopeful, nominal};
 use crate::portrait::{Margin, Portrait, survey};
 
@@ -99,13 +99,11 @@ pub(super) fn of_machine(
         Some(curve) => Extent::Within(places(curve, &model, points)),
         None => Extent::Everything,
     };
-    let (safe, guaranteed) = match worst(belt, known)? {
+    let (safe, guaranteed) = match machine::guaranteed(belt, known)? {
         Err(why) => (Extent::Nothing, Err(why.to_string())),
-        Ok((corners, portrait)) => {
-            (drawn(&portrait), Ok(margin(&model, &kicks(&corners, &portrait))))
-        }
+        Ok((portrait, certain)) => (drawn(&portrait), Ok(margin(&model, &certain))),
     };
-    let hopeful = best(belt, known)?.as_ref().map_or(Extent::Everything, drawn);
+    let hopeful = machine::hopeful(belt, known)?.as_ref().map_or(Extent::Everything, drawn);
     let nominal = margin(&model, &nominal);
     Ok(CertainZones { safe, hopeful, nominal, guaranteed, cost: Cost::default() })
 }

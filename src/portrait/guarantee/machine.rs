@@ -17,17 +17,13 @@ use crate::numerics::root::try_bisect;
 use crate::portrait::survey::portrait;
 use crate::portrait::{Margin, Portrait};
 
-/// The kicks that a machine survives for certain, or why none is. Fails with [`Reason`] where a machine within the
-/// tolerances has no model, or one that bounds them has no portrait.
-pub fn guaranteed(belt: &Belt, known: &Tolerances) -> Result<Result<Margin, Uncertain>, Reason> {
-    Ok(worst(belt, known)?.map(|(corners, portrait)| kicks(&corners, &portrait)))
-}
-
-/// The machine whose basin lies within those of all others, or why there is none.
-pub fn worst(
+/// The portrait of a machine whose basin lies within those of all others, and the kicks, in m and N s, that every one
+/// survives for certain; or why there is none. Fails with [`Reason`] where a machine within the tolerances has no model,
+/// or one that bounds them has no portrait.
+pub fn guaranteed(
     belt: &Belt,
     known: &Tolerances,
-) -> Result<Result<(Corners, Portrait), Uncertain>, Reason> {
+) -> Result<Result<(Portrait, Margin), Uncertain>, Reason> {
     let Some(corners) = Corners::new(belt, known)? else { return Ok(Err(Uncertain::TooMany)) };
     let least = corners.friction;
     if least < 0.0 || known.disturbance > 0.0 && least == 0.0 {
@@ -39,26 +35,17 @@ pub fn worst(
     } else {
         corners.bounded(belt)?
     };
-    Ok(found.map(|portrait| (corners, portrait)))
+    Ok(found.map(|portrait| {
+        let lightest = corners.lightest() / portrait.model.omega_0;
+        let margin = portrait.margin_within(corners.farthest_rest, lightest);
+        (portrait, margin)
+    }))
 }
 
-/// The machine outside of whose basin nothing comes to rest: with the largest friction and damping. `None` where
-/// other numbers are uncertain.
-pub fn best(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Reason> {
+/// The portrait of the machine outside of whose basin nothing comes to rest: with the largest friction and damping.
+/// `None` where other numbers are uncertain.
+pub fn hopeful(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Reason> {
     known.best(belt).map(|best| portrait(&best)).transpose()
-}
-
-/// The kicks within the basin of a machine that bounds those of all others, in m and N s.
-pub fn kicks(corners: &Corners, portrait: &Portrait) -> Margin {
-    let lightest = corners.lightest() / portrait.model.omega_0;
-    portrait.margin_within(corners.farthest_rest, lightest)
-}
-
-/// A portrait whose basin of rest is bordered by a cycle of slip.
-struct SlipBorder {
-    portrait: Portrait,
-    /// The velocities along the border, divided by the natural frequency.
-    velocities: (f64, f64),
 }
 
 /// The velocities along the border of the basin, if it is a cycle of slip; divided by the natural frequency.
@@ -88,9 +75,9 @@ impl Corners {
             let Some(found) = self.below_the_line(corner, less)? else {
                 return Ok(Err(Uncertain::Unbounded));
             };
-            let (low, high) = found.velocities;
+            let (portrait, (low, high)) = found;
             if low >= range.0 && high <= range.1 {
-                return Ok(Ok(found.portrait));
+                return Ok(Ok(portrait));
             }
             range = (range.0.min(ROOM * low), range.1.max(ROOM * high).min(slowest));
         }
@@ -98,14 +85,18 @@ impl Corners {
     }
 
     /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
-    /// as that allows, and the velocities along the border.
-    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>, Reason> {
+    /// as that allows, and the velocities along the border, divided by the natural frequency.
+    fn below_the_line(
+        &self,
+        corner: usize,
+        less: f64,
+    ) -> Result<Option<(Portrait, (f64, f64))>, Reason> {
         const HALVINGS: u32 = 24;
         let slowest = self.slowest();
-        let at = |less: f64| -> Result<Option<SlipBorder>, Reason> {
+        let at = |less: f64| -> Result<Option<(Portrait, (f64, f64))>, Reason> {
             let portrait = portrait(&self.worst(corner, less))?;
             let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
-            Ok(border.map(|velocities| SlipBorder { portrait, velocities }))
+            Ok(border.map(|velocities| (portrait, velocities)))
         };
         if let Some(found) = at(less)? {
             return Ok(Some(found));

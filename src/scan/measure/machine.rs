@@ -40,7 +40,8 @@ impl<'a> MachinePoint<'a> {
             }
             Measure::Guaranteed => {
                 let Some(belt) = subject.of_belt() else { return Ok(()) };
-                let margin = guaranteed(belt, tolerances)?.map_err(|why| why.to_string())?;
+                let found = guaranteed(belt, tolerances)?;
+                let (_, margin) = found.map_err(|why| why.to_string())?;
                 cells.margin(Measure::Guaranteed, margin);
             }
             Measure::Design => {
