@@ -68,7 +68,7 @@ impl Portrait {
     /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
     pub fn of(model: &Model) -> Result<Self, Reason> {
         match without_belt::orbits(model) {
-            Some((cycles, basin)) => Ok(Portrait::within(model, cycles, basin)),
+            Some((cycles, basin)) => Ok(Portrait::within(model, &cycles, basin)),
             None => Portrait::by_return_map(model),
         }
     }
@@ -86,7 +86,7 @@ impl Portrait {
         let model = Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], r, r)?;
         let (found, closings) = cycles_and_closings(parameters, limits)?;
         let basin = Basin::around(parameters, &closings, reach, limits)?;
-        Ok(Portrait::within(&model, found, basin))
+        Ok(Portrait::within(&model, &found, basin))
     }
 
     /// The portrait of any machine by its return map.
@@ -138,7 +138,7 @@ impl Portrait {
     }
 
     /// From the cycles of the oscillator that a model without a belt is, and the orbits that part its motions.
-    fn within(model: &Model, found: Cycles, basin: Basin) -> Self {
+    fn within(model: &Model, found: &Cycles, basin: Basin) -> Self {
         let mut cost = found.cost;
         cost += basin.cost;
         let mut portrait = Portrait {

@@ -48,6 +48,10 @@ pub fn hopeful(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Reas
     known.best(belt).map(|best| portrait(&best)).transpose()
 }
 
+/// A portrait whose basin of rest is bordered by a cycle of slip, and the velocities along it, divided by the natural
+/// frequency.
+type SlipBorder = (Portrait, (f64, f64));
+
 /// The velocities along the border of the basin, if it is a cycle of slip; divided by the natural frequency.
 fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
     let cycle = portrait.bordering_cycle()?;
@@ -85,15 +89,11 @@ impl Corners {
     }
 
     /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
-    /// as that allows, and the velocities along the border, divided by the natural frequency.
-    fn below_the_line(
-        &self,
-        corner: usize,
-        less: f64,
-    ) -> Result<Option<(Portrait, (f64, f64))>, Reason> {
+    /// as that allows, and the velocities along the border.
+    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>, Reason> {
         const HALVINGS: u32 = 24;
         let slowest = self.slowest();
-        let at = |less: f64| -> Result<Option<(Portrait, (f64, f64))>, Reason> {
+        let at = |less: f64| -> Result<Option<SlipBorder>, Reason> {
             let portrait = portrait(&self.worst(corner, less))?;
             let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
             Ok(border.map(|velocities| (portrait, velocities)))
