@@ -35,3 +35,6 @@ fn acceleration(parameters: &Parameters, side: Side, q: f64, v: f64) -> f64 {
     let field = HalfPlane::new(parameters, side);
     side.sign() * field.acceleration(side.position(q, parameters.r), side.sign() * v)
 }
+
+#[cfg(test)]
+mod tests;

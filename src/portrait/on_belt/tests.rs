@@ -11,11 +11,7 @@ fn belt() -> Belt {
 }
 
 /// The motion of the oscillator that the machine reduces to, and where it reaches the velocity of the belt.
-fn motion(
-    belt: &Belt,
-    start: (f64, f64),
-    until: f64,
-) -> (Trajectory, Option<(f64, f64)>, Units) {
+fn motion(belt: &Belt, start: (f64, f64), until: f64) -> (Trajectory, Option<(f64, f64)>, Units) {
     let ReducedBelt { parameters, units, sticking_velocity, .. } = belt.reduce().unwrap();
     let problem = Problem {
         parameters,
