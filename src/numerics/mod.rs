@@ -6,7 +6,7 @@
 //!   [`random`] simulates noise.
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
 //!   integrates, [`polynomial`] evaluates and interpolates by cubics, [`spline`] smooths measured points.
-//! - Texts: [`decimal`] writes numbers, [`round`] steps from one round number to the next, [`similar`] finds the name that was meant.
+//! - Texts: [`decimal`] writes numbers and steps from one round number to the next, [`similar`] finds the name that was meant.
 
 pub(crate) mod count;
 pub(crate) mod decimal;
@@ -18,7 +18,6 @@ pub(crate) mod quadrature;
 #[doc(hidden)]
 pub mod random;
 pub(crate) mod root;
-pub(crate) mod round;
 pub(crate) mod scalar;
 #[doc(hidden)]
 pub mod scaling;

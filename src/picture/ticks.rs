@@ -12,8 +12,8 @@
     reason = "powers of ten and counts of ticks are small, whatever the axis"
 )]
 
+use crate::numerics::decimal::{StepSize, decade, decimal};
 use crate::numerics::elementary::{log10, pow};
-use crate::numerics::round::{StepSize, decade, decimal};
 use crate::scene::Span;
 
 /// A tick: where it stands and what it says.

@@ -20,9 +20,8 @@ use crate::session::act::{
     copy, files, general, history, lists, motions, parameters, plots, prompt, scan, screen_setup,
     walk,
 };
-use crate::session::command_row::CommandAction::{self, Act, Choose, Toggle, Try};
-use crate::session::command_row::{CommandRow, row};
-use crate::session::lines::{LINES, lines};
+use crate::session::lines::CommandAction::{self, Act, Choose, Toggle, Try};
+use crate::session::lines::{CommandRow, LINES, lines, row};
 use crate::session::{Command, Effect, Input, Keymap, Letter as Ask, Pending, Session, Size};
 
 /// Characters with which a number can begin.

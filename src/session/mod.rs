@@ -12,7 +12,6 @@
 //! - `update` takes a message in.
 
 pub(crate) mod act;
-mod command_row;
 pub mod commands;
 pub mod config;
 pub mod effect;

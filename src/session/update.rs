@@ -13,8 +13,8 @@ use crate::session::act::{
     answers, attempt, files, general, history, inform, inform_of_keys, plots, prompt, refuse, walk,
     with_keys,
 };
-use crate::session::command_row::CommandAction;
 use crate::session::commands::action;
+use crate::session::lines::CommandAction;
 use crate::session::read::completion::names;
 use crate::session::read::contexts::{elsewhere, place};
 use crate::session::read::waiting;

@@ -1,4 +1,4 @@
-//! The effects of commands on a session, one family of commands per file.
+//! The effects of commands on a session, one family of commands per file; and what they say.
 
 pub mod answers;
 pub mod copy;
@@ -7,7 +7,6 @@ pub mod general;
 pub mod history;
 pub mod lists;
 pub mod motions;
-pub mod notice;
 pub mod parameters;
 pub mod plots;
 pub mod prompt;
@@ -16,4 +15,38 @@ pub mod screen_setup;
 pub mod values;
 pub mod walk;
 
-pub(crate) use notice::{attempt, inform, inform_of_keys, refuse, warn_of_units, with_keys};
+use crate::session::{Done, Key, Notice, Session};
+
+/// Shows a notice that reports no refusal.
+pub(crate) fn inform(session: &mut Session, text: impl Into<String>) {
+    session.notice = Some(Notice { error: false, text: text.into() });
+}
+
+/// A sentence in which each `{command}` is replaced by the key of that command.
+pub(crate) fn with_keys(session: &Session, sentence: &str) -> String {
+    session.keymap.fill(sentence, Key::said)
+}
+
+/// Shows such a sentence.
+pub(crate) fn inform_of_keys(session: &mut Session, sentence: &str) {
+    inform(session, with_keys(session, sentence));
+}
+
+/// Shows a notice that says what was refused.
+pub(crate) fn refuse(session: &mut Session, text: impl Into<String>) {
+    session.notice = Some(Notice { error: true, text: text.into() });
+}
+
+/// Does something, or says why it was refused.
+pub(crate) fn attempt(session: &mut Session, act: impl FnOnce(&mut Session) -> Done) {
+    if let Err(why) = act(session) {
+        refuse(session, why);
+    }
+}
+
+/// Shows what is unlikely about the numbers of the machine that was just read or typed.
+pub(crate) fn warn_of_units(session: &mut Session) {
+    if let Some(line) = session.unlikely_number() {
+        inform(session, line);
+    }
+}

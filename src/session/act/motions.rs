@@ -4,8 +4,7 @@
 use std::f64::consts::TAU;
 
 use crate::model::State;
-use crate::numerics::decimal::shortest;
-use crate::numerics::round::decimal_sum;
+use crate::numerics::decimal::{decimal_sum, shortest};
 use crate::portrait::Cycles;
 use crate::scene::{Layer, Topic};
 use crate::session::act::inform;

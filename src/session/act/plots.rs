@@ -3,8 +3,7 @@
 
 use crate::flow::Problem;
 use crate::model::{Knob, State};
-use crate::numerics::decimal::shortest;
-use crate::numerics::round::StepSize;
+use crate::numerics::decimal::{StepSize, shortest};
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Axes, ORDINATES, PlotSetup, Point, Span, Unit, View, Window};
 use crate::session::act::general::flip;

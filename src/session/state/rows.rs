@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
 use crate::model::{Group, KNOBS, Knob};
-use crate::numerics::round::StepSize;
+use crate::numerics::decimal::StepSize;
 use crate::scene::{ScaledMachine, Scene};
 use crate::session::state::setup::symbol_of;
 
