@@ -1,12 +1,20 @@
-//! The cycles of a machine along one of its numbers, and the places where they change.
+//! The cycles of a machine along one of its numbers, the places where its portrait changes, and the jumps there.
+//!
+//! Each change but the fold is the zero of a number that one or two integrations give: the damping at rest
+//! (Hopf), and left turning points of the orbits that the belt's line singles out. A fold is where the return
+//! map touches the diagonal: the extremum of its growth vanishes.
 
 use rayon::prelude::*;
 
-use super::machine_special::between;
-use super::special::Special;
-use crate::flow::{Cost, Reason};
-use crate::model::{Knob, Source};
-use crate::portrait::basin::between as evenly;
+use super::special::{Jump, Jumps, Special, SpecialKind};
+use crate::flow::{Cost, Fate, Flow, Limits, Reason};
+use crate::model::{ContactState, Knob, Model, Phase, Source};
+use crate::numerics::count::real;
+use crate::numerics::elementary::{exp, ln};
+use crate::numerics::root::{PlaceTolerance, illinois, try_bisect};
+use crate::portrait::basin::between;
+use crate::portrait::closing::search::Node;
+use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::{Border, Cycle, Portrait};
 
 /// What a machine does at a value of the number that varies.
@@ -23,6 +31,17 @@ pub struct MachineBranchPoint {
     pub rests: bool,
 }
 
+impl From<(f64, Result<Portrait, Reason>)> for MachineBranchPoint {
+    fn from((value, found): (f64, Result<Portrait, Reason>)) -> Self {
+        let rests = found.as_ref().is_ok_and(|found| found.border != Border::NoBasin);
+        let touching = found.as_ref().ok().and_then(|found| {
+            let touches = matches!(found.border, Border::Grazing | Border::Capture);
+            found.reach.filter(|_| touches).map(|reach| reach.displacement.0)
+        });
+        MachineBranchPoint { value, cycles: found.map(|found| found.cycles), touching, rests }
+    }
+}
+
 /// The cycles along a number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MachineBranch {
@@ -33,101 +52,369 @@ pub struct MachineBranch {
     pub cost: Cost,
 }
 
-/// Values of a number, and the portrait at each.
-type Portraits = Vec<(f64, Result<Portrait, Reason>)>;
-
 impl MachineBranch {
-    fn of(portraits: Portraits, special: Vec<Special>) -> Self {
+    /// Follows the cycles of a machine along one of its numbers, through `count` values on all cores. Each change is
+    /// located between two of these and has further points `beside` it, at these parts of their distance. Fails
+    /// with one line where the machine's law has no such number; ends early where it is interrupted.
+    pub fn along(
+        source: &Source,
+        varied: Knob,
+        range: (f64, f64),
+        (count, beside): (usize, &[f64]),
+        limits: &Limits,
+    ) -> Result<Self, String> {
+        let family = Family { source, varied, limits };
+        let mut portraits = family.portraits(even(range, count))?;
+        let changes = family.all_changes(&portraits);
+        let special = changes.iter().map(|change| change.special).collect();
+        if !beside.is_empty() {
+            let step = (range.1 - range.0) / real(count - 1);
+            let around = |change: &Change| {
+                let value = change.special.value;
+                beside.iter().map(move |part| value + part * step).collect::<Vec<_>>()
+            };
+            let within = |value: &f64| (range.0..=range.1).contains(value);
+            let further = changes.iter().flat_map(around).filter(within).collect();
+            portraits.extend(family.portraits(further)?);
+            // Nearer are those by which the changes were told.
+            let outer = |change: Change| change.beside.into_iter().step_by(ASIDE.len() - 1);
+            let known = changes.into_iter().flat_map(outer).filter(|(value, _)| within(value));
+            portraits.extend(known.filter_map(|(value, found)| Some((value, Ok(found?)))));
+            portraits.sort_by(|one, other| one.0.total_cmp(&other.0));
+        }
+        Ok(MachineBranch { special, ..MachineBranch::of(portraits) })
+    }
+
+    /// What a machine does at `count` values of one of its numbers; changes are not located. Fails with one line
+    /// where the machine's law has no such number; ends early where it is interrupted.
+    pub fn sampled(
+        source: &Source,
+        varied: Knob,
+        range: (f64, f64),
+        count: usize,
+        limits: &Limits,
+    ) -> Result<Self, String> {
+        let family = Family { source, varied, limits };
+        Ok(MachineBranch::of(family.portraits(even(range, count))?))
+    }
+
+    fn of(portraits: Portraits) -> Self {
         let known = portraits.iter().filter_map(|(_, found)| found.as_ref().ok());
         let mut cost = Cost::default();
         known.for_each(|found| cost += found.cost);
-        let point = |(value, found): (f64, Result<Portrait, Reason>)| {
-            let rests = found.as_ref().is_ok_and(|found| found.border != Border::NoBasin);
-            let touching = found.as_ref().ok().and_then(|found| {
-                let touches = matches!(found.border, Border::Grazing | Border::Capture);
-                found.reach.filter(|_| touches).map(|reach| reach.displacement.0)
-            });
-            MachineBranchPoint { value, cycles: found.map(|found| found.cycles), touching, rests }
+        let points = portraits.into_iter().map(MachineBranchPoint::from).collect();
+        MachineBranch { points, special: Vec::new(), cost }
+    }
+}
+
+/// Values of a number, and the portrait at each.
+type Portraits = Vec<(f64, Result<Portrait, Reason>)>;
+
+fn even(range: (f64, f64), count: usize) -> Vec<f64> {
+    (0..count).map(|index| between(range, index, count)).collect()
+}
+
+/// A machine while one of its numbers varies.
+struct Family<'a> {
+    source: &'a Source,
+    varied: Knob,
+    limits: &'a Limits<'a>,
+}
+
+/// A value at which the portrait is known.
+struct Place<'a> {
+    value: f64,
+    portrait: &'a Portrait,
+    signs: Signs,
+}
+
+/// A change, with the portraits next to it, at the distances of [`ASIDE`].
+struct Change {
+    special: Special,
+    beside: Vec<(f64, Option<Portrait>)>,
+}
+
+/// How far from a change one looks at what it changes, in units of the distance between two values.
+const ASIDE: [f64; 4] = [-1e-4, -1e-6, 1e-6, 1e-4];
+
+impl Family<'_> {
+    /// The model at a value. Where the branch is interrupted there is none, and the search for a change ends at once.
+    fn model(&self, value: f64) -> Option<Model> {
+        let interrupted = (self.limits.interrupted)();
+        self.source.with(self.varied, value).ok().filter(|_| !interrupted)?.model().ok()
+    }
+
+    fn portrait(&self, value: f64) -> Option<Portrait> {
+        Portrait::of(&self.model(value)?).ok()
+    }
+
+    fn portraits(&self, values: Vec<f64>) -> Result<Portraits, String> {
+        let portrait = |value| Ok((value, self.source.with(self.varied, value)?.portrait()));
+        let wanted = |_: &f64| !(self.limits.interrupted)();
+        values.into_par_iter().filter(wanted).map(portrait).collect()
+    }
+
+    /// The numbers whose zeros are special; `None` where there is no model, or its law ends before.
+    fn signs(&self, value: f64) -> Option<Signs> {
+        let model = self.model(value)?;
+        let landmarks = Flow::new(&model).landmarks().ok()?;
+        Some(Signs::new(&model, landmarks.as_ref()))
+    }
+
+    /// All changes, in the order of these portraits.
+    fn all_changes(&self, portraits: &Portraits) -> Vec<Change> {
+        let places = portraits.par_iter().map(|(value, found)| {
+            let portrait = found.as_ref().ok()?;
+            let signs = Signs::new(&portrait.model, portrait.landmarks.as_ref());
+            Some(Place { value: *value, portrait, signs })
+        });
+        let places: Vec<_> = places.collect();
+        let changes = |pair: &[Option<Place>]| match pair {
+            [Some(left), Some(right)] => self.changes(left, right),
+            _ => Vec::new(),
         };
-        MachineBranch { points: portraits.into_iter().map(point).collect(), special, cost }
+        places.par_windows(2).flat_map_iter(changes).collect()
     }
 
-    /// This one with the points of another, in order.
-    #[must_use]
-    pub fn with_points_of(mut self, other: Self) -> Self {
-        self.points.extend(other.points);
-        self.points.sort_by(|one, other| one.value.total_cmp(&other.value));
-        self.cost += other.cost;
-        self
-    }
-}
-
-/// Follows the cycles of a machine along one of its numbers, through `count` values. Fails with one line, where the
-/// machine's law has no such number.
-pub fn branch(
-    subject: impl Into<Source>,
-    varied: Knob,
-    range: (f64, f64),
-    count: usize,
-) -> Result<MachineBranch, String> {
-    branch_while(&subject.into(), varied, range, count, &|| true)
-}
-
-/// The same as long as it is wanted, on all cores: a branch that is not ends early. Fails with one line, where the
-/// machine's law has no such number.
-pub fn branch_while(
-    subject: &Source,
-    varied: Knob,
-    range: (f64, f64),
-    count: usize,
-    wanted: &(dyn Fn() -> bool + Sync),
-) -> Result<MachineBranch, String> {
-    // Where it is not wanted any more there is no machine, and the search for a change ends at once.
-    let family = |value: f64| subject.with(varied, value).ok().filter(|_| wanted())?.model().ok();
-    let values = (0..count).map(|index| evenly(range, index, count)).collect();
-    let portraits = portraits(subject, varied, values, wanted)?;
-    let changes = |pair: &[(f64, Result<Portrait, Reason>)]| match pair {
-        [(from, Ok(one)), (to, Ok(other))] if wanted() => {
-            between(&family, (*from, one), (*to, other))
+    /// The changes between two neighbouring values, in their order.
+    fn changes(&self, left: &Place, right: &Place) -> Vec<Change> {
+        /// Kinds that are zeros of [`Signs`].
+        const KINDS: [SpecialKind; 5] = [
+            SpecialKind::Hopf,
+            SpecialKind::Grazing,
+            SpecialKind::Annihilation,
+            SpecialKind::Overtaking,
+            SpecialKind::Unsticking,
+        ];
+        let step = right.value - left.value;
+        let zero_of = |kind: SpecialKind| {
+            let ends = (left.signs.of(kind)?, right.signs.of(kind)?);
+            if (ends.0 > 0.0) == (ends.1 > 0.0) {
+                return None;
+            }
+            let of = |value| self.signs(value)?.of(kind);
+            let value = zero(&of, (left.value, ends.0), (right.value, ends.1))?;
+            Some(self.change(self.signs(value)?.special(kind, value), step))
+        };
+        let by_value = |one: &Change, other: &Change| {
+            let distance = |change: &Change| (change.special.value - left.value).abs();
+            distance(one).total_cmp(&distance(other))
+        };
+        let mut found: Vec<Change> = KINDS.into_iter().filter_map(zero_of).collect();
+        found.sort_by(by_value);
+        // Between these the portrait keeps its form, unless cycles fold.
+        let mut folds = Vec::new();
+        let mut begin = Some((left.value, left.portrait));
+        let ends = found.iter().map(|change| [&change.beside[1], &change.beside[2]]);
+        let ends = ends.map(|ends| ends.map(|end| end.1.as_ref().map(|found| (end.0, found))));
+        for [before, after] in ends.chain([[Some((right.value, right.portrait)), None]]) {
+            folds.extend(begin.zip(before).and_then(|(one, other)| self.fold(one, other)));
+            begin = after;
         }
-        _ => Vec::new(),
-    };
-    let special = portraits.par_windows(2).flat_map_iter(changes).collect();
-    Ok(MachineBranch::of(portraits, special))
+        found.extend(folds.into_iter().map(|fold| self.change(fold, step)));
+        found.sort_by(by_value);
+        found
+    }
+
+    /// A change with the portraits beside it, from which the stable states that end there are read off.
+    fn change(&self, special: Special, step: f64) -> Change {
+        let beside = ASIDE.into_par_iter().map(|part| {
+            let value = special.value + part * step;
+            (value, self.portrait(value))
+        });
+        let beside: Vec<_> = beside.collect();
+        let all: Option<Vec<&Portrait>> = beside.iter().map(|(_, found)| found.as_ref()).collect();
+        let jumps = all.map_or_else(Jumps::default, |all| {
+            let ways = [[0, 1, 2, 3], [3, 2, 1, 0]].map(|way| lasting_jump(way.map(|at| all[at])));
+            let [up, down] = if step > 0.0 { ways } else { [ways[1], ways[0]] };
+            Jumps { up, down }
+        });
+        Change { special: Special { jumps: Some(jumps), ..special }, beside }
+    }
+
+    /// The fold between two places where the numbers of stable and of unstable cycles both differ by one.
+    fn fold(&self, left: (f64, &Portrait), right: (f64, &Portrait)) -> Option<Special> {
+        /// Halvings that bring the portraits near the fold.
+        const NEAR: u32 = 12;
+        if count(left.1) == count(right.1) {
+            return None;
+        }
+        let (with, without) =
+            if left.1.cycles.len() > right.1.cycles.len() { (left, right) } else { (right, left) };
+        let (wanted, mut nearest) = (count(with.1), with.1.clone());
+        let (without, with) = try_bisect(without.0, with.0, NEAR, |value| {
+            let portrait = self.portrait(value).ok_or(())?;
+            let holds = count(&portrait) == wanted;
+            if holds {
+                nearest = portrait;
+            }
+            Ok::<_, ()>(holds)
+        })
+        .ok()?;
+        let pairs = nearest
+            .cycles
+            .windows(2)
+            .filter(|pair| pair[0].stable != pair[1].stable && !pair.iter().any(Cycle::sticks));
+        let gap = |pair: &&[Cycle]| pair[1].q_max / pair[0].q_max;
+        let pair = pairs.min_by(|one, other| gap(one).total_cmp(&gap(other)))?;
+        let (low, high) = (pair[0].q_max, pair[1].q_max);
+        let extremum = |value: f64| -> Option<Node> {
+            steepest(&self.model(value)?, (low * high).sqrt(), ln(high / low))
+        };
+        let ends = (extremum(with)?, extremum(without)?);
+        let value = zero(
+            &|value| Some(extremum(value)?.difference),
+            (with, ends.0.difference),
+            (without, ends.1.difference),
+        )?;
+        let q_max = Some(exp(extremum(value)?.at));
+        Some(Special { q_max, ..Special::new(SpecialKind::Fold, value, None) })
+    }
 }
 
-/// What a machine does at values of one of its numbers, on all cores and as long as that is wanted; changes are not
-/// located. Fails with one line, where the machine's law has no such number.
-pub fn points_while(
-    subject: &Source,
-    varied: Knob,
-    values: Vec<f64>,
-    wanted: &(dyn Fn() -> bool + Sync),
-) -> Result<MachineBranch, String> {
-    Ok(MachineBranch::of(portraits(subject, varied, values, wanted)?, Vec::new()))
+/// The numbers whose zeros are special, at one place; `None` where they do not exist.
+#[derive(Clone, Copy, Debug, Default)]
+struct Signs {
+    damping: f64,
+    /// Whether the guide holds the mass.
+    held: bool,
+    /// Next left turning point of the orbit that touches the line, as if it slipped, less the last one.
+    touching: Option<f64>,
+    /// The same of the orbit that the belt releases.
+    released: Option<f64>,
+    /// The same less the left turning point that leads to the lower end of the stick band.
+    overtaking: Option<f64>,
+    /// Right turning point of what is released, less that from which motions do not stick any more.
+    unsticking: Option<f64>,
+    /// Logarithm of the multiplier of the orbit that touches.
+    log_slope: f64,
+    /// Right turning points of the orbits that touch and that are released.
+    turns: (Option<f64>, Option<f64>),
+    /// Whether static friction exceeds the kinetic one.
+    jumps: bool,
 }
 
-fn portraits(
-    subject: &Source,
-    varied: Knob,
-    values: Vec<f64>,
-    wanted: &(dyn Fn() -> bool + Sync),
-) -> Result<Portraits, String> {
-    let portrait = |value| Ok((value, subject.with(varied, value)?.portrait()));
-    values.into_par_iter().filter(|_| wanted()).map(portrait).collect()
+impl Signs {
+    /// Computes them from the landmarks of the return map.
+    fn new(model: &Model, landmarks: Option<&Landmarks>) -> Self {
+        let mut flow = Flow::new(model);
+        let signs =
+            Signs { damping: model.damping, held: model.guide_static > 0.0, ..Self::default() };
+        let Some(&Landmarks { lines, grazing, released, low_left, beyond }) = landmarks else {
+            return signs;
+        };
+        let mut left = |right: f64| {
+            let place = ContactState::Slips(Phase::Below);
+            let turn = flow.turn(place, (right, 0.0), &mut ()).ok()?;
+            (!turn.rests).then_some(turn.x)
+        };
+        // What comes to rest on the left would have turned where the guide lets go.
+        let held = -model.guide_static;
+        let of =
+            |right: f64, left: Option<f64>| if right > 0.0 { left.unwrap_or(held) } else { held };
+        let after_touch = of(grazing.image, left(grazing.image.max(model.guide_static)));
+        let after_release = released.map(|right| of(right, left(right)));
+        Signs {
+            touching: Some(after_touch - grazing.left),
+            released: Some(after_release.unwrap_or(held) - grazing.left),
+            overtaking: after_release.map(|left| left - low_left),
+            unsticking: released.zip(beyond).map(|(right, beyond)| right - beyond),
+            log_slope: grazing.log_slope,
+            turns: (grazing.right, released),
+            jumps: lines.release > lines.fold,
+            ..signs
+        }
+    }
+
+    /// One of the numbers.
+    fn of(&self, kind: SpecialKind) -> Option<f64> {
+        let rides = self.released.is_some_and(|released| released <= 0.0);
+        match kind {
+            SpecialKind::Hopf => (!self.held).then_some(self.damping),
+            SpecialKind::Grazing => self.touching,
+            SpecialKind::Annihilation => self.released.filter(|_| self.jumps),
+            SpecialKind::Overtaking => self.overtaking.filter(|_| rides),
+            SpecialKind::Unsticking => self.unsticking.filter(|_| rides),
+            SpecialKind::Fold | SpecialKind::Escape | SpecialKind::ZeroCrossing => None,
+        }
+    }
+
+    /// The change at a zero; a touch of an unstable cycle is where the stick-slip cycle ends.
+    fn special(&self, kind: SpecialKind, value: f64) -> Special {
+        let ends = kind == SpecialKind::Grazing && !self.jumps && self.log_slope > 0.0;
+        let q_max = match kind {
+            SpecialKind::Hopf => None,
+            SpecialKind::Grazing => self.turns.0,
+            _ => self.turns.1,
+        };
+        let kind = if ends { SpecialKind::Annihilation } else { kind };
+        Special { q_max, ..Special::new(kind, value, None) }
+    }
 }
 
-/// The special values along one number, at each value of another. Fails with one line, where the machine's law has
-/// no such numbers.
-pub fn borders(
-    subject: &Source,
-    (along, range, count): (Knob, (f64, f64), usize),
-    (against, values, rows): (Knob, (f64, f64), usize),
-) -> Result<Vec<(f64, Vec<Special>)>, String> {
-    let row = |index| {
-        let value = evenly(values, index, rows);
-        let here = subject.with(against, value)?;
-        Ok((value, branch(here, along, range, count)?.special))
-    };
-    (0..rows).map(row).collect()
+/// The zero of a function between two values of different sign; `None` where the function does not exist on
+/// the way.
+fn zero(function: &dyn Fn(f64) -> Option<f64>, left: (f64, f64), right: (f64, f64)) -> Option<f64> {
+    /// Relative width to which a special value is narrowed.
+    const WIDTH: f64 = 4.0 * f64::EPSILON;
+    let function = |value| function(value).ok_or(());
+    illinois([left, right], 0.0, PlaceTolerance::Relative(WIDTH), function)
+        .ok()
+        .map(|ends| ends[0].0)
+}
+
+/// How many cycles there are, of each kind; a fold takes one of each stability.
+fn count(portrait: &Portrait) -> (usize, usize, bool) {
+    let stable = portrait.cycles.iter().filter(|cycle| cycle.stable).count();
+    (stable, portrait.cycles.len() - stable, portrait.border == Border::NoBasin)
+}
+
+/// The extremum of the growth `ln(image/x)` over `u = ln x` near a place, by secants on its exact slope.
+fn steepest(model: &Model, near: f64, width: f64) -> Option<Node> {
+    let mut flow = Flow::new(model);
+    let mut growth = |u: f64| flow.growth(u, 1.0).ok();
+    let mut one = growth(ln(near))?;
+    let mut other = growth(ln(near) + 0.1 * width.min(1.0))?;
+    for _ in 0..50 {
+        if one.slope == other.slope {
+            break;
+        }
+        let next = other.at - other.slope * (other.at - one.at) / (other.slope - one.slope);
+        one = other;
+        // No further than the two cycles are apart.
+        other = growth(next.clamp(other.at - width, other.at + width))?;
+        if (other.at - one.at).abs() < 1e-9 {
+            break;
+        }
+    }
+    Some(other)
+}
+
+/// The jump from one machine to the next, of four in a row of which the middle ones are much closer to a change. What
+/// shrinks with the distance, as a cycle does that is born at rest, is not a jump.
+fn lasting_jump([far, near, next, beyond]: [&Portrait; 4]) -> Option<Jump> {
+    let (far, near) = (jump(far, beyond)?, jump(near, next)?);
+    (near.size() > 0.5 * far.size()).then_some(near)
+}
+
+/// The first stable state of one machine that its neighbour does not have.
+fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
+    /// A state that has moved by less, as a fraction of the largest cycle, is the same.
+    const MOVED: f64 = 1e-3;
+    /// The kick that shows whether rest holds, as a fraction of the same.
+    const KICK: f64 = 1e-9;
+    let cycles = from.cycles.iter().chain(&to.cycles).map(|cycle| cycle.q_max);
+    let size = cycles.fold(0.0, f64::max);
+    let rests = !from.neutral && from.border != Border::NoBasin;
+    let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.q_max);
+    rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
+        let fate = to.fate(state.max(KICK * size), 0.0).unwrap_or_else(Fate::Unknown);
+        let x_max = match fate {
+            Fate::Rest => 0.0,
+            Fate::Cycle(index) => to.cycles[index].q_max,
+            Fate::Neutral => return None,
+            Fate::Moving | Fate::Escapes | Fate::Unknown(_) => f64::INFINITY,
+        };
+        Some(Jump { from: state, to: fate, x_max }).filter(|jump| jump.size() > MOVED * size)
+    })
 }

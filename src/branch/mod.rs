@@ -14,14 +14,10 @@ pub mod fold;
 #[doc(hidden)]
 pub mod fold_graph;
 #[doc(hidden)]
-pub mod jump;
-#[doc(hidden)]
 pub mod machine;
-#[doc(hidden)]
-pub mod machine_special;
 #[warn(clippy::missing_errors_doc)]
 pub mod regime;
 pub(crate) mod special;
 
 pub use along::{Branch, BranchPoint};
-pub use special::{Special, SpecialKind};
+pub use special::{Jump, Special, SpecialKind};

@@ -1,9 +1,10 @@
-//! The special points of a branch of limit cycles.
+//! The special points of a branch of limit cycles, and what motions do there.
 
-use serde::Serialize;
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
 
 use super::extended::FoldCycle;
-use super::jump::Jumps;
+use crate::flow::Fate;
 use crate::portrait::{Cycle, CycleErrors};
 
 /// What makes a point of a branch special.
@@ -77,6 +78,54 @@ impl Special {
     pub fn new(kind: SpecialKind, value: f64, cycle: Option<Cycle>) -> Self {
         Special { kind, value, q_max: cycle.map(|cycle| cycle.q_max), cycle, jumps: None }
     }
+}
+
+/// The end of a stable state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// Largest displacement of the cycle that ends, in m; 0 for rest.
+    pub from: f64,
+    /// What its motions become.
+    pub to: Fate,
+    /// Largest displacement of the cycle to which they tend, in m; 0 for rest, else infinite.
+    pub x_max: f64,
+}
+
+impl Jump {
+    /// How far it goes, in m.
+    pub(super) fn size(&self) -> f64 {
+        (self.x_max - self.from).abs()
+    }
+}
+
+impl Serialize for Jump {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct To {
+            kind: &'static str,
+            #[serde(rename = "q_max", skip_serializing_if = "Option::is_none")]
+            x_max: Option<f64>,
+        }
+        let (kind, x_max) = match self.to {
+            Fate::Rest => ("rest", None),
+            Fate::Cycle(_) => ("cycle", Some(self.x_max)),
+            Fate::Escapes => ("escaped", None),
+            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => ("unknown", None),
+        };
+        let mut jump = out.serialize_struct("Jump", 2)?;
+        jump.serialize_field("from", &self.from)?;
+        jump.serialize_field("to", &To { kind, x_max })?;
+        jump.end()
+    }
+}
+
+/// The jumps at a place, on the way up and on the way down.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Jumps {
+    /// While the number grows.
+    pub up: Option<Jump>,
+    /// While it falls.
+    pub down: Option<Jump>,
 }
 
 /// The cycle at the Hopf point: the steady state, about to swing at the undamped frequency.

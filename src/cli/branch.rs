@@ -8,6 +8,7 @@ use super::input::MACHINE;
 use super::{Certify, Failure, MachineCase, Output, SourceOptions, given, read, timed};
 use crate::branch::along::{Points, branch};
 use crate::branch::fold::{Boundary, BoundaryPoint, border};
+use crate::branch::machine::MachineBranch;
 use crate::flow::Limits;
 use crate::model::{Belt, Knob, State};
 use crate::proof::ParameterBox;
@@ -44,8 +45,8 @@ impl BranchCommand {
         let Sweep { symbol, from, to, count, .. } = over;
         if let Some(case) = case {
             let subject = &case.described.problem.subject;
-            let follow =
-                || crate::branch::machine::branch(subject.clone(), symbol, (from, to), count);
+            let limits = &Limits::PATIENT;
+            let follow = || MachineBranch::along(subject, symbol, (from, to), (count, &[]), limits);
             let (found, seconds) = timed(self.output.repeat, follow);
             let (found, about) = (found.map_err(Failure::Usage)?, case.about().but(&[symbol]));
             return self.output.print(report::of_machine(&about, symbol, &found, seconds));
@@ -132,10 +133,15 @@ impl BorderCommand {
                 over.symbol
             )));
         }
-        let three = |sweep: &Sweep| (sweep.symbol, (sweep.from, sweep.to), sweep.count);
-        let (found, seconds) = timed(self.output.repeat, || {
-            crate::branch::machine::borders(subject, three(&along), three(over))
-        });
+        let row = |index| {
+            let (value, range) = (over.value(index), (along.from, along.to));
+            let (here, limits) = (subject.with(over.symbol, value)?, &Limits::PATIENT);
+            let found =
+                MachineBranch::along(&here, along.symbol, range, (along.count, &[]), limits);
+            Ok((value, found?.special))
+        };
+        let follow = || (0..over.count).map(row).collect::<Result<Vec<_>, String>>();
+        let (found, seconds) = timed(self.output.repeat, follow);
         let found = found.map_err(Failure::Usage)?;
         let about = case.about().but(&[along.symbol, over.symbol]);
         self.output.print(report::border_of_machine(&about, knobs, &found, seconds))

@@ -3,9 +3,8 @@
 //! stable state ends, the jump to the one that is left.
 
 use super::{Dash, LineStyle, Picture, Role, phase_plane::AT_REST};
-use crate::branch::jump::Jump;
 use crate::branch::machine::MachineBranchPoint;
-use crate::branch::{Special, SpecialKind};
+use crate::branch::{Jump, Special, SpecialKind};
 use crate::portrait::Cycle;
 use crate::scene::{Layer, Point};
 use crate::session::Session;

@@ -3,7 +3,6 @@
 use super::fit::Fit;
 use super::request::Request;
 use super::resources::{Fineness, Resources, Rows};
-use super::speeds::speeds;
 use super::whole::{self, WholeCycles, WholeMotion};
 use super::zones::{self, CertainZones, UncertainSubject};
 use crate::accuracy::harmonic_error::{HarmonicBalance, harmonic_balance};
@@ -16,7 +15,7 @@ use crate::branch::machine::MachineBranch;
 use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Problem, Reason, Trajectory};
-use crate::model::{Belt, Parameters, State};
+use crate::model::{Belt, Knob, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::basin::basin;
 use crate::portrait::basin::capture::bands;
@@ -271,4 +270,31 @@ fn regimes(
     let chord = means.fineness.chord();
     let fine = Resolution { lines: 40, chord, tolerance: 1e-13 };
     chart(parameters, plane, if rough { DRAFT } else { fine }, means.limits)
+}
+
+/// The cycles of a machine over these speeds of its belt, and the changes between them unless it is a `rough` draft. Fails
+/// with [`Reason::Interrupted`], or where the belt does not run.
+fn speeds(
+    belt: &Belt,
+    range: (f64, f64),
+    rough: bool,
+    limits: &Limits,
+) -> Result<MachineBranch, Reason> {
+    /// Number of evenly spaced speeds, and of those in a draft.
+    const SPEEDS: usize = 33;
+    const FEW: usize = 7;
+    /// Where further speeds are on both sides of a change, as fractions of the distance between two: there cycles end,
+    /// and their curves turn as steeply as a square root.
+    const BESIDE: [f64; 6] = [-0.5, -0.1, -0.02, 0.02, 0.1, 0.5];
+    let mut source = Source::from(belt);
+    let found = if rough {
+        source.tolerance = Some(DRAFT.tolerance);
+        MachineBranch::sampled(&source, Knob::BeltSpeed, range, FEW, limits)
+    } else {
+        MachineBranch::along(&source, Knob::BeltSpeed, range, (SPEEDS, &BESIDE), limits)
+    };
+    if (limits.interrupted)() {
+        return Err(Reason::Interrupted);
+    }
+    found.map_err(|_| Reason::NotApplicable { needs: "a belt that runs" })
 }

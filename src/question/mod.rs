@@ -9,7 +9,6 @@ pub mod fit;
 pub mod record;
 pub mod request;
 pub mod resources;
-pub mod speeds;
 pub mod whole;
 pub mod zones;
 

@@ -1,12 +1,11 @@
 //! The view of the cycles over the belt speed: every kind of cycle has its own look, and jumps up and down are
 //! where the motions of the machine leave the end of a stable state.
 
-use hopfscope::branch::jump::Jump;
-use hopfscope::branch::machine::branch;
-use hopfscope::branch::{Special, SpecialKind};
+use hopfscope::branch::machine::MachineBranch;
+use hopfscope::branch::{Jump, Special, SpecialKind};
 use hopfscope::flow::{Fate, Limits};
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Belt, Group, Knob};
+use hopfscope::model::{Belt, Group, Knob, Source};
 use hopfscope::picture::Item;
 use hopfscope::portrait::Cycle;
 use hopfscope::portrait::survey::portrait;
@@ -19,15 +18,17 @@ fn machine(name: &str) -> Belt {
     machines().iter().find(|machine| machine.name == name).unwrap().belt.clone()
 }
 
-fn specials(belt: &Belt, from: f64, to: f64, count: usize) -> Vec<Special> {
-    branch(belt, Knob::named("v0", Group::SOURCE).unwrap(), (from, to), count).unwrap().special
+fn specials(belt: &Belt, name: &str, range: (f64, f64), count: usize) -> Vec<Special> {
+    let (source, knob) = (Source::from(belt), Knob::named(name, Group::SOURCE).unwrap());
+    let (values, limits) = ((count, [].as_slice()), &Limits::PATIENT);
+    MachineBranch::along(&source, knob, range, values, limits).unwrap().special
 }
 
 #[test]
 fn rest_and_stick_slip_end_at_different_speeds() {
     // Upwards: stick-slip ends, and everything comes to rest. Downwards: rest ends, and everything goes to stick-slip.
     for (from, to) in [(0.5, 2.0), (2.0, 0.5)] {
-        let mut found = specials(&machine("bstab"), from, to, 4);
+        let mut found = specials(&machine("bstab"), "v0", (from, to), 4);
         found.sort_by(|one, other| one.value.total_cmp(&other.value));
         let [hopf, end] = found[..] else { panic!("{found:?}") };
         assert_eq!((hopf.kind, end.kind), (SpecialKind::Hopf, SpecialKind::Annihilation));
@@ -49,7 +50,7 @@ fn rest_and_stick_slip_end_at_different_speeds() {
 
 #[test]
 fn a_cycle_that_grows_into_the_line_does_not_jump_and_one_that_folds_does() {
-    let found = specials(&machine("textbook"), 0.05, 0.9, 6);
+    let found = specials(&machine("textbook"), "v0", (0.05, 0.9), 6);
     let [touch, fold] = found[..] else { panic!("{found:?}") };
     assert_eq!((touch.kind, fold.kind), (SpecialKind::Grazing, SpecialKind::Fold));
     assert_eq!(
@@ -62,7 +63,7 @@ fn a_cycle_that_grows_into_the_line_does_not_jump_and_one_that_folds_does() {
 #[test]
 fn where_friction_at_rest_is_higher_stick_slip_and_slip_change_into_each_other() {
     let belt = Belt { static_coefficient: Some(0.6), ..machine("textbook") };
-    let found = specials(&belt, 0.1, 0.5, 9);
+    let found = specials(&belt, "v0", (0.1, 0.5), 9);
     let cycle = |jump: Option<Jump>| match jump {
         Some(Jump { from, to: Fate::Cycle(_), x_max }) => Some((from, x_max)),
         _ => None,
@@ -86,8 +87,7 @@ fn a_cycle_that_is_born_at_rest_is_no_jump() {
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.2] };
     let belt = Belt { law, friction: 0.0, damping: 0.0, ..machine("bstab") };
     let belt = Belt { cubic_damping: 0.3, belt_speed: 1.0, normal_force: 1.0, ..belt };
-    let found =
-        branch(&belt, Knob::named("d1", Group::SOURCE).unwrap(), (0.1, 0.3), 4).unwrap().special;
+    let found = specials(&belt, "d1", (0.1, 0.3), 4);
     let [hopf] = found[..] else { panic!("{found:?}") };
     assert!(hopf.kind == SpecialKind::Hopf && (hopf.value - 0.2).abs() < 1e-12, "{hopf:?}");
     assert_eq!((hopf.jumps.unwrap().up, hopf.jumps.unwrap().down), (None, None));

@@ -9,10 +9,10 @@ mod random;
 use std::f64::consts::PI;
 
 use hopfscope::branch::SpecialKind;
-use hopfscope::branch::machine::branch;
-use hopfscope::flow::{Fate, Flow, Outcome, Reason, follow_by_series};
+use hopfscope::branch::machine::MachineBranch;
+use hopfscope::flow::{Fate, Flow, Limits, Outcome, Reason, follow_by_series};
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Belt, ContactState, Group, Knob, Model};
+use hopfscope::model::{Belt, ContactState, Group, Knob, Model, Source};
 use hopfscope::numerics::elementary::{
     asin, atan, atan2, cos, exp, exp_m1, hypot, ln, powi, sin, tanh,
 };
@@ -410,7 +410,9 @@ fn a_search_for_cycles_that_did_not_settle_says_so() {
 
 /// The special points along a number.
 fn special(belt: &Belt, name: &str, range: (f64, f64), count: usize) -> Vec<(SpecialKind, f64)> {
-    let found = branch(belt, Knob::named(name, Group::SOURCE).unwrap(), range, count).unwrap();
+    let (source, knob) = (Source::from(belt), Knob::named(name, Group::SOURCE).unwrap());
+    let (values, limits) = ((count, [].as_slice()), &Limits::PATIENT);
+    let found = MachineBranch::along(&source, knob, range, values, limits).unwrap();
     found.special.iter().map(|special| (special.kind, special.value)).collect()
 }
 
