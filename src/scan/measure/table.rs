@@ -8,49 +8,6 @@ use crate::portrait::basin::StartWindow;
 use crate::portrait::design::Kick;
 use crate::portrait::kicks::RandomKick;
 
-/// A property of the oscillator, or of one motion of it, at given parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Measure {
-    /// How the motion ends.
-    Outcome,
-    /// Where and when the motion comes to rest.
-    Rest,
-    /// Amplitudes of the limit cycles.
-    Cycles,
-    /// Periods and Floquet multipliers of the limit cycles.
-    Multipliers,
-    /// The kicks that the sticking set survives.
-    Margin,
-    /// The kicks that are survived wherever the mass rests.
-    FromRest,
-    /// The fraction of a window that is captured.
-    Stability,
-    /// The area of the basin.
-    Area,
-    /// The fold of limit cycles in D.
-    Fold,
-    /// The escape point in D.
-    Escape,
-    /// The kicks that are survived for certain.
-    Guaranteed,
-    /// The fraction of random kicks that is lost.
-    Lost,
-    /// How round the basin is.
-    Integrity,
-    /// How long the starts of a window take to come to rest.
-    Settling,
-    /// The fraction of a window that is at rest in time.
-    FiniteTime,
-    /// How many kicks in a row are survived.
-    Repeated,
-    /// Whether the number of cycles is proved, and bounds of their amplitudes.
-    Proved,
-    /// What borders the basin.
-    Border,
-    /// The friction that a margin needs.
-    Design,
-}
-
 /// One row of [`MEASURES`].
 #[derive(Clone, Copy, Debug)]
 pub struct MeasureSpec {
@@ -73,155 +30,94 @@ pub(crate) const CYCLES: usize = 2;
 /// too.
 pub const OF_THE_PAPER: [Measure; 3] = [Measure::Fold, Measure::Escape, Measure::Proved];
 
-/// Every measure, in the order in which they are listed.
-pub const MEASURES: [MeasureSpec; 19] = [
-    MeasureSpec {
-        measure: Measure::Outcome,
-        name: "outcome",
-        meaning: "how the motion from (q0, v0) ends, when, after how many half swings",
-        columns: &["outcome", "outcome_tau", "half_swings"],
-        with: Measure::Outcome,
-    },
-    MeasureSpec {
-        measure: Measure::Rest,
-        name: "rest",
-        meaning: "where and when the motion from (q0, v0) comes to rest",
-        columns: &["rest_q", "rest_tau"],
-        with: Measure::Outcome,
-    },
-    MeasureSpec {
-        measure: Measure::Cycles,
-        name: "cycles",
-        meaning: "how many limit cycles there are, and their extremes, smallest cycle first",
-        columns: &[
-            "cycles", "q_min_1", "q_max_1", "v_min_1", "v_max_1", "q_min_2", "q_max_2", "v_min_2",
-            "v_max_2",
-        ],
-        with: Measure::Cycles,
-    },
-    MeasureSpec {
-        measure: Measure::Multipliers,
-        name: "multipliers",
-        meaning: "period, Floquet multiplier and its logarithm of each limit cycle",
-        columns: &[
-            "period_1",
-            "multiplier_1",
-            "log_multiplier_1",
-            "period_2",
-            "multiplier_2",
-            "log_multiplier_2",
-        ],
-        with: Measure::Cycles,
-    },
-    MeasureSpec {
-        measure: Measure::Margin,
-        name: "margin",
-        meaning: "smallest displacement at rest, and smallest impulse at q = 0, not captured",
-        columns: &["displacement", "impulse"],
-        with: Measure::Margin,
-    },
-    MeasureSpec {
-        measure: Measure::FromRest,
-        name: "from-rest",
-        meaning: "smallest change of position, and smallest impulse, not captured, from the worst rest position",
-        columns: &["from_rest_displacement", "from_rest_impulse"],
-        with: Measure::Margin,
-    },
-    MeasureSpec {
-        measure: Measure::Stability,
-        name: "stability",
-        meaning: "basin stability: the fraction of the window that is captured, and its error",
-        columns: &["captured_part", "captured_error"],
-        with: Measure::Margin,
-    },
-    MeasureSpec {
-        measure: Measure::Area,
-        name: "area",
-        meaning: "area of the basin, where it is finite",
-        columns: &["area"],
-        with: Measure::Margin,
-    },
-    MeasureSpec {
-        measure: Measure::Fold,
-        name: "fold",
-        meaning: "the fold D_F (or grazing, below D = -1), above which no cycle is left, and the amplitude there",
-        columns: &["D_F", "D_F_q_max"],
-        with: Measure::Fold,
-    },
-    MeasureSpec {
-        measure: Measure::Escape,
-        name: "escape",
-        meaning: "the escape point D_c, where the cycle goes to infinity",
-        columns: &["D_c"],
-        with: Measure::Escape,
-    },
-    MeasureSpec {
-        measure: Measure::Guaranteed,
-        name: "guaranteed",
-        meaning: "margin that holds for every disturbance and all parameters within their half widths",
-        columns: &["guaranteed_displacement", "guaranteed_impulse"],
-        with: Measure::Guaranteed,
-    },
-    MeasureSpec {
-        measure: Measure::Lost,
-        name: "lost",
-        meaning: "the fraction of random kicks that is not captured, and its error",
-        columns: &["lost_part", "lost_error"],
-        with: Measure::Margin,
-    },
-    MeasureSpec {
-        measure: Measure::Integrity,
-        name: "integrity",
-        meaning: "radius of the largest circle about the origin within the basin, and the part of the basin \
-                  that it fills (integrity factor)",
-        columns: &["circle_radius", "integrity"],
-        with: Measure::Margin,
-    },
-    MeasureSpec {
-        measure: Measure::Settling,
-        name: "settling",
-        meaning: "largest and mean time to rest of 32 x 32 starts of the window, if all are at rest in the end",
-        columns: &["settling_max", "settling_mean"],
-        with: Measure::Settling,
-    },
-    MeasureSpec {
-        measure: Measure::FiniteTime,
-        name: "finite-time",
-        meaning: "finite-time basin stability: the fraction of 32 x 32 starts of the window at rest in the end, and \
-                  its error as a fraction of the window",
-        columns: &["rested_part", "rested_error"],
-        with: Measure::Settling,
-    },
-    MeasureSpec {
-        measure: Measure::Repeated,
-        name: "repeated",
-        meaning: "mean number of random kicks, each from where the last one came to rest, until one is lost; the \
-                  part that is lost after many; the relative error of both",
-        columns: &["kicks_mean", "kicks_lost", "kicks_error"],
-        with: Measure::Repeated,
-    },
-    MeasureSpec {
-        measure: Measure::Proved,
-        name: "proved",
-        meaning: "whether it is proved that there are these cycles and no others, and bounds of their amplitudes",
-        columns: &["proved", "q_max_1_lower", "q_max_1_upper", "q_max_2_lower", "q_max_2_upper"],
-        with: Measure::Proved,
-    },
-    MeasureSpec {
-        measure: Measure::Border,
-        name: "border",
-        meaning: "what borders the basin: cycle, separatrix or none; of a machine also grazing or no-basin",
-        columns: &["border"],
-        with: Measure::Margin,
-    },
-    MeasureSpec {
-        measure: Measure::Design,
-        name: "design",
-        meaning: "the least friction, r or R, that keeps the margin of --design; 0 if any does",
-        columns: &["friction_needed"],
-        with: Measure::Design,
-    },
-];
+/// Makes [`Measure`] and [`MEASURES`] from one list, in the order in which measures are listed: name, the measure with
+/// which it is computed (itself where that is for its own sake), columns, meaning.
+macro_rules! measures {
+    ($($(#[$doc:meta])* $measure:ident: $name:literal, $with:ident, [$($column:literal),*], $meaning:literal;)*) => {
+        /// A property of the oscillator, or of one motion of it, at given parameters.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Measure {
+            $($(#[$doc])* $measure,)*
+        }
+
+        /// Every measure, in the order in which they are listed.
+        pub const MEASURES: [MeasureSpec; [$($name),*].len()] = [$(MeasureSpec {
+            measure: Measure::$measure,
+            name: $name,
+            meaning: $meaning,
+            columns: &[$($column),*],
+            with: Measure::$with,
+        }),*];
+    };
+}
+
+measures! {
+    /// How the motion ends.
+    Outcome: "outcome", Outcome, ["outcome", "outcome_tau", "half_swings"],
+        "how the motion from (q0, v0) ends, when, after how many half swings";
+    /// Where and when the motion comes to rest.
+    Rest: "rest", Outcome, ["rest_q", "rest_tau"],
+        "where and when the motion from (q0, v0) comes to rest";
+    /// Amplitudes of the limit cycles.
+    Cycles: "cycles", Cycles,
+        ["cycles", "q_min_1", "q_max_1", "v_min_1", "v_max_1", "q_min_2", "q_max_2", "v_min_2",
+        "v_max_2"],
+        "how many limit cycles there are, and their extremes, smallest cycle first";
+    /// Periods and Floquet multipliers of the limit cycles.
+    Multipliers: "multipliers", Cycles,
+        ["period_1", "multiplier_1", "log_multiplier_1", "period_2", "multiplier_2",
+        "log_multiplier_2"],
+        "period, Floquet multiplier and its logarithm of each limit cycle";
+    /// The kicks that the sticking set survives.
+    Margin: "margin", Margin, ["displacement", "impulse"],
+        "smallest displacement at rest, and smallest impulse at q = 0, not captured";
+    /// The kicks that are survived wherever the mass rests.
+    FromRest: "from-rest", Margin, ["from_rest_displacement", "from_rest_impulse"],
+        "smallest change of position, and smallest impulse, not captured, from the worst rest position";
+    /// The fraction of a window that is captured.
+    Stability: "stability", Margin, ["captured_part", "captured_error"],
+        "basin stability: the fraction of the window that is captured, and its error";
+    /// The area of the basin.
+    Area: "area", Margin, ["area"],
+        "area of the basin, where it is finite";
+    /// The fold of limit cycles in D.
+    Fold: "fold", Fold, ["D_F", "D_F_q_max"],
+        "the fold D_F (or grazing, below D = -1), above which no cycle is left, and the amplitude there";
+    /// The escape point in D.
+    Escape: "escape", Escape, ["D_c"],
+        "the escape point D_c, where the cycle goes to infinity";
+    /// The kicks that are survived for certain.
+    Guaranteed: "guaranteed", Guaranteed, ["guaranteed_displacement", "guaranteed_impulse"],
+        "margin that holds for every disturbance and all parameters within their half widths";
+    /// The fraction of random kicks that is lost.
+    Lost: "lost", Margin, ["lost_part", "lost_error"],
+        "the fraction of random kicks that is not captured, and its error";
+    /// How round the basin is.
+    Integrity: "integrity", Margin, ["circle_radius", "integrity"],
+        "radius of the largest circle about the origin within the basin, and the part of the basin that it fills \
+         (integrity factor)";
+    /// How long the starts of a window take to come to rest.
+    Settling: "settling", Settling, ["settling_max", "settling_mean"],
+        "largest and mean time to rest of 32 x 32 starts of the window, if all are at rest in the end";
+    /// The fraction of a window that is at rest in time.
+    FiniteTime: "finite-time", Settling, ["rested_part", "rested_error"],
+        "finite-time basin stability: the fraction of 32 x 32 starts of the window at rest in the end, and its \
+         error as a fraction of the window";
+    /// How many kicks in a row are survived.
+    Repeated: "repeated", Repeated, ["kicks_mean", "kicks_lost", "kicks_error"],
+        "mean number of random kicks, each from where the last one came to rest, until one is lost; the part that \
+         is lost after many; the relative error of both";
+    /// Whether the number of cycles is proved, and bounds of their amplitudes.
+    Proved: "proved", Proved,
+        ["proved", "q_max_1_lower", "q_max_1_upper", "q_max_2_lower", "q_max_2_upper"],
+        "whether it is proved that there are these cycles and no others, and bounds of their amplitudes";
+    /// What borders the basin.
+    Border: "border", Margin, ["border"],
+        "what borders the basin: cycle, separatrix or none; of a machine also grazing or no-basin";
+    /// The friction that a margin needs.
+    Design: "design", Design, ["friction_needed"],
+        "the least friction, r or R, that keeps the margin of --design; 0 if any does";
+}
 
 impl Measure {
     /// The row of [`MEASURES`] that describes this measure.
