@@ -14,7 +14,7 @@ pub use point::{CurvePoint, Tangent, covers, is_beside, passes};
 pub use spread::CurvePlace;
 
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Knob, Parameters, Side, State};
+use crate::model::{Knob, Parameters, Side};
 use crate::numerics::elementary::{hypot, ln};
 use crate::numerics::root::try_bisect;
 use crate::portrait::closing::equation::{Equation, Route};
@@ -92,9 +92,7 @@ impl<'a> CycleCurve<'a> {
 
     /// The parameters with the varying one at `p`.
     pub fn parameters_at(&self, p: f64) -> Parameters {
-        let mut parameters = self.parameters;
-        self.symbol.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, p);
-        parameters
+        self.parameters.with(self.symbol, p)
     }
 
     /// Relative error of a swing that tells cycles apart which differ by the tolerance: where two are

@@ -11,7 +11,7 @@
 
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Knob, Parameters, Side, State};
+use crate::model::{Knob, Parameters, Side};
 use crate::numerics::elementary::{cbrt, exp, ln, powi};
 use crate::portrait::closing::equation::{Equation, Route, first_side};
 use crate::portrait::closing::pair::Closing;
@@ -132,10 +132,8 @@ struct System<'a> {
 
 impl System<'_> {
     fn parameters_at(&self, z: f64) -> Parameters {
-        let mut parameters = self.guess.parameters;
-        let value = self.symbol.get(&parameters, &State { q: 0.0, v: 0.0 });
-        self.symbol.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, value * exp(z));
-        parameters
+        let guess = &self.guess.parameters;
+        guess.with(self.symbol, guess.value(self.symbol) * exp(z))
     }
 
     /// `None` where a swing does not end, or takes too long.

@@ -28,7 +28,7 @@ use super::fold_graph::highest_cycle;
 use super::special::FoldPoint;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Knob, Parameters, State};
+use crate::model::{Knob, Parameters};
 use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::portrait::basin::between;
 use crate::portrait::closing::all::{STEP, all_closings};
@@ -145,8 +145,7 @@ pub fn border(
         Boundary { parameters: *parameters, second, points: Vec::new(), cost: Cost::default() };
     for index in 0..count {
         let value = between(range, index, count);
-        let mut here = *parameters;
-        second.set(&mut here, &mut State { q: 0.0, v: 0.0 }, value);
+        let here = parameters.with(second, value);
         let found = fold(&here, limits);
         let escape = escape_point(&here, limits);
         let reason = found.as_ref().err().or(escape.as_ref().err()).copied();
@@ -246,6 +245,7 @@ mod tests {
     use super::*;
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Method, Problem};
+    use crate::model::State;
     use crate::numerics::elementary::powi;
 
     fn found(d2: f64, d3: f64, r: f64) -> FoldPoint {

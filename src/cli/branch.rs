@@ -10,7 +10,7 @@ use crate::branch::along::{Points, branch};
 use crate::branch::fold::{Boundary, BoundaryPoint, border};
 use crate::branch::machine::MachineBranch;
 use crate::flow::Limits;
-use crate::model::{Belt, Knob, State};
+use crate::model::{Belt, Knob};
 use crate::proof::ParameterBox;
 use crate::proof::bifurcation::{enclose_escape, enclose_fold};
 use crate::proof::range::{change_near, range};
@@ -150,10 +150,8 @@ impl BorderCommand {
 
 /// The fold and the escape point in D at each point of a border, enclosed.
 fn enclosed(found: &Boundary) -> Vec<BorderProof> {
-    let nowhere = State { q: 0.0, v: 0.0 };
     let at = |point: &BoundaryPoint| {
-        let mut parameters = found.parameters;
-        found.second.set(&mut parameters, &mut nowhere.clone(), point.value);
+        let parameters = found.parameters.with(found.second, point.value);
         let known = ParameterBox::from(&parameters);
         // Where two cycles do not merge smoothly, as at a grazing, only the change in the number of cycles can be
         // enclosed.

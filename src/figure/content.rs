@@ -287,11 +287,10 @@ fn held(picture: &Picture, line: &LineStyle) -> Held {
     let index = line.variant.as_ref().map_or(0, |variant| variant.index);
     let parameters = picture.variants.get(index).filter(|_| !line.varies);
     let Some(parameters) = parameters else { return Held::new() };
-    let value = |symbol: Knob| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
     Knob::PARAMETERS
         .into_iter()
         .filter(|symbol| !picture.varied.contains(symbol))
-        .map(|symbol| (symbol.spec().name, value(symbol)))
+        .map(|symbol| (symbol.spec().name, parameters.value(symbol)))
         .collect()
 }
 

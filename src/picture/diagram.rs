@@ -5,7 +5,7 @@
 //! the present value of the parameter, and the cycles there are marked. Beside the branch of the present values
 //! those of others are paler, without marks. A point of the branch that is held has a cross.
 
-use super::equilibria::{self, at};
+use super::equilibria;
 use super::{CycleStyle, Dash, LineStyle, Picture, Role, Text, cycle_style};
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::closed_form::harmonic::{
@@ -142,7 +142,7 @@ fn asymptotes(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob, height
         let line = LineStyle::new(name, Role::Asymptote, Dash::DashDot).briefly("asymptote");
         let shown = shown.clone();
         picture.graph(line.of(&shown.variant), move |value| {
-            let parameters = at(&shown, abscissa, value);
+            let parameters = shown.problem.parameters.with(abscissa, value);
             let amplitude = asymptote(&parameters)?;
             Some(height.scaled(value, size(mean(parameters.d2, amplitude), amplitude)))
         });
@@ -177,7 +177,7 @@ fn harmonic(
     for stable in [false, true] {
         let shown = shown.clone();
         picture.graph(line.clone(), move |value| {
-            let found = amplitudes(&at(&shown, abscissa, value)).into_iter();
+            let found = amplitudes(&shown.problem.parameters.with(abscissa, value)).into_iter();
             let mut found = found.filter(|answer| answer.stable == stable);
             found.next().map(|answer| height.scaled(value, size(answer.mean, answer.amplitude)))
         });

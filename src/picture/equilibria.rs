@@ -36,7 +36,7 @@ pub fn draw(
     }
     let of = shown.clone();
     let edge = move |value: f64| {
-        let r = at(&of, abscissa, value).r;
+        let r = of.problem.parameters.with(abscissa, value).r;
         let unit = if height.is_ratio() { r } else { 1.0 };
         (r >= 0.0 && unit > 0.0).then_some(r / unit)
     };
@@ -57,13 +57,6 @@ pub fn draw(
     }
 }
 
-/// The parameters of a motion, with that of a diagram at `value`.
-pub(super) fn at(shown: &ShownMotion, abscissa: Knob, value: f64) -> Parameters {
-    let (mut parameters, mut initial) = (shown.problem.parameters, shown.problem.initial);
-    abscissa.set(&mut parameters, &mut initial, value);
-    parameters
-}
-
 /// Whether the equilibrium without friction is stable: decided by the eigenvalues (9), on the imaginary axis
 /// by cubic damping, whatever D2 (its first integral grows or falls with D3 alone); `None` for a centre.
 fn is_stable(parameters: &Parameters) -> Option<bool> {
@@ -79,7 +72,7 @@ fn point(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob) {
         let line = LineStyle::new(name, cycle_style(stable).role, dash).of(&shown.variant);
         let of = shown.clone();
         picture.graph(line, move |value| {
-            (is_stable(&at(&of, abscissa, value)) == Some(stable)).then_some(0.0)
+            (is_stable(&of.problem.parameters.with(abscissa, value)) == Some(stable)).then_some(0.0)
         });
     }
 }

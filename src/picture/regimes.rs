@@ -7,7 +7,7 @@
 use super::{Dash, Fill, Item, LineStyle, Mark, Marks, Picture, Role};
 use crate::branch::chart::{BoundaryKind, Chart};
 use crate::branch::regime::{REGIMES, Regime};
-use crate::model::{Knob, Parameters, State};
+use crate::model::{Knob, Parameters};
 use crate::scene::machine::path::Station;
 use crate::scene::{Axes, Layer, Point, ScaledMachine, Window};
 use crate::session::Session;
@@ -143,10 +143,8 @@ const PEN: Role = Role::Velocity;
 /// holds at the present values of the other two: where the path runs far from the present point, borders move.
 fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
     let Some(running) = session.running() else { return };
-    let at = |parameters: &Parameters| {
-        let value = |symbol: Knob| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
-        Point { x: value(right), y: value(up) }
-    };
+    let at =
+        |parameters: &Parameters| Point { x: parameters.value(right), y: parameters.value(up) };
     let place = |(_, parameters): Station| parameters.as_ref().map_or(Point::NOWHERE, at);
     let line = LineStyle::new("over the speed of the belt", PEN, Dash::Dotted);
     let line = LineStyle { varies: true, ..line.briefly("path of the belt") };

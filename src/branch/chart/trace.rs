@@ -7,7 +7,7 @@ use crate::branch::fold::fold_within;
 use crate::branch::regime::Regime;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Knob, Parameters, State};
+use crate::model::{Knob, Parameters};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, hypot, ln, powi};
 use crate::numerics::root::{PlaceTolerance, illinois};
@@ -98,8 +98,7 @@ impl Tracer<'_> {
 
     /// The line at this value of the other parameter.
     pub fn line(&mut self, at: f64) -> Result<ChartLine, Reason> {
-        let mut here = self.parameters;
-        self.across.set(&mut here, &mut State { q: 0.0, v: 0.0 }, at);
+        let here = self.parameters.with(self.across, at);
         let harmonic = self.harmonic(&here);
         let boundaries = if self.along == Knob::D {
             self.boundaries_in_d(&here)
@@ -121,13 +120,6 @@ impl Tracer<'_> {
         let shown = |boundary: Option<f64>| boundary.filter(|boundary| boundary.is_finite());
         let (fold, escape) = (shown(boundaries.fold), shown(boundaries.escape));
         Ok(ChartLine { at, bands, fold, harmonic, escape, failure })
-    }
-
-    /// The parameters with the one along the line at `value`.
-    fn with(&self, here: &Parameters, value: f64) -> Parameters {
-        let mut parameters = *here;
-        self.along.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, value);
-        parameters
     }
 
     /// The fold next to a guess, while `symbol` varies.
@@ -228,7 +220,7 @@ impl Tracer<'_> {
         let d = here.d;
         let Some(guess) = self.harmonic(here) else { return Ok(None) };
         let guess = guess * self.ratio;
-        let near = self.with(here, guess);
+        let near = here.with(self.along, guess);
         let beside = match &self.known {
             Some(known) => FoldGuess::beside(known, &near),
             None => FoldGuess::in_damping(&near),
@@ -236,10 +228,10 @@ impl Tracer<'_> {
         if let Some(beside) = beside
             && let Some(found) = self.fold_near(&beside.moved_to(&near), self.along)?
         {
-            return Ok(Some(self.along.get(&found, &State { q: 0.0, v: 0.0 })));
+            return Ok(Some(found.value(self.along)));
         }
         let excess = |tracer: &mut Self, z: f64| -> Result<f64, Reason> {
-            let found = tracer.fold(&tracer.with(here, exp(z)))?;
+            let found = tracer.fold(&here.with(tracer.along, exp(z)))?;
             Ok(ln(found / d))
         };
         root(ln(guess), STRIDE, SLACK * self.tolerance, |z| excess(self, z)).map(|z| Some(exp(z)))
@@ -291,7 +283,7 @@ impl Tracer<'_> {
         boundaries: &Boundaries,
         failed: bool,
     ) -> Option<Regime> {
-        let parameters = self.with(here, value);
+        let parameters = here.with(self.along, value);
         let Parameters { d, d3, r, .. } = parameters;
         if failed && d < 0.0 && d3 >= 0.0 && r > 0.0 {
             return None;

@@ -58,6 +58,21 @@ impl From<OutOfRange> for String {
     }
 }
 
+impl Parameters {
+    /// One of the parameters; not a number if the knob is none of them.
+    #[must_use]
+    pub fn value(&self, knob: Knob) -> f64 {
+        knob.get(self, &State { q: 0.0, v: 0.0 })
+    }
+
+    /// The same with another value of one of them; a knob that is none of them changes nothing.
+    #[must_use]
+    pub fn with(mut self, knob: Knob, value: f64) -> Self {
+        knob.set(&mut self, &mut State { q: 0.0, v: 0.0 }, value);
+        self
+    }
+}
+
 impl Knob {
     /// The number of these groups with this name, compared exactly.
     ///

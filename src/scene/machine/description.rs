@@ -122,7 +122,7 @@ impl ScaledMachine {
     /// The terms of the model that the machine needs: D and r always, D2 and D3 where they are not zero.
     pub fn terms(&self) -> BTreeSet<Knob> {
         let parameters = &self.reduced.parameters;
-        let has = |symbol: &Knob| symbol.get(parameters, &State { q: 0.0, v: 0.0 }) != 0.0;
+        let has = |symbol: &Knob| parameters.value(*symbol) != 0.0;
         let varied = [Knob::D2, Knob::D3].into_iter().filter(has);
         [Knob::D, Knob::R].into_iter().chain(varied).collect()
     }

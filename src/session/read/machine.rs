@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::flow::Problem;
-use crate::model::{Belt, Body, Knob, Parameters, State};
+use crate::model::{Belt, Body, Knob, Parameters};
 use crate::question::Whole;
 use crate::question::whole::{WholeCycles, WholeMotion};
 use crate::question::zones::UncertainSubject;
@@ -43,8 +43,7 @@ impl Session {
         if running.carries(&self.problem.parameters) {
             return Some(belt);
         }
-        let at_rest = State { q: 0.0, v: 0.0 };
-        let own = |symbol: Knob| symbol.get(&running.reduced.parameters, &at_rest);
+        let own = |symbol: Knob| running.reduced.parameters.value(symbol);
         if own(Knob::D2) != self.value(Knob::D2) {
             return None;
         }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::branch::chart::Plane;
 use crate::flow::Problem;
-use crate::model::{Belt, Knob, Parameters, State};
+use crate::model::{Belt, Knob};
 use crate::numerics::elementary::{exp2, hypot, log2};
 use crate::scene::{Axes, Finding, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::{AnswerState, Framing, List, Listed, Overlay, Pane, Row, Session};
@@ -176,7 +176,7 @@ impl Session {
                 let plot = own(View::Diagram)?;
                 let parameter = plot.axes.abscissa;
                 Request::Branch {
-                    parameters: without(parameters, &[parameter]),
+                    parameters: parameters.with(parameter, 0.0),
                     parameter,
                     range: within(parameter, plot.window.x)?,
                     tolerance,
@@ -202,7 +202,7 @@ impl Session {
                     right_range: within(abscissa, plot.window.x)?,
                     up_range: within(against, plot.window.y)?,
                 };
-                let parameters = without(parameters, &[abscissa, against]);
+                let parameters = parameters.with(abscissa, 0.0).with(against, 0.0);
                 Request::Regimes { parameters, plane, rough: false }
             }
         })
@@ -213,15 +213,6 @@ impl Session {
 fn within(knob: Knob, span: Span) -> Option<(f64, f64)> {
     let spec = knob.spec();
     span.within(spec.min, spec.max).map(|span| (span.from(), span.to()))
-}
-
-/// These parameters with zero in place of those over which an answer goes.
-fn without(mut parameters: Parameters, over: &[Knob]) -> Parameters {
-    let mut start = State { q: 0.0, v: 0.0 };
-    for symbol in over {
-        symbol.set(&mut parameters, &mut start, 0.0);
-    }
-    parameters
 }
 
 /// The distance up to which bands of capture are visible, rounded up to a power of two, so that small changes
