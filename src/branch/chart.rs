@@ -39,17 +39,6 @@ pub struct Chart {
     pub cost: Cost,
 }
 
-/// A boundary that a chart shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BoundaryKind {
-    /// The fold of the cycles.
-    Fold,
-    /// The fold by one harmonic (48).
-    Harmonic,
-    /// Where the cycle goes to infinity.
-    Escape,
-}
-
 impl Plane {
     /// The parameter along which lines run: D where it is one of the two, else the one that moves a fold
     /// from everywhere to everywhere.
@@ -113,16 +102,11 @@ pub fn chart(
 }
 
 impl Chart {
-    /// The places of a boundary as points (right, up), in runs without a gap.
-    pub fn boundary(&self, boundary: BoundaryKind) -> Vec<Vec<(f64, f64)>> {
+    /// The places of a boundary on each line, as points (right, up), in runs without a gap.
+    pub fn boundary(&self, place: fn(&ChartLine) -> Option<f64>) -> Vec<Vec<(f64, f64)>> {
         let mut runs: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
         for line in &self.lines {
-            let place = match boundary {
-                BoundaryKind::Fold => line.fold,
-                BoundaryKind::Harmonic => line.harmonic,
-                BoundaryKind::Escape => line.escape,
-            };
-            match (place, runs.last_mut()) {
+            match (place(line), runs.last_mut()) {
                 (Some(place), Some(run)) => run.push(self.point(line.at, place)),
                 (None, Some(run)) if !run.is_empty() => runs.push(Vec::new()),
                 _ => {}

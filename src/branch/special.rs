@@ -1,6 +1,5 @@
 //! The special points of a branch of limit cycles, and what motions do there.
 
-use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
 use super::extended::FoldCycle;
@@ -58,19 +57,39 @@ impl SpecialKind {
     /// What such a point is called, `cycle` being the one that lives there.
     #[must_use]
     pub fn name(self, cycle: Option<&Cycle>) -> &'static str {
-        match self {
-            SpecialKind::Fold if self.grazes(cycle) => "grazing",
-            SpecialKind::Fold => "fold",
-            SpecialKind::Escape => "escape",
-            SpecialKind::Hopf => "Hopf point",
-            SpecialKind::ZeroCrossing => "zero crossing",
-            SpecialKind::Grazing => "grazing",
-            SpecialKind::Annihilation => "annihilation",
-            SpecialKind::Overtaking => "overtaking",
-            SpecialKind::Unsticking => "unsticking",
-        }
+        self.told(cycle)[0]
+    }
+
+    /// Its letter in a picture.
+    #[must_use]
+    pub fn letter(self, cycle: Option<&Cycle>) -> &'static str {
+        self.told(cycle)[1]
+    }
+
+    /// What happens there, in a few words.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        self.told(None)[2]
+    }
+
+    /// Name, letter and meaning; those of a grazing where a fold is one.
+    fn told(self, cycle: Option<&Cycle>) -> [&'static str; 3] {
+        let kind = if self.grazes(cycle) { SpecialKind::Grazing } else { self };
+        TOLD[kind as usize]
     }
 }
+
+/// Name, letter and meaning of each [`SpecialKind`].
+const TOLD: [[&str; 3]; 8] = [
+    ["fold", "F", "fold: two cycles meet"],
+    ["escape", "Dc", "escape"],
+    ["Hopf point", "H", "Hopf: rest changes its stability"],
+    ["zero crossing", "Z", "zero crossing"],
+    ["grazing", "G", "grazing: a slip cycle touches the belt's line"],
+    ["annihilation", "A", "annihilation: the stick-slip cycle meets the border of rest"],
+    ["overtaking", "O", "the stick-slip cycle comes to overtake the belt"],
+    ["unsticking", "U", "the cycle overtakes the belt without sticking"],
+];
 
 impl Special {
     /// A special point at which this cycle lives; `None` where it is infinite.
@@ -106,16 +125,18 @@ impl Serialize for Jump {
             #[serde(rename = "q_max", skip_serializing_if = "Option::is_none")]
             x_max: Option<f64>,
         }
+        #[derive(Serialize)]
+        struct Told {
+            from: f64,
+            to: To,
+        }
         let (kind, x_max) = match self.to {
             Fate::Rest => ("rest", None),
             Fate::Cycle(_) => ("cycle", Some(self.x_max)),
             Fate::Escapes => ("escaped", None),
             Fate::Neutral | Fate::Moving | Fate::Unknown(_) => ("unknown", None),
         };
-        let mut jump = out.serialize_struct("Jump", 2)?;
-        jump.serialize_field("from", &self.from)?;
-        jump.serialize_field("to", &To { kind, x_max })?;
-        jump.end()
+        Told { from: self.from, to: To { kind, x_max } }.serialize(out)
     }
 }
 

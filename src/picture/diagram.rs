@@ -281,15 +281,6 @@ fn between(places: &[[f64; 2]], index: usize, value: f64) -> f64 {
 
 /// Adds the letter of a special point, and its value where there is room.
 fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
-    let letter = match special.kind {
-        SpecialKind::Fold if special.kind.grazes(special.cycle.as_ref()) => "G",
-        SpecialKind::Fold => "F",
-        SpecialKind::Escape => "Dc",
-        SpecialKind::Hopf => "H",
-        SpecialKind::ZeroCrossing => "Z",
-        SpecialKind::Grazing | SpecialKind::Annihilation => "G",
-        SpecialKind::Overtaking | SpecialKind::Unsticking => "O",
-    };
     // A cycle that has gone to infinity is named at the top, where its branch leaves.
     if special.cycle.is_none() {
         let line = LineStyle::new("escape", Role::Asymptote, Dash::Dotted).captioned();
@@ -297,6 +288,7 @@ fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
     }
     let y = special.cycle.map_or(top, |cycle| height.of(special.value, &cycle));
     let at = Point { x: special.value, y };
+    let letter = special.kind.letter(special.cycle.as_ref());
     picture.special(at, letter, &significant(special.value, 4));
 }
 

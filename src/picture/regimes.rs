@@ -5,7 +5,7 @@
 //! else. The machine on show has its path, along which its belt runs slower and faster.
 
 use super::{Dash, Fill, Item, LineStyle, Mark, Marks, Picture, Role};
-use crate::branch::chart::{BoundaryKind, Chart};
+use crate::branch::chart::{Chart, ChartLine};
 use crate::branch::regime::{REGIMES, Regime};
 use crate::model::{Knob, Parameters};
 use crate::scene::machine::path::Station;
@@ -33,18 +33,18 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     }
     signs(picture, abscissa, against, session.value(Knob::R));
     if let Some(chart) = found {
-        let mut boundary = |boundary, line: LineStyle| {
-            for run in chart.boundary(boundary) {
+        let mut boundary = |place: fn(&ChartLine) -> Option<f64>, line: LineStyle| {
+            for run in chart.boundary(place) {
                 picture.curve(line.clone(), run.into_iter().map(|(x, y)| Point { x, y }));
             }
         };
         if shows(Layer::Boundaries) {
-            boundary(BoundaryKind::Fold, LineStyle::new("fold", Role::Special, Dash::Thick));
-            boundary(BoundaryKind::Escape, LineStyle::new("escape", Role::Danger, Dash::Solid));
+            boundary(|line| line.fold, LineStyle::new("fold", Role::Special, Dash::Thick));
+            boundary(|line| line.escape, LineStyle::new("escape", Role::Danger, Dash::Solid));
         }
         if shows(Layer::HarmonicFold) {
             let line = LineStyle::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
-            boundary(BoundaryKind::Harmonic, line.briefly("first harmonic"));
+            boundary(|line| line.harmonic, line.briefly("first harmonic"));
         }
         if shows(Layer::Regimes) {
             names_of_regimes(picture, chart);

@@ -4,7 +4,7 @@
 
 use super::{Dash, LineStyle, Picture, Role, phase_plane::AT_REST};
 use crate::branch::machine::MachineBranchPoint;
-use crate::branch::{Jump, Special, SpecialKind};
+use crate::branch::{Jump, Special};
 use crate::portrait::Cycle;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
@@ -80,15 +80,6 @@ fn rest(picture: &mut Picture, points: &[&MachineBranchPoint]) {
 
 /// A change, by its letter, and the jumps from the stable states that end there.
 fn changes(picture: &mut Picture, special: &Special) {
-    let letter = match special.kind {
-        SpecialKind::Hopf => "H",
-        SpecialKind::Grazing => "G",
-        SpecialKind::Annihilation => "A",
-        SpecialKind::Overtaking => "O",
-        SpecialKind::Unsticking => "U",
-        SpecialKind::Fold => "F",
-        SpecialKind::Escape | SpecialKind::ZeroCrossing => return,
-    };
     let at = special.value;
     let ways = [("jump on a faster belt", Dash::Dotted), ("jump on a slower belt", Dash::Sparse)];
     let jumps = special.jumps.unwrap_or_default();
@@ -99,5 +90,5 @@ fn changes(picture: &mut Picture, special: &Special) {
         picture.curve(LineStyle::new(name, Role::Warning, dash), ends);
     }
     let place = Point { x: at, y: special.q_max.unwrap_or(0.0) };
-    picture.special(place, letter, &with_unit(at, 4, "m/s"));
+    picture.special(place, special.kind.letter(None), &with_unit(at, 4, "m/s"));
 }

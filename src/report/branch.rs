@@ -9,7 +9,7 @@ use super::table::digits;
 use super::{About, Answer, Columns, Quantity};
 use crate::branch::fold::{Boundary, BoundaryPoint};
 use crate::branch::machine::MachineBranch;
-use crate::branch::{Branch, BranchPoint, Jump, Special, SpecialKind};
+use crate::branch::{Branch, BranchPoint, Jump, Special};
 use crate::flow::{Cost, Fate};
 use crate::model::Knob;
 use crate::portrait::Cycle;
@@ -198,20 +198,7 @@ fn special_columns<'a, R: 'a>(along: Knob, of: fn(&R) -> &Special) -> Columns<'a
         .number(along.spec().name, Quantity::of(along.spec().unit, 13), move |row| of(row).value)
         .file("kind", move |row| of(row).kind)
         .number("q_max", Quantity::of("m", PLACES), move |row| of(row).q_max)
-        .text("what happens", move |row| words(of(row).kind).to_owned() + &jumps(of(row)))
-}
-
-/// What happens at a change, in a few words.
-fn words(kind: SpecialKind) -> &'static str {
-    match kind {
-        SpecialKind::Escape | SpecialKind::ZeroCrossing => kind.name(None),
-        SpecialKind::Hopf => "Hopf: rest changes its stability",
-        SpecialKind::Grazing => "grazing: a slip cycle touches the belt's line",
-        SpecialKind::Annihilation => "annihilation: the stick-slip cycle meets the border of rest",
-        SpecialKind::Overtaking => "the stick-slip cycle comes to overtake the belt",
-        SpecialKind::Unsticking => "the cycle overtakes the belt without sticking",
-        SpecialKind::Fold => "fold: two cycles meet",
-    }
+        .text("what happens", move |row| of(row).kind.meaning().to_owned() + &jumps(of(row)))
 }
 
 /// The stable states that end at a change, as the number increases and as it decreases.

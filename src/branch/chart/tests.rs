@@ -52,7 +52,7 @@ fn over_d_the_boundaries_are_the_known_folds_and_escape_points() {
     let parameters = Parameters { r: 0.1, ..PLAIN };
     let known = fold(&parameters, &Limits::PATIENT).unwrap().0.unwrap().d;
     assert_eq!(over_r.lines[0].fold, Some(known));
-    let [run] = &over_r.boundary(BoundaryKind::Fold)[..] else { panic!("one run") };
+    let [run] = &over_r.boundary(|line| line.fold)[..] else { panic!("one run") };
     assert_eq!((run.len(), run[0]), (5, (known, 0.1)));
     // A little to the left of the fold a cycle attracts, to the right of it nothing does.
     assert_eq!(over_r.regime_at(known - 1e-6, 0.1), Some(Regime::Coexisting));
@@ -130,7 +130,7 @@ fn between_lines_boundaries_are_followed_as_closely_as_asked() {
     let chord = 1e-4;
     let resolution = Resolution { lines: 8, chord, ..COARSE };
     let close = chart(&PLAIN, over_r, resolution, &Limits::PATIENT).unwrap();
-    let [run] = &close.boundary(BoundaryKind::Fold)[..] else { panic!("one run") };
+    let [run] = &close.boundary(|line| line.fold)[..] else { panic!("one run") };
     let kappa = powi(run[0].0, 2) * run[0].1;
     let mut farthest: f64 = 0.0;
     for pair in run.windows(2) {
