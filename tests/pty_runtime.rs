@@ -41,14 +41,17 @@ fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Finding, Reason> {
         return Err(Reason::OutOfRange);
     };
     assert!(parameters.d != 3.0, "three is too much");
-    Ok(Finding::Cycles(Cycles {
-        parameters,
-        cycles: Vec::new(),
-        harmonic: Vec::new(),
-        border: Border::None,
-        picture: None,
-        cost: Cost::default(),
-    }))
+    Ok(Finding::Cycles(
+        Cycles {
+            parameters,
+            cycles: Vec::new(),
+            harmonic: Vec::new(),
+            border: Border::None,
+            picture: None,
+            cost: Cost::default(),
+        },
+        None,
+    ))
 }
 
 impl Application for Machinery {

@@ -401,10 +401,7 @@ fn a_machine_is_followed_by_the_method_that_is_chosen_and_as_exactly_as_the_dial
         let mut asked = session.wants().into_iter();
         let asked = asked.find(|request| request.topic() == Topic::Trajectory).unwrap();
         match answer(&asked, &Limits::PATIENT)? {
-            Finding::Whole(whole) => match whole.drawn {
-                Finding::Trajectory(found) => Ok::<_, Reason>((found, whole.motion.unwrap())),
-                other => panic!("{other:?}"),
-            },
+            Finding::Trajectory(found, course) => Ok::<_, Reason>((found, course.unwrap())),
             other => panic!("{other:?}"),
         }
     };

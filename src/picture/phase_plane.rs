@@ -41,7 +41,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         }
     }
     let all_cycles = session.found(Topic::Cycles, index).into_iter().filter_map(|it| match it {
-        (variant, Finding::Cycles(found)) => Some((variant, found)),
+        (variant, Finding::Cycles(found, _)) => Some((variant, found)),
         _ => None,
     });
     let all_cycles: Vec<(VariantTag, &Cycles)> = all_cycles.collect();
@@ -176,7 +176,7 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
         found.reverse();
     }
     for (variant, answer) in found {
-        if let Finding::Trajectory(found) = answer {
+        if let Finding::Trajectory(found, _) = answer {
             let place = variant.index;
             let (line, variant) = if family {
                 (LineStyle::new("motion", Role::Trajectory, Dash::Solid), variant)
@@ -318,12 +318,12 @@ fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, whole: bo
 fn ghost(picture: &mut Picture, session: &Session) {
     for answer in session.answers_left() {
         match answer {
-            Finding::Trajectory(found) => {
+            Finding::Trajectory(found, _) => {
                 let samples = found.samples.iter().map(|sample| Point::from(sample.state()));
                 let line = LineStyle::new("motion left", Role::Ghost, Dash::Dotted);
                 picture.curve(line.briefly("the point left"), samples);
             }
-            Finding::Cycles(found) => {
+            Finding::Cycles(found, _) => {
                 for (cycle, curve) in curves(found) {
                     let role = if cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
                     let line = LineStyle::new("cycle left", role, Dash::Dashed);
@@ -340,7 +340,7 @@ fn ghost(picture: &mut Picture, session: &Session) {
 fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMotion]) {
     let family = session.variants(index).is_some();
     for (VariantTag { index: place, .. }, answer) in session.found(Topic::Trajectory, index) {
-        if let Finding::Trajectory(found) = answer
+        if let Finding::Trajectory(found, _) = answer
             && session.contact_of(found).is_none()
             && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))
         {

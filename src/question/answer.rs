@@ -31,8 +31,10 @@ use crate::scan::grid::Scan;
 pub enum Finding {
     Fit(Fit),
     Refit(Fit),
-    Trajectory(Trajectory),
-    Cycles(Cycles),
+    /// A motion, and what else is known of that of a machine by its whole model.
+    Trajectory(Trajectory, Option<Box<WholeMotion>>),
+    /// Cycles, and what else is known of a machine; nothing where the whole model has no answer.
+    Cycles(Cycles, Option<Box<WholeCycles>>),
     Zones(CertainZones),
     Kicks(LostShare),
     Capture(Borders),
@@ -47,19 +49,6 @@ pub enum Finding {
     Proof(Proof),
     /// The error says why there is no reference, for example because it would take too long.
     Reference(Result<Box<Reference>, Reason>),
-    /// A motion or cycles by the whole model.
-    Whole(Box<Whole>),
-}
-
-/// An answer by the whole model, with what has no counterpart in the paper's oscillator.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Whole {
-    /// The motion or the cycles in the form that views draw.
-    pub drawn: Finding,
-    /// Fate of the motion, and where it rides on the belt.
-    pub motion: Option<WholeMotion>,
-    /// Properties of the cycles; `None` where the whole model has no answer and its expansion is drawn.
-    pub cycles: Option<WholeCycles>,
 }
 
 /// The fraction of the kicks that lead out of the basin of the sticking set.
@@ -84,8 +73,8 @@ impl Finding {
     /// Counted cost of the computation.
     pub fn cost(&self) -> Cost {
         match self {
-            Finding::Trajectory(found) => found.cost,
-            Finding::Cycles(found) => found.cost,
+            Finding::Trajectory(found, _) => found.cost,
+            Finding::Cycles(found, _) => found.cost,
             Finding::Zones(found) => found.cost,
             Finding::Kicks(found) => found.cost,
             Finding::Capture(found) => found.cost,
@@ -97,7 +86,6 @@ impl Finding {
             Finding::Trade(found) => found.cost(),
             Finding::Scan(found) => found.cost(),
             Finding::Reference(Ok(found)) => found.cost,
-            Finding::Whole(whole) => whole.drawn.cost(),
             Finding::Fit(_)
             | Finding::Refit(_)
             | Finding::Claims(_)
@@ -234,11 +222,10 @@ fn motion(
         // Without friction, nothing happens at v = 0, so crossings are not located.
         let crossings = problem.parameters.r > 0.0;
         let detail = Detail { crossings, samples_per_step: points.into(), energy: true };
-        return Ok(Finding::Trajectory(trajectory(problem, detail, limits)));
+        return Ok(Finding::Trajectory(trajectory(problem, detail, limits), None));
     };
-    let (drawn, motion) = whole::motion(belt, problem, points.into())?;
-    let (drawn, motion) = (Finding::Trajectory(drawn), Some(motion));
-    Ok(Finding::Whole(Box::new(Whole { drawn, motion, cycles: None })))
+    let (drawn, course) = whole::motion(belt, problem, points.into())?;
+    Ok(Finding::Trajectory(drawn, Some(Box::new(course))))
 }
 
 /// The cycles of the paper's oscillator, or those of a machine: by the `whole` model, or by its cubic expansion.
@@ -250,11 +237,10 @@ fn cycles(
 ) -> Result<Finding, Reason> {
     let points = fineness.points_per_step();
     let Some(belt) = machine else {
-        return Ok(Finding::Cycles(cycles_drawn(parameters, points, limits)?));
+        return Ok(Finding::Cycles(cycles_drawn(parameters, points, limits)?, None));
     };
     let (drawn, cycles) = whole::portrait(belt, parameters, whole, points, limits)?;
-    let drawn = Finding::Cycles(drawn);
-    Ok(Finding::Whole(Box::new(Whole { drawn, motion: None, cycles })))
+    Ok(Finding::Cycles(drawn, cycles.map(Box::new)))
 }
 
 /// The chart over two parameters, of a few lines if it is a `rough` draft.

@@ -12,7 +12,7 @@ pub mod resources;
 pub mod whole;
 pub mod zones;
 
-pub use answer::{Answered, Borders, Finding, LostShare, NoAnswer, Whole};
+pub use answer::{Answered, Borders, Finding, LostShare, NoAnswer};
 pub use answer::{answer, answer_by, answer_for};
 pub use fit::{Fit, Opened, Recording, ShownFit};
 pub use request::{Request, TOPICS, Topic};

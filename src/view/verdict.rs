@@ -54,7 +54,7 @@ fn held_motions(session: &Session) -> Option<String> {
     let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
     let mut ends = [(0, "come to rest"), (0, "still move"), (0, "escape"), (0, "given up")];
     for (_, answer) in plots.flat_map(|plot| session.found(Topic::Trajectory, plot)) {
-        if let Finding::Trajectory(found) = answer {
+        if let Finding::Trajectory(found, _) = answer {
             let end = match found.outcome {
                 Outcome::Captured { .. } => 0,
                 Outcome::Moving { .. } => 1,

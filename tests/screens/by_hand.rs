@@ -82,18 +82,21 @@ pub fn drawn_over(layer: Layer) -> bool {
 
 pub fn by_hand(request: &Request) -> Finding {
     match request {
-        Request::Trajectory { problem, .. } => Finding::Trajectory(spiral(*problem)),
+        Request::Trajectory { problem, .. } => Finding::Trajectory(spiral(*problem), None),
         Request::Cycles { parameters, .. } => {
             let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
-            Finding::Cycles(Cycles {
-                parameters: *parameters,
-                border: Border::Cycle,
-                harmonic: Vec::new(),
-                cost: Cost { evaluations: 1_200, steps: 60, rejected: 0 },
-                cycles,
-                picture: Some(picture(curves[0].clone(), curves)),
-            })
+            Finding::Cycles(
+                Cycles {
+                    parameters: *parameters,
+                    border: Border::Cycle,
+                    harmonic: Vec::new(),
+                    cost: Cost { evaluations: 1_200, steps: 60, rejected: 0 },
+                    cycles,
+                    picture: Some(picture(curves[0].clone(), curves)),
+                },
+                None,
+            )
         }
         Request::Scan { scan, from } => {
             let measured = scan.measured().len();

@@ -259,7 +259,7 @@ fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
         session.layers = [Layer::Cycles].into();
         settle_with(&mut session, |request| {
             let mut answer = by_hand(request);
-            if let Finding::Cycles(found) = &mut answer {
+            if let Finding::Cycles(found, _) = &mut answer {
                 found.cycles = vec![cycle(1.0, stable)];
                 found.picture = Some(picture(Vec::new(), vec![circle(1.0)]));
             }
@@ -383,11 +383,11 @@ proptest! {
         for request in session.wants() {
             let mut answer = by_hand(&request);
             match &mut answer {
-                Finding::Trajectory(found) => {
+                Finding::Trajectory(found, _) => {
                     found.samples = curve.iter().map(|(q, v)| Sample { tau: 0.0, q: *q, v: *v }).collect();
                     found.outcome = Outcome::Moving { tau: value, q: low, v: high };
                 }
-                Finding::Cycles(found) => {
+                Finding::Cycles(found, _) => {
                     found.picture = Some(picture(states.clone(), vec![states.clone(), states.clone()]));
                     found.cycles = vec![cycle(value, true), cycle(low, false)];
                 }

@@ -22,14 +22,17 @@ fn number(request: &Request) -> f64 {
 }
 
 fn nothing(request: &Request) -> Finding {
-    Finding::Cycles(Cycles {
-        parameters: Parameters { d: number(request), d2: 0.0, d3: 0.0, r: 0.1 },
-        cycles: Vec::new(),
-        harmonic: Vec::new(),
-        border: Border::None,
-        picture: None,
-        cost: Cost::default(),
-    })
+    Finding::Cycles(
+        Cycles {
+            parameters: Parameters { d: number(request), d2: 0.0, d3: 0.0, r: 0.1 },
+            cycles: Vec::new(),
+            harmonic: Vec::new(),
+            border: Border::None,
+            picture: None,
+            cost: Cost::default(),
+        },
+        None,
+    )
 }
 
 /// An instruction to a job.

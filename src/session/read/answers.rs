@@ -33,7 +33,7 @@ pub enum NoErrorReason {
 macro_rules! last {
     ($session:ident, $topic:ident, $plot:expr) => {
         match $session.answer(Topic::$topic, $plot)? {
-            Finding::$topic(found) => Some(found),
+            Finding::$topic(found, ..) => Some(found),
             _ => None,
         }
     };

@@ -8,7 +8,6 @@ use std::sync::Arc;
 
 use crate::flow::Problem;
 use crate::model::{Belt, Body, Knob, Parameters};
-use crate::question::Whole;
 use crate::question::whole::{WholeCycles, WholeMotion};
 use crate::question::zones::UncertainSubject;
 use crate::scene::machine::unlikely::unlikely;
@@ -66,18 +65,18 @@ impl Session {
 
     /// The whole model's answer about the motion on show; `None` while it is not drawn or not known.
     pub fn course(&self) -> Option<&WholeMotion> {
-        self.whole(Topic::Trajectory)?.motion.as_ref()
+        match self.answer(Topic::Trajectory, self.plot)? {
+            Finding::Trajectory(_, course) => course.as_deref(),
+            _ => None,
+        }
     }
 
     /// The whole model's answer about the cycles; `None` while it is not known.
     pub fn kinds(&self) -> Option<&WholeCycles> {
-        self.whole(Topic::Cycles)?.cycles.as_ref()
-    }
-
-    fn whole(&self, topic: Topic) -> Option<&Whole> {
-        let found = self.standing(topic, self.plot).answered()?.result.as_ref().ok()?;
-        let Finding::Whole(whole) = found else { return None };
-        Some(whole)
+        match self.answer(Topic::Cycles, self.plot)? {
+            Finding::Cycles(_, kinds) => kinds.as_deref(),
+            _ => None,
+        }
     }
 
     /// The uncertainty of `setup` with another half width of a parameter, or tolerance of a number of the

@@ -127,14 +127,14 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         shown.unwrap_or_default().into_iter().map(|(.., answer)| answer)
     };
     for answer in answers(Layer::Cycles, Topic::Cycles) {
-        let Finding::Cycles(found) = answer else { continue };
+        let Finding::Cycles(found, _) = answer else { continue };
         for cycle in &found.cycles {
             points.push(Point { x: cycle.q_min, y: cycle.v_min });
             points.push(Point { x: cycle.q_max, y: cycle.v_max });
         }
     }
     for answer in answers(Layer::Trajectory, Topic::Trajectory) {
-        let Finding::Trajectory(found) = answer else { continue };
+        let Finding::Trajectory(found, _) = answer else { continue };
         let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
         let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
         let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });

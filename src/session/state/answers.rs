@@ -39,10 +39,9 @@ impl<'a> AnswerState<'a> {
         }
     }
 
-    /// The answer that is there, in the form that views draw.
+    /// What is there to be drawn.
     pub fn answer(self) -> Option<&'a Finding> {
-        let found = self.answered()?.result.as_ref().ok()?;
-        Some(if let Finding::Whole(whole) = found { &whole.drawn } else { found })
+        self.answered()?.result.as_ref().ok()
     }
 
     pub fn is_fresh(self) -> bool {

@@ -225,34 +225,40 @@ pub fn by_hand(request: &Request) -> Finding {
     match request {
         Request::Trajectory { problem, .. } => {
             let Problem { initial: State { q, v }, until, .. } = *problem;
-            Finding::Trajectory(Trajectory {
-                problem: *problem,
-                method: Method::Taylor,
-                implicit_steps: 0,
-                outcome: Outcome::Moving { tau: until, q, v },
-                crossings: Vec::new(),
-                legs: Vec::new(),
-                extremes: None,
-                ledger: None,
-                samples: vec![Sample { tau: 0.0, q, v }],
-                cost,
-            })
+            Finding::Trajectory(
+                Trajectory {
+                    problem: *problem,
+                    method: Method::Taylor,
+                    implicit_steps: 0,
+                    outcome: Outcome::Moving { tau: until, q, v },
+                    crossings: Vec::new(),
+                    legs: Vec::new(),
+                    extremes: None,
+                    ledger: None,
+                    samples: vec![Sample { tau: 0.0, q, v }],
+                    cost,
+                },
+                None,
+            )
         }
-        Request::Cycles { parameters, .. } => Finding::Cycles(Cycles {
-            parameters: *parameters,
-            cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
-            harmonic: Vec::new(),
-            border: Border::Cycle,
-            picture: Some(BasinPicture {
-                curves: Vec::new(),
-                works: vec![Ledger::of_terms(parameters, (0.0, 0.0), [1.0, 0.0, 0.0, -1.0]); 2],
-                border: Vec::new(),
-                margin: Margin::ENDLESS,
-                area: None,
-                lyapunov_share: None,
-            }),
-            cost,
-        }),
+        Request::Cycles { parameters, .. } => Finding::Cycles(
+            Cycles {
+                parameters: *parameters,
+                cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
+                harmonic: Vec::new(),
+                border: Border::Cycle,
+                picture: Some(BasinPicture {
+                    curves: Vec::new(),
+                    works: vec![Ledger::of_terms(parameters, (0.0, 0.0), [1.0, 0.0, 0.0, -1.0]); 2],
+                    border: Vec::new(),
+                    margin: Margin::ENDLESS,
+                    area: None,
+                    lyapunov_share: None,
+                }),
+                cost,
+            },
+            None,
+        ),
         Request::Trade(_) => Finding::Trade(Box::new(trade(cost))),
         // There is no reference for made-up answers.
         Request::Reference(_) => Finding::Reference(Err(Reason::OutOfRange)),

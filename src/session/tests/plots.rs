@@ -93,7 +93,7 @@ fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
         let window = trial.session.plots[index].window;
         let mut seen = Vec::new();
         for (VariantTag { label, .. }, answer) in trial.session.found(Topic::Cycles, index) {
-            let Finding::Cycles(found) = answer else { continue };
+            let Finding::Cycles(found, _) = answer else { continue };
             for cycle in &found.cycles {
                 let corners = [(cycle.q_min, cycle.v_min), (cycle.q_max, cycle.v_max)];
                 for (x, y) in corners {
@@ -129,7 +129,7 @@ fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
 /// The answered cycles.
 fn cycles(trial: &mut Trial) -> &mut Cycles {
     let mut cycles = trial.session.answers.each().filter_map(|held| match &mut held.result {
-        Ok(Finding::Cycles(found)) => Some(found),
+        Ok(Finding::Cycles(found, _)) => Some(found),
         _ => None,
     });
     cycles.next().unwrap()
