@@ -26,8 +26,7 @@ use crate::runtime::scanning::rows;
 use crate::runtime::signals::exit_code;
 use crate::runtime::standard::tell;
 use crate::scan::grid::Scan;
-use crate::scan::measure::{Conditions, MEASURES, Measure};
-use crate::scan::source::ScanSource;
+use crate::scan::measure::{Conditions, MEASURES, Measure, ScanSource};
 use crate::scan::sweep::Sweep;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point

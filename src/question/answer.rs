@@ -1,8 +1,7 @@
-//! Answers, and how they are computed.
+//! Answers, how they are computed, and by which means.
 
 use super::fit::Fit;
 use super::request::Request;
-use super::resources::{Fineness, Resources, Rows};
 use super::whole::{self, WholeCycles, WholeMotion};
 use super::zones::{self, CertainZones, UncertainSubject};
 use crate::accuracy::harmonic_error::{HarmonicBalance, harmonic_balance};
@@ -24,7 +23,7 @@ use crate::portrait::basin::stability::Share;
 use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Cycles, ReturnMap};
 use crate::proof::{ParameterBox, Proof, prove};
-use crate::scan::grid::Scan;
+use crate::scan::grid::{Scan, ScanRow};
 
 /// The answer of the worker.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,6 +122,66 @@ impl std::fmt::Display for NoAnswer {
             NoAnswer::Reason(reason) => write!(out, "{reason}"),
             NoAnswer::Panic(message) => write!(out, "internal error: {message}"),
         }
+    }
+}
+
+/// Consecutive rows of a scan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rows {
+    /// Index of the first row's point.
+    pub first: usize,
+    pub rows: Vec<ScanRow>,
+}
+
+impl Rows {
+    fn cost(&self) -> Cost {
+        let mut cost = Cost::default();
+        self.rows.iter().for_each(|row| cost += row.cost);
+        cost
+    }
+}
+
+/// The means by which a question is answered.
+#[derive(Clone, Copy)]
+pub struct Resources<'a> {
+    /// Number of points on curves.
+    pub fineness: Fineness,
+    /// When to stop.
+    pub limits: &'a Limits<'a>,
+    /// Computes rows of a scan, beginning with the point of this index.
+    pub rows: &'a dyn Fn(&Scan, usize) -> Result<Rows, Reason>,
+}
+
+/// Number of points on each kind of curve, as a multiple of that on the screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fineness(u16);
+
+impl Fineness {
+    /// As many points as the dots of a terminal can show.
+    pub const SCREEN: Fineness = Fineness(1);
+
+    /// As many points as print can show: chords deviate from their curves by less than a twentieth of a pixel
+    /// of a figure.
+    pub const PRINT: Fineness = Fineness(4);
+
+    /// `times` as many points on each curve, for a closer look.
+    pub fn finer(self, times: u16) -> Fineness {
+        Fineness(self.0.saturating_mul(times))
+    }
+
+    /// Points on a curve that has so many on the screen.
+    fn points(self, on_screen: u16) -> u16 {
+        self.0.saturating_mul(on_screen)
+    }
+
+    /// On each integration step of a cycle or a border.
+    fn points_per_step(self) -> u16 {
+        self.points(if self == Self::SCREEN { 12 } else { 16 })
+    }
+
+    /// Largest distance of the borders of a chart from their chords, as a fraction of the range.
+    fn chord(self) -> f64 {
+        if self == Self::SCREEN { f64::INFINITY } else { 4e-4 / f64::from(self.0) }
     }
 }
 

@@ -8,12 +8,10 @@ pub mod answer;
 pub mod fit;
 pub mod record;
 pub mod request;
-pub mod resources;
 pub mod whole;
 pub mod zones;
 
 pub use answer::{Answered, Borders, Finding, LostShare, NoAnswer};
-pub use answer::{answer, answer_by, answer_for};
+pub use answer::{Fineness, Resources, Rows, answer, answer_by, answer_for};
 pub use fit::{Fit, Opened, Recording, ShownFit};
 pub use request::{Request, TOPICS, Topic};
-pub use resources::{Fineness, Resources, Rows};

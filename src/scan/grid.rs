@@ -5,8 +5,7 @@
 //! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
 pub use super::measure::ScanRow;
-use super::measure::{Conditions, Measure, OF_THE_PAPER, Value, computed, measure};
-use super::source::ScanSource;
+use super::measure::{Conditions, Measure, OF_THE_PAPER, ScanSource, Value, computed, measure};
 use super::sweep::Sweep;
 use crate::flow::{Cost, Limits, Problem, Reason};
 use crate::model::belt::FrictionLaw;

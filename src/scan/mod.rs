@@ -4,6 +4,4 @@
 pub mod grid;
 #[doc(hidden)]
 pub mod measure;
-#[doc(hidden)]
-pub mod source;
 pub mod sweep;
