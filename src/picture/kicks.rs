@@ -44,8 +44,8 @@ fn lost_part(session: &Session, index: usize) -> String {
         return format!("kicks lost: {failure}");
     }
     match session.answer(Topic::Kicks, index) {
-        Some(Finding::Kicks(found)) if !session.is_stale(Topic::Kicks, index) => {
-            let [part, error] = [(found.share.part, 4), (found.share.error, 2)]
+        Some(Finding::Kicks(found, _)) if !session.is_stale(Topic::Kicks, index) => {
+            let [part, error] = [(found.part, 4), (found.error, 2)]
                 .map(|(value, digits)| significant(value, digits));
             let of = if session.variants(index).is_some() { " at the present values" } else { "" };
             format!("kicks lost{of} {part} +- {error}")

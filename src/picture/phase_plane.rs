@@ -56,7 +56,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         lost(picture, &found.hopeful);
     }
     if shows(Layer::Bands) {
-        for border in session.borders(index).iter().flat_map(|found| &found.curves) {
+        for border in session.borders(index).into_iter().flatten() {
             let line = LineStyle::new("border of a band of capture", Role::Bands, Dash::Dotted);
             let line = line.briefly("one half swing more");
             picture.curve(line, points(border));

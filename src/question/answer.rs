@@ -35,8 +35,11 @@ pub enum Finding {
     /// Cycles, and what else is known of a machine; nothing where the whole model has no answer.
     Cycles(Cycles, Option<Box<WholeCycles>>),
     Zones(CertainZones),
-    Kicks(LostShare),
-    Capture(Borders),
+    /// The fraction of the kicks that lead out of the basin of the sticking set, and the cost of the basin.
+    Kicks(Share, Cost),
+    /// The borders between bands of capture, as curves to draw: those of `v > 0` and then those of `v < 0`, innermost
+    /// first in each.
+    Capture(Vec<Vec<State>>, Cost),
     Branch(Branch),
     Balance(HarmonicBalance),
     ReturnMap(ReturnMap),
@@ -50,24 +53,6 @@ pub enum Finding {
     Reference(Result<Box<Reference>, Reason>),
 }
 
-/// The fraction of the kicks that lead out of the basin of the sticking set.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LostShare {
-    /// The fraction and its error.
-    pub share: Share,
-    /// Cost of computing the basin.
-    pub cost: Cost,
-}
-
-/// The borders between bands of capture, as curves to draw.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Borders {
-    /// The curves of `v > 0` and then those of `v < 0`, innermost first in each.
-    pub curves: Vec<Vec<State>>,
-    /// Cost of computing them.
-    pub cost: Cost,
-}
-
 impl Finding {
     /// Counted cost of the computation.
     pub fn cost(&self) -> Cost {
@@ -75,8 +60,7 @@ impl Finding {
             Finding::Trajectory(found, _) => found.cost,
             Finding::Cycles(found, _) => found.cost,
             Finding::Zones(found) => found.cost,
-            Finding::Kicks(found) => found.cost,
-            Finding::Capture(found) => found.cost,
+            Finding::Kicks(_, cost) | Finding::Capture(_, cost) => *cost,
             Finding::Branch(found) => found.cost,
             Finding::Balance(found) => found.cost,
             Finding::ReturnMap(found) => found.cost,
@@ -230,11 +214,11 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason
         }
         Request::Kicks { parameters, kicks } => {
             let found = basin(parameters, kicks.reach(), limits)?;
-            Finding::Kicks(LostShare { share: kicks.lost(&found), cost: found.cost })
+            Finding::Kicks(kicks.lost(&found), found.cost)
         }
         Request::Capture { parameters, reach, most } => {
             let found = bands(parameters, *reach, *most, limits)?;
-            Finding::Capture(Borders { curves: found.curves(points), cost: found.cost })
+            Finding::Capture(found.curves(points), found.cost)
         }
         Request::Branch { parameters, parameter, range, tolerance } => {
             let rough = *tolerance >= DRAFT.tolerance;

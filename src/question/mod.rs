@@ -11,7 +11,7 @@ pub mod request;
 pub mod whole;
 pub mod zones;
 
-pub use answer::{Answered, Borders, Finding, LostShare, NoAnswer};
+pub use answer::{Answered, Finding, NoAnswer};
 pub use answer::{Fineness, Resources, Rows, answer, answer_by, answer_for};
 pub use fit::{Fit, Opened, Recording, ShownFit};
 pub use request::{Request, TOPICS, Topic};

@@ -17,9 +17,8 @@ use hopfscope::portrait::{
 use hopfscope::proof::cycles::ProvedCycle;
 use hopfscope::proof::{ParameterBox, Proof};
 use hopfscope::question;
-use hopfscope::question::LostShare;
+use hopfscope::question::Rows;
 use hopfscope::question::zones::{CertainZones, Extent};
-use hopfscope::question::{Borders, Rows};
 use hopfscope::scan::grid::ScanRow;
 use hopfscope::scan::measure::Value;
 use hopfscope::scene::{Finding, Layer, Request, find};
@@ -124,10 +123,10 @@ pub fn by_hand(request: &Request) -> Finding {
             guaranteed: Ok(margin(0.4)),
             cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
         }),
-        Request::Capture { .. } => Finding::Capture(Borders {
-            curves: vec![circle(0.2), circle(0.35)],
-            cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
-        }),
+        Request::Capture { .. } => Finding::Capture(
+            vec![circle(0.2), circle(0.35)],
+            Cost { evaluations: 800, steps: 40, rejected: 0 },
+        ),
         Request::Branch { parameter, .. } => Finding::Branch(folded(*parameter)),
         Request::ReturnMap { parameters, .. } => Finding::ReturnMap(halving(*parameters)),
         Request::Regimes { plane, .. } => Finding::Regimes(parted(*plane)),
@@ -150,7 +149,7 @@ pub fn by_hand(request: &Request) -> Finding {
         // Of these the pictures show little more than that they were answered.
         Request::Kicks { .. } => {
             let share = Share { part: 0.125, error: 1e-11 };
-            Finding::Kicks(LostShare { share, cost: CHEAP })
+            Finding::Kicks(share, CHEAP)
         }
         Request::Balance { parameters, harmonics } => Finding::Balance(HarmonicBalance {
             parameters: *parameters,

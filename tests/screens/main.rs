@@ -409,8 +409,8 @@ proptest! {
                     }
                 }
                 Finding::Zones(found) => found.safe = Extent::Within(states.clone()),
-                Finding::Kicks(found) => found.share.part = value,
-                Finding::Capture(found) => found.curves = vec![states.clone()],
+                Finding::Kicks(found, _) => found.part = value,
+                Finding::Capture(found, _) => *found = vec![states.clone()],
                 _ => {}
             }
             update(&mut session, Msg::answered(request, Ok(answer), 0.0));

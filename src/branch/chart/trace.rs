@@ -107,18 +107,17 @@ impl Tracer<'_> {
         };
         let (boundaries, failure) = match boundaries {
             Err(Reason::Interrupted) => return Err(Reason::Interrupted),
-            Err(reason) => (Boundaries::default(), Some(reason)),
+            Err(reason) => ([None; 2], Some(reason)),
             Ok(boundaries) => (boundaries, None),
         };
-        if let (Some(fold), Some(harmonic)) = (boundaries.fold, harmonic)
+        if let (Some(fold), Some(harmonic)) = (boundaries[0], harmonic)
             && fold.is_finite()
             && fold != 0.0
         {
             self.ratio = fold / harmonic;
         }
-        let bands = self.bands(&here, &boundaries, failure.is_some());
-        let shown = |boundary: Option<f64>| boundary.filter(|boundary| boundary.is_finite());
-        let (fold, escape) = (shown(boundaries.fold), shown(boundaries.escape));
+        let bands = self.bands(&here, boundaries, failure.is_some());
+        let [fold, escape] = boundaries.map(|it| it.filter(|boundary| boundary.is_finite()));
         Ok(ChartLine { at, bands, fold, harmonic, escape, failure })
     }
 
@@ -150,11 +149,11 @@ impl Tracer<'_> {
         const CRITICAL: f64 = -1.0 + 1e-6;
         const DOUBTFUL: f64 = -0.75;
         if here.r == 0.0 || here.d3 < 0.0 {
-            return Ok(Boundaries::default());
+            return Ok([None; 2]);
         }
         if here.d3 == 0.0 {
             let escape = self.escape(here)?;
-            return Ok(Boundaries { fold: None, escape: escape.or(Some(f64::NEG_INFINITY)) });
+            return Ok([None, escape.or(Some(f64::NEG_INFINITY))]);
         }
         let strong = harmonic::fold(here.d3, here.r).is_none_or(|fold| fold.d < DOUBTFUL)
             || here.r * here.d2.abs() > -DOUBTFUL;
@@ -163,16 +162,16 @@ impl Tracer<'_> {
             let found = cycles(&end, self.limits)?;
             self.cost += found.cost;
             if found.cycles.is_empty() {
-                return Ok(Boundaries { fold: Some(f64::NEG_INFINITY), escape: None });
+                return Ok([Some(f64::NEG_INFINITY), None]);
             }
         }
-        Ok(Boundaries { fold: Some(self.fold(here)?), escape: None })
+        Ok([Some(self.fold(here)?), None])
     }
 
     /// Where on a line along D3 or r the fold or the escape point comes to the given D.
     fn boundaries_at_d(&mut self, here: &Parameters) -> Result<Boundaries, Reason> {
         let Parameters { d, d2, d3, r } = *here;
-        let nowhere = Ok(Boundaries::default());
+        let nowhere = Ok([None; 2]);
         if d >= 0.0 {
             return nowhere;
         }
@@ -184,17 +183,14 @@ impl Tracer<'_> {
             let least = self.escape(&Parameters { d3: 0.0, ..*here })?;
             let none = d2 != 0.0 && least.is_none_or(|least| d >= least);
             let fold = if none { Some(0.0) } else { self.seek(here)? };
-            return Ok(Boundaries { fold, escape: None });
+            return Ok([fold, None]);
         }
         if d3 > 0.0 {
-            return Ok(Boundaries { fold: self.seek(here)?, escape: None });
+            return Ok([self.seek(here)?, None]);
         }
         if d3 == 0.0 && d2 != 0.0 && d > -1.0 {
             // D_c depends on r D2 alone.
-            return Ok(Boundaries {
-                fold: None,
-                escape: Some(self.product_of_escape(d)? / d2.abs()),
-            });
+            return Ok([None, Some(self.product_of_escape(d)? / d2.abs())]);
         }
         nowhere
     }
@@ -253,14 +249,14 @@ impl Tracer<'_> {
     }
 
     /// The bands between the boundaries within the range.
-    fn bands(&self, here: &Parameters, boundaries: &Boundaries, failed: bool) -> Vec<Band> {
+    fn bands(&self, here: &Parameters, boundaries: Boundaries, failed: bool) -> Vec<Band> {
         let (from, to) = self.range;
         let inside = |value: &f64| *value > from && *value < to;
         let fixed = match self.along {
             Knob::D => vec![-1.0, 0.0],
             _ => vec![0.0],
         };
-        let boundaries_there = [boundaries.fold, boundaries.escape].into_iter().flatten();
+        let boundaries_there = boundaries.iter().copied().flatten();
         let mut ends: Vec<f64> = fixed.into_iter().chain(boundaries_there).filter(inside).collect();
         ends.extend([from, to]);
         ends.sort_by(f64::total_cmp);
@@ -280,7 +276,7 @@ impl Tracer<'_> {
         &self,
         here: &Parameters,
         value: f64,
-        boundaries: &Boundaries,
+        boundaries: Boundaries,
         failed: bool,
     ) -> Option<Regime> {
         let parameters = here.with(self.along, value);
@@ -289,23 +285,19 @@ impl Tracer<'_> {
             return None;
         }
         if self.along == Knob::D {
-            return Some(Regime::of(&parameters, boundaries.fold, boundaries.escape));
+            return Some(Regime::of(&parameters, boundaries[0], boundaries[1]));
         }
         // A line that crosses a boundary at the given D lies below the boundary in D before it.
-        let boundary = |boundary: Option<f64>| {
+        let [fold, escape] = boundaries.map(|boundary| {
             let beyond = boundary.is_some_and(|boundary| value >= boundary);
             Some(if beyond { f64::NEG_INFINITY } else { 0.0 })
-        };
-        Some(Regime::of(&parameters, boundary(boundaries.fold), boundary(boundaries.escape)))
+        });
+        Some(Regime::of(&parameters, fold, escape))
     }
 }
 
-/// The boundaries on a line.
-#[derive(Clone, Copy, Debug, Default)]
-struct Boundaries {
-    fold: Option<f64>,
-    escape: Option<f64>,
-}
+/// The fold and the escape point on a line; one below everything that is asked for is minus infinity.
+type Boundaries = [Option<f64>; 2];
 
 /// Where an increasing function is at most `small`, near `start`: strides until its zero lies between,
 /// then the Illinois rule.

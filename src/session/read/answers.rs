@@ -7,14 +7,14 @@ use crate::accuracy::trade::Trade;
 use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
 use crate::flow::Trajectory;
-use crate::model::Knob;
 use crate::model::belt::Units;
+use crate::model::{Knob, State};
 use crate::paper::ClaimResult;
 use crate::portrait::{Cycles, ReturnMap};
 use crate::proof::Proof;
 use crate::question::fit::Unsure;
 use crate::question::zones::CertainZones;
-use crate::question::{Borders, Fit, NoAnswer, ShownFit};
+use crate::question::{Fit, NoAnswer, ShownFit};
 use crate::scene::{Axes, Finding, Request, Topic};
 use crate::session::{AnswerState, Session, Uncertainty};
 
@@ -61,7 +61,8 @@ impl Session {
         last!(self, Trade, self.plot).map(|found| &**found)
     }
 
-    pub fn borders(&self, plot: usize) -> Option<&Borders> {
+    /// The borders between bands of capture.
+    pub fn borders(&self, plot: usize) -> Option<&Vec<Vec<State>>> {
         last!(self, Capture, plot)
     }
 

@@ -54,14 +54,14 @@ fn the_part_told_is_that_of_the_headless_command() {
     trial.press("<run \"set D=-0.3 D2=0.2 D3=0.5 r=0.1\"><run \"kicks q=0.02+-0.08,v=0+-0.1\">");
     let asked = trial.session.wants().into_iter().chain(trial.session.asks());
     let asked = asked.filter(|request| request.topic() == Topic::Kicks).collect::<Vec<Request>>();
-    let Ok(Finding::Kicks(found)) = answer(&asked[0], &Limits::PATIENT) else {
+    let Ok(Finding::Kicks(found, _)) = answer(&asked[0], &Limits::PATIENT) else {
         panic!("{asked:?}")
     };
     let parameters = trial.session.problem.parameters;
     let portrait = Portrait::of_oscillator(&parameters, 5.0, &Limits::PATIENT).unwrap();
     let whole = repeated(&portrait, &trial.session.kicks, &Limits::PATIENT).unwrap();
-    assert!(found.share.part > 0.02 && found.share.error < 1e-8, "{found:?}");
-    assert!((found.share.part - whole.first.part).abs() <= found.share.error + whole.first.error);
+    assert!(found.part > 0.02 && found.error < 1e-8, "{found:?}");
+    assert!((found.part - whole.first.part).abs() <= found.error + whole.first.error);
 }
 
 #[test]

@@ -41,8 +41,8 @@ use crate::numerics::twofold::Twofold;
 use crate::portrait::basin::stability::Share;
 use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, ReturnMap};
 use crate::proof::{ParameterBox, Proof};
+use crate::question::Rows;
 use crate::question::zones::{CertainZones, Extent};
-use crate::question::{Borders, LostShare, Rows};
 use crate::scene::{Finding, Fit, Request, Scene, Topic, find};
 
 /// A session whose questions are answered as soon as they are asked.
@@ -265,9 +265,9 @@ pub fn by_hand(request: &Request) -> Finding {
         Request::Zones(_) => Finding::Zones(zones()),
         Request::Kicks { .. } => {
             let share = Share { part: 0.125, error: 1e-11 };
-            Finding::Kicks(LostShare { share, cost })
+            Finding::Kicks(share, cost)
         }
-        Request::Capture { .. } => Finding::Capture(Borders { curves: Vec::new(), cost }),
+        Request::Capture { .. } => Finding::Capture(Vec::new(), cost),
         Request::Balance { parameters, harmonics } => Finding::Balance(HarmonicBalance {
             parameters: *parameters,
             harmonics: *harmonics,
