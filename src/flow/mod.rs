@@ -19,6 +19,7 @@
 //! ```
 
 pub(crate) mod auto;
+pub(crate) mod comparison;
 pub(crate) mod exact;
 pub(crate) mod explicit;
 pub(crate) mod limits;
@@ -31,7 +32,6 @@ pub(crate) mod motion;
 pub mod precise;
 #[doc(hidden)]
 pub mod quality;
-pub(crate) mod regularized;
 pub(crate) mod run;
 pub(crate) mod step;
 pub(crate) mod stiff;
@@ -39,7 +39,6 @@ pub(crate) mod stop;
 pub(crate) mod swing;
 pub(crate) mod tableau;
 pub(crate) mod taylor;
-pub(crate) mod time_stepping;
 pub mod trajectory;
 
 pub use crate::model::Reason;

@@ -229,7 +229,7 @@ pub struct Leg {
 /// Operation counts of a computation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Cost {
-    /// Evaluations of the field; a Taylor series of order N counts as N.
+    /// Evaluations of the field but for points to be drawn; a Taylor series of order N counts as N.
     pub evaluations: u64,
     /// Accepted steps.
     pub steps: u64,

@@ -1,17 +1,16 @@
 //! Computes a motion until it is captured, escapes, reaches its end time or is given up.
 
 use super::auto::Auto;
+use super::comparison::{SmoothField, TimeStepping};
 use super::exact::Exact;
 use super::explicit::Explicit;
 use super::limits::Limits;
 use super::method::Method;
 pub use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
-use super::regularized::SmoothField;
 use super::run::MotionRun;
 use super::stiff::Stiff;
 use super::tableau::{CLASSICAL, dop853, dopri5};
 use super::taylor::Taylor;
-use super::time_stepping::TimeStepping;
 use crate::model::{HalfPlane, Reason, Side};
 
 /// Computes a motion.

@@ -52,7 +52,7 @@ const LONGEST: f64 = 0.125;
 /// Maximum number of steps of a motion.
 pub(crate) const STEPS: u64 = 2_000_000;
 
-/// The last step of a stepper. Its ends are known, the rest takes evaluations.
+/// The last step of a stepper. Its ends are known, places between them take shorter steps.
 struct LastStep<'s, 'a> {
     stepper: &'s mut PhaseStepper<'a>,
     field: PhaseField<'a>,
@@ -60,21 +60,16 @@ struct LastStep<'s, 'a> {
     step: Step,
 }
 
-impl LastStep<'_, '_> {
-    fn at(&self, t: f64) -> StepPoint {
-        if t == 0.0 {
-            return self.from;
-        }
-        if t == self.step.duration {
-            return self.step.end;
-        }
-        self.stepper.at(t)
-    }
-}
-
 impl StepInside for LastStep<'_, '_> {
     fn velocity(&mut self, t: f64) -> (f64, f64) {
-        let StepPoint { x, v } = self.at(t);
+        let StepPoint { x, v } = if t == 0.0 {
+            self.from
+        } else if t == self.step.duration {
+            self.step.end
+        } else {
+            let shorter = self.stepper.advance(self.from, t, false);
+            shorter.map_or(self.from, |step| step.end)
+        };
         (v, self.field.acceleration(x, v))
     }
 

@@ -1,10 +1,10 @@
 //! The methods that ignore `v = 0`, which are included for comparison.
 
+use super::super::comparison::SmoothField;
 use super::super::explicit::Dop853;
-use super::super::regularized::SmoothField;
 use super::super::stiff::Stiff;
 use super::super::tableau::dop853;
-use super::super::trajectory::{Detail, trajectory};
+use super::super::trajectory::trajectory;
 use super::super::{Limits, Method, Outcome, Problem, Trajectory};
 use super::*;
 use crate::model::Parameters;

@@ -1,5 +1,13 @@
-//! Moreau and Jean's time stepping, for comparison: fixed steps that require a balance of impulses, in which
-//! friction takes whatever value within `[-r, r]` the balance needs.
+//! Dry friction without events, for comparison: turned into a field, so that common integrators can run across `v = 0`,
+//! or balanced over fixed steps.
+//!
+//! There are two common practices of the first kind. One replaces the sign by `tanh(v/epsilon)`. The field is then smooth
+//! but stiff, with rate `r/epsilon` near `v = 0`, and vanishes nowhere else in the sticking set, so that nothing
+//! else ever rests. The other keeps the sign. What should rest then chatters across `v = 0`, and the steps lose
+//! the order of their method.
+//!
+//! Moreau and Jean's time stepping requires a balance of impulses over each fixed step, in which friction takes whatever
+//! value within `[-r, r]` the balance needs.
 //!
 //! Over a step of length h the midpoint rule covers restoring force and damping; friction acts with one value
 //! of the set-valued sign of the velocity at the end of the step. If friction can bring the velocity to rest,
@@ -9,9 +17,66 @@
 //! Mechanics and Engineering 177, 1999).
 
 use super::motion::Cost;
-use super::regularized::SmoothField;
-use super::step::{Powers, Step, StepPoint, Stepper};
-use crate::model::Reason;
+use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper};
+use crate::model::{HalfPlane, Parameters, Reason, Side};
+use crate::numerics::elementary::tanh;
+use crate::numerics::scaling::times_power;
+
+/// The field of the whole phase plane with friction as a function of the velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SmoothField {
+    /// Damping and restoring force.
+    pub smooth: HalfPlane,
+    /// Intensity of the friction.
+    pub r: f64,
+    /// The velocity over which `tanh(v/epsilon)` smoothes the sign of `v`; `None`: the sign itself, 0 at 0.
+    epsilon: Option<f64>,
+}
+
+impl SmoothField {
+    /// The field for these parameters.
+    pub fn new(parameters: &Parameters, epsilon: Option<f64>) -> Self {
+        let smooth = HalfPlane::new(parameters, Side::Upper);
+        SmoothField { smooth, r: parameters.r, epsilon }
+    }
+}
+
+impl Field for SmoothField {
+    fn acceleration(&self, x: f64, v: f64) -> f64 {
+        let sign = match self.epsilon {
+            Some(epsilon) => tanh(v / epsilon),
+            None if v == 0.0 => 0.0,
+            None => v.signum(),
+        };
+        self.smooth.acceleration(x, v) - self.r * sign
+    }
+
+    fn divergence(&self, v: f64) -> f64 {
+        let slope = self.epsilon.map_or(0.0, |epsilon| {
+            let tanh = tanh(v / epsilon);
+            (1.0 - tanh) * (1.0 + tanh) / epsilon
+        });
+        self.smooth.divergence(v) - self.r * slope
+    }
+
+    fn magnitude(&self, x: f64, v: f64) -> f64 {
+        self.smooth.magnitude(x, v) + self.r
+    }
+}
+
+impl PlaneField for SmoothField {
+    fn in_units(&self, k: i32) -> Self {
+        SmoothField {
+            smooth: self.smooth.in_units(k),
+            r: times_power(self.r, -k),
+            epsilon: self.epsilon.map(|epsilon| times_power(epsilon, -k)),
+        }
+    }
+
+    fn frictionless(&self) -> HalfPlane {
+        self.smooth
+    }
+}
 
 /// Newton iterations for the velocity at the end of a step. The residual is nearly linear.
 const ITERATIONS: usize = 50;
