@@ -5,11 +5,14 @@ use ratatui::layout::Rect;
 
 use super::{Look, Surface, pane::Heading, plot::Canvas, screen};
 use crate::accuracy::trade::Trade;
-use crate::flow::Method;
+use crate::flow::METHODS;
 use crate::numerics::elementary::log10;
 use crate::picture::{Picture, Role};
 use crate::scene::{Point, Span, Window};
 use crate::session::settings::{self, Colors, Glyphs};
+
+/// The letter of each of the methods.
+const LETTERS: [char; METHODS.len()] = ['a', 'e', 't', '8', '5', '4', 'i', '~', 's', 'm'];
 
 /// The logarithm of the error over that of the time; later methods lie below, the best choices are capitals.
 ///
@@ -21,7 +24,8 @@ pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
     let mut key: Vec<String> = Vec::new();
     for ((row, seconds), front) in trade.rows.iter().zip(seconds).zip(front) {
         let Ok(deviation) = row.deviation else { continue };
-        let (method, letter) = (row.problem.method, letter(row.problem.method));
+        let method = row.problem.method;
+        let letter = LETTERS[method as usize];
         let entry = format!("{letter} {method}");
         if !key.contains(&entry) {
             key.push(entry);
@@ -53,19 +57,4 @@ pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
     }
     plot.finish(screen);
     format!("{}      {}\n", screen::text(&buffer), key.join("  "))
-}
-
-fn letter(method: Method) -> char {
-    match method {
-        Method::Auto => 'a',
-        Method::Exact => 'e',
-        Method::Taylor => 't',
-        Method::Dop853 => '8',
-        Method::Dopri5 => '5',
-        Method::Rk4 => '4',
-        Method::Stiff => 'i',
-        Method::Smoothed => '~',
-        Method::SignRk4 => 's',
-        Method::TimeStepping => 'm',
-    }
 }
