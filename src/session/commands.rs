@@ -348,7 +348,7 @@ const COMMANDS: &[CommandRow] = &[
         "Clear the search", Act(|s, _| lists::search_with(s, String::clear))),
 
     row("accept", &[(Entry, &["<enter>"])], "accept",
-        "Take the typed value", Act(|s, _| parameters::accept(s))),
+        "Take the typed value", Choose(|s| Ok(prompt::accept(s)))),
     row("run-line", &[(Prompt, &["<enter>"])], "accept",
         "Run the typed command", Choose(|s| Ok(prompt::accept(s)))),
     row("complete", &[(Prompt, &["<tab>"])], "complete",

@@ -42,7 +42,7 @@ pub use state::answers::{AnswerState, Answers};
 pub use state::context::Context;
 pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snapshot};
 pub use state::keymap::{Candidates, Command, Keymap, NextCommand};
-pub use state::overlay::{Completion, Entry, Input, List, Listed, Overlay, Prompt, SessionCaption};
+pub use state::overlay::{Completion, Input, List, Listed, Overlay, Prompt, SessionCaption};
 pub use state::plot::{Framing, Pane, Plot};
 pub use state::rows::{Row, StepSizes};
 pub use state::scan::{ScanOnShow, ScanProgress};

@@ -19,8 +19,8 @@ use crate::session::act::history::{restore, snapshot};
 use crate::session::read::completion::difference;
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{
-    Before, Bookmark, Bookmarks, History, Overlay, Pane, Plot, Row, ScreenSetup, Session, Setup,
-    Snapshot, Uncertainty,
+    Before, Bookmark, Bookmarks, History, Overlay, Pane, Plot, Prompt, Row, ScreenSetup, Session,
+    Setup, Snapshot, Uncertainty,
 };
 
 /// The format that this program writes; it reads this and all earlier formats.
@@ -283,6 +283,6 @@ impl Session {
         let (past, future) = self.history.depth();
         past + future > 0
             || !self.marks.places.is_empty()
-            || matches!(self.overlay, Some(Overlay::Entry(_)))
+            || matches!(self.overlay, Some(Overlay::Prompt(Prompt { row: Some(_), .. })))
     }
 }

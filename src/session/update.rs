@@ -10,8 +10,8 @@ use crate::question::NoAnswer;
 use crate::scene::{Answered, Request};
 use crate::session::act::screen_setup::focus_on;
 use crate::session::act::{
-    answers, attempt, files, general, history, inform, inform_of_keys, plots, prompt, refuse, walk,
-    with_keys,
+    answers, attempt, files, general, history, inform, inform_of_keys, parameters, plots, prompt,
+    refuse, walk, with_keys,
 };
 use crate::session::commands::action;
 use crate::session::lines::CommandAction;
@@ -21,8 +21,8 @@ use crate::session::read::waiting;
 use crate::session::replay::parse::parse;
 use crate::session::state::keymap::full_name;
 use crate::session::{
-    Code, Command, Context, Done, Effect, Entry, Key, Letter, Msg, NextCommand, Overlay, Pane,
-    Pending, Price, Prompt, Row, Session, SessionCaption, Size, Waiting,
+    Code, Command, Context, Done, Effect, Key, Letter, Msg, NextCommand, Overlay, Pane, Pending,
+    Price, Prompt, Row, Session, SessionCaption, Size, Waiting,
 };
 use crate::words::printable;
 
@@ -125,8 +125,8 @@ fn paste(session: &mut Session, text: &str) {
     }
     let number = text.trim().parse::<f64>().is_ok();
     if number && session.overlay.is_none() && session.focus == Pane::Parameters {
-        let entry = Entry::new(session.selected, text.trim().to_owned());
-        session.overlay = Some(Overlay::Entry(entry));
+        let entry = Prompt::of_row(session.selected, text.trim());
+        session.overlay = Some(Overlay::Prompt(entry));
         return;
     }
     // Text that names no key in angle brackets was probably pasted by mistake.
@@ -295,7 +295,10 @@ fn run(session: &mut Session, command: &Command, key: Key) {
         Some(CommandAction::Toggle(layer)) => general::toggle(session, layer),
         Some(CommandAction::Choose(choose)) => match choose(session) {
             Ok(Some(NextCommand::Command(command))) => run_where_it_belongs(session, command, key),
-            Ok(Some(NextCommand::Line(text))) => run_typed(session, &text),
+            Ok(Some(NextCommand::Line(text))) => typed(session, |it| run_line(it, &text)),
+            Ok(Some(NextCommand::Value(row, text))) => {
+                typed(session, |it| parameters::accept(it, row, &text));
+            }
             Ok(None) => {}
             Err(why) => refuse(session, why),
         },
@@ -304,10 +307,10 @@ fn run(session: &mut Session, command: &Command, key: Key) {
     }
 }
 
-/// Runs the text of the command line; if it is refused, the line stays open with the reason.
-fn run_typed(session: &mut Session, text: &str) {
+/// Does what the open line says; if it is refused, the line stays open with the reason.
+fn typed(session: &mut Session, act: impl FnOnce(&mut Session) -> Done) {
     let open = session.overlay.take();
-    if let Err(why) = run_line(session, text) {
+    if let Err(why) = act(session) {
         let Some(Overlay::Prompt(prompt)) = open else { return refuse(session, why) };
         let refused = Prompt { refused: Some(why), completion: None, back: 0, ..prompt };
         session.overlay = Some(Overlay::Prompt(refused));

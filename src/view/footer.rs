@@ -9,7 +9,7 @@ use crate::flow::QUALITIES;
 use crate::model::{Knob, KnobSpec};
 use crate::picture::Role;
 use crate::session::{
-    Entry, Hint, Input, Keymap, Notice, Overlay, Pending, Prompt, Row, Session,
+    Hint, Input, Keymap, Notice, Overlay, Pending, Prompt, Row, Session,
     read::completion::described,
 };
 
@@ -30,8 +30,10 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let left = match (&session.overlay, &session.notice) {
         _ if session.waiting.is_some() => waiting(session, look),
         _ if session.pending.is_some() => vec![pending(session.pending, look)],
-        (Some(Overlay::Entry(entry)), _) => self::entry(entry, session, look),
-        (Some(Overlay::Prompt(prompt)), _) => self::prompt(prompt, &session.keymap, look),
+        (Some(Overlay::Prompt(prompt)), _) => match prompt.row {
+            Some(row) => entry(row, prompt, session, look),
+            None => self::prompt(prompt, &session.keymap, look),
+        },
         (Some(Overlay::Offer(script)), _) => {
             let text =
                 format!(" pasted {} steps of a keystroke file: press them?", script.steps.len());
@@ -88,12 +90,12 @@ fn pending(pending: Option<Pending>, look: &Look) -> Span<'static> {
 }
 
 /// The value being typed, with its caret, and what is allowed or why it was refused.
-fn entry(entry: &Entry, session: &Session, look: &Look) -> Vec<Span<'static>> {
+fn entry(row: Row, entry: &Prompt, session: &Session, look: &Look) -> Vec<Span<'static>> {
     let remark = match &entry.refused {
         Some(why) => look.span(format!("  {why}"), Role::Failure),
-        None => look.span(format!("  {}", allowed(entry.row, session)), Role::Quiet),
+        None => look.span(format!("  {}", allowed(row, session)), Role::Quiet),
     };
-    let lead = look.span(format!(" {} = ", entry.row.name_in(&session.problem)), Role::Title);
+    let lead = look.span(format!(" {} = ", row.name_in(&session.problem)), Role::Title);
     std::iter::once(lead).chain(typed(&entry.input, look)).chain([remark]).collect()
 }
 

@@ -39,7 +39,7 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Glyphs::Block => {}
         _ => {
             // What is being typed stands there as it will be read.
-            let typing = matches!(session.overlay, Some(Overlay::Entry(_) | Overlay::Prompt(_)));
+            let typing = matches!(session.overlay, Some(Overlay::Prompt(_)));
             signs::minus(area, screen.buffer, |y| typing && y + 1 == area.bottom());
         }
     }

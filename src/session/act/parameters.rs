@@ -9,7 +9,7 @@ use crate::scene::{Setting, View};
 use crate::session::act::{inform, warn_of_units};
 use crate::session::read::completion::typed;
 use crate::session::state::setup::symbol_of;
-use crate::session::{Before, Done, Entry, Framing, Key, Overlay, Row, Session, Setup, StepSizes};
+use crate::session::{Before, Done, Framing, Key, Overlay, Prompt, Row, Session, Setup, StepSizes};
 use crate::words::one_of;
 
 /// Changes the motion on show, as one change that can be undone; the belt keeps its speed. Returns whether
@@ -221,30 +221,21 @@ pub fn edit(session: &mut Session) {
     let row = session.selected;
     let knob = row.knob_in(&session.problem);
     let text = typed(&session.setup(), row).unwrap_or_else(|| knob.print(session.value(knob)));
-    session.overlay = Some(Overlay::Entry(Entry::new(row, text)));
+    session.overlay = Some(Overlay::Prompt(Prompt::of_row(row, text)));
 }
 
 /// Opens the line with the character that was typed.
 pub fn begin(session: &mut Session, key: Key) {
     let text = key.typed().map(String::from).unwrap_or_default();
-    session.overlay = Some(Overlay::Entry(Entry::new(session.selected, text)));
+    session.overlay = Some(Overlay::Prompt(Prompt::of_row(session.selected, text)));
 }
 
-/// Accepts the typed value, or says in the line why it is refused.
-pub fn accept(session: &mut Session) {
-    let Some(Overlay::Entry(entry)) = &session.overlay else { return };
-    match read(session, &session.setup(), entry.row, &entry.input.text()) {
-        Ok(setup) => {
-            session.overlay = None;
-            put(session, setup);
-            warn_of_units(session);
-        }
-        Err(why) => {
-            if let Some(Overlay::Entry(entry)) = &mut session.overlay {
-                entry.refused = Some(why);
-            }
-        }
-    }
+/// Gives a row the typed value. Fails with one line that says what is allowed.
+pub(crate) fn accept(session: &mut Session, row: Row, text: &str) -> Done {
+    let setup = read(session, &session.setup(), row, text)?;
+    put(session, setup);
+    warn_of_units(session);
+    Ok(())
 }
 
 /// The setup with the typed value in a row. Fails with one line that says what is allowed.

@@ -25,11 +25,14 @@ pub fn open(session: &mut Session, text: impl Into<String>) {
     session.overlay = Some(Overlay::Prompt(Prompt::new(text)));
 }
 
-/// The typed command, to be run. An empty line closes. A line that begins with no command is searched for in
+/// The typed value, to be set; or the typed command, to be run. An empty command closes. A line that begins with no command is searched for in
 /// the palette, which stays open if something is found.
 pub fn accept(session: &mut Session) -> Option<NextCommand> {
     let Some(Overlay::Prompt(prompt)) = &session.overlay else { return None };
     let text = prompt.input.text().trim().to_owned();
+    if let Some(row) = prompt.row {
+        return Some(NextCommand::Value(row, text));
+    }
     if text.is_empty() {
         session.overlay = None;
         return None;
@@ -108,16 +111,9 @@ pub fn complete(session: &mut Session, by: isize) {
 
 /// Applies an edit to the open line, and drops what was said about its old text.
 pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) {
-    match &mut session.overlay {
-        Some(Overlay::Entry(entry)) => {
-            entry.refused = None;
-            act(&mut entry.input);
-        }
-        Some(Overlay::Prompt(prompt)) => {
-            (prompt.refused, prompt.completion) = (None, None);
-            act(&mut prompt.input);
-        }
-        _ => {}
+    if let Some(Overlay::Prompt(prompt)) = &mut session.overlay {
+        (prompt.refused, prompt.completion) = (None, None);
+        act(&mut prompt.input);
     }
 }
 

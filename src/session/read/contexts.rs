@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::scene::VIEWS;
 use crate::session::state::context::chain;
 use crate::session::{
-    Command, Context, Key, Listed, Overlay, Pane, Pending, Session, SessionCaption,
+    Command, Context, Key, Listed, Overlay, Pane, Pending, Prompt, Session, SessionCaption,
 };
 
 impl Session {
@@ -24,7 +24,7 @@ impl Session {
             Some(Overlay::List(_, list)) if list.searching => Context::Search,
             Some(Overlay::List(Listed::Cost, _)) => Context::List(Listed::Palette),
             Some(Overlay::List(listed, _)) => Context::List(*listed),
-            Some(Overlay::Entry(_)) => Context::Entry,
+            Some(Overlay::Prompt(Prompt { row: Some(_), .. })) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Offer(_)) => Context::Offer,
         };

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::session::state::context::chains;
-use crate::session::{Context, Key, Session};
+use crate::session::{Context, Key, Row, Session};
 
 /// Something that a key can do, or a line with words.
 #[derive(Clone, Copy, Debug)]
@@ -66,6 +66,8 @@ pub enum NextCommand {
     Command(&'static Command),
     /// The text of the command line.
     Line(String),
+    /// The value that is typed for a row.
+    Value(Row, String),
 }
 
 /// The command of a key.

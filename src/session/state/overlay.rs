@@ -7,9 +7,7 @@ use crate::session::{Row, Script};
 pub enum Overlay {
     /// A list that can be scrolled and searched.
     List(Listed, List),
-    /// A line for typing a value.
-    Entry(Entry),
-    /// The line for typing commands by name.
+    /// A line for typing a command by name, or a value.
     Prompt(Prompt),
     /// A pasted keystroke file, waiting for confirmation.
     Offer(Script),
@@ -86,20 +84,11 @@ pub struct List {
     pub searching: bool,
 }
 
-/// A value being typed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Entry {
-    /// The row whose value is typed.
-    pub row: Row,
-    /// The text typed so far.
-    pub input: Input,
-    /// Why the text was refused, until it is changed.
-    pub refused: Option<String>,
-}
-
-/// A command being typed by name.
+/// A command being typed by name, or a value.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Prompt {
+    /// The row whose value is typed; `None` for a command.
+    pub row: Option<Row>,
     /// The text typed so far.
     pub input: Input,
     /// Why the text was refused, until it is changed.
@@ -132,17 +121,15 @@ impl List {
     }
 }
 
-impl Entry {
-    /// A line with this text and the caret at its end.
-    pub fn new(row: Row, text: impl Into<String>) -> Self {
-        Entry { row, input: Input::new(text), refused: None }
-    }
-}
-
 impl Prompt {
     /// A line with this text and the caret at its end.
     pub fn new(text: impl Into<String>) -> Self {
         Prompt { input: Input::new(text), ..Prompt::default() }
+    }
+
+    /// The same for the value of a row.
+    pub fn of_row(row: Row, text: impl Into<String>) -> Self {
+        Prompt { row: Some(row), ..Prompt::new(text) }
     }
 }
 

@@ -97,9 +97,9 @@ fn overlay(session: &Session, name: &str) -> Option<String> {
     let (open, typed, refused) = match overlay {
         None => ("none".to_owned(), None, None),
         Some(Overlay::List(listed, _)) => (format!("{listed:?}"), None, None),
-        Some(Overlay::Entry(it)) => ("entry".to_owned(), Some(it.input.text()), it.refused.clone()),
         Some(Overlay::Prompt(it)) => {
-            ("prompt".to_owned(), Some(it.input.text()), it.refused.clone())
+            let what = if it.row.is_some() { "entry" } else { "prompt" };
+            (what.to_owned(), Some(it.input.text()), it.refused.clone())
         }
         Some(Overlay::Offer(script)) => (format!("offer of {} keys", script.keys()), None, None),
     };

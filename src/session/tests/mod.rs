@@ -142,7 +142,6 @@ impl Trial {
     /// Why the typed text was refused.
     fn refused(&self) -> String {
         let refused = match &self.session.overlay {
-            Some(Overlay::Entry(entry)) => &entry.refused,
             Some(Overlay::Prompt(prompt)) => &prompt.refused,
             other => panic!("it is taken: {other:?}"),
         };
