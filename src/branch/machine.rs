@@ -53,21 +53,22 @@ pub struct MachineBranch {
 }
 
 impl MachineBranch {
-    /// Follows the cycles of a machine along one of its numbers, through `count` values on all cores. Each change is
-    /// located between two of these and has further points `beside` it, at these parts of their distance. Fails
-    /// with one line where the machine's law has no such number; ends early where it is interrupted.
+    /// Follows the cycles of a machine along one of its numbers, through `count` evenly spaced values on all cores. Unless
+    /// `beside` is `None`, changes are located, and each has further points at these parts of the distance between two
+    /// values. Fails with one line where the machine's law has no such number; ends early where it is interrupted.
     pub fn along(
         source: &Source,
         varied: Knob,
         range: (f64, f64),
-        (count, beside): (usize, &[f64]),
+        (count, beside): (usize, Option<&[f64]>),
         limits: &Limits,
     ) -> Result<Self, String> {
         let family = Family { source, varied, limits };
-        let mut portraits = family.portraits(even(range, count))?;
-        let changes = family.all_changes(&portraits);
+        let even = (0..count).map(|index| between(range, index, count)).collect();
+        let mut portraits = family.portraits(even)?;
+        let changes = beside.map_or_else(Vec::new, |_| family.all_changes(&portraits));
         let special = changes.iter().map(|change| change.special).collect();
-        if !beside.is_empty() {
+        if let Some(beside) = beside.filter(|parts| !parts.is_empty()) {
             let step = (range.1 - range.0) / real(count - 1);
             let around = |change: &Change| {
                 let value = change.special.value;
@@ -82,37 +83,16 @@ impl MachineBranch {
             portraits.extend(known.filter_map(|(value, found)| Some((value, Ok(found?)))));
             portraits.sort_by(|one, other| one.0.total_cmp(&other.0));
         }
-        Ok(MachineBranch { special, ..MachineBranch::of(portraits) })
-    }
-
-    /// What a machine does at `count` values of one of its numbers; changes are not located. Fails with one line
-    /// where the machine's law has no such number; ends early where it is interrupted.
-    pub fn sampled(
-        source: &Source,
-        varied: Knob,
-        range: (f64, f64),
-        count: usize,
-        limits: &Limits,
-    ) -> Result<Self, String> {
-        let family = Family { source, varied, limits };
-        Ok(MachineBranch::of(family.portraits(even(range, count))?))
-    }
-
-    fn of(portraits: Portraits) -> Self {
-        let known = portraits.iter().filter_map(|(_, found)| found.as_ref().ok());
         let mut cost = Cost::default();
+        let known = portraits.iter().filter_map(|(_, found)| found.as_ref().ok());
         known.for_each(|found| cost += found.cost);
         let points = portraits.into_iter().map(MachineBranchPoint::from).collect();
-        MachineBranch { points, special: Vec::new(), cost }
+        Ok(MachineBranch { points, special, cost })
     }
 }
 
 /// Values of a number, and the portrait at each.
 type Portraits = Vec<(f64, Result<Portrait, Reason>)>;
-
-fn even(range: (f64, f64), count: usize) -> Vec<f64> {
-    (0..count).map(|index| between(range, index, count)).collect()
-}
 
 /// A machine while one of its numbers varies.
 struct Family<'a> {
@@ -192,7 +172,11 @@ impl Family<'_> {
             if (ends.0 > 0.0) == (ends.1 > 0.0) {
                 return None;
             }
-            let of = |value| self.signs(value)?.of(kind);
+            let of = |value| match kind {
+                // It takes no motion.
+                SpecialKind::Hopf => Some(self.model(value)?.damping),
+                _ => self.signs(value)?.of(kind),
+            };
             let value = zero(&of, (left.value, ends.0), (right.value, ends.1))?;
             Some(self.change(self.signs(value)?.special(kind, value), step))
         };

@@ -46,7 +46,8 @@ impl BranchCommand {
         if let Some(case) = case {
             let subject = &case.described.problem.subject;
             let limits = &Limits::PATIENT;
-            let follow = || MachineBranch::along(subject, symbol, (from, to), (count, &[]), limits);
+            let values = (count, Some([].as_slice()));
+            let follow = || MachineBranch::along(subject, symbol, (from, to), values, limits);
             let (found, seconds) = timed(self.output.repeat, follow);
             let (found, about) = (found.map_err(Failure::Usage)?, case.about().but(&[symbol]));
             return self.output.print(report::of_machine(&about, symbol, &found, seconds));
@@ -136,8 +137,8 @@ impl BorderCommand {
         let row = |index| {
             let (value, range) = (over.value(index), (along.from, along.to));
             let (here, limits) = (subject.with(over.symbol, value)?, &Limits::PATIENT);
-            let found =
-                MachineBranch::along(&here, along.symbol, range, (along.count, &[]), limits);
+            let values = (along.count, Some([].as_slice()));
+            let found = MachineBranch::along(&here, along.symbol, range, values, limits);
             Ok((value, found?.special))
         };
         let follow = || (0..over.count).map(row).collect::<Result<Vec<_>, String>>();

@@ -315,13 +315,10 @@ fn speeds(
     /// Where further speeds are on both sides of a change, as fractions of the distance between two: there cycles end,
     /// and their curves turn as steeply as a square root.
     const BESIDE: [f64; 6] = [-0.5, -0.1, -0.02, 0.02, 0.1, 0.5];
-    let mut source = Source::from(belt);
-    let found = if rough {
-        source.tolerance = Some(DRAFT.tolerance);
-        MachineBranch::sampled(&source, Knob::BeltSpeed, range, FEW, limits)
-    } else {
-        MachineBranch::along(&source, Knob::BeltSpeed, range, (SPEEDS, &BESIDE), limits)
-    };
+    let tolerance = rough.then_some(DRAFT.tolerance);
+    let source = Source { tolerance, ..Source::from(belt) };
+    let values = if rough { (FEW, None) } else { (SPEEDS, Some(BESIDE.as_slice())) };
+    let found = MachineBranch::along(&source, Knob::BeltSpeed, range, values, limits);
     if (limits.interrupted)() {
         return Err(Reason::Interrupted);
     }

@@ -20,7 +20,7 @@ fn machine(name: &str) -> Belt {
 
 fn specials(belt: &Belt, name: &str, range: (f64, f64), count: usize) -> Vec<Special> {
     let (source, knob) = (Source::from(belt), Knob::named(name, Group::SOURCE).unwrap());
-    let (values, limits) = ((count, [].as_slice()), &Limits::PATIENT);
+    let (values, limits) = ((count, Some([].as_slice())), &Limits::PATIENT);
     MachineBranch::along(&source, knob, range, values, limits).unwrap().special
 }
 

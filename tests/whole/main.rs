@@ -411,7 +411,7 @@ fn a_search_for_cycles_that_did_not_settle_says_so() {
 /// The special points along a number.
 fn special(belt: &Belt, name: &str, range: (f64, f64), count: usize) -> Vec<(SpecialKind, f64)> {
     let (source, knob) = (Source::from(belt), Knob::named(name, Group::SOURCE).unwrap());
-    let (values, limits) = ((count, [].as_slice()), &Limits::PATIENT);
+    let (values, limits) = ((count, Some([].as_slice())), &Limits::PATIENT);
     let found = MachineBranch::along(&source, knob, range, values, limits).unwrap();
     found.special.iter().map(|special| (special.kind, special.value)).collect()
 }
