@@ -48,6 +48,14 @@ impl Fitted {
         self.margins.question.inertia
     }
 
+    /// Factors that convert a displacement of the record to metres, and a velocity over `omega0` to an impulse; `None`
+    /// if neither mass nor stiffness is known.
+    #[must_use]
+    pub fn kicks(&self, omega0: f64) -> Option<(f64, f64)> {
+        let (inertia, metres) = self.inertia()?;
+        Some((metres, metres * inertia.times(omega0, 1)))
+    }
+
     /// The units of time, length, velocity, force and impulse; the last two are NaN if neither mass nor
     /// stiffness is known. `None` without an estimated frequency or a known unit of length.
     #[must_use]
@@ -145,12 +153,6 @@ fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNu
     let standard_error = estimate.covariance.error_of(&gradient);
     let value = constant * number;
     EstimatedNumber { name: law.name, unknown: law.unknown, value, standard_error, unit: law.unit }
-}
-
-/// Factors that convert a displacement of the record to metres, and a velocity over `omega0` to an impulse.
-pub fn kicks(fitted: &Fitted) -> Option<(f64, f64)> {
-    let (inertia, metres) = fitted.inertia()?;
-    Some((metres, metres * inertia.times(fitted.estimate.p[OMEGA0], 1)))
 }
 
 /// A combination of numbers that are not known separately.

@@ -83,10 +83,10 @@ pub use {
 };
 
 pub(crate) use {
-    curves::{Curves, Extent, PlotPoint, memory},
+    curves::{Curves, PlotPoint, memory},
     drift::FittedDrift,
     estimate::{LeftOut, left_out},
-    fitted::{Combination, EstimatedNumber, combinations, kicks, rows},
+    fitted::{Combination, EstimatedNumber, combinations, rows},
     margin::MarginSpread,
     question::{assigned, listed},
     record::decoded,

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 
 use super::{CycleStyle, Dash, Item, LineStyle, Mark, Marks, Picture, Role, cycle_style};
 use crate::fit::{
-    D, D3, Dropped, Extent, Fitted, PlotPoint, Q0, R, RISES, Runs, Signal, contour,
-    memory as memory_of, parameters,
+    D, D3, Dropped, Fitted, PlotPoint, Q0, R, RISES, Runs, Signal, contour, memory as memory_of,
+    parameters,
 };
 use crate::flow::Limits;
 use crate::model::{Parameters, State};
@@ -75,7 +75,7 @@ fn band(picture: &mut Picture, along: [f64; 2], height: f64) {
 fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
     let memory = memory_of(&fitted.estimate);
     let [periods, _] = *memory.last()?;
-    let window = window([0.0, periods, -1.0, 1.0])?;
+    let window = Window::of([0.0, periods, -1.0, 1.0])?;
     let mut picture = Picture::new("memory of the residuals", "lag [s]", "correlation", window);
     let name = "autocorrelation of the residuals";
     picture.curve(LineStyle::new(name, Role::Energy, Dash::Solid), points(&memory));
@@ -89,7 +89,7 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
     let p = &fitted.estimate.p;
     let found = &fitted.curves.damping;
     let amplitude = with_unit("amplitude A", fitted.unit());
-    let extent = window(found.extent)?;
+    let extent = Window::of(found.extent)?;
     let mut picture =
         Picture::new("damping over amplitude", amplitude, "loss of amplitude", extent);
     let parts = [
@@ -209,7 +209,7 @@ pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
     // A shift from rest leads this far out if it begins at the end of the sticking set.
     let largest = largest - fitted.estimate.p[R];
     let name = with_unit("smallest shift from rest not survived", fitted.unit());
-    let extent = window(fitted.curves.spread_extent)?;
+    let extent = Window::of(fitted.curves.spread_extent)?;
     let title = "margin from rest, distribution";
     let mut picture = Picture::new(title, name, "probability", extent);
     let line = LineStyle::new("margin is less than this", Role::Danger, Dash::Thick);
@@ -253,11 +253,6 @@ fn at(x: f64, y: f64) -> Point {
 
 fn points(places: &[PlotPoint]) -> Vec<Point> {
     places.iter().copied().map(Point::from).collect()
-}
-
-/// What is worth seeing; `None` if it has no extent.
-fn window([left, right, low, high]: Extent) -> Option<Window> {
-    Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })
 }
 
 /// The window of a picture until its own is known.

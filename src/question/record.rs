@@ -54,7 +54,7 @@ fn names(text: &str) -> Result<FreeNumbers, String> {
 fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     let mut chosen = (None, None);
     for (index, part) in text.split(',').enumerate() {
-        let key = if index == 0 { "t" } else { "x" };
+        let key = ["t", "x"].get(index).copied().unwrap_or_default();
         let bare = text.contains(',') && !text.contains('=');
         let (key, value) = part.split_once('=').or(bare.then_some((key, part))).unwrap_or_default();
         let column = match value.trim().parse() {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
     Combination, Condition, Data, Dropped, EstimatedNumber, Fitted, LAST, LeftOut, MarginSpread,
-    Margins, NAMES, NameSpec, Q0, StartKind, combinations, kicks, left_out, rows,
+    Margins, NAMES, NameSpec, OMEGA0, Q0, StartKind, combinations, left_out, rows,
 };
 use crate::portrait::Kicks;
 use crate::words::fit::{left_out as counts, remarks, sentences, signed};
@@ -129,7 +129,7 @@ fn correlations_by_names(fitted: &Fitted) -> BTreeMap<String, f64> {
 }
 
 fn physical(fitted: &Fitted) -> Option<Document> {
-    let scales = kicks(fitted)?;
+    let scales = fitted.kicks(fitted.estimate.p[OMEGA0])?;
     let scaled = |spreads: &Kicks<MarginSpread>| {
         spreads.each(|it| it.scaled(scales.0), |it| it.scaled(scales.1))
     };
@@ -196,7 +196,8 @@ impl EstimateRow {
     fn of_kicks(fitted: &Fitted, lead: &str, kicks: &Kicks<MarginSpread>) -> [Self; 4] {
         let Kicks { displacement, impulse, from_rest } = *kicks;
         let length = (1.0, fitted.unit());
-        let momentum = self::kicks(fitted).map_or(length, |(_, scale)| (scale, "N s"));
+        let momentum =
+            fitted.kicks(fitted.estimate.p[OMEGA0]).map_or(length, |(_, scale)| (scale, "N s"));
         let row =
             |name, spread, unit| EstimateRow::of_draws(format!("{lead} {name}"), spread, unit);
         [
@@ -345,7 +346,7 @@ fn places(fitted: &Fitted) -> String {
 
 /// What the table of the margins shows.
 fn draws(fitted: &Fitted) -> String {
-    let impulse = if kicks(fitted).is_none() { ", impulses as velocity/omega0" } else { "" };
+    let impulse = if fitted.inertia().is_none() { ", impulses as velocity/omega0" } else { "" };
     format!(
         "smallest kicks that are not survived, from the worst rest position and from q = 0{impulse};\n\
          95 % lie from .. to, by {} effective draws; none: the share of the draws without",

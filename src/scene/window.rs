@@ -185,6 +185,11 @@ impl From<Point> for [f64; 2] {
 }
 
 impl Window {
+    /// The window between left and right, bottom and top; `None` if it has no extent.
+    pub fn of([left, right, low, high]: [f64; 4]) -> Option<Self> {
+        Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })
+    }
+
     /// Whether a point lies within, edges included.
     pub fn contains(self, point: Point) -> bool {
         self.x.contains(point.x) && self.y.contains(point.y)

@@ -217,9 +217,7 @@ pub fn signed(fitted: &Fitted) -> Statement {
     let units = if has_mass { ["N s", "m", "N"] } else { [length; 3] };
     let [impulse, displacement, disturbed] = units.map(str::to_owned);
     // Those of a displacement and of a velocity over omega0.
-    let scales = |omega0: f64| {
-        fitted.inertia().map_or((1.0, 1.0), |(it, metres)| (metres, metres * it.times(omega0, 1)))
-    };
+    let scales = |omega0: f64| fitted.kicks(omega0).unwrap_or((1.0, 1.0));
     let reach = margins.certain(|_, margin| margin.displacement);
     let reach = reach.map(|reach| reach / fitted.estimate.amplitudes().1);
     let mut statement = Statement {

@@ -2,7 +2,7 @@
 
 use crate::accuracy::trade::TradePoint;
 use crate::closed_form::lyapunov;
-use crate::fit::{Dropped, Extent, Signal};
+use crate::fit::{Dropped, Signal};
 use crate::flow::{Outcome, Trajectory};
 use crate::model::parameters::energy;
 use crate::model::{Knob, State};
@@ -55,12 +55,12 @@ pub(crate) fn fitted(session: &Session, index: usize) -> Option<Window> {
         View::EnergyRate => energy_rate(session),
         View::Eigenvalues => eigenvalues(session),
         View::Speeds => speeds(session, index),
-        View::Damping => extent(session.fitted()?.fit.curves.damping.extent),
+        View::Damping => Window::of(session.fitted()?.fit.curves.damping.extent),
         View::Residuals => {
             let fit = &session.fitted()?.fit;
-            extent(fit.curves.residual_extent(fit.estimate.covariance.deviation)?)
+            Window::of(fit.curves.residual_extent(fit.estimate.covariance.deviation)?)
         }
-        View::Spread => extent(session.fitted()?.fit.curves.spread_extent),
+        View::Spread => Window::of(session.fitted()?.fit.curves.spread_extent),
         View::Scan => session.scanned.as_ref().map(ScanOnShow::window),
         #[allow(
             unreachable_patterns,
@@ -73,10 +73,6 @@ pub(crate) fn fitted(session: &Session, index: usize) -> Option<Window> {
 /// A span with room at both ends.
 fn roomy(span: Span) -> Span {
     span.scaled(span.center(), ROOM)
-}
-
-fn extent([left, right, low, high]: Extent) -> Option<Window> {
-    Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })
 }
 
 /// Whether something that a plot shows has yet to be computed.
