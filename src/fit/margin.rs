@@ -64,10 +64,8 @@ impl MarginQuestion {
             return Ok(*plain);
         }
         let scale = self.inertia.map_or(1.0, |(it, metres)| metres * it.times(p[OMEGA0], 2));
-        let mut known = ParameterBox::from(&parameters(p));
-        for (knob, half_width) in Knob::PARAMETERS.into_iter().zip(self.half_widths) {
-            known.widen(knob, half_width);
-        }
+        let half_widths = Knob::PARAMETERS.into_iter().zip(self.half_widths);
+        let known = ParameterBox::around(&parameters(p), half_widths);
         let found = guaranteed(&known, self.disturbance / scale, 0.0, limits)?;
         Ok(found.map_or(Margin::ZERO, |(_, margin)| margin))
     }

@@ -46,15 +46,23 @@ impl ParameterBox {
         Ok(())
     }
 
-    /// Makes the interval of a parameter wider on both sides, within the range of the parameter. Its ends, unlike the
-    /// parameter, may be arbitrarily close to 0. The start of a motion has no interval.
-    pub fn widen(&mut self, symbol: Knob, half_width: f64) {
-        let KnobSpec { min, max, .. } = *symbol.spec();
-        if let Some(part) = self.part(symbol) {
-            let [lower, upper] =
-                [part.lower(), part.upper()].map(|end| Interval::around(end, half_width));
-            *part = Interval::new(lower.lower().max(min), upper.upper().min(max));
+    /// The box that reaches from the parameters by these half widths to both sides, within their ranges. Its ends, unlike
+    /// a parameter, may be arbitrarily close to 0. The start of a motion has no interval.
+    #[must_use]
+    pub fn around(
+        parameters: &Parameters,
+        half_widths: impl IntoIterator<Item = (Knob, f64)>,
+    ) -> Self {
+        let mut known = ParameterBox::from(parameters);
+        for (symbol, half_width) in half_widths {
+            let KnobSpec { min, max, .. } = *symbol.spec();
+            if let Some(part) = known.part(symbol) {
+                let [lower, upper] =
+                    [part.lower(), part.upper()].map(|end| Interval::around(end, half_width));
+                *part = Interval::new(lower.lower().max(min), upper.upper().min(max));
+            }
         }
+        known
     }
 
     fn part(&mut self, symbol: Knob) -> Option<&mut Interval> {

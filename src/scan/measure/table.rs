@@ -226,11 +226,7 @@ impl From<StartWindow> for Conditions {
 impl Conditions {
     /// The box of parameters around these; friction is never negative.
     pub fn around(&self, parameters: &Parameters) -> ParameterBox {
-        let mut known = ParameterBox::from(parameters);
-        for &(symbol, half_width) in &self.half_widths {
-            known.widen(symbol, half_width);
-        }
-        known
+        ParameterBox::around(parameters, self.half_widths.iter().copied())
     }
 
     /// The window of a machine, from its steady position.

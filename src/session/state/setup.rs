@@ -140,11 +140,7 @@ impl Uncertainty {
 
     /// The intervals of the parameters, limited to their ranges.
     pub fn known(&self, parameters: &Parameters) -> ParameterBox {
-        let mut known = ParameterBox::from(parameters);
-        for (symbol, half_width) in Knob::PARAMETERS.into_iter().zip(self.half_widths) {
-            known.widen(symbol, half_width);
-        }
-        known
+        ParameterBox::around(parameters, Knob::PARAMETERS.into_iter().zip(self.half_widths))
     }
 
     /// The tolerances from a machine's file, in the units of its oscillator.
