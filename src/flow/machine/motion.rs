@@ -3,7 +3,7 @@
 use super::arc::{Flow, SeriesStep, Watch};
 use super::ledger::StepWorks;
 use super::series::ORDER;
-use super::stepped;
+use super::stepped::{self, PhaseStepper};
 use crate::flow::motion::Leg;
 use crate::flow::{Cost, Crossing, Detail, Method, Outcome, Problem, Sample, Trajectory};
 use crate::model::{ContactState, Model, Phase, Reason, State};
@@ -45,51 +45,30 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
     let Problem { initial: State { q, v }, until, method, .. } = *problem;
     let MotionUnits { length, omega_0, energy } = units;
     let start = (q * length, v * length / omega_0);
-    let (mut x, mut y) = start;
     let whole = until * omega_0;
     let mut stepper = stepped::stepper(model, method);
     let detail = Detail { energy: detail.energy && stepper.is_none(), ..detail };
-    let most = if stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
     let mut recorder = MotionRecorder {
         units,
         detail,
         works: StepWorks::default(),
+        legs: Vec::new(),
+        crossings: Vec::new(),
         samples: vec![Sample { tau: 0.0, q, v }],
         whole,
         left: whole,
         steps: 0,
         state: start,
-        x: (x, x),
-        y: (y, y),
+        x: (start.0, start.0),
+        y: (start.1, start.1),
     };
-    let mut flow = Flow::new(model);
-    let (mut legs, mut crossings) = (Vec::new(), Vec::new());
-    let mut place = model.place(x, y);
-    let ended = loop {
-        if recorder.left <= 0.0 {
-            break None;
-        }
-        if recorder.steps > most {
-            break Some(Reason::Steps);
-        }
-        let start = recorder.sample(0.0, (x, y));
-        if !legs.is_empty() && y == 0.0 {
-            crossings.push(Crossing { tau: start.tau, q: start.q });
-        }
-        legs.push(Leg { place, start });
-        match flow.leg(stepper.as_mut(), place, (x, y), &mut recorder) {
-            Ok(Some(leg)) => (place, x, y) = (leg.place, leg.x, leg.y),
-            _ if recorder.left <= 0.0 => break None,
-            Ok(None) => break Some(Reason::Settles),
-            Err(stop) => break Some(stop),
-        }
-    };
+    let ended = recorder.run(&mut Flow::new(model), stepper.as_mut());
     let end = recorder.sample(0.0, recorder.state);
     if detail.samples_per_step == 0 {
         recorder.samples.push(end);
     }
     let Sample { tau, q, v } = end;
-    let MotionRecorder { works, samples, steps, state, x, y, .. } = recorder;
+    let MotionRecorder { works, legs, crossings, samples, steps, state, x, y, .. } = recorder;
     let scaled = |(low, high): (f64, f64), one: f64| (low * one, high * one);
     let evaluations =
         stepper.as_ref().map_or(steps * ORDER as u64, |stepper| stepper.cost().evaluations);
@@ -131,6 +110,8 @@ struct MotionRecorder {
     units: MotionUnits,
     detail: Detail,
     works: StepWorks,
+    legs: Vec<Leg>,
+    crossings: Vec<Crossing>,
     samples: Vec<Sample>,
     whole: f64,
     left: f64,
@@ -141,6 +122,37 @@ struct MotionRecorder {
 }
 
 impl MotionRecorder {
+    /// Follows the motion leg by leg, by Taylor series where there is no other stepper. Returns why it ends; `None` where
+    /// its time is up.
+    fn run<'a>(
+        &mut self,
+        flow: &mut Flow<'a>,
+        mut stepper: Option<&mut PhaseStepper<'a>>,
+    ) -> Option<Reason> {
+        let most = if stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
+        let (mut x, mut y) = self.state;
+        let mut place = flow.model.place(x, y);
+        loop {
+            if self.left <= 0.0 {
+                return None;
+            }
+            if self.steps > most {
+                return Some(Reason::Steps);
+            }
+            let start = self.sample(0.0, (x, y));
+            if !self.legs.is_empty() && y == 0.0 {
+                self.crossings.push(Crossing { tau: start.tau, q: start.q });
+            }
+            self.legs.push(Leg { place, start });
+            match flow.leg(stepper.as_deref_mut(), place, (x, y), self) {
+                Ok(Some(leg)) => (place, x, y) = (leg.place, leg.x, leg.y),
+                _ if self.left <= 0.0 => return None,
+                Ok(None) => return Some(Reason::Settles),
+                Err(stop) => return Some(stop),
+            }
+        }
+    }
+
     fn reaches(&mut self, (x, y): (f64, f64)) {
         self.x = (self.x.0.min(x), self.x.1.max(x));
         self.y = (self.y.0.min(y), self.y.1.max(y));

@@ -75,7 +75,8 @@ impl StepInside for LastStep<'_, '_> {
 
     fn turning(&mut self, end: f64) -> f64 {
         let bracket = Bracket { low: 0.0, high: end, rising: self.velocity(0.0).1 < 0.0 };
-        newton(bracket, 0.5 * end, PlaceTolerance::Absolute(1e-16 * end), |t| {
+        // Where the velocity is flat, an error e in time costs only e^2 in it.
+        newton(bracket, 0.5 * end, PlaceTolerance::Absolute(1e-9 * end), |t| {
             let (velocity, slope) = self.velocity(t);
             (slope, self.field.divergence(velocity) * slope - velocity)
         })
