@@ -11,11 +11,11 @@ use crossbeam_channel::unbounded;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect, Size};
 
-use super::application::{Application, Event, ReplayResult};
+use super::application::{Application, ReplayResult};
 use super::effects::Files;
 use super::launch::launch;
 use super::pump::{Options, Pump};
-use super::workers::{Tell, Work, Workers};
+use super::workers::{Tell, Work};
 use super::{print, provenance_file, scanning};
 use crate::figure::{self, FileForm};
 use crate::fit::Unfit;
@@ -162,14 +162,12 @@ pub fn play(
     may_play_write: bool,
 ) -> io::Result<ReplayResult<Explorer>> {
     let crate::session::Size { width, height } = session.size;
-    let (send, events) = unbounded();
-    let report = Arc::new(move |msg| drop(send.send(Event::Session(msg))));
-    let workers = Workers::new(Arc::new(answer), report);
     let screen = Screen::new(io::sink(), Size { width, height })?;
     let files = Files { may_play_write, ..Files::default() };
     let options = Options { replay: Some(script), files, ..Options::default() };
     let explorer = Explorer::new(session, environment);
-    Pump::new(explorer, screen, workers, events, options, Size::default).unattended()
+    let answer = Arc::new(answer);
+    Pump::new(explorer, screen, answer, unbounded(), options, Size::default).unattended()
 }
 
 #[cfg(test)]

@@ -10,13 +10,13 @@ use crossbeam_channel::unbounded;
 use ratatui::layout::Size;
 use rustix::io::Errno;
 
-use super::application::{Application, Event, LoopEnd};
+use super::application::{Application, LoopEnd};
 use super::effects::Files;
 use super::new_file::Readers;
 use super::pump::{Options, Pump};
 use super::signals::{self, exit_code};
 use super::standard::tell;
-use super::workers::{Compute, Workers};
+use super::workers::Compute;
 use super::{input, panics};
 use crate::session::Notice;
 use crate::terminal::{Guard, Screen};
@@ -41,10 +41,8 @@ pub fn launch(
     guard.mouse(options.mouse)?;
     guard.enter()?;
     input::start(send.clone())?;
-    let report = Arc::new(move |msg| drop(send.send(Event::Session(msg))));
-    let workers = Workers::new(answer, report);
     let screen = Screen::new(Arc::clone(&guard.out), terminal_size())?;
-    let mut pump = Pump::new(application, screen, workers, events, options, terminal_size);
+    let mut pump = Pump::new(application, screen, answer, (send, events), options, terminal_size);
     pump.repaint()?;
     // A panic has already been reported and the terminal given back; the panic still ends the program.
     let conducted = catch_unwind(AssertUnwindSafe(|| conduct(&mut pump, &guard)));

@@ -9,9 +9,10 @@
 use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crossbeam_channel::{Receiver, RecvTimeoutError};
+use crossbeam_channel::{Receiver, RecvTimeoutError, Sender};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
@@ -20,7 +21,7 @@ use super::effects::Files;
 use super::new_file::Readers;
 use super::record::RecordingFile;
 use super::scan_file;
-use super::workers::Workers;
+use super::workers::{Compute, Workers};
 use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script, ScriptError};
 use crate::session::{Effect, Msg, Notice, Pointed};
@@ -95,12 +96,12 @@ pub struct Pump<M, W: Write> {
 }
 
 impl<M: Application, W: Write> Pump<M, W> {
-    /// A loop that has drawn nothing yet.
+    /// A loop that has drawn nothing yet, on both ends of its channel; `answer` computes what the application wants.
     pub fn new(
         application: M,
         screen: Screen<W>,
-        workers: Workers,
-        events: Receiver<Event>,
+        answer: Arc<Compute>,
+        (send, events): (Sender<Event>, Receiver<Event>),
         mut options: Options,
         terminal_size: fn() -> Size,
     ) -> Pump<M, W> {
@@ -109,10 +110,11 @@ impl<M: Application, W: Write> Pump<M, W> {
             // Its steps are recorded as they are given.
             options.recorder.forget(1);
         }
+        let report = Arc::new(move |msg| drop(send.send(Event::Session(msg))));
         Pump {
             application,
             screen,
-            workers,
+            workers: Workers::new(answer, report),
             events,
             missed: VecDeque::new(),
             options,

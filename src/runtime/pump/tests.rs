@@ -110,13 +110,10 @@ fn playing(file: &str) -> Bench {
 fn bench_with(options: Options) -> Bench {
     let (write, written) = unbounded();
     let (events, received) = unbounded();
+    let channel = (events.clone(), received);
     let screen = Screen::new(Wire(write), size()).unwrap();
     let job = |_: &Request, _: &crate::flow::Limits, _: &Tell| Err(Reason::OutOfRange);
-    let report = events.clone();
-    let report = move |msg| drop(report.send(Event::Session(msg)));
-    let workers = Workers::new(Arc::new(job), Arc::new(report));
-    let application = Counter::default();
-    let pump = Pump::new(application, screen, workers, received, options, size);
+    let pump = Pump::new(Counter::default(), screen, Arc::new(job), channel, options, size);
     Bench { pump, events, written }
 }
 
