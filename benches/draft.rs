@@ -13,7 +13,6 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use hopfscope::flow::quality::DRAFT;
 use hopfscope::runtime::explorer::answer;
-use hopfscope::runtime::workers::Workers;
 use hopfscope::runtime::{Application, Event, Explorer, Options, Pump};
 use hopfscope::scene::{Request, Scene, Topic, library};
 use hopfscope::session::{Effect, Msg, Session, Size};
@@ -149,14 +148,12 @@ fn costliest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, Stri
     let (complete, idle) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
     let line = Line { complete: Arc::clone(&complete), arrived: arrive, events: events.clone() };
     let size = ratatui::layout::Size { width, height };
-    let report = events.clone();
-    let report = Arc::new(move |msg| drop(report.send(Event::Session(msg))));
-    let workers = Workers::new(Arc::new(answer), report);
+    let (answer, channel) = (Arc::new(answer), (events.clone(), received));
     let screen = Screen::new(line, size).expect("a screen");
     let explorer = Explorer::new(session, Environment::default());
     let application = Watched { explorer, complete, idle: Arc::clone(&idle) };
     let mut pump =
-        Pump::new(application, screen, workers, received, Options::default(), Default::default);
+        Pump::new(application, screen, answer, channel, Options::default(), Default::default);
     let running = std::thread::spawn(move || pump.run().map(drop));
     let user = User { events, arrived, idle };
     user.settle();

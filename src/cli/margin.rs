@@ -150,21 +150,17 @@ impl KicksCommand {
     pub fn run(&self) -> Result<(), Failure> {
         const FAILED: &str = "the kicks could not be followed";
         let law = read("--kicks", &self.law, |text| self.source.numbers().kicks(text))?;
-        if let Some(case) = self.source.portrayed()? {
-            let (portrait, before) = case.portrait(&self.output)?;
-            let follow = || repeated(&portrait, &law, &Limits::PATIENT);
-            let (found, seconds) = self.output.timed(FAILED, follow)?;
-            let (about, held) = (case.about(), portrait.model.guide_static);
-            return self.output.print(kicks(&about, &law, &found, held, before + seconds));
-        }
-        let parameters = self.source.start.scene(None)?.problem.parameters;
-        let reach = law.reach() + parameters.r;
-        let follow = || {
-            let portrait = Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT)?;
-            repeated(&portrait, &law, &Limits::PATIENT)
+        let (about, (portrait, before)) = if let Some(case) = self.source.portrayed()? {
+            (case.about(), case.portrait(&self.output)?)
+        } else {
+            let parameters = self.source.start.scene(None)?.problem.parameters;
+            let reach = law.reach() + parameters.r;
+            let ask = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
+            (About::oscillator(&parameters), self.output.timed(FAILED, ask)?)
         };
+        let follow = || repeated(&portrait, &law, &Limits::PATIENT);
         let (found, seconds) = self.output.timed(FAILED, follow)?;
-        let about = About::oscillator(&parameters);
-        self.output.print(kicks(&about, &law, &found, parameters.r, seconds))
+        let held = portrait.model.guide_static;
+        self.output.print(kicks(&about, &law, &found, held, before + seconds))
     }
 }
