@@ -1,13 +1,13 @@
 //! Fitting the oscillator to a recorded motion: estimates of all its numbers, with honest errors.
 //!
 //! [`record`] reads the files of instruments. [`mod@guess`] makes a first guess from the [`mod@turning_points`], by the
-//! decrements of averaging. [`motion`] follows a motion with its exact derivatives, half swing by
-//! half swing ([`half_swing`]); [`observation`] compares it with the record. [`task`] says what is estimated,
+//! decrements of averaging. [`motion`] follows a motion with its exact derivatives, half swing by half swing
+//! ([`half_swing`]); [`observation`] compares it with the record. [`task`] says what is estimated,
 //! [`levenberg_marquardt`] minimizes the loss, and [`search`] finds the right [`valley`] for it. [`mod@samples`]
-//! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for correlated noise
-//! ([`uncertainty`], [`residuals`]); intervals where the loss is not quadratic ([`profile`]); numbers of which only
-//! combinations are known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What all of this
-//! rests on is tested by the record itself ([`mod@conditions`]).
+//! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for
+//! correlated noise ([`uncertainty`], [`residuals`]); intervals where the loss is not quadratic ([`profile`]); numbers
+//! of which only combinations are known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What
+//! all of this rests on is tested by the record itself ([`mod@conditions`]).
 //!
 //! Nothing here reads or writes files: text goes in, estimates come out.
 //!
