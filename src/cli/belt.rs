@@ -156,7 +156,7 @@ impl BeltCommand {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
         let needed = friction_of_guide(subject, known, kick, wanted)?;
         let at = subject.of_belt().map(|belt| belt.belt_speed);
-        let has = subject.friction();
+        let has = subject.get(Knob::Friction).unwrap_or(0.0);
         Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed, at, has }))
     }
 }

@@ -50,13 +50,18 @@ impl Source {
         }
     }
 
-    /// Its numbers, with their values in SI units.
-    pub fn numbers(&self) -> impl Iterator<Item = (Knob, f64)> + '_ {
-        let value = |knob: Knob| match &self.body {
+    /// One of its numbers, in SI units; `None` if it has none such.
+    #[must_use]
+    pub fn get(&self, knob: Knob) -> Option<f64> {
+        match &self.body {
             Body::Belt(belt) => knob.of_belt(belt),
             Body::Mode(mode) => knob.of_mode(mode),
-        };
-        KNOBS.iter().filter_map(move |row| Some((row.knob, value(row.knob)?)))
+        }
+    }
+
+    /// Its numbers, with their values in SI units.
+    pub fn numbers(&self) -> impl Iterator<Item = (Knob, f64)> + '_ {
+        KNOBS.iter().filter_map(|row| Some((row.knob, self.get(row.knob)?)))
     }
 
     /// The same with a number at another value.
@@ -88,15 +93,6 @@ impl Source {
         match &self.body {
             Body::Belt(belt) => Some(belt),
             Body::Mode(_) => None,
-        }
-    }
-
-    /// The friction of its guide, in N.
-    #[must_use]
-    pub fn friction(&self) -> f64 {
-        match &self.body {
-            Body::Belt(belt) => belt.friction,
-            Body::Mode(mode) => mode.friction,
         }
     }
 
