@@ -130,19 +130,12 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
 
 /// A closed curve as points, `points` + 1 on each piece that slips.
 pub(super) fn places(curve: &MachineCurve, model: &Model, points: u16) -> Vec<State> {
-    let state = |x: f64, y: f64| State { q: x / model.pull, v: y / model.pull };
-    let mut found = Vec::new();
-    for piece in &curve.pieces {
-        match piece {
-            CurvePiece::Slip(slip) => found.extend((0..=points).map(|point| {
-                let (x, y) = slip.at(slip.duration * f64::from(point) / f64::from(points.max(1)));
-                state(x, y)
-            })),
-            CurvePiece::Line { from, to } => {
-                found.extend([*from, *to].map(|x| state(x, model.speed)));
-            }
-        }
-    }
+    let between =
+        |piece: &CurvePiece| if matches!(piece, CurvePiece::Slip(_)) { points } else { 1 };
+    let pieces = curve.pieces.iter();
+    let states = pieces.flat_map(|piece| piece.points(between(piece), model.speed));
+    let scaled = |State { q, v }| State { q: q / model.pull, v: v / model.pull };
+    let mut found: Vec<State> = states.map(scaled).collect();
     found.extend(found.first().copied());
     found
 }

@@ -56,6 +56,18 @@ impl Slip {
     }
 }
 
+impl CurvePiece {
+    /// `between` + 1 of its points.
+    pub fn points(&self, between: u16, speed: f64) -> impl Iterator<Item = State> {
+        let part = move |point: u16| f64::from(point) / f64::from(between.max(1));
+        let at = move |point: u16| match self {
+            CurvePiece::Slip(slip) => slip.at(slip.duration * part(point)),
+            CurvePiece::Line { from, to } => (from + part(point) * (to - from), speed),
+        };
+        (0..=between).map(at).map(|(q, v)| State { q, v })
+    }
+}
+
 /// A motion, or the border of a basin, as a curve in the phase plane.
 #[derive(Clone, Debug, Default)]
 pub struct MachineCurve {
@@ -122,14 +134,6 @@ impl MachineCurve {
 
     /// Its points, `between` + 1 on each piece; velocities divided by the natural frequency.
     pub fn points(&self, between: u16, speed: f64) -> Vec<State> {
-        let part = |point: u16| f64::from(point) / f64::from(between.max(1));
-        let on = |piece: &CurvePiece| -> Vec<State> {
-            let at = |point: u16| match piece {
-                CurvePiece::Slip(slip) => slip.at(slip.duration * part(point)),
-                CurvePiece::Line { from, to } => (from + part(point) * (to - from), speed),
-            };
-            (0..=between).map(at).map(|(q, v)| State { q, v }).collect()
-        };
-        self.pieces.iter().flat_map(on).collect()
+        self.pieces.iter().flat_map(|piece| piece.points(between, speed)).collect()
     }
 }
