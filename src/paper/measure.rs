@@ -294,13 +294,17 @@ pub fn amplitude(cycle: &BoundedCycle) -> Known {
     of_cycle(cycle, 0.5 * (cycle.q_max - cycle.q_min), |it| (it.q_max - it.q_min) * 0.5)
 }
 
-/// Mean displacement of a cycle over its period. Fails with the [`Reason`] why its arcs could not be computed.
+/// Mean displacement of a cycle over its period: over one turn all forces cancel, those that depend on the velocity and
+/// the spring's. Fails with the [`Reason`] why its arcs could not be computed.
 pub fn mean(parameters: &Parameters, cycle: &Cycle, limits: &Limits) -> Result<Known, Reason> {
-    /// Relative error of the integral of q by arcs to 1e-14.
+    /// Relative error of the integrals by arcs to 1e-14.
     const INTEGRAL: f64 = 1e-11;
     let [rise, fall] = arcs(parameters, cycle, limits)?;
-    let mean = (rise.time_integral() + fall.time_integral()) / cycle.period;
-    Ok(Known::new(mean, INTEGRAL * cycle.q_max))
+    let Parameters { d2, d3, r, .. } = *parameters;
+    let [up, down] = [rise.powers(), fall.powers()];
+    let even = d2 * (up.second + down.second);
+    let odd = d3 * (up.third - down.third) + r * (rise.swing.duration - fall.swing.duration);
+    Ok(Known::new(-(even + odd) / cycle.period, INTEGRAL * cycle.q_max))
 }
 
 /// The arcs of a cycle above and below `v = 0`. Fails with the [`Reason`] why they could not be computed.

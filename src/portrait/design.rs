@@ -77,15 +77,6 @@ impl FrictionNeeded {
     }
 }
 
-/// Friction needed, and what it cost to know.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Design {
-    /// The friction.
-    pub needed: FrictionNeeded,
-    /// Evaluations and steps.
-    pub cost: Cost,
-}
-
 /// Relative width of the bracket at which r is known.
 const WIDTH: f64 = 4.0 * f64::EPSILON;
 
@@ -96,7 +87,8 @@ const BLUR: f64 = 1e-9;
 /// Steps that enclose r, and that narrow it; bisection of the whole range of doubles needs some 2100.
 const STEPS: usize = 2200;
 
-/// The least r at which the margin of `kick` is `wanted` or more; the r in `parameters` does not matter.
+/// The least r at which the margin of `kick` is `wanted` or more, and what it cost; the r in `parameters` does not
+/// matter.
 ///
 /// # Errors
 /// The [`Reason`] why a basin could not be computed, [`Reason::NotApplicable`] unless `wanted` is positive
@@ -106,7 +98,7 @@ pub fn friction_for(
     kick: Kick,
     wanted: f64,
     limits: &Limits,
-) -> Result<Design, Reason> {
+) -> Result<(FrictionNeeded, Cost), Reason> {
     if !(wanted > 0.0 && wanted.is_finite()) {
         return Err(Reason::NotApplicable { needs: "a positive margin" });
     }
@@ -119,7 +111,7 @@ pub fn friction_for(
     };
     let needed = least_friction(wanted, hardly_any(parameters, wanted), &mut excess)?;
     let lost = Reason::NoConvergence { sought: "the friction for a margin", change: f64::NAN };
-    Ok(Design { needed: needed.ok_or(lost)?, cost })
+    Ok((needed.ok_or(lost)?, cost))
 }
 
 /// The friction at which a margin of this size is the one without friction; `None` where that is none,
@@ -263,7 +255,7 @@ mod tests {
 
     fn needed(d: f64, d2: f64, d3: f64, kick: Kick, wanted: f64) -> FrictionNeeded {
         let parameters = Parameters { d, d2, d3, r: 7.0 };
-        friction_for(&parameters, kick, wanted, &Limits::PATIENT).unwrap().needed
+        friction_for(&parameters, kick, wanted, &Limits::PATIENT).unwrap().0
     }
 
     fn margin(d: f64, d2: f64, d3: f64, r: f64) -> Margin {

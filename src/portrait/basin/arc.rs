@@ -12,7 +12,6 @@ use crate::flow::exact::Exact;
 use crate::flow::step::{Powers, Stepper};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
-use crate::numerics::quadrature::gauss;
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::times_power;
 use crate::portrait::closing::half_map::{Direction, HalfMap, HalfSwing, Length, linear_below};
@@ -166,18 +165,6 @@ impl Arc {
             sum.fourth += square * (square * powers.fourth);
         }
         sum
-    }
-
-    /// The integral of the displacement over time.
-    pub fn time_integral(&self) -> f64 {
-        let piece_integral = |piece: &ArcStep| {
-            let displacement = |time: f64| {
-                let x = self.direction.sense() * times_power(piece.step.at(time).x, piece.unit);
-                self.side.displacement(x, self.r)
-            };
-            piece.duration * gauss(|part| displacement(part * piece.duration))
-        };
-        self.pieces.iter().map(piece_integral).sum()
     }
 
     /// Points along the arc in the order of time, `count` on each integration step.

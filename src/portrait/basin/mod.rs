@@ -123,21 +123,18 @@ pub fn basin(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Bas
 /// The fates of the regions that nested cycles make, from the inside out. A separatrix may already have
 /// taken the sticking set's own region.
 fn fates_between(parameters: &Parameters, stable: &[bool], with_centre: bool) -> Vec<Fate> {
-    let outside = match stable.last() {
-        Some(true) => Fate::Cycle(stable.len() - 1),
-        None if with_centre => centre_fate(parameters),
-        Some(false) | None => Fate::Escapes,
+    let within = |outer: usize| {
+        let inner = outer.checked_sub(1).and_then(|inner| stable.get(inner));
+        match (inner, stable.get(outer)) {
+            (None, Some(true)) if parameters.r > 0.0 && with_centre => Fate::Rest,
+            (_, Some(true)) => Fate::Cycle(outer),
+            (None, Some(false)) => Fate::Rest,
+            (None, None) if with_centre => centre_fate(parameters),
+            (None | Some(false), None) => Fate::Escapes,
+            (Some(_), _) => Fate::Cycle(outer - 1),
+        }
     };
-    let inside = match stable.first() {
-        Some(true) if parameters.r > 0.0 && with_centre => Fate::Rest,
-        Some(true) => Fate::Cycle(0),
-        Some(false) => Fate::Rest,
-        None => return vec![outside],
-    };
-    let between = stable.iter().enumerate().skip(1);
-    let between =
-        between.map(|(outer, stable)| Fate::Cycle(if *stable { outer } else { outer - 1 }));
-    std::iter::once(inside).chain(between).chain(std::iter::once(outside)).collect()
+    (0..=stable.len()).map(within).collect()
 }
 
 /// The fate of the whole plane where nothing parts it.

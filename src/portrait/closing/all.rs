@@ -140,8 +140,7 @@ fn resolved(equation: &mut Equation, u: f64) -> Result<Node, Reason> {
         (difference, noise) = (weighed, bound);
     }
     if !decided(difference, noise) && FINER * closing.noise < noise {
-        let mut precise =
-            PreciseEquation::new(&equation.parameters, equation.side, &equation.limits);
+        let mut precise = PreciseEquation::new(equation);
         let start = Twofold::of(closing.first.value);
         let found = precise.at(Route::Mixed, start);
         equation.charge(precise.cost());

@@ -243,7 +243,7 @@ fn sharpen(
     const SETTLED: f64 = 1e-17;
     let route = Route::steadiest(rough.growth);
     let rising = bracket.1.value() > bracket.0.value();
-    let mut precise = PreciseEquation::new(&equation.parameters, equation.side, &equation.limits);
+    let mut precise = PreciseEquation::new(equation);
     let seen = equation.at(route, rough.node.at)?;
     let mut slope = seen.node.slope;
     // The unknown is the start of the rough closing times e^s.

@@ -5,12 +5,12 @@
 //! may graze the sticking set. There the residual is smaller than the rounding of a double. Thirty digits tell
 //! on which side of each such place a double lies, and fix the cycle itself to all digits of a double.
 
-use super::equation::Route;
+use super::equation::{Equation, Route};
 use super::half_map::Direction;
 use crate::flow::precise::{Grain, half_swing};
 use crate::flow::trajectory::Cost;
 use crate::flow::{Limits, Reason};
-use crate::model::{HalfPlane, Parameters, Side};
+use crate::model::HalfPlane;
 use crate::numerics::elementary::ln_1p;
 use crate::numerics::twofold::Twofold;
 
@@ -46,15 +46,12 @@ pub struct ClosingResidual {
 }
 
 impl<'a> PreciseEquation<'a> {
-    /// The equation with the first swing on a given side.
-    pub fn new(parameters: &Parameters, side: Side, limits: &Limits<'a>) -> Self {
-        let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
-        PreciseEquation {
-            limits: *limits,
-            fields,
-            gap: Twofold::of(2.0 * parameters.r),
-            cost: Cost::default(),
-        }
+    /// That of an equation in doubles.
+    pub fn new(equation: &Equation<'a>) -> Self {
+        let Equation { parameters, side, limits, .. } = *equation;
+        let fields = [side, side.opposite()].map(|side| HalfPlane::new(&parameters, side));
+        let gap = Twofold::of(2.0 * parameters.r);
+        PreciseEquation { limits, fields, gap, cost: Cost::default() }
     }
 
     /// What it cost, in evaluations of a double.

@@ -63,9 +63,9 @@ impl<'a> OscillatorPoint<'a> {
             Measure::Proved => self.proof(cells)?,
             Measure::Design => {
                 let Some((kick, wanted)) = cells.conditions.wanted else { return Ok(()) };
-                let found = friction_for(parameters, kick, wanted, limits)?;
-                cells.cost += found.cost;
-                cells.fill(Measure::Design, || [found.needed.least()]);
+                let (needed, cost) = friction_for(parameters, kick, wanted, limits)?;
+                cells.cost += cost;
+                cells.fill(Measure::Design, || [needed.least()]);
             }
             // Without friction there is no set of places to rest.
             Measure::Repeated if parameters.r == 0.0 => {}

@@ -92,7 +92,7 @@ impl<'a> Cells<'a> {
         let ended = outcome.answered().map(|()| [outcome.tau().into(), swings]);
         let word = Value::Word(outcome.word());
         self.fill(Measure::Outcome, || {
-            std::iter::once(word).chain(ended.iter().flatten().cloned())
+            std::iter::once(word).chain(ended.iter().flatten().copied())
         });
         if let Outcome::Captured { tau, q } = outcome {
             self.fill(Measure::Rest, || [q, tau]);
