@@ -179,8 +179,8 @@ fn margin(radius: f64) -> Margin {
 
 pub fn picture(border: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture {
     let margin = margin(0.5);
-    let all = Parameters { d: 1.0, d2: 1.0, d3: 1.0, r: 1.0 };
-    let works = Ledger::of_terms(&all, (0.72, 0.72), [2.5, 0.25, -2.0, -0.75]);
+    let symmetric = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+    let works = Ledger::of_terms(&symmetric, (0.72, 0.72), [2.5, 0.25, -2.0, -0.75]);
     let works = vec![Ledger { residual: 3e-15, ..works }; curves.len()];
     BasinPicture { curves, works, border, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
 }
