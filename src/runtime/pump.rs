@@ -142,6 +142,15 @@ impl<M: Application, W: Write> Pump<M, W> {
             if let Some(stop) = self.play()? {
                 return Ok(stop);
             }
+            // Without a terminal, answers that are there are taken before more is asked for, and none between that and the
+            // next step: what a file shows does not depend on how soon they come.
+            while self.unattended
+                && let Ok(event) = self.events.try_recv()
+            {
+                if let Some(stop) = self.handle(event)? {
+                    return Ok(stop);
+                }
+            }
             self.workers.ask(&self.application.wants());
             self.keep_record()?;
             let mut next = self.wait()?;
@@ -160,6 +169,9 @@ impl<M: Application, W: Write> Pump<M, W> {
         self.release();
         if let Some(event) = self.missed.pop_front() {
             return Ok(Some(event));
+        }
+        if self.unattended && self.changed.take().is_some() {
+            return Ok(None);
         }
         let event = match self.due() {
             None => self.events.recv().map_err(RecvTimeoutError::from),
@@ -285,8 +297,8 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// When to draw; `None` if the screen is up to date and nothing moves.
     fn due(&self) -> Option<Instant> {
-        if self.held || self.unattended {
-            return self.changed.filter(|_| !self.held);
+        if self.held {
+            return None;
         }
         let Some(changed) = self.changed else {
             // Motion is drawn as often as frames may be sent, which over a slow line is less often.
@@ -315,11 +327,9 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     fn draw(&mut self) -> io::Result<()> {
-        if !self.unattended {
-            self.pass_time();
-            let application = &self.application;
-            self.screen.draw(Instant::now(), |frame| application.draw(frame))?;
-        }
+        self.pass_time();
+        let application = &self.application;
+        self.screen.draw(Instant::now(), |frame| application.draw(frame))?;
         self.changed = None;
         Ok(())
     }
