@@ -138,14 +138,14 @@ impl Family<'_> {
     fn signs(&self, value: f64) -> Option<Signs> {
         let model = self.model(value)?;
         let landmarks = Flow::new(&model).landmarks().ok()?;
-        Some(Signs::new(&model, landmarks.as_ref()))
+        Some(signs(&model, landmarks.as_ref()))
     }
 
     /// All changes, in the order of these portraits.
     fn all_changes(&self, portraits: &Portraits) -> Vec<Change> {
         let places = portraits.par_iter().map(|(value, found)| {
             let portrait = found.as_ref().ok()?;
-            let signs = Signs::new(&portrait.model, portrait.landmarks.as_ref());
+            let signs = signs(&portrait.model, portrait.landmarks.as_ref());
             Some(Place { value: *value, portrait, signs })
         });
         let places: Vec<_> = places.collect();
@@ -158,33 +158,26 @@ impl Family<'_> {
 
     /// The changes between two neighbouring values, in their order.
     fn changes(&self, left: &Place, right: &Place) -> Vec<Change> {
-        /// Kinds that are zeros of [`Signs`].
-        const KINDS: [SpecialKind; 5] = [
-            SpecialKind::Hopf,
-            SpecialKind::Grazing,
-            SpecialKind::Annihilation,
-            SpecialKind::Overtaking,
-            SpecialKind::Unsticking,
-        ];
         let step = right.value - left.value;
-        let zero_of = |kind: SpecialKind| {
-            let ends = (left.signs.of(kind)?, right.signs.of(kind)?);
-            if (ends.0 > 0.0) == (ends.1 > 0.0) {
+        let zero_of = |index: usize| {
+            let ends = [left.signs[index]?, right.signs[index]?];
+            if (ends[0].number > 0.0) == (ends[1].number > 0.0) {
                 return None;
             }
-            let of = |value| match kind {
+            let of = |value| match ends[0].kind {
                 // It takes no motion.
                 SpecialKind::Hopf => Some(self.model(value)?.damping),
-                _ => self.signs(value)?.of(kind),
+                _ => Some(self.signs(value)?[index]?.number),
             };
-            let value = zero(&of, (left.value, ends.0), (right.value, ends.1))?;
-            Some(self.change(self.signs(value)?.special(kind, value), step))
+            let value = zero(&of, (left.value, ends[0].number), (right.value, ends[1].number))?;
+            let Sign { kind, q_max, .. } = self.signs(value)?[index]?;
+            Some(self.change(Special { q_max, ..Special::new(kind, value, None) }, step))
         };
         let by_value = |one: &Change, other: &Change| {
             let distance = |change: &Change| (change.special.value - left.value).abs();
             distance(one).total_cmp(&distance(other))
         };
-        let mut found: Vec<Change> = KINDS.into_iter().filter_map(zero_of).collect();
+        let mut found: Vec<Change> = (0..left.signs.len()).filter_map(zero_of).collect();
         found.sort_by(by_value);
         // Between these the portrait keeps its form, unless cycles fold.
         let mut folds = Vec::new();
@@ -256,84 +249,56 @@ impl Family<'_> {
     }
 }
 
-/// The numbers whose zeros are special, at one place; `None` where they do not exist.
-#[derive(Clone, Copy, Debug, Default)]
-struct Signs {
-    damping: f64,
-    /// Whether the guide holds the mass.
-    held: bool,
-    /// Next left turning point of the orbit that touches the line, as if it slipped, less the last one.
-    touching: Option<f64>,
-    /// The same of the orbit that the belt releases.
-    released: Option<f64>,
-    /// The same less the left turning point that leads to the lower end of the stick band.
-    overtaking: Option<f64>,
-    /// Right turning point of what is released, less that from which motions do not stick any more.
-    unsticking: Option<f64>,
-    /// Logarithm of the multiplier of the orbit that touches.
-    log_slope: f64,
-    /// Right turning points of the orbits that touch and that are released.
-    turns: (Option<f64>, Option<f64>),
-    /// Whether static friction exceeds the kinetic one.
-    jumps: bool,
+/// A number whose zero is a change of this kind, and the right turning point of the cycle that lives there.
+#[derive(Clone, Copy, Debug)]
+struct Sign {
+    number: f64,
+    kind: SpecialKind,
+    q_max: Option<f64>,
 }
 
-impl Signs {
-    /// Computes them from the landmarks of the return map.
-    fn new(model: &Model, landmarks: Option<&Landmarks>) -> Self {
-        let mut flow = Flow::new(model);
-        let signs =
-            Signs { damping: model.damping, held: model.guide_static > 0.0, ..Self::default() };
-        let Some(&Landmarks { lines, grazing, released, low_left, beyond }) = landmarks else {
-            return signs;
-        };
-        let mut left = |right: f64| {
-            let place = ContactState::Slips(Phase::Below);
-            let turn = flow.turn(place, (right, 0.0), &mut ()).ok()?;
-            (!turn.rests).then_some(turn.x)
-        };
-        // What comes to rest on the left would have turned where the guide lets go.
-        let held = -model.guide_static;
-        let of =
-            |right: f64, left: Option<f64>| if right > 0.0 { left.unwrap_or(held) } else { held };
-        let after_touch = of(grazing.image, left(grazing.image.max(model.guide_static)));
-        let after_release = released.map(|right| of(right, left(right)));
-        Signs {
-            touching: Some(after_touch - grazing.left),
-            released: Some(after_release.unwrap_or(held) - grazing.left),
-            overtaking: after_release.map(|left| left - low_left),
-            unsticking: released.zip(beyond).map(|(right, beyond)| right - beyond),
-            log_slope: grazing.log_slope,
-            turns: (grazing.right, released),
-            jumps: lines.release > lines.fold,
-            ..signs
-        }
-    }
+/// The numbers whose zeros are changes, each at its own place; `None` where one does not exist.
+type Signs = [Option<Sign>; 5];
 
-    /// One of the numbers.
-    fn of(&self, kind: SpecialKind) -> Option<f64> {
-        let rides = self.released.is_some_and(|released| released <= 0.0);
-        match kind {
-            SpecialKind::Hopf => (!self.held).then_some(self.damping),
-            SpecialKind::Grazing => self.touching,
-            SpecialKind::Annihilation => self.released.filter(|_| self.jumps),
-            SpecialKind::Overtaking => self.overtaking.filter(|_| rides),
-            SpecialKind::Unsticking => self.unsticking.filter(|_| rides),
-            SpecialKind::Fold | SpecialKind::Escape | SpecialKind::ZeroCrossing => None,
-        }
-    }
-
-    /// The change at a zero; a touch of an unstable cycle is where the stick-slip cycle ends.
-    fn special(&self, kind: SpecialKind, value: f64) -> Special {
-        let ends = kind == SpecialKind::Grazing && !self.jumps && self.log_slope > 0.0;
-        let q_max = match kind {
-            SpecialKind::Hopf => None,
-            SpecialKind::Grazing => self.turns.0,
-            _ => self.turns.1,
-        };
-        let kind = if ends { SpecialKind::Annihilation } else { kind };
-        Special { q_max, ..Special::new(kind, value, None) }
-    }
+/// Computes them from the landmarks of the return map.
+fn signs(model: &Model, landmarks: Option<&Landmarks>) -> Signs {
+    let sign = |kind, q_max, number: Option<f64>| Some(Sign { number: number?, kind, q_max });
+    let unheld = model.guide_static <= 0.0;
+    let hopf = sign(SpecialKind::Hopf, None, unheld.then_some(model.damping));
+    let Some(&Landmarks { lines, grazing, released, low_left, beyond }) = landmarks else {
+        return [hopf, None, None, None, None];
+    };
+    let mut flow = Flow::new(model);
+    let mut left = |right: f64| {
+        let place = ContactState::Slips(Phase::Below);
+        let turn = flow.turn(place, (right, 0.0), &mut ()).ok()?;
+        (!turn.rests).then_some(turn.x)
+    };
+    // What comes to rest on the left would have turned where the guide lets go.
+    let held = -model.guide_static;
+    let of = |right: f64, left: Option<f64>| if right > 0.0 { left.unwrap_or(held) } else { held };
+    let after_touch = of(grazing.image, left(grazing.image.max(model.guide_static)));
+    let after_release = released.map(|right| of(right, left(right)));
+    // The next left turning points of the orbit that touches the line, as if it slipped, and of the one that the belt
+    // releases, less the last one.
+    let touching = after_touch - grazing.left;
+    let ending = after_release.unwrap_or(held) - grazing.left;
+    let rides = ending <= 0.0;
+    // Whether static friction exceeds the kinetic one.
+    let jumps = lines.release > lines.fold;
+    // A touch of an unstable cycle is where the stick-slip cycle ends.
+    let ends = !jumps && grazing.log_slope > 0.0;
+    let touch = if ends { SpecialKind::Annihilation } else { SpecialKind::Grazing };
+    // What is released comes to the lower end of the stick band, or to where motions do not stick any more.
+    let overtaking = after_release.filter(|_| rides).map(|left| left - low_left);
+    let unsticking = released.filter(|_| rides).zip(beyond).map(|(right, beyond)| right - beyond);
+    [
+        hopf,
+        sign(touch, grazing.right, Some(touching)),
+        sign(SpecialKind::Annihilation, released, jumps.then_some(ending)),
+        sign(SpecialKind::Overtaking, released, overtaking),
+        sign(SpecialKind::Unsticking, released, unsticking),
+    ]
 }
 
 /// The zero of a function between two values of different sign; `None` where the function does not exist on
