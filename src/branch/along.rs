@@ -103,7 +103,7 @@ pub fn branch(
     }
     let (pieces, special, vague) = Default::default();
     let found = Branch { parameter, pieces, special, vague, cost: Cost::default() };
-    let mut tracer = CurveTracer { curve, parameter, range: (from, to), points, found };
+    let mut tracer = CurveTracer { curve, range: (from, to), points, found };
     if parameter == Knob::D && parameters.is_piecewise_linear() {
         tracer.found.pieces.extend(linear_branch(parameters.r, from, to, points));
         tracer.hopf(parameters.r);
@@ -164,7 +164,6 @@ const SHALLOW: f64 = 28.0;
 /// A branch in progress.
 struct CurveTracer<'a> {
     curve: CycleCurve<'a>,
-    parameter: Knob,
     /// The part of the range that is traced.
     range: (f64, f64),
     points: Points,
@@ -186,7 +185,7 @@ impl CurveTracer<'_> {
         for fraction in PROBES {
             let p = if fraction == 1.0 { to } else { from + fraction * (to - from) };
             for seed in self.seeds(p, &self.known(&curves))? {
-                let graph = self.parameter != Knob::D2;
+                let graph = self.found.parameter != Knob::D2;
                 let covered = |curve: &Vec<CurvePoint>| {
                     (graph && covers(curve, &seed)) || passes(curve, &seed)
                 };
@@ -216,7 +215,7 @@ impl CurveTracer<'_> {
     /// The intervals of u over which all cycles are known: those of the curves, where a curve is a graph
     /// over the amplitude.
     fn known(&self, curves: &[Vec<CurvePoint>]) -> Vec<(f64, f64)> {
-        if self.parameter == Knob::D2 {
+        if self.found.parameter == Knob::D2 {
             return Vec::new();
         }
         let ends = |curve: &Vec<CurvePoint>| {
@@ -230,7 +229,7 @@ impl CurveTracer<'_> {
     fn seeds(&mut self, p: f64, known: &[(f64, f64)]) -> Result<Vec<CurvePoint>, Reason> {
         let parameters = self.curve.parameters_at(p);
         let rough = self.points == Points::Followed;
-        let Limits { evaluations, interrupted } = *self.curve.limits();
+        let Limits { evaluations, interrupted } = *self.curve.limits;
         let evaluations = if rough { evaluations.min(SEED_BUDGET) } else { evaluations };
         let limits = Limits { evaluations, interrupted };
         let mut equation =
@@ -249,7 +248,7 @@ impl CurveTracer<'_> {
         let ((from, to), bounds) = (self.range, self.bounds_of_u());
         // With D3 = 0 a cycle only ever fades by going to infinity.
         let fades = matches!(self.points, Points::Even(_))
-            && self.parameter != Knob::D3
+            && self.found.parameter != Knob::D3
             && self.curve.parameters_at(from).d3 == 0.0;
         let leaves = move |point: &CurvePoint| {
             (fades && point.closing.uncertainty > VAGUE)
@@ -299,7 +298,7 @@ impl CurveTracer<'_> {
         } else {
             // Towards a Hopf point D goes to 0 as the square of the amplitude.
             let smallest = if r > 0.0 { deepest } else { ln(natural) + ln(NEAREST) };
-            if self.parameter == Knob::D3 {
+            if self.found.parameter == Knob::D3 {
                 let least = NEAREST * self.curve.scale;
                 // Sizes there: by linear and cubic damping alone (52), by friction and cubic damping (50),
                 // on the slow manifold by asymmetric and cubic damping; finally those of the cycles that go
@@ -320,7 +319,7 @@ impl CurveTracer<'_> {
     /// Notes the cycles at `D = 0`: where the curves pass it, and what else there may be.
     fn zero_crossings(&mut self, curves: &[Vec<CurvePoint>]) -> Result<(), Reason> {
         let friction = self.curve.parameters_at(0.0).r > 0.0;
-        if self.parameter != Knob::D || !friction || !self.reaches(0.0) {
+        if self.found.parameter != Knob::D || !friction || !self.reaches(0.0) {
             return Ok(());
         }
         let mut found = self.seeds(0.0, &self.known(curves))?;
@@ -405,7 +404,7 @@ impl CurveTracer<'_> {
 
     /// Notes the Hopf point: without friction the steady state changes its stability at `D = 0`.
     fn hopf(&mut self, r: f64) {
-        if self.parameter == Knob::D && r == 0.0 && self.reaches(0.0) {
+        if self.found.parameter == Knob::D && r == 0.0 && self.reaches(0.0) {
             self.found.special.push(Special::new(SpecialKind::Hopf, 0.0, Some(vanishing())));
         }
     }
@@ -414,19 +413,20 @@ impl CurveTracer<'_> {
     fn special_points(&mut self) -> Result<(), Reason> {
         let parameters = self.curve.parameters_at(0.0);
         self.hopf(parameters.r);
-        let values = match self.parameter {
+        let values = match self.found.parameter {
             Knob::D => {
-                let (value, cost) = escape_point(&parameters, self.curve.limits())?;
+                let (value, cost) = escape_point(&parameters, self.curve.limits)?;
                 self.found.cost += cost;
                 [value, None]
             }
             Knob::D2 | Knob::R if parameters.d3 == 0.0 => {
                 // Only the product of friction and asymmetric damping matters.
-                let other = if self.parameter == Knob::R { parameters.d2 } else { parameters.r };
-                let (product, cost) = escape_product(parameters.d, self.curve.limits())?;
+                let other =
+                    if self.found.parameter == Knob::R { parameters.d2 } else { parameters.r };
+                let (product, cost) = escape_product(parameters.d, self.curve.limits)?;
                 self.found.cost += cost;
                 let value = product.map(|product| product / other.abs());
-                [value, value.filter(|_| self.parameter == Knob::D2).map(|value| -value)]
+                [value, value.filter(|_| self.found.parameter == Knob::D2).map(|value| -value)]
             }
             _ => [None; 2],
         };
@@ -448,8 +448,8 @@ fn polished(curve: &CycleCurve, place: &CurvePlace) -> Result<(Option<Cycle>, Co
     if let Some(closing) = weak_closing(&parameters) {
         return Ok((Some(closing.describe(&parameters, side)), Cost::default()));
     }
-    let mut equation = Equation::on_side(&parameters, side, STEP, curve.limits());
-    let sharp = POLISHED * curve.tolerance();
+    let mut equation = Equation::on_side(&parameters, side, STEP, curve.limits);
+    let sharp = POLISHED * curve.tolerance;
     let closing = polish_near(&mut equation, place.u, place.log_multiplier, sharp);
     let cycle = match closing {
         Err(Reason::Interrupted) => return Err(Reason::Interrupted),

@@ -48,12 +48,13 @@ pub struct CycleCurve<'a> {
     /// Unit of the parameter.
     pub scale: f64,
     /// Relative error accepted in the clearance.
-    tolerance: f64,
+    pub tolerance: f64,
     /// Length of the longest stride of [`CycleCurve::follow`], in units of the usual one.
     pub strides: f64,
     /// Evaluations after which [`CycleCurve::follow`] stops where it is.
     pub budget: u64,
-    limits: &'a Limits<'a>,
+    /// The limits under which it computes.
+    pub limits: &'a Limits<'a>,
     /// Stride of a difference quotient in p, as a fraction of the range.
     probe: f64,
     /// Difference quotient in p of the residual of a route, kept from point to point.
@@ -99,16 +100,6 @@ impl<'a> CycleCurve<'a> {
     /// about to meet, the residual between them is as small as the square of their distance.
     pub fn fineness(&self) -> f64 {
         (self.tolerance * self.tolerance).max(f64::EPSILON)
-    }
-
-    /// Relative error accepted in the clearance.
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance
-    }
-
-    /// The limits under which it computes.
-    pub fn limits(&self) -> &'a Limits<'a> {
-        self.limits
     }
 
     /// The pair of swings at a point that need not close; `None` where they are too costly or too large to
