@@ -102,10 +102,10 @@ struct Family<'a> {
 }
 
 /// A value at which the portrait is known.
-struct Place<'a> {
+struct PortraitPlace<'a> {
     value: f64,
     portrait: &'a Portrait,
-    signs: Signs,
+    functions: TestFunctions,
 }
 
 /// A change, with the portraits next to it, at the distances of [`ASIDE`].
@@ -134,22 +134,22 @@ impl Family<'_> {
         values.into_par_iter().filter(wanted).map(portrait).collect()
     }
 
-    /// The numbers whose zeros are special; `None` where there is no model, or its law ends before.
-    fn signs(&self, value: f64) -> Option<Signs> {
+    /// The test functions at a value; `None` where there is no model, or its law ends before.
+    fn test_functions(&self, value: f64) -> Option<TestFunctions> {
         let model = self.model(value)?;
         let landmarks = Flow::new(&model).landmarks().ok()?;
-        Some(signs(&model, landmarks.as_ref()))
+        Some(test_functions(&model, landmarks.as_ref()))
     }
 
     /// All changes, in the order of these portraits.
     fn all_changes(&self, portraits: &Portraits) -> Vec<Change> {
         let places = portraits.par_iter().map(|(value, found)| {
             let portrait = found.as_ref().ok()?;
-            let signs = signs(&portrait.model, portrait.landmarks.as_ref());
-            Some(Place { value: *value, portrait, signs })
+            let functions = test_functions(&portrait.model, portrait.landmarks.as_ref());
+            Some(PortraitPlace { value: *value, portrait, functions })
         });
         let places: Vec<_> = places.collect();
-        let changes = |pair: &[Option<Place>]| match pair {
+        let changes = |pair: &[Option<PortraitPlace>]| match pair {
             [Some(left), Some(right)] => self.changes(left, right),
             _ => Vec::new(),
         };
@@ -157,27 +157,27 @@ impl Family<'_> {
     }
 
     /// The changes between two neighbouring values, in their order.
-    fn changes(&self, left: &Place, right: &Place) -> Vec<Change> {
+    fn changes(&self, left: &PortraitPlace, right: &PortraitPlace) -> Vec<Change> {
         let step = right.value - left.value;
         let zero_of = |index: usize| {
-            let ends = [left.signs[index]?, right.signs[index]?];
+            let ends = [left.functions[index]?, right.functions[index]?];
             if (ends[0].number > 0.0) == (ends[1].number > 0.0) {
                 return None;
             }
             let of = |value| match ends[0].kind {
                 // It takes no motion.
                 SpecialKind::Hopf => Some(self.model(value)?.damping),
-                _ => Some(self.signs(value)?[index]?.number),
+                _ => Some(self.test_functions(value)?[index]?.number),
             };
             let value = zero(&of, (left.value, ends[0].number), (right.value, ends[1].number))?;
-            let Sign { kind, q_max, .. } = self.signs(value)?[index]?;
+            let TestFunction { kind, q_max, .. } = self.test_functions(value)?[index]?;
             Some(self.change(Special { q_max, ..Special::new(kind, value, None) }, step))
         };
         let by_value = |one: &Change, other: &Change| {
             let distance = |change: &Change| (change.special.value - left.value).abs();
             distance(one).total_cmp(&distance(other))
         };
-        let mut found: Vec<Change> = (0..left.signs.len()).filter_map(zero_of).collect();
+        let mut found: Vec<Change> = (0..left.functions.len()).filter_map(zero_of).collect();
         found.sort_by(by_value);
         // Between these the portrait keeps its form, unless cycles fold.
         let mut folds = Vec::new();
@@ -249,22 +249,23 @@ impl Family<'_> {
     }
 }
 
-/// A number whose zero is a change of this kind, and the right turning point of the cycle that lives there.
+/// A test function of bifurcations: its zero is a change of this kind; with the right turning point of the cycle there.
 #[derive(Clone, Copy, Debug)]
-struct Sign {
+struct TestFunction {
     number: f64,
     kind: SpecialKind,
     q_max: Option<f64>,
 }
 
-/// The numbers whose zeros are changes, each at its own place; `None` where one does not exist.
-type Signs = [Option<Sign>; 5];
+/// The test functions of all changes but folds, each at its own index; `None` where one does not exist.
+type TestFunctions = [Option<TestFunction>; 5];
 
 /// Computes them from the landmarks of the return map.
-fn signs(model: &Model, landmarks: Option<&Landmarks>) -> Signs {
-    let sign = |kind, q_max, number: Option<f64>| Some(Sign { number: number?, kind, q_max });
+fn test_functions(model: &Model, landmarks: Option<&Landmarks>) -> TestFunctions {
+    let function =
+        |kind, q_max, number: Option<f64>| Some(TestFunction { number: number?, kind, q_max });
     let unheld = model.guide_static <= 0.0;
-    let hopf = sign(SpecialKind::Hopf, None, unheld.then_some(model.damping));
+    let hopf = function(SpecialKind::Hopf, None, unheld.then_some(model.damping));
     let Some(&Landmarks { lines, grazing, released, low_left, beyond }) = landmarks else {
         return [hopf, None, None, None, None];
     };
@@ -294,10 +295,10 @@ fn signs(model: &Model, landmarks: Option<&Landmarks>) -> Signs {
     let unsticking = released.filter(|_| rides).zip(beyond).map(|(right, beyond)| right - beyond);
     [
         hopf,
-        sign(touch, grazing.right, Some(touching)),
-        sign(SpecialKind::Annihilation, released, jumps.then_some(ending)),
-        sign(SpecialKind::Overtaking, released, overtaking),
-        sign(SpecialKind::Unsticking, released, unsticking),
+        function(touch, grazing.right, Some(touching)),
+        function(SpecialKind::Annihilation, released, jumps.then_some(ending)),
+        function(SpecialKind::Overtaking, released, overtaking),
+        function(SpecialKind::Unsticking, released, unsticking),
     ]
 }
 
