@@ -290,6 +290,15 @@ impl Portrait {
         Some((low * self.model.omega_0, high * self.model.omega_0))
     }
 
+    /// The displacements, in m, at which the border of the basin may have a corner.
+    #[must_use]
+    pub fn corners(&self) -> Vec<f64> {
+        match &self.traced {
+            Traced::Curve(curve) => curve.ends(),
+            Traced::Nothing | Traced::Basin(_) => Vec::new(),
+        }
+    }
+
     /// The same, divided by the natural frequency.
     fn span_within(&self, x: f64) -> Option<(f64, f64)> {
         match &self.traced {
@@ -429,7 +438,9 @@ impl Portrait {
                 let v = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
                 without_belt::rest_share(basin, &StartWindow { v, ..window })
             }
-            Traced::Curve(_) => Some(part_within(&|x| self.span_at(x), &window).part),
+            Traced::Curve(_) => {
+                Some(part_within(&|x| self.span_at(x), &self.corners(), &window).part)
+            }
             Traced::Nothing if self.border == Border::NoBasin => Some(0.0),
             // Above v = 0, motions do not cross, and those from the upper end of a vertical edge go farther out than
             // those from below. Along a horizontal edge, dv/dt changes sign once, because the spring is linear:

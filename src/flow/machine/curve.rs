@@ -132,6 +132,15 @@ impl MachineCurve {
         self.pieces.iter().map(of).sum()
     }
 
+    /// The displacements at which its pieces end: it is smooth between them.
+    pub fn ends(&self) -> Vec<f64> {
+        let of = |piece: &CurvePiece| match piece {
+            CurvePiece::Slip(slip) => [0.0, slip.duration].map(|t| slip.at(t).0),
+            CurvePiece::Line { from, to } => [*from, *to],
+        };
+        self.pieces.iter().flat_map(of).collect()
+    }
+
     /// Its points, `between` + 1 on each piece; velocities divided by the natural frequency.
     pub fn points(&self, between: u16, speed: f64) -> Vec<State> {
         self.pieces.iter().flat_map(|piece| piece.points(between, speed)).collect()

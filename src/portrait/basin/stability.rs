@@ -35,15 +35,15 @@ impl Basin {
             return whole(0.0);
         }
         let Some(edge) = self.borders.first() else { return whole(1.0) };
-        part_within(&|q| edge.span_at(q), window)
+        part_within(&|q| edge.span_at(q), &[], window)
     }
 }
 
-/// The fraction of a window's area that lies within a border.
+/// The fraction of a window's area that lies within a border with these corners.
 ///
 /// Adaptive Gauss-Kronrod quadrature over the displacements inside it. The error is ten times the sum of the
 /// differences between its two rules.
-pub(crate) fn part_within(span: Span, window: &StartWindow) -> Share {
+pub(crate) fn part_within(span: Span, corners: &[f64], window: &StartWindow) -> Share {
     let Some((left, right)) = support(span, window.q) else {
         return Share { part: 0.0, error: 0.0 };
     };
@@ -52,7 +52,7 @@ pub(crate) fn part_within(span: Span, window: &StartWindow) -> Share {
         let (low, high) = span(q).unwrap_or((0.0, 0.0));
         (high.min(window.v.1) - low.max(window.v.0)).max(0.0) / height / width
     };
-    let Integral { value, error } = over_scales(density, left, right);
+    let Integral { value, error } = over_scales(density, (left, right), corners);
     Share { part: value.clamp(0.0, 1.0), error }
 }
 
@@ -60,8 +60,13 @@ pub(crate) fn part_within(span: Span, window: &StartWindow) -> Share {
 /// the edge are smooth.
 ///
 /// Next to the ends and to the sticking set the integrand may vary fast, and slowly far from them: each piece is
-/// some times as wide as all between it and the nearest of these, so that none is overlooked.
-pub(crate) fn over_scales(density: impl Fn(f64) -> f64, left: f64, right: f64) -> Integral {
+/// some times as wide as all between it and the nearest of these, so that none is overlooked. Pieces end at the
+/// corners of the edge.
+pub(crate) fn over_scales(
+    density: impl Fn(f64) -> f64,
+    (left, right): (f64, f64),
+    corners: &[f64],
+) -> Integral {
     const SCALES: i32 = 8;
     const WIDER: f64 = 30.0;
     /// At a kink both rules may agree by chance to a part of their error.
@@ -70,6 +75,7 @@ pub(crate) fn over_scales(density: impl Fn(f64) -> f64, left: f64, right: f64) -
     let lengths = (1..=SCALES).map(|power| (right - left) * powi(WIDER, -power));
     let places = lengths.flat_map(|length| [left + length, -length, length, right - length]);
     let angles = places
+        .chain(corners.iter().copied())
         .filter(|q| (left..right).contains(q))
         .map(|q| asin(((q - middle) / half).clamp(-1.0, 1.0)));
     let mut ends: Vec<f64> = angles.chain([-FRAC_PI_2, FRAC_PI_2]).collect();

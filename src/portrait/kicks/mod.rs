@@ -172,11 +172,11 @@ impl RandomKick {
             return all(1.0);
         }
         let Some(edge) = basin.borders.first() else { return all(0.0) };
-        self.lost_outside(&|q| edge.span_at(q))
+        self.lost_outside(&|q| edge.span_at(q), &[])
     }
 
-    /// The fraction of the kicks that leads out of a border.
-    pub fn lost_outside(&self, span: Span) -> Share {
+    /// The fraction of the kicks that leads out of a border with corners at these displacements.
+    pub fn lost_outside(&self, span: Span, corners: &[f64]) -> Share {
         let (law, (mean, spread)) = (self.law, self.q);
         let lost_at = |q: f64| {
             let Some((low, high)) = span(q) else { return 1.0 };
@@ -194,7 +194,7 @@ impl RandomKick {
         };
         let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
         let lost = |q: f64| law.density(q - mean, spread) * lost_at(q);
-        let Integral { value, error } = over_scales(lost, left, right);
+        let Integral { value, error } = over_scales(lost, (left, right), corners);
         Share { part: (beyond + value).clamp(0.0, 1.0), error }
     }
 }

@@ -59,7 +59,7 @@ pub fn part_lost(portrait: &Portrait, kicks: &RandomKick) -> Result<Share, Reaso
         _ if portrait.neutral => Err(NEEDS),
         Border::None => all(0.0),
         Border::NoBasin => all(1.0),
-        _ => Ok(kicks.lost_outside(&|x| portrait.span_at(x))),
+        _ => Ok(kicks.lost_outside(&|x| portrait.span_at(x), &portrait.corners())),
     }
 }
 
