@@ -440,7 +440,7 @@ fn a_machine_brings_its_tolerances_and_keeps_them_in_newtons_at_another_speed() 
         let running = trial.session.running().unwrap();
         let belt = trial.session.machine().unwrap();
         let Tolerances { half_widths, disturbance } =
-            trial.session.doubt.on_machine(&running, &belt).unwrap();
+            trial.session.doubt.on_machine(running, &belt).unwrap();
         (half_widths["R"], disturbance)
     };
     let before = newtons(&trial);

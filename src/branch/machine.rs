@@ -171,7 +171,7 @@ impl Family<'_> {
             };
             let value = zero(&of, (left.value, ends[0].number), (right.value, ends[1].number))?;
             let TestFunction { kind, q_max, .. } = self.test_functions(value)?[index]?;
-            Some(self.change(Special { q_max, ..Special::new(kind, value, None) }, step))
+            Some(self.change(&Special { q_max, ..Special::new(kind, value, None) }, step))
         };
         let by_value = |one: &Change, other: &Change| {
             let distance = |change: &Change| (change.special.value - left.value).abs();
@@ -188,13 +188,13 @@ impl Family<'_> {
             folds.extend(begin.zip(before).and_then(|(one, other)| self.fold(one, other)));
             begin = after;
         }
-        found.extend(folds.into_iter().map(|fold| self.change(fold, step)));
+        found.extend(folds.iter().map(|fold| self.change(fold, step)));
         found.sort_by(by_value);
         found
     }
 
     /// A change with the portraits beside it, from which the stable states that end there are read off.
-    fn change(&self, special: Special, step: f64) -> Change {
+    fn change(&self, special: &Special, step: f64) -> Change {
         let beside = ASIDE.into_par_iter().map(|part| {
             let value = special.value + part * step;
             (value, self.portrait(value))
@@ -206,7 +206,7 @@ impl Family<'_> {
             let [up, down] = if step > 0.0 { ways } else { [ways[1], ways[0]] };
             Jumps { up, down }
         });
-        Change { special: Special { jumps: Some(jumps), ..special }, beside }
+        Change { special: Special { jumps: Some(jumps), ..*special }, beside }
     }
 
     /// The fold between two places where the numbers of stable and of unstable cycles both differ by one.

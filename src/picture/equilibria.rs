@@ -40,7 +40,7 @@ pub fn draw(
         let unit = if height.is_ratio() { r } else { 1.0 };
         (r >= 0.0 && unit > 0.0).then_some(r / unit)
     };
-    let (upper, lower) = (edge.clone(), edge.clone());
+    let (upper, lower) = (edge, edge);
     let band = edge(picture.window.x.from()).filter(|_| abscissa != Knob::R);
     if abscissa == Knob::R {
         let fill = Fill { role: Role::Sticking, name };

@@ -155,8 +155,7 @@ fn the_area_of_a_basin_is_its_share_of_a_window_and_its_largest_circle_comes_to_
         let Some((area, radius)) = known else { continue };
         let StartWindow { q, v } = found.surroundings();
         let share = found.rest_share(q, v).unwrap();
-        // The part of the window is an integral to 1e-12 on each of its pieces.
-        assert!(close(share * (q.1 - q.0) * (v.1 - v.0), area, 1e-10), "{name}: {share} {area}");
+        assert!(close(share * (q.1 - q.0) * (v.1 - v.0), area, 1e-12), "{name}: {share} {area}");
         let omega_0 = found.model.omega_0;
         let rests = |radius: f64, degrees: u32| {
             let angle = PI * f64::from(degrees) / 180.0;

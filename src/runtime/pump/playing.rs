@@ -135,7 +135,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     ///
     /// Inside the explorer, a replay has the size of the terminal and keeps no pictures.
     pub(super) fn play(&mut self) -> io::Result<Option<LoopEnd>> {
-        let has_events = !self.unattended && !(self.events.is_empty() && self.missed.is_empty());
+        let has_events = !(self.unattended || self.events.is_empty() && self.missed.is_empty());
         if self.changed.is_some() || has_events || self.application.is_waiting() {
             return Ok(None);
         }
