@@ -42,7 +42,7 @@ impl Basin {
 /// The fraction of a window's area that lies within a border with these corners.
 ///
 /// Adaptive Gauss-Kronrod quadrature over the displacements inside it. The error is ten times the sum of the
-/// differences between its two rules.
+/// differences between its two rules, and rounding.
 pub(crate) fn part_within(span: Span, corners: &[f64], window: &StartWindow) -> Share {
     let Some((left, right)) = support(span, window.q) else {
         return Share { part: 0.0, error: 0.0 };
@@ -53,7 +53,7 @@ pub(crate) fn part_within(span: Span, corners: &[f64], window: &StartWindow) -> 
         (high.min(window.v.1) - low.max(window.v.0)).max(0.0) / height / width
     };
     let Integral { value, error } = over_scales(density, (left, right), corners);
-    Share { part: value.clamp(0.0, 1.0), error }
+    Share { part: value.clamp(0.0, 1.0), error: error + f64::EPSILON }
 }
 
 /// Integrates over displacements inside an edge, in the angle of a circle over them, in which the turning points of

@@ -69,8 +69,9 @@ impl Canvas<'_> {
         let mut cells = Vec::new();
         for ends in places.windows(2) {
             let [from, to] = [ends[0], ends[1]];
-            if self.dots.cell_at(from) == self.dots.cell_at(to) {
-                cells.extend(self.dots.cell_at(to));
+            let [first, last] = [from, to].map(|at| self.dots.cell_at(at));
+            if first.is_some() && first == last {
+                cells.extend(first);
             } else {
                 cells.extend(along(from, to, 2.0).filter_map(|at| self.dots.cell_at(at)));
             }
