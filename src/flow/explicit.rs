@@ -4,6 +4,8 @@
 //! Wanner (sections II.4 and II.10 of their book). A step that passes `v = 0` is repeated with Newton's method
 //! on its length until it ends there, so a crossing is as accurate as a step.
 
+use std::cell::Cell;
+
 use super::motion::Cost;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::{ErrorEstimate, Scheme};
@@ -37,6 +39,8 @@ pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
     /// Error estimates of the last attempt.
     errors: [(f64, f64); 2],
     cost: Cost,
+    /// Evaluations for points within steps.
+    within: Cell<u64>,
 }
 
 /// The pair of order 8.
@@ -62,6 +66,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
             acceleration: [0.0; S],
             errors: [(0.0, 0.0); 2],
             cost: Cost::default(),
+            within: Cell::default(),
         }
     }
 
@@ -244,9 +249,13 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
         }
     }
 
-    /// A shorter step of the same method from the same start, which is at least as accurate. It is not counted.
+    /// A shorter step of the same method from the same start, which is at least as accurate.
     fn at(&self, time: f64) -> StepPoint {
-        self.clone().attempt(time)
+        let mut shorter = self.clone();
+        shorter.cost.evaluations = 0;
+        let point = shorter.attempt(time);
+        self.within.set(self.within.get() + shorter.cost.evaluations);
+        point
     }
 
     /// The quadrature of the method: its stages are the nodes.
@@ -255,6 +264,6 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
     }
 
     fn cost(&self) -> Cost {
-        self.cost
+        Cost { evaluations: self.cost.evaluations + self.within.get(), ..self.cost }
     }
 }

@@ -215,6 +215,14 @@ impl Sample {
     pub fn state(&self) -> State {
         State { q: self.q, v: self.v }
     }
+
+    /// A time between this sample and a later one, on the cubic through the displacements and velocities of both.
+    pub fn between(&self, later: &Sample, tau: f64) -> Sample {
+        let h = later.tau - self.tau;
+        let t = (tau - self.tau) / h;
+        let q = Hermite { values: (self.q, later.q), slopes: (h * self.v, h * later.v) };
+        Sample { tau, q: q.at(t), v: q.slope(t) / h }
+    }
 }
 
 /// A stretch of the motion of a machine in one phase, on the belt, or at rest.
@@ -229,7 +237,7 @@ pub struct Leg {
 /// Operation counts of a computation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Cost {
-    /// Evaluations of the field but for points to be drawn; a Taylor series of order N counts as N.
+    /// Evaluations of the field; a Taylor series of order N counts as N.
     pub evaluations: u64,
     /// Accepted steps.
     pub steps: u64,
@@ -309,10 +317,7 @@ impl Trajectory {
         let Some(from) = after.checked_sub(1).and_then(|before| self.samples.get(before)) else {
             return Some(*to);
         };
-        let h = to.tau - from.tau;
-        let t = (tau - from.tau) / h;
-        let q = Hermite { values: (from.q, to.q), slopes: (h * from.v, h * to.v) };
-        Some(Sample { tau, q: q.at(t), v: q.slope(t) / h })
+        Some(from.between(to, tau))
     }
 }
 

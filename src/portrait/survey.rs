@@ -55,8 +55,8 @@ impl Course {
             Err(stop @ Reason::BeyondLaw { .. }) => Fate::Unknown(stop),
             fate => fate?,
         };
-        let rest =
-            (fate == Fate::Rest).then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
+        let rest = (fate == Fate::Rest)
+            .then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v), &Limits::PATIENT));
         let motion = follow_by_series(model, start, until);
         Ok(Course { motion, fate, rest: rest.transpose()?, portrait, second: None })
     }

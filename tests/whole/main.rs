@@ -99,7 +99,9 @@ fn every_reference_start_ends_where_it_should() {
             };
             assert_eq!(told, end[2], "{name} from {x}, {v}");
             if fate == Fate::Rest {
-                let rest = Flow::new(&found.model).rest_of(x, v / found.model.omega_0).unwrap();
+                let rest = Flow::new(&found.model)
+                    .rest_of(x, v / found.model.omega_0, &Limits::PATIENT)
+                    .unwrap();
                 let error = (rest - number(&end[3])).abs();
                 assert!(
                     error <= 1e-11 * belt.friction / belt.stiffness,

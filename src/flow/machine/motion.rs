@@ -5,7 +5,7 @@ use super::ledger::StepWorks;
 use super::series::ORDER;
 use super::stepped::{self, PhaseStepper};
 use crate::flow::motion::Leg;
-use crate::flow::{Cost, Crossing, Detail, Method, Outcome, Problem, Sample, Trajectory};
+use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Sample, Trajectory};
 use crate::model::{ContactState, Model, Phase, Reason, State};
 use crate::numerics::polynomial::value;
 
@@ -244,13 +244,16 @@ impl Flow<'_> {
     ///
     /// # Errors
     /// [`Reason`] where it does not.
-    pub fn rest_of(&mut self, mut x: f64, mut y: f64) -> Result<f64, Reason> {
+    pub fn rest_of(&mut self, mut x: f64, mut y: f64, limits: &Limits) -> Result<f64, Reason> {
         /// Turns that a motion may take.
         const TURNS: usize = 200_000;
         if self.model.guide_static == 0.0 {
             return Ok(0.0);
         }
         for _ in 0..TURNS {
+            if (limits.interrupted)() {
+                return Err(Reason::Interrupted);
+            }
             let place = self.model.place(x, y);
             match self.turn(place, (x, y), &mut ()) {
                 Ok(turn) if turn.rests => return Ok(turn.x),

@@ -52,9 +52,9 @@ const LONGEST: f64 = 0.125;
 /// Maximum number of steps of a motion.
 pub(crate) const STEPS: u64 = 2_000_000;
 
-/// The last step of a stepper. Its ends are known, places between them take shorter steps.
+/// The last step of a stepper. Its ends are known, the rest takes evaluations.
 struct LastStep<'s, 'a> {
-    stepper: &'s mut PhaseStepper<'a>,
+    stepper: &'s PhaseStepper<'a>,
     field: PhaseField<'a>,
     from: StepPoint,
     step: Step,
@@ -67,8 +67,7 @@ impl StepInside for LastStep<'_, '_> {
         } else if t == self.step.duration {
             self.step.end
         } else {
-            let shorter = self.stepper.advance(self.from, t, false);
-            shorter.map_or(self.from, |step| step.end)
+            self.stepper.at(t)
         };
         (v, self.field.acceleration(x, v))
     }

@@ -249,7 +249,7 @@ pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
         let end = if sample.tau < until { *sample } else { now };
         let h = end.tau - before.tau;
         for (node, weight) in GAUSS {
-            powers.add_node(weight * h, motion.at(before.tau + node * h)?.v);
+            powers.add_node(weight * h, before.between(&end, before.tau + node * h).v);
         }
         path += (end.q - before.q).abs();
         before = end;

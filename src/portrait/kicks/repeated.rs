@@ -136,7 +136,8 @@ impl Chain {
             }
             let mut flow = Flow::new(&model);
             let comes = portrait.fate(q, v) == Ok(Fate::Rest);
-            let place = comes.then(|| flow.rest_of(q, model.scaled_velocity(v)).ok()).flatten();
+            let place =
+                comes.then(|| flow.rest_of(q, model.scaled_velocity(v), limits).ok()).flatten();
             Ok((place, flow.cost()))
         };
         let of = |column: &StartColumn| {
