@@ -14,6 +14,7 @@ use crate::session::scan::SCANNING;
 use crate::session::{
     Done, Effect, Overlay, Pane, Plot, Prompt, ScanOnShow, ScanProgress, Session,
 };
+use crate::words::number::resolved;
 
 /// The file in which a key saves the rows; the command line takes any name.
 pub const FILE: &str = "scan.csv";
@@ -37,7 +38,12 @@ fn typed(scan: &Scan) -> String {
 }
 
 fn usual(session: &Session) -> String {
-    let over = |knob: Knob, from: f64, to: f64| format!("{knob}={from:?}:{to:?}:100 from-rest");
+    /// Part of a range to which its ends are rounded, so that they are short to read and to change.
+    const ROUND: f64 = 1e-3;
+    let over = |knob: Knob, from: f64, to: f64| {
+        let [from, to] = [from, to].map(|end| resolved(end, ROUND * (to - from)));
+        format!("{knob}={from}:{to}:100 from-rest")
+    };
     if let Some(diagram) = session.plots.iter().find(|plot| plot.view == View::Diagram) {
         let symbol = diagram.axes.abscissa;
         let KnobSpec { min, max, .. } = *symbol.spec();
