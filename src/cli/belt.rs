@@ -144,7 +144,7 @@ impl BeltCommand {
     fn share(&self, portrait: &Portrait) -> Option<RestShare> {
         let StartWindow { q: (from, to), v } = self.window?;
         let steady = if self.elongation { portrait.model.pull } else { 0.0 };
-        Some(portrait.rest_share((from - steady, to - steady), v))
+        Some(portrait.rest_share((from - steady, to - steady), v).map(|share| share.part))
     }
 
     /// The friction needed for the margin, if asked for.

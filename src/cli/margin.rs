@@ -102,7 +102,7 @@ impl BasinCommand {
             let (found, before) = case.portrait(&self.output)?;
             let window = window.unwrap_or_else(|| found.surroundings());
             let (counts, seconds) = timed(self.output.repeat, || found.count(&window, self.grid));
-            let captured = found.rest_share(window.q, window.v);
+            let captured = found.rest_share(window.q, window.v).map(|share| share.part);
             let seconds = before + seconds;
             let answer = basin_of_machine(&case.about(), &found, counts, captured, seconds);
             return self.output.print(answer);

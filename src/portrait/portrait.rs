@@ -15,7 +15,7 @@ use crate::model::{ContactState, Model, Parameters, Phase, State};
 use crate::numerics::root::bisect;
 use crate::portrait::basin::cycle::cycles_and_closings;
 use crate::portrait::basin::orbit::{POINTS, filled, inner_radius};
-use crate::portrait::basin::stability::part_within;
+use crate::portrait::basin::stability::{Share, part_within};
 use crate::portrait::basin::{Basin, Counts, StartWindow, between};
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
@@ -431,17 +431,15 @@ impl Portrait {
     /// The fraction of a window, in m and m/s, from which the mass comes to rest; `None` if motions from the window
     /// leave the known range.
     #[must_use]
-    pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> Option<f64> {
+    pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> Option<Share> {
         let window = StartWindow { q: x, v };
         match &self.traced {
             Traced::Basin(basin) => {
                 let v = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
                 without_belt::rest_share(basin, &StartWindow { v, ..window })
             }
-            Traced::Curve(_) => {
-                Some(part_within(&|x| self.span_at(x), &self.corners(), &window).part)
-            }
-            Traced::Nothing if self.border == Border::NoBasin => Some(0.0),
+            Traced::Curve(_) => Some(part_within(&|x| self.span_at(x), &self.corners(), &window)),
+            Traced::Nothing if self.border == Border::NoBasin => Some(Share::exact(0.0)),
             // Above v = 0, motions do not cross, and those from the upper end of a vertical edge go farther out than
             // those from below. Along a horizontal edge, dv/dt changes sign once, because the spring is linear:
             // motions that rise through it fall through it farther right, so the outermost ones pass a corner. The
@@ -449,7 +447,7 @@ impl Portrait {
             Traced::Nothing => {
                 let rests = |x: f64, v: f64| self.fate(x, v) == Ok(Fate::Rest);
                 let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));
-                (self.border == Border::None || all()).then_some(1.0)
+                (self.border == Border::None || all()).then(|| Share::exact(1.0))
             }
         }
     }

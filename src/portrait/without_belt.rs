@@ -10,6 +10,7 @@ use crate::flow::{Fate, Limits};
 use crate::model::Model;
 use crate::portrait::basin::arc::Arc;
 use crate::portrait::basin::cycle::cycles_and_closings;
+use crate::portrait::basin::stability::Share;
 use crate::portrait::basin::{Basin, StartWindow, basin};
 
 /// How far a separatrix is followed, in units of `1/abs(D2)`.
@@ -63,11 +64,11 @@ pub fn reach(basin: &Basin, model: &Model) -> Option<Reach> {
 }
 
 /// The fraction of a window, in m and `m omega_0`, from which the mass comes to rest.
-pub fn rest_share(found: &Basin, window: &StartWindow) -> Option<f64> {
+pub fn rest_share(found: &Basin, window: &StartWindow) -> Option<Share> {
     if found.border != Border::Separatrix {
-        return Some(found.captured_share(window).part);
+        return Some(found.captured_share(window));
     }
     let reach = window.q.0.abs().max(window.q.1.abs());
     let basin = basin(&found.parameters, reach, &Limits::PATIENT).ok()?;
-    Some(basin.captured_share(window).part)
+    Some(basin.captured_share(window))
 }

@@ -24,17 +24,23 @@ pub struct Share {
     pub error: f64,
 }
 
+impl Share {
+    /// A fraction that follows without integration.
+    pub(crate) fn exact(part: f64) -> Self {
+        Share { part, error: 0.0 }
+    }
+}
+
 /// Absolute error to which each interval is integrated.
 const TOLERANCE: f64 = 1e-12;
 
 impl Basin {
     /// The fraction of a window's area that belongs to the basin of the sticking set.
     pub fn captured_share(&self, window: &StartWindow) -> Share {
-        let whole = |part| Share { part, error: 0.0 };
         if self.fates.first() != Some(&Fate::Rest) {
-            return whole(0.0);
+            return Share::exact(0.0);
         }
-        let Some(edge) = self.borders.first() else { return whole(1.0) };
+        let Some(edge) = self.borders.first() else { return Share::exact(1.0) };
         part_within(&|q| edge.span_at(q), &[], window)
     }
 }
@@ -45,7 +51,7 @@ impl Basin {
 /// differences between its two rules, and rounding.
 pub(crate) fn part_within(span: Span, corners: &[f64], window: &StartWindow) -> Share {
     let Some((left, right)) = support(span, window.q) else {
-        return Share { part: 0.0, error: 0.0 };
+        return Share::exact(0.0);
     };
     let (width, height) = (window.q.1 - window.q.0, window.v.1 - window.v.0);
     let density = |q: f64| {

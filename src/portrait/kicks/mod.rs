@@ -167,11 +167,10 @@ impl RandomKick {
     ///
     /// The basin has to be known as far as [`RandomKick::reach`]. Quadrature as in [`Basin::captured_share`].
     pub fn lost(&self, basin: &Basin) -> Share {
-        let all = |part| Share { part, error: 0.0 };
         if basin.fates.first() != Some(&Fate::Rest) {
-            return all(1.0);
+            return Share::exact(1.0);
         }
-        let Some(edge) = basin.borders.first() else { return all(0.0) };
+        let Some(edge) = basin.borders.first() else { return Share::exact(0.0) };
         self.lost_outside(&|q| edge.span_at(q), &[])
     }
 
@@ -190,7 +189,7 @@ impl RandomKick {
         }
         let far = law.reach() * spread;
         let Some((left, right)) = support(span, (mean - far, mean + far)) else {
-            return Share { part: 1.0, error: 0.0 };
+            return Share::exact(1.0);
         };
         let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
         let lost = |q: f64| law.density(q - mean, spread) * lost_at(q);

@@ -74,7 +74,7 @@ impl<'a> MachinePoint<'a> {
         cells.cost.steps += portrait.cost.steps;
         cells.cycles(&portrait.cycles);
         cells.edge(portrait.border, portrait.margin);
-        cells.fill(Measure::Stability, || {
+        cells.share(Measure::Stability, || {
             let StartWindow { q, v } = conditions.about(&portrait.model);
             portrait.rest_share(q, v)
         });
