@@ -4,8 +4,8 @@
 use clap::{Arg, Args, Command};
 
 use crate::fit::{
-    BadRecord, Choice, Column, Inertia, LENGTHS, LossName, NameSpec, Question, Reading, Record,
-    Signal, assigned, length_in_metres, listed, named, parse, quantity,
+    BadRecord, Choice, Column, Inertia, LENGTHS, LossName, NAMES, NameSpec, Question, Reading,
+    Record, Signal, assigned, length_in_metres, listed, named, parse, quantity,
 };
 use crate::model::Knob;
 use crate::words::usage;
@@ -90,13 +90,32 @@ fn command() -> Command {
     RecordOptions::augment_args(Command::new("fit").no_binary_name(true))
 }
 
-/// The name of the option that begins with this word, `mass=2` or `--mass=2`; of a number to be held, `D3=0`, its own.
-fn begun(word: &str) -> Option<&str> {
-    let word = word.trim_start_matches('-');
-    let name = word.split('=').next().unwrap_or_default();
-    let takes_value = |it: &Arg| it.get_long() == Some(name) && it.get_action().takes_values();
-    let may_have_value = named(name).is_some() || command().get_arguments().any(takes_value);
-    (word == "peaks" || may_have_value && word.contains('=')).then_some(name)
+/// The beginning of the option that begins with this word, as the parser takes it: of `mass=2`, `--mass=2` or `--mass`,
+/// whose value follows; of `peaks`; of a number to be held, `D3=0`.
+fn begun(word: &str) -> Option<String> {
+    let bare = word.trim_start_matches('-');
+    let (name, value) = match bare.split_once('=') {
+        Some((name, value)) => (name, Some(value)),
+        None => (bare, word.starts_with("--").then_some("")),
+    };
+    if named(name).is_some() {
+        return value.map(|value| format!("--set={name}={value}"));
+    }
+    let command = command();
+    let option = command.get_arguments().find(|it| it.get_long() == Some(name))?;
+    if option.get_action().takes_values() {
+        value.map(|value| format!("--{name}={value}"))
+    } else {
+        (bare == name).then(|| format!("--{name}"))
+    }
+}
+
+/// That no option begins with this word, and what there is.
+fn unknown(word: &str) -> String {
+    let command = command();
+    let options = command.get_arguments().filter_map(Arg::get_long);
+    let known: Vec<&str> = options.chain(NAMES.iter().map(|row| row.name)).collect();
+    format!("no option {word:?}; there are {}", known.join(", "))
 }
 
 /// The file and the options of a line such as `my file.csv mass=2 kg columns=1,3 peaks`.
@@ -112,10 +131,17 @@ impl RecordOptions {
     pub fn of_words(line: &str) -> Result<Self, String> {
         let mut given: Vec<String> = Vec::new();
         for word in line.split_whitespace() {
+            // What another option would look like, known or not; in "t=time of day,x=2" the value of one goes on.
+            let begins = word.split_once('=').is_some_and(|(name, _)| !name.contains(','));
             match (begun(word), given.last_mut()) {
-                (Some(name), _) if named(name).is_some() => given.push(format!("--set={word}")),
-                (None, Some(last)) => *last = format!("{last} {word}"),
-                _ => given.push(format!("--{}", word.trim_start_matches('-'))),
+                // The value, or the next one of several, is still to come, whatever it looks like.
+                (_, Some(last)) if last.ends_with(['=', ',']) => last.push_str(word),
+                (Some(option), _) => given.push(option),
+                // A unit or the rest of a name.
+                (None, Some(last)) if last.contains('=') && !begins && !word.starts_with("--") => {
+                    *last = format!("{last} {word}");
+                }
+                _ => return Err(unknown(word)),
             }
         }
         let read = command().try_get_matches_from(given);

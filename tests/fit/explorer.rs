@@ -273,6 +273,20 @@ fn the_jumps_of_an_acceleration_are_marked_as_such_among_its_residuals() {
 }
 
 #[test]
+fn options_may_be_written_as_refusals_name_them_and_values_may_hold_what_looks_like_one() {
+    for words in [
+        "columns=t=1,x=3 set=D2=0 mass=2 kg",
+        "--columns t=1, x=3 --set D2=0 --mass 2 kg --peaks",
+        "columns=t=time of day,x=2 --D3 0 free=D, r",
+    ] {
+        let mut trial = Trial::open("plain");
+        trial.give(Msg::Run(format!("fit my record.csv {words}")));
+        let purpose = Purpose::Fit(words.to_owned());
+        assert_eq!(trial.effects, [Effect::Read { path: "my record.csv".into(), purpose }]);
+    }
+}
+
+#[test]
 fn what_stands_behind_the_file_is_checked_before_it_is_read() {
     for (line, why) in [
         ("fit a.csv mass=-2 kg", "m = -2 kg is outside its range 1e-12 .. 1e12 kg"),
@@ -285,6 +299,14 @@ fn what_stands_behind_the_file_is_checked_before_it_is_read() {
         ("fit a.csv r=-1", "r = -1 is outside its range 0 .. 1e150"),
         ("fit a.csv free=D,q", "no number \"q\"; there are omega0, offset, D"),
         ("fit a.csv mass=2 m", "m = 2 m has the wrong unit; it takes one such as kg"),
+        (
+            "fit a.csv mass=2 kg los=cauchy",
+            "no option \"los=cauchy\"; there are columns, peaks, free",
+        ),
+        ("fit a.csv peaks los=x", "no option \"los=x\"; there are columns, peaks, free"),
+        ("fit a.csv peaks los", "no option \"los\"; there are columns, peaks, free"),
+        ("fit a.csv --mass 2 kg --los x", "signal, unit, omega0, offset, D, D2, D3, r"),
+        ("fit a.csv --loss huber", "'huber' for '--loss <LOSS>'; [possible values: auto"),
     ] {
         let mut trial = Trial::open("plain");
         trial.give(Msg::Run(line.to_owned()));
