@@ -19,6 +19,9 @@ const ALWAYS: [&str; 5] = ["help", "accept", "replay", "forget", "quit"];
 /// The hint that joins them while something is open.
 const CLOSE: &str = "close";
 
+/// Fewest columns of a text being typed beside the reason why it was refused, and of a remark beside the text.
+const LEAST: usize = 12;
+
 pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let hints = session.hints();
@@ -31,8 +34,8 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         _ if session.waiting.is_some() => waiting(session, look),
         _ if session.pending.is_some() => vec![pending(session.pending, look)],
         (Some(Overlay::Prompt(prompt)), _) => match prompt.row {
-            Some(row) => entry(row, prompt, session, look),
-            None => self::prompt(prompt, &session.keymap, look),
+            Some(row) => entry(row, prompt, session, area.width.into(), look),
+            None => self::prompt(prompt, &session.keymap, area.width.into(), look),
         },
         (Some(Overlay::Offer(script)), _) => {
             let text =
@@ -90,13 +93,19 @@ fn pending(pending: Option<Pending>, look: &Look) -> Span<'static> {
 }
 
 /// The value being typed, with its caret, and what is allowed or why it was refused.
-fn entry(row: Row, entry: &Prompt, session: &Session, look: &Look) -> Vec<Span<'static>> {
+fn entry(
+    row: Row,
+    entry: &Prompt,
+    session: &Session,
+    width: usize,
+    look: &Look,
+) -> Vec<Span<'static>> {
     let remark = match &entry.refused {
         Some(why) => look.span(format!("  {why}"), Role::Failure),
         None => look.span(format!("  {}", allowed(row, session)), Role::Quiet),
     };
     let lead = look.span(format!(" {} = ", row.name_in(&session.problem)), Role::Title);
-    std::iter::once(lead).chain(typed(&entry.input, look)).chain([remark]).collect()
+    typed(lead, entry, vec![remark], width, look)
 }
 
 /// What can be typed as the value of a row.
@@ -122,7 +131,7 @@ fn allowed(row: Row, session: &Session) -> String {
 }
 
 /// The command being typed, with what it can become, what it takes, or why it was refused.
-fn prompt(prompt: &Prompt, keymap: &Keymap, look: &Look) -> Vec<Span<'static>> {
+fn prompt(prompt: &Prompt, keymap: &Keymap, width: usize, look: &Look) -> Vec<Span<'static>> {
     let quiet = |text: &str| look.span(format!("  {text}"), Role::Quiet);
     let remark = match (&prompt.refused, &prompt.completion) {
         (Some(why), _) => vec![look.span(format!("  {why}"), Role::Failure)],
@@ -139,18 +148,48 @@ fn prompt(prompt: &Prompt, keymap: &Keymap, look: &Look) -> Vec<Span<'static>> {
             None => quiet("the name of a command; Tab completes"),
         }],
     };
-    let lead = look.span(" :", Role::Title);
-    std::iter::once(lead).chain(typed(&prompt.input, look)).chain(remark).collect()
+    typed(look.span(" :", Role::Title), prompt, remark, width, look)
 }
 
-/// Text being typed, with its caret.
-fn typed(input: &Input, look: &Look) -> [Span<'static>; 3] {
-    let mut rest = input.after.chars();
-    let under = rest.next().unwrap_or(' ');
+/// Text being typed, with its caret, between what leads it and a remark. Where there is no room for all, the caret is
+/// seen, and the reason of a refusal goes before the text, which its user knows.
+fn typed(
+    lead: Span<'static>,
+    prompt: &Prompt,
+    remark: Vec<Span<'static>>,
+    width: usize,
+    look: &Look,
+) -> Vec<Span<'static>> {
+    let room = width.saturating_sub(lead.width());
+    let needed: usize = remark.iter().map(Span::width).sum();
+    let for_remark = if prompt.refused.is_some() { needed } else { 0 };
+    let text = around(&prompt.input, room.saturating_sub(for_remark).max(LEAST).min(room), look);
+    let left = room - text.iter().map(|span| span.content.chars().count()).sum::<usize>();
+    // A sign alone would look like the sign that the text goes on.
+    let remark = (left >= LEAST || left >= needed).then(|| pane::fitted(remark.into(), left, look));
+    std::iter::once(lead).chain(text).chain(remark.unwrap_or_default()).collect()
+}
+
+/// The part of a text around its caret that fits into `width` columns, with marks where it is cut. Its words may be cut
+/// within, as in any editor: the caret stays where it is.
+fn around(input: &Input, width: usize, look: &Look) -> [Span<'static>; 3] {
+    let mark = look.symbols().more;
+    let caret = input.before.chars().count();
+    let mut letters: Vec<char> = input.text().chars().collect();
+    if caret == letters.len() {
+        letters.push(' ');
+    }
+    let from = pane::first_seen(caret, letters.len(), width);
+    let to = letters.len().min(from + width);
+    let shown = |(at, letter): (usize, &char)| {
+        let cut = (at == from && from > 0) || (at + 1 == to && to < letters.len());
+        if cut && at != caret { mark.to_owned() } else { letter.to_string() }
+    };
+    let mut shown = letters.iter().enumerate().map(shown).take(to).skip(from);
     let style = look.style(Role::Text);
     [
-        Span::styled(input.before.clone(), style),
-        Span::styled(under.to_string(), style.add_modifier(Modifier::REVERSED)),
-        Span::styled(rest.collect::<String>(), style),
+        Span::styled(shown.by_ref().take(caret - from).collect::<String>(), style),
+        Span::styled(shown.next().unwrap_or_default(), style.add_modifier(Modifier::REVERSED)),
+        Span::styled(shown.collect::<String>(), style),
     ]
 }

@@ -161,6 +161,33 @@ fn a_refused_value_says_why_where_it_is_typed() {
 }
 
 #[test]
+fn of_a_long_command_the_part_around_the_caret_is_seen_and_the_reason_of_a_refusal_whole() {
+    let numbers = "D=-0.30000000000000004:0.30000000000000004:200 D3=2:2:50";
+    let line = format!("scan {numbers} outcome,rest,from-rest");
+    let reason = "scan: D3: FROM and TO are both 2.0";
+    for width in [60, 80] {
+        for (keys, begin, end, under) in [
+            ("", " :\u{2026}", "outcome,rest,from-rest", " "),
+            ("<home>", " :scan D=", "\u{2026}", "s"),
+            ("<home> <right>", " :scan D=", "\u{2026}", "c"),
+            ("<enter>", " :\u{2026}", &format!(",from-rest   {reason}"), " "),
+            ("<home> <enter>", " :scan D=", &format!("\u{2026}  {reason}"), "s"),
+        ] {
+            let mut session = settled("plain", width, 24, ":");
+            update(&mut session, Msg::Paste(line.clone()));
+            press(&mut session, keys);
+            let buffer = draw(&session, braille());
+            let screen = text(&buffer);
+            let row = screen.lines().last().unwrap();
+            assert!(row.starts_with(begin) && row.ends_with(end), "{keys} at {width}: {row}");
+            let mut cells = (0..width).map(|x| &buffer[(x, 23)]);
+            let caret = cells.find(|cell| cell.modifier.contains(Modifier::REVERSED)).unwrap();
+            assert_eq!(caret.symbol(), under, "{keys} at {width}: {row}");
+        }
+    }
+}
+
+#[test]
 fn the_layer_list_says_which_are_on() {
     let screen = text(&draw(&settled("plain", 80, 70, "v"), letters()));
     for row in &LAYERS {
