@@ -63,6 +63,9 @@ struct SettingsFile {
 /// Commands that must have a key, because there is no other way out.
 const INDISPENSABLE: [&str; 2] = ["quit", "back"];
 
+/// Contexts of former versions: files that still have keys for them are read as if they had none there.
+const FORMER_CONTEXTS: [&str; 1] = ["form"];
+
 /// Reads a settings file; `file` is its name in error messages. Fails with [`Misread`], which names the place
 /// of the first mistake and what is allowed there.
 pub fn parse(file: &str, text: &str) -> Result<Config, Misread> {
@@ -110,7 +113,8 @@ fn unknown<'a>(
 fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
     let mut keymap = Keymap::default();
     let mut given: Vec<Given> = Vec::new();
-    for (context, commands) in read {
+    let former = |context: &Spanned<String>| FORMER_CONTEXTS.contains(&context.get_ref().as_str());
+    for (context, commands) in read.iter().filter(|(context, _)| !former(context)) {
         let names = || contexts().map(|row| row.name);
         let known = contexts()
             .find(|row| row.name == context.get_ref())

@@ -57,6 +57,16 @@ fn two_commands_can_swap_their_keys() {
 }
 
 #[test]
+fn keys_of_a_form_that_is_gone_are_passed_over() {
+    // Some of these commands are gone with the form, others apply elsewhere still.
+    let gone = "[keys.form]\nstart-scan = [\"<C-s>\"]\nnext-field = []\nback = []\n";
+    assert_eq!(parse("config.toml", gone).unwrap(), Config::default());
+    let text = gone.to_owned() + "[keys.everywhere]\nscan-form = [\"<A-s>\"]\n";
+    let config = parse("config.toml", &text).unwrap();
+    assert_eq!(meaning(&config, Context::Everywhere, "<A-s>"), Some("scan"));
+}
+
+#[test]
 fn what_is_wrong_is_said_with_its_place() {
     for (text, said) in [
         ("theme = \"blue\"", "1:9: no \"blue\"; there are auto, light, dark, contrast, mono"),

@@ -9,6 +9,7 @@ use crate::scene::{Request, Topic, View};
 use crate::session::read::contexts::{elsewhere, place};
 use crate::session::read::wants::COMPARED;
 use crate::session::read::windows;
+use crate::session::state::keymap::full_name;
 use crate::session::{
     Code, Command, Key, Letter, Listed, Msg, Overlay, PaletteRow, Pane, Pending, Pointed,
     PointerTarget, Session,
@@ -99,8 +100,11 @@ impl Session {
 
     fn awaited_by_line(&self, line: &str) -> Option<Request> {
         let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        match self.keymap.named(name).filter(|_| rest.trim().is_empty()) {
-            Some(command) => self.awaited_by_command(command),
+        let name = full_name(name);
+        match self.keymap.named(name) {
+            Some(command) if rest.trim().is_empty() => self.awaited_by_command(command),
+            // With words of its own, such as those of a scan, it takes nothing from the plot.
+            Some(_) => None,
             None => self.awaited_by(name, self.plot),
         }
     }
