@@ -60,7 +60,7 @@ pub struct Deviation {
     /// `v` at the end time; for a motion that escapes also that of the time at which it does.
     ///
     /// Where one motion has more turning points than the other, they are compared with the other's end. Of a machine
-    /// only displacements count, as fractions of the largest one.
+    /// only displacements count, as fractions of the largest one: those at its standstills alone if it escapes.
     pub error: f64,
     /// The largest difference of the times of turning points that both have.
     pub time: f64,
@@ -77,6 +77,8 @@ pub enum NoComparison {
     OtherFate,
     /// The motion of a machine stands still more or less often than the reference.
     OtherTurns,
+    /// The motion of a machine escapes as the reference does, and neither has a standstill before that.
+    NoTurns,
 }
 
 impl std::fmt::Display for NoComparison {
@@ -87,6 +89,7 @@ impl std::fmt::Display for NoComparison {
                 write!(out, "escapes where the motion does not, or misses it")
             }
             NoComparison::OtherTurns => write!(out, "not the same standstills"),
+            NoComparison::NoTurns => write!(out, "escapes with no standstill to compare"),
         }
     }
 }
@@ -161,12 +164,20 @@ impl Reference {
     /// How far a computed motion is from this one. Fails with [`NoComparison`] where there is no distance.
     pub fn compare(&self, found: &Trajectory) -> Result<Deviation, NoComparison> {
         let mut other = Self::new(found, self.source).map_err(NoComparison::GaveUp)?;
-        if found.problem.parameters.r == 0.0 && found.crossings.is_empty() {
+        // The parameters are those of an oscillator; a motion of a machine has none.
+        let without_friction = !self.is_of_machine() && found.problem.parameters.r == 0.0;
+        if without_friction && found.crossings.is_empty() {
             // Where nothing happens at turning points they are not located: the ends are compared.
             other.turns.clone_from(&self.turns);
         }
         if self.is_of_machine() && self.turns.len() != other.turns.len() {
             return Err(NoComparison::OtherTurns);
+        }
+        let escape = |end| matches!(end, Outcome::Escaped { .. });
+        let escape = escape(self.end) && escape(other.end);
+        if self.is_of_machine() && escape && self.turns.is_empty() {
+            // Only displacements count, and there are none.
+            return Err(NoComparison::NoTurns);
         }
         self.deviation(&other).ok_or(NoComparison::OtherFate)
     }

@@ -8,7 +8,7 @@ use super::{
 use crate::accuracy::trade::Trade;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, MotionUnits, Outcome, Problem, Trajectory, follow};
-use crate::model::{Knob, MachineProblem, State};
+use crate::model::{Knob, MachineProblem, Model, State};
 use crate::numerics::Interval;
 use crate::proof::ParameterBox;
 use crate::proof::motion::follow as enclosed;
@@ -38,6 +38,17 @@ impl MotionOptions {
         let Some(mut case) = self.source.machine()? else { return Ok(None) };
         case.described.problem.until = self.end()?.unwrap_or(case.described.problem.until);
         case.checked().map(Some)
+    }
+
+    /// The motion of a machine, by the method and to the tolerance that are asked for or else its own.
+    fn problem_of_machine(&self, case: &MachineCase, model: &Model) -> Result<Problem, Failure> {
+        let MachineProblem { start: (q, v), until, .. } = case.described.problem;
+        let start = &self.source.start;
+        let way = second(start.method)?;
+        let own = if way.is_some() { Knob::Tolerance.usual() } else { model.tolerance };
+        let tolerance = start.tol.unwrap_or(own);
+        let (method, initial) = (way.unwrap_or(Method::Taylor), State { q, v });
+        Ok(Problem { initial, until, method, tolerance, ..Problem::default() })
     }
 
     /// The motion of the scene with this name, or of the one among the options.
@@ -92,14 +103,9 @@ impl TrajectoryCommand {
 
     fn of_machine(&self, case: MachineCase) -> Result<(), Failure> {
         let about = case.about();
-        let MotionOptions { source, output, .. } = &self.asked;
-        let MachineProblem { subject, start: (q, v), until, .. } = case.described.problem;
-        let model = subject.model().map_err(troubled)?;
-        let way = second(source.start.method)?;
-        let own = if way.is_some() { Knob::Tolerance.usual() } else { model.tolerance };
-        let tolerance = source.start.tol.unwrap_or(own);
-        let (method, initial) = (way.unwrap_or(Method::Taylor), State { q, v });
-        let problem = Problem { initial, until, method, tolerance, ..Problem::default() };
+        let output = &self.asked.output;
+        let model = case.described.problem.subject.model().map_err(troubled)?;
+        let problem = self.asked.problem_of_machine(&case, &model)?;
         let detail = Detail { energy: true, ..Detail::default() };
         let units = MotionUnits::physical(&model);
         let (found, seconds) = timed(output.repeat, || follow(&model, &problem, units, detail));
@@ -123,9 +129,8 @@ impl TradeCommand {
         let detail = Detail::default();
         if let Some(case) = self.asked.of_machine()? {
             let about = case.about();
-            let MachineProblem { subject, start: (q, v), until, .. } = case.described.problem;
-            let model = subject.model().map_err(troubled)?;
-            let problem = Problem { initial: State { q, v }, until, ..Problem::default() };
+            let model = case.described.problem.subject.model().map_err(troubled)?;
+            let problem = self.asked.problem_of_machine(&case, &model)?;
             let found = Trade::of_machine(&model, &problem).map_err(troubled)?;
             let units = MotionUnits::physical(&model);
             return self.tell(&about, found, |problem| follow(&model, problem, units, detail));

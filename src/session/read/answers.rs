@@ -215,7 +215,8 @@ impl Session {
         Some(match reference.compare(motion) {
             Ok(deviation) => Ok((deviation, reference)),
             Err(NoComparison::GaveUp(_)) => Err(NoErrorReason::GaveUp),
-            Err(NoComparison::OtherFate | NoComparison::OtherTurns) => {
+            // The rest is said of machines only, whose errors are not measured here.
+            Err(NoComparison::OtherFate | NoComparison::OtherTurns | NoComparison::NoTurns) => {
                 Err(NoErrorReason::OtherFate)
             }
         })
