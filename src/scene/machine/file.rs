@@ -299,10 +299,11 @@ fn set_law(
     let unfit = |message: &str| Complaint { at: friction.at.clone(), message: message.to_owned() };
     let mut laws = friction.entries.keys().map(|name| name.get_ref().as_ref());
     let mut other = || laws.find(|name| *name != "static");
-    let (Some(name), None) = (other(), other()) else {
+    let one_of = || {
         let [others @ .., last] = FrictionLaw::NAMES;
-        return Err(unfit(&format!("friction takes one law: {} or {last}", others.join(", "))));
+        unfit(&format!("friction takes one law: {} or {last}", others.join(", ")))
     };
+    let (Some(name), None) = (other(), other()) else { return Err(one_of()) };
     let Some(given) = friction.section(name)? else { return Err(unfit("no law")) };
     let mut read = |knob, number: &Spanned<Number>| half_widths.read(knob, number);
     belt.law = match (FrictionLaw::blank(name), name) {
@@ -322,7 +323,9 @@ fn set_law(
             let listed = listed.ok_or_else(|| unfit("coefficients = [..] is missing"))?;
             FrictionLaw::Polynomial { coefficients: polynomial("mu", listed.get_ref(), read)? }
         }
-        _ => spline(&given, unfit, fetch)?,
+        (None, "table") => spline(&given, unfit, fetch)?,
+        // A law that has a name but is not read here must not pass for another one.
+        (None, _) => return Err(one_of()),
     };
     Ok(())
 }
