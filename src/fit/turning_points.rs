@@ -9,11 +9,9 @@
 //! independent of the offset. D2 shifts the midpoints of the swings:
 //! `(x_k + 2 x_{k+1} + x_{k+2})/4 = offset - (2/3) D2 A^2`.
 
-use std::f64::consts::PI;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use nalgebra::Complex;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 
 use super::{D, D2, D3, OFFSET, R, UNKNOWNS, Unknowns, least_squares, median, robust_deviation};
 use crate::model::Parameters;

@@ -96,7 +96,6 @@ methods! {
 
 impl Method {
     /// The row of [`METHODS`] that describes this method.
-    ///
     #[must_use]
     pub fn spec(self) -> &'static MethodSpec {
         &METHODS[self as usize]

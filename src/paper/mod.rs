@@ -2,7 +2,7 @@
 //!
 //! `assets/claims.txt` is the table. A [`Claim`] says where it stands, what it says, and holds a function, by its name in the
 //! files of this folder, that evaluates the paper's formula and computes the same thing without it: by integrating
-//! motions, by searching cycles, by differentiating the physical law. That function returns a [`Evidence`], numbers
+//! motions, by searching cycles, by differentiating the physical law. That function returns an [`Evidence`], numbers
 //! and nothing else; the [`Verdict`] follows from the numbers by one rule for all claims
 //! ([`Evidence::verdict`]). Where a proof encloses what was computed, a [`Certainty`] says what is certain.
 

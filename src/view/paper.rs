@@ -75,22 +75,22 @@ fn about(claim: &Claim, examined: Option<&ClaimResult>, look: &Look) -> Vec<Line
     match examined.map(|examined| &examined.evidence) {
         None => {}
         Some(Err(reason)) => lines.push(text(format!("not computed: {reason}"))),
-        Some(Ok(finding)) => {
+        Some(Ok(evidence)) => {
             let number = |name: &str, value: Option<f64>| {
                 value.map(|value| format!("{name} {}", significant(value, 10)))
             };
-            let error = Some(finding.computed.error).filter(|error| *error > 0.0);
+            let error = Some(evidence.computed.error).filter(|error| *error > 0.0);
             let parts = [
-                number("paper", finding.paper),
-                number("corrected", finding.corrected),
-                number("computed", Some(finding.computed.value)),
+                number("paper", evidence.paper),
+                number("corrected", evidence.corrected),
+                number("computed", Some(evidence.computed.value)),
                 error.map(|error| format!("known to {}", significant(error, 1))),
             ];
             lines.push(text(parts.into_iter().flatten().collect::<Vec<_>>().join(", ")));
             let judged = [
                 &format!("compared with: {}", claim.basis),
-                &claim::sense(finding.sense),
-                &finding.place,
+                &claim::sense(evidence.sense),
+                &evidence.place,
             ];
             let judged = judged.into_iter().filter(|text| !text.is_empty());
             let judged: Vec<&str> = judged.map(String::as_str).collect();

@@ -7,7 +7,6 @@
 
 use super::series::{ORDER, PhaseSeries};
 use crate::flow::Cost;
-
 use crate::model::force::ForceBranch;
 use crate::model::model::FINEST;
 use crate::model::{Model, Phase, Reason};

@@ -165,7 +165,7 @@ impl RandomKick {
 
     /// The fraction of the kicks that is lost: that leads out of the basin of the sticking set.
     ///
-    /// The basin has to be known as far as [`RandomKick::reach`]. Quadrature as in [`Basin::captured_share`].
+    /// The basin has to be known as far as [`RandomKick::reach`]. Quadrature as in `part_within`.
     pub fn lost(&self, basin: &Basin) -> Share {
         if basin.fates.first() != Some(&Fate::Rest) {
             return Share::exact(1.0);

@@ -25,8 +25,8 @@ pub fn open(session: &mut Session, text: impl Into<String>) {
     session.overlay = Some(Overlay::Prompt(Prompt::new(text)));
 }
 
-/// The typed value, to be set; or the typed command, to be run. An empty command closes. A line that begins with no command is searched for in
-/// the palette, which stays open if something is found.
+/// The typed value, to be set; or the typed command, to be run. An empty command closes. A line that
+/// begins with no command is searched for in the palette, which stays open if something is found.
 pub fn accept(session: &mut Session) -> Option<NextCommand> {
     let Some(Overlay::Prompt(prompt)) = &session.overlay else { return None };
     let text = prompt.input.text().trim().to_owned();
