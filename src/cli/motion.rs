@@ -71,7 +71,7 @@ pub struct TrajectoryCommand {
 impl TrajectoryCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(case) = self.asked.of_machine()? {
-            return self.of_machine(case);
+            return self.of_machine(&case);
         }
         let output = &self.asked.output;
         let problem = self.asked.problem(None)?;
@@ -101,11 +101,11 @@ impl TrajectoryCommand {
         }
     }
 
-    fn of_machine(&self, case: MachineCase) -> Result<(), Failure> {
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
         let about = case.about();
         let output = &self.asked.output;
         let model = case.described.problem.subject.model().map_err(troubled)?;
-        let problem = self.asked.problem_of_machine(&case, &model)?;
+        let problem = self.asked.problem_of_machine(case, &model)?;
         let detail = Detail { energy: true, ..Detail::default() };
         let units = MotionUnits::physical(&model);
         let (found, seconds) = timed(output.repeat, || follow(&model, &problem, units, detail));
