@@ -9,6 +9,7 @@ use crate::flow::{
     Cost, Detail, Limits, METHODS, Method, MotionUnits, Outcome, Problem, Reason, Trajectory,
     follow,
 };
+use crate::model::model::FINEST;
 use crate::model::{Knob, Model};
 use crate::numerics::elementary::{ln, log10};
 
@@ -154,7 +155,8 @@ impl Trade {
         };
         let methods = [Method::Taylor, Method::Dop853, Method::Dopri5];
         let rungs = methods.iter().flat_map(|method| ladder(problem, *method));
-        let rows = rungs.map(|rung| row(&rung)).collect();
+        // The finest tolerance is the reference itself.
+        let rows = rungs.filter(|rung| rung.tolerance > FINEST).map(|rung| row(&rung)).collect();
         Ok(Trade { problem: *problem, reference, rows })
     }
 

@@ -160,6 +160,8 @@ pub fn trade<'a>(
     let Trade { problem, reference: known, .. } = &timed.trade;
     let until = format!("{}; until tau = {}", from(problem), significant(problem.until, 6));
     let (rows, unanswered) = timed.rows();
+    let is_in_use = rows.iter().any(|row| row.own);
+    let in_use = if is_in_use { "; <: the method in use" } else { "" };
     let given_up = unanswered.iter().map(|row| {
         let setting = row.setting().map_or_else(String::new, |setting| format!(" at {setting}"));
         format!("{}{setting}: {}", row.point.problem.method, row.reason().unwrap_or_default())
@@ -187,7 +189,7 @@ pub fn trade<'a>(
         .lines([end_of(known), format!("reference: {}", reference(&timed.trade))])
         .captioned("", || columns().table(rows).unbroken())
         .lines(given_up)
-        .lines(["*: nothing else is better for less time; <: the method in use"])
+        .lines([format!("*: nothing else is better for less time{in_use}")])
         .lines(["\n".to_owned() + &plot()])
         .captioned("", || digits(timed));
     if about.is_machine() { answer.cost(known.cost, timed.seconds.iter().sum()) } else { answer }
