@@ -47,13 +47,3 @@ pub enum Fate {
     /// It could not be followed far enough.
     Unknown(Reason),
 }
-
-impl From<Reason> for Fate {
-    fn from(reason: Reason) -> Self {
-        match reason {
-            Reason::Settles => Fate::Rest,
-            Reason::Escapes => Fate::Escapes,
-            _ => Fate::Unknown(reason),
-        }
-    }
-}

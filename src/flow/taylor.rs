@@ -261,17 +261,14 @@ impl<N: Scalar> Taylor<N> {
             self.expand(from);
             if let Some(allowed) = self.allowed() {
                 let longest = longest.times_power(-self.time_exponent);
-                let most = times_power(bound, -self.time_exponent).min(longest.value());
-                let wide = times_power(1.0, WIDE);
+                let allowed = allowed.min(times_power(bound, -self.time_exponent));
+                let is_wide = allowed.min(longest.value()) > times_power(1.0, WIDE);
                 // Coefficients that underflow tell nothing: use a larger unit, unless all is at rest.
-                if allowed.min(most) > wide
-                    && self.v[1] != N::default()
-                    && self.time_exponent < 1000
-                {
+                if is_wide && self.v[1] != N::default() && self.time_exponent < 1000 {
                     self.time_exponent += WIDE;
                     continue;
                 }
-                let allowed = N::of(allowed.min(times_power(bound, -self.time_exponent)));
+                let allowed = N::of(allowed);
                 return Ok(if longest < allowed { longest } else { allowed });
             }
             // Coefficients that overflow belong to a time scale far below 1: use a smaller unit.

@@ -53,12 +53,11 @@ const NEEDS: Reason = Reason::NotApplicable {
 /// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
 /// basin is not known.
 pub fn part_lost(portrait: &Portrait, kicks: &RandomKick) -> Result<Share, Reason> {
-    let all = |part| Ok(Share { part, error: 0.0 });
     match portrait.border {
         Border::Unknown(_) => Err(NEEDS),
         _ if portrait.neutral => Err(NEEDS),
-        Border::None => all(0.0),
-        Border::NoBasin => all(1.0),
+        Border::None => Ok(Share::exact(0.0)),
+        Border::NoBasin => Ok(Share::exact(1.0)),
         _ => Ok(kicks.lost_outside(&|x| portrait.span_at(x), &portrait.corners())),
     }
 }
