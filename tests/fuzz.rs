@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 
 use hopfscope::scene::{file, library, machine, plain};
 use hopfscope::session::read::completion::completion;
-use hopfscope::session::{Msg, Session, Size, config, lines, replay, run_line, update};
+use hopfscope::session::{Keymap, Msg, Session, Size, config, replay, run_line, update};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -165,7 +165,7 @@ fn session() -> Session {
 
 #[test]
 fn lines_of_commands() {
-    let mut texts: Vec<String> = lines().map(|it| it.name.to_owned()).collect();
+    let mut texts: Vec<String> = Keymap::default().lines().map(|it| it.name.to_owned()).collect();
     texts.extend(
         [
             "set D -0.3",

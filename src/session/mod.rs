@@ -7,8 +7,8 @@
 //! - [`read`] answers questions about the state and changes nothing;
 //! - [`act`] changes the state, one family of commands per file;
 //! - [`save`] and [`opening`] convert a session to text and back;
-//! - `commands` and `lines` are the tables of everything that can be run by name, with the functions that do
-//!   it, and [`config`] applies a settings file to the keys;
+//! - `commands` is the table of everything that can be run by name, with the functions that do it, and [`config`]
+//!   applies a settings file to the keys;
 //! - `update` takes a message in.
 
 pub(crate) mod act;
@@ -16,7 +16,6 @@ pub mod commands;
 pub mod config;
 pub mod effect;
 pub mod key;
-pub mod lines;
 pub mod message;
 pub mod opening;
 pub mod read;
@@ -30,7 +29,6 @@ pub mod update;
 pub use commands::commands;
 pub use effect::{Done, Effect};
 pub use key::{Code, Key};
-pub use lines::lines;
 pub use message::{Gesture, Msg, Notice, Pointed, PointerTarget, Purpose};
 pub use read::answers::NoErrorReason;
 pub use read::contexts::Hint;
@@ -41,7 +39,7 @@ pub use replay::script::{Instruction, Script, ScriptStep};
 pub use state::answers::{AnswerState, Answers};
 pub use state::context::Context;
 pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snapshot};
-pub use state::keymap::{Candidates, Command, Keymap, NextCommand};
+pub use state::keymap::{Candidates, Command, CommandAction, Keymap, NextCommand};
 pub use state::overlay::{Completion, Input, List, Listed, Overlay, Prompt, SessionCaption};
 pub use state::plot::{Framing, Pane, Plot};
 pub use state::rows::{Row, StepSizes};

@@ -13,16 +13,14 @@ use crate::session::act::{
     answers, attempt, files, general, history, inform, inform_of_keys, parameters, plots, prompt,
     refuse, walk, with_keys,
 };
-use crate::session::commands::action;
-use crate::session::lines::CommandAction;
 use crate::session::read::completion::names;
 use crate::session::read::contexts::{elsewhere, place};
 use crate::session::read::waiting;
 use crate::session::replay::parse::parse;
 use crate::session::state::keymap::full_name;
 use crate::session::{
-    Code, Command, Context, Done, Effect, Key, Letter, Msg, NextCommand, Overlay, Pane, Pending,
-    Price, Prompt, Row, Session, SessionCaption, Size, Waiting,
+    Code, Command, CommandAction, Context, Done, Effect, Key, Letter, Msg, NextCommand, Overlay,
+    Pane, Pending, Price, Prompt, Row, Session, SessionCaption, Size, Waiting,
 };
 use crate::words::printable;
 
@@ -289,11 +287,11 @@ fn missing(session: &Session, place: Context) -> String {
 
 /// Runs a command, or the command that it chooses.
 fn run(session: &mut Session, command: &Command, key: Key) {
-    match action(command) {
-        Some(CommandAction::Act(act)) => act(session, key),
-        Some(CommandAction::Try(act)) => attempt(session, act),
-        Some(CommandAction::Toggle(layer)) => general::toggle(session, layer),
-        Some(CommandAction::Choose(choose)) => match choose(session) {
+    match command.run {
+        CommandAction::Act(act) => act(session, key),
+        CommandAction::Try(act) => attempt(session, act),
+        CommandAction::Toggle(layer) => general::toggle(session, layer),
+        CommandAction::Choose(choose) => match choose(session) {
             Ok(Some(NextCommand::Command(command))) => run_where_it_belongs(session, command, key),
             Ok(Some(NextCommand::Line(text))) => typed(session, |it| run_line(it, &text)),
             Ok(Some(NextCommand::Value(row, text))) => {
@@ -303,7 +301,7 @@ fn run(session: &mut Session, command: &Command, key: Key) {
             Err(why) => refuse(session, why),
         },
         // It takes words, which a key cannot give.
-        Some(CommandAction::Line(_)) | None => {}
+        CommandAction::Line(..) => {}
     }
 }
 
@@ -332,7 +330,7 @@ pub fn run_line(session: &mut Session, text: &str) -> Done {
             Err(format!("{name} needs {}: {}", line.arguments, line.doc))
         }
         (Some(line), _) => {
-            let Some(CommandAction::Line(run)) = action(line) else { return Ok(()) };
+            let CommandAction::Line(_, run) = line.run else { return Ok(()) };
             run(session, rest).map_err(|why| printable::line(&format!("{name}: {why}")).into())
         }
         (None, Some(_)) => Err(format!("{name} takes no words, but there are {rest:?}")),

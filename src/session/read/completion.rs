@@ -21,6 +21,11 @@ pub fn layers(session: &Session, given: &[&str]) -> Vec<String> {
     }
 }
 
+/// No candidates, where the words are numbers or files.
+pub fn nothing(_: &Session, _: &[&str]) -> Vec<String> {
+    Vec::new()
+}
+
 pub fn switch(_: &Session, given: &[&str]) -> Vec<String> {
     if given.len() == 1 { all(["on", "off"]) } else { Vec::new() }
 }
@@ -101,7 +106,7 @@ pub fn completion(session: &Session, text: &str) -> Option<Completion> {
         None => names(&session.keymap).map(str::to_owned).collect(),
         Some(name) => {
             let given: Vec<&str> = stem.split_whitespace().skip(1).chain([word]).collect();
-            session.keymap.line(name)?.words?(session, &given)
+            session.keymap.line(name)?.words()?(session, &given)
         }
     };
     let fits = |candidate: &String| candidate.starts_with(word) && candidate != word;

@@ -9,7 +9,7 @@ use crate::scene::library::SceneGroup;
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, LayerSpec, Machine, Scene, VIEWS, View, ViewSpec, library};
 use crate::session::state::context::contexts;
-use crate::session::{Command, Context, Kept, List, Listed, Overlay, Session};
+use crate::session::{Code, Command, Context, Kept, Key, List, Listed, Overlay, Session};
 
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {
@@ -175,13 +175,14 @@ impl Session {
 
 /// Whether a command depends on the digit that runs it.
 fn takes_digit(command: &Command) -> bool {
-    command.keys.iter().any(|(_, keys)| keys.contains(&"1"))
+    command.keys.iter().any(|(_, keys)| keys.contains(&Key::plain(Code::Char('1'))))
 }
 
 /// The first context outside of lists and lines in which a command has default keys; commands that switch
 /// layers have none.
 fn home(command: &Command) -> Option<Context> {
-    let outside = |(context, keys): &&(Context, &[&str])| !context.is_overlay() && !keys.is_empty();
+    let outside =
+        |(context, keys): &&(Context, Vec<Key>)| !context.is_overlay() && !keys.is_empty();
     command.keys.iter().find(outside).map(|(context, _)| *context)
 }
 

@@ -1,23 +1,24 @@
 //! Everything that can be run by name, commands of keys and commands that take words, and the bindings of keys to
 //! commands, by context.
 //!
-//! This file describes commands; their functions are in the tables of `session::commands` and `session::lines`. A
-//! [`Keymap`] is built from the default keys of all commands. Several contexts hold at once (a plot, the phase plane,
-//! everywhere); no key may have two meanings in contexts that can hold together.
+//! This file describes commands; their table is in `session::commands`. A [`Keymap`] is built from the default keys of
+//! all commands. Several contexts hold at once (a plot, the phase plane, everywhere); no key may have two meanings in
+//! contexts that can hold together.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::scene::Layer;
 use crate::session::state::context::chains;
-use crate::session::{Context, Key, Row, Session};
+use crate::session::{Context, Done, Key, Row, Session};
 
 /// Something that a key can do, or a line with words.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Command {
     /// Its name, for settings and the palette.
     pub name: &'static str,
     /// The contexts where it applies, with its default keys there; the first one is shown in the footer. A command
     /// that takes words has none.
-    pub keys: &'static [(Context, &'static [&'static str])],
+    pub keys: Vec<(Context, Vec<Key>)>,
     /// A word for the footer; empty if the footer has no room for it. Commands with the same word share one
     /// entry.
     pub hint: &'static str,
@@ -25,14 +26,36 @@ pub struct Command {
     pub doc: &'static str,
     /// Syntax of the words after the name, for the help.
     pub arguments: &'static str,
-    /// What completes its words; `None` if it takes none.
-    pub words: Option<Candidates>,
+    pub run: CommandAction,
 }
 
 impl PartialEq for Command {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
     }
+}
+
+impl Command {
+    /// What completes the words after its name; `None` if it takes none.
+    pub fn words(&self) -> Option<Candidates> {
+        if let CommandAction::Line(words, _) = self.run { Some(words) } else { None }
+    }
+}
+
+/// How a command is run.
+#[derive(Clone, Copy, Debug)]
+pub enum CommandAction {
+    /// It changes the session; the key is the one that was pressed.
+    Act(fn(&mut Session, Key)),
+    /// It changes the session, unless it fails with one line that says why not.
+    Try(fn(&mut Session) -> Done),
+    /// It switches a layer.
+    Toggle(Layer),
+    /// It chooses another command to run.
+    Choose(fn(&mut Session) -> Result<Option<NextCommand>, String>),
+    /// It takes the words after its name, which the first function completes; the second one fails with one line that
+    /// says why it cannot.
+    Line(Candidates, fn(&mut Session, &str) -> Done),
 }
 
 /// Other names of commands and the names that they stand for: short ones from other programs, and former ones.
@@ -91,9 +114,9 @@ impl Keymap {
         let commands: Vec<_> = commands.collect();
         let mut bindings: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
         for command in &commands {
-            for (context, keys) in command.keys {
-                let keys = keys.iter().filter_map(|text| text.parse().ok()).enumerate();
-                let bound = keys.map(|(rank, key)| (key, Binding { command, rank }));
+            for (context, keys) in &command.keys {
+                let keys = keys.iter().enumerate();
+                let bound = keys.map(|(rank, key)| (*key, Binding { command, rank }));
                 bindings.entry(*context).or_default().extend(bound);
             }
         }
@@ -102,12 +125,12 @@ impl Keymap {
 
     /// All commands of keys, in the order in which the help lists them.
     pub fn commands(&self) -> impl Iterator<Item = &'static Command> {
-        self.commands.iter().copied().filter(|command| command.words.is_none())
+        self.commands.iter().copied().filter(|command| command.words().is_none())
     }
 
     /// All commands that take words, in the order in which the help lists them.
     pub fn lines(&self) -> impl Iterator<Item = &'static Command> {
-        self.commands.iter().copied().filter(|command| command.words.is_some())
+        self.commands.iter().copied().filter(|command| command.words().is_some())
     }
 
     /// The command of keys with this name.

@@ -4,7 +4,7 @@ use super::Trial;
 use super::facts::refuses;
 use crate::scene::View;
 use crate::session::read::completion::completion;
-use crate::session::{Effect, List, Overlay, lines, run_line};
+use crate::session::{Effect, List, Overlay, run_line};
 
 #[test]
 fn the_palette_runs_a_command_in_the_pane_that_it_belongs_to() {
@@ -108,7 +108,7 @@ fn tab_completes_and_goes_through_what_is_possible() {
 
 #[test]
 fn every_line_completes_its_words_to_ones_that_it_accepts() {
-    for line in lines() {
+    for line in crate::session::Keymap::default().lines() {
         let mut trial = Trial::open("linear");
         trial.press("<tab>");
         let words = completion(&trial.session, &format!("{} ", line.name));

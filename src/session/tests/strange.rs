@@ -10,8 +10,7 @@ use crate::session::{Effect, Key, Msg, Plot, Session, update};
 /// Keys that have a meaning in some context, and some that are only typed.
 pub(super) fn any_key() -> impl Strategy<Value = Key> {
     let bound: Vec<Key> = commands()
-        .flat_map(|command| command.keys.iter().flat_map(|(_, keys)| keys.iter()))
-        .map(|text| text.parse().unwrap())
+        .flat_map(|command| command.keys.iter().flat_map(|(_, keys)| keys.iter().copied()))
         .collect();
     let typed = prop::char::range(' ', '~').prop_map(|char| {
         let code = crate::session::Code::Char(char);
