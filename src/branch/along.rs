@@ -234,7 +234,7 @@ impl CurveTracer<'_> {
         let limits = Limits { evaluations, interrupted };
         let mut equation =
             Equation::on_side(&parameters, self.curve.side, self.curve.fineness(), &limits);
-        let closings = closings(&mut equation, known);
+        let closings = closings(&mut equation, usize::MAX, known);
         self.curve.cost += equation.cost();
         let closings = match closings {
             Err(Reason::Budget { .. } | Reason::NoConvergence { .. }) if rough => Vec::new(),

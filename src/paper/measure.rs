@@ -241,7 +241,7 @@ pub fn captured(
 /// why the search failed.
 pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<AllFound, Reason> {
     let mut equation = Equation::new(parameters, 0.5 * f64::EPSILON, limits);
-    let found = closings(&mut equation, &[])?;
+    let found = closings(&mut equation, usize::MAX, &[])?;
     let found = found.iter().map(|closing| closing.describe(parameters, equation.side)).collect();
     Ok(beside_proof(parameters, found))
 }

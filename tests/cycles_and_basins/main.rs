@@ -166,7 +166,7 @@ fn the_general_path_gives_the_piecewise_linear_cycle_to_twelve_digits() {
         let series = |field| HalfMap::integrating_above(1e-9, field, f64::EPSILON);
         let fields = [Side::Upper, Side::Lower].map(|side| HalfPlane::new(&parameters, side));
         let mut equation = Equation::on_fields(&parameters, Side::Upper, fields, &LIMITS, series);
-        let found = closings(&mut equation, &[]).unwrap();
+        let found = closings(&mut equation, usize::MAX, &[]).unwrap();
         assert_eq!(found.len(), 1, "D = {d}");
         equation.want_fastest(true);
         let route = if d < -0.2 { Route::Backward } else { Route::Mixed };

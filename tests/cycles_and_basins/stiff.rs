@@ -5,7 +5,8 @@ use super::*;
 #[test]
 fn one_cycle_costs_at_most_forty_half_swings() {
     let parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
-    let found = closings(&mut Equation::new(&parameters, f64::EPSILON, &LIMITS), &[]).unwrap();
+    let found =
+        closings(&mut Equation::new(&parameters, f64::EPSILON, &LIMITS), usize::MAX, &[]).unwrap();
     let mut equation = Equation::new(&parameters, f64::EPSILON, &LIMITS);
     let mut at = |u: f64| equation.at(Route::Mixed, u).unwrap().node;
     let near = found[0].node.at;

@@ -10,7 +10,7 @@ use super::half_map::Length;
 use super::pair::Closing;
 use super::polish::{VAGUE, is_exact, polish};
 use super::precise::{FINER, PreciseEquation};
-use super::search::{Bracket, Node, search};
+use super::search::{Bracket, Node, Search};
 use super::weak::{has_cycle, is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::Reason;
@@ -23,18 +23,14 @@ pub const STEP: f64 = 1e-16;
 
 /// All closings, by amplitude, from the closed form where there is one.
 pub fn all_closings(equation: &mut Equation) -> Result<Vec<Closing>, Reason> {
-    match closed_form(&equation.parameters) {
-        Some(known) => Ok(known),
-        None => closings(equation, &[]),
-    }
+    first_closings(equation, usize::MAX)
 }
 
-/// The closing of the smallest amplitude, from the closed form where there is one: half the work of
-/// finding all.
-pub fn innermost_closing(equation: &mut Equation) -> Result<Option<Closing>, Reason> {
+/// As many of them as are wanted: finding the innermost one alone is half the work.
+pub fn first_closings(equation: &mut Equation, most: usize) -> Result<Vec<Closing>, Reason> {
     match closed_form(&equation.parameters) {
-        Some(known) => Ok(known.into_iter().next()),
-        None => Ok(searched(equation, 1, &[])?.pop()),
+        Some(known) => Ok(known),
+        None => closings(equation, most, &[]),
     }
 }
 
@@ -54,13 +50,9 @@ impl From<&LinearCycle> for Closing {
     }
 }
 
-/// All closings outside of the `known` intervals of `ln c0`, in which all are known, by amplitude, from the search.
-pub fn closings(equation: &mut Equation, known: &[(f64, f64)]) -> Result<Vec<Closing>, Reason> {
-    searched(equation, usize::MAX, known)
-}
-
-/// As many closings as are wanted, by amplitude, from the search outside of the `known` intervals.
-fn searched(
+/// As many closings as are wanted, by amplitude, from the search outside of the `known` intervals of `ln c0`, in which
+/// all are known.
+pub fn closings(
     equation: &mut Equation,
     most: usize,
     known: &[(f64, f64)],
@@ -208,6 +200,8 @@ fn brackets(
     const ROUGH: f64 = 1e-8;
     const BLUR: f64 = 1e3;
     const WEAK: f64 = 0.01;
+    /// Half of the shortest intervals, in `ln c0`.
+    const FINEST: f64 = 1e-4;
     /// First stride and longest stride, in `ln c0`.
     const STRIDES: (f64, f64) = (0.5, 2.0);
     let high = upper_end(&equation.parameters);
@@ -219,7 +213,7 @@ fn brackets(
     let mut function = |u: f64, fine: bool| {
         if fine { resolved(equation, u) } else { Ok(rough.at(Route::Mixed, u)?.node) }
     };
-    let mut found = Vec::new();
+    let mut search = Search { finest: FINEST, ..Search::default() };
     // Where the next unknown interval begins, at or beyond a place.
     let unknown = |mut at: f64| {
         while let Some(&(_, to)) = known.iter().find(|(from, to)| *from <= at && at < *to) {
@@ -232,19 +226,20 @@ fn brackets(
     while here.at < high {
         let ahead = known.iter().map(|(from, _)| *from).filter(|from| *from > here.at);
         let next = function(ahead.fold((here.at + stride).min(high), f64::min), exact)?;
-        search(here, next, blur, &mut function, &mut found)?;
+        search.between(here, next, blur, &mut function)?;
         let beyond = unknown(next.at);
         here = if beyond > next.at { function(beyond, exact)? } else { next };
         // A swing that never starts out, or never ends, is not an end of the domain: from further out it may.
         let escapes = here.rise == f64::INFINITY || here.fall == f64::INFINITY;
         // One of them may turn out to be no cycle.
-        if found.len() > most || (found.len() == most && parameters.d > -1.0) || escapes {
+        let enough = search.found.len() >= most.saturating_add(usize::from(parameters.d <= -1.0));
+        if enough || escapes {
             break;
         }
         stride = (1.5 * stride).min(STRIDES.1);
     }
     equation.charge(rough.cost());
-    Ok(found)
+    Ok(search.found)
 }
 
 /// The bracket of the innermost closing, without any use of closed forms or of the parameters' D2: it serves an

@@ -1,21 +1,18 @@
 //! A search for all roots of a smooth function on an interval, that cannot pass over a close pair.
 //!
-//! The function is a difference `rise - fall` of two increasing functions (for limit cycles: where a
-//! swing ends and where the next one has to start). That alone proves intervals empty: between a and b
-//! the difference lies between `rise(a) - fall(b)` and `rise(b) - fall(a)`. Where this is not enough,
-//! the cubic through values and slopes at both ends is compared with the middle: if the cubic stays away
-//! from zero by more than eight times its error there, the interval is taken to be empty; if it crosses
-//! zero once and monotonically, to hold one root. Otherwise the interval is halved, and an interval at
-//! the limit of halving whose slopes point at an extremum towards zero is decided at that extremum.
+//! The function is a difference `rise - fall` of two increasing functions: for limit cycles without a belt, where a
+//! swing ends and where the next one has to start; for a return map, the image of a turning point and the point itself.
+//! That alone proves intervals empty: between a and b the difference lies between `rise(a) - fall(b)` and
+//! `rise(b) - fall(a)`. Where this is not enough, the cubic through values and slopes at both ends is compared with the
+//! middle: if the cubic stays away from zero by more than eight times its error there, the interval is taken to be
+//! empty; if it crosses zero once and monotonically, to hold one root. Otherwise the interval is halved, and an interval
+//! at the limit of halving whose slopes point at an extremum towards zero is decided at that extremum.
 //!
-//! Guarantee: every interval between the roots found is excluded by monotonicity, or by a cubic whose
-//! error was measured. Assumption: the function varies on scales not below 1e-4.
+//! Guarantee: every interval between the roots found is excluded by monotonicity, or by a cubic whose error was
+//! measured. Assumption: the function varies on scales not below the finest interval; those at which it does are told.
 
 use crate::numerics::polynomial::Hermite;
 use crate::numerics::root::{PlaceTolerance, illinois};
-
-/// Intervals of this length are not halved any more.
-const FINEST: f64 = 1e-4;
 
 /// Relative width to which an extremum is sought: rounding.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
@@ -62,63 +59,100 @@ impl Node {
 /// Two nodes between which the function changes its sign.
 pub type Bracket = (Node, Node);
 
-/// Collects brackets of all roots between two nodes.
-///
-/// `function(at, fine)` may be off by `blur` where it is not asked to be fine; where that is too much to decide, it
-/// is asked again. A `blur` of 0 asks it to be fine from the beginning.
-pub fn search<E>(
-    low: Node,
-    high: Node,
-    blur: f64,
-    function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
-    found: &mut Vec<Bracket>,
-) -> Result<(), E> {
-    /// Beside a blur, values this many times larger decide; bounds below rounding never do.
-    const CLEAR: f64 = 4.0;
-    const ROUNDING: f64 = 1e-12;
-    let bound = blur.max(ROUNDING);
-    let surely_negative = high.rise < low.fall - bound;
-    let surely_positive = low.rise > high.fall + bound;
-    if surely_negative || surely_positive {
-        return Ok(());
-    }
-    let blurred = |node: &Node| node.value().abs() < CLEAR * blur;
-    if blurred(&low) || blurred(&high) {
-        let (low, high) = (function(low.at, true)?, function(high.at, true)?);
-        return search(low, high, 0.0, function, found);
-    }
-    let changes = (low.value() > 0.0) != (high.value() > 0.0);
-    let width = high.at - low.at;
-    if width <= FINEST {
-        if changes {
-            found.push((low, high));
-        } else if let Some(extremum) = beyond_zero(low, high, ROUNDED, function)? {
-            found.extend([(low, extremum), (extremum, high)]);
+/// A search, and what it found so far.
+#[derive(Clone, Debug, Default)]
+pub struct Search {
+    /// Half of the length of intervals that are not halved any more.
+    pub finest: f64,
+    /// Values below this count as zero: where all do, roots cannot be told apart, and none is found. If it is above
+    /// 0, a function that rises or falls at both ends and in the middle is trusted to do so between, too.
+    pub nothing: f64,
+    /// Brackets of the roots, in their order.
+    pub found: Vec<Bracket>,
+    /// Intervals that were too short to halve and yet not decided by a cubic: roots may be missing there.
+    pub unresolved: Vec<(f64, f64)>,
+}
+
+impl Search {
+    /// Collects brackets of all roots between two nodes.
+    ///
+    /// `function(at, fine)` may be off by `blur` where it is not asked to be fine; where that is too much to decide, it
+    /// is asked again. A `blur` of 0 asks it to be fine from the beginning.
+    pub fn between<E>(
+        &mut self,
+        low: Node,
+        high: Node,
+        blur: f64,
+        function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
+    ) -> Result<(), E> {
+        /// Beside a blur, values this many times larger decide; bounds below rounding never do.
+        const CLEAR: f64 = 4.0;
+        const ROUNDING: f64 = 1e-12;
+        let bound = blur.max(ROUNDING);
+        let surely_negative = high.rise < low.fall - bound;
+        let surely_positive = low.rise > high.fall + bound;
+        if surely_negative || surely_positive {
+            return Ok(());
         }
-        return Ok(());
-    }
-    let middle = function(low.at + 0.5 * width, blur == 0.0)?;
-    if blurred(&middle) {
-        let (low, high) = (function(low.at, true)?, function(high.at, true)?);
-        return search(low, high, 0.0, function, found);
-    }
-    if low.is_finite() && high.is_finite() && middle.is_finite() {
-        let error = SAFETY * (middle.value() - cubic(&low, &high).at(0.5)).abs() + blur;
+        let blurred = |node: &Node| node.value().abs() < CLEAR * blur;
+        let width = high.at - low.at;
+        let mut middle = low;
+        if !blurred(&low) && !blurred(&high) {
+            middle = function(low.at + 0.5 * width, blur == 0.0)?;
+        }
+        if [low, middle, high].iter().any(blurred) {
+            let (low, high) = (function(low.at, true)?, function(high.at, true)?);
+            return self.between(low, high, 0.0, function);
+        }
+        let changes = (low.value() > 0.0) != (high.value() > 0.0);
         let halves = [(low, middle), (middle, high)];
-        if !changes && halves.iter().all(|(a, b)| stays_away(a, b, error)) {
-            return Ok(());
+        let foretold = (middle.value() - cubic(&low, &high).at(0.5)).abs();
+        if low.is_finite() && high.is_finite() && middle.is_finite() {
+            let error = SAFETY * foretold + blur;
+            if !changes && halves.iter().all(|(a, b)| stays_away(a, b, error)) {
+                return Ok(());
+            }
+            if changes && halves.iter().all(|(a, b)| is_monotone(a, b, error)) {
+                let second = (low.value() > 0.0) == (middle.value() > 0.0);
+                self.found.push(halves[usize::from(second)]);
+                return Ok(());
+            }
         }
-        if changes && halves.iter().all(|(a, b)| is_monotone(a, b, error)) {
-            found.push(if (low.value() > 0.0) == (middle.value() > 0.0) {
-                (middle, high)
+        // If all values have one sign and all slopes another, there is no room for roots, however rough the function.
+        let one_way = low.slope * middle.slope > 0.0 && middle.slope * high.slope > 0.0;
+        let trusted = foretold <= self.nothing || (one_way && foretold < 0.5 * width);
+        let settled = self.nothing > 0.0 && trusted;
+        let is_finest = width <= 2.0 * self.finest;
+        if is_finest && !settled {
+            self.unresolved.push((low.at, high.at));
+        }
+        for (low, high) in halves {
+            if is_finest || settled {
+                self.decide(low, high, function)?;
             } else {
-                (low, middle)
-            });
+                self.between(low, high, blur, function)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Collects the roots between two nodes where the function is nearly a cubic: one, or a pair about an extremum.
+    fn decide<E>(
+        &mut self,
+        low: Node,
+        high: Node,
+        function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
+    ) -> Result<(), E> {
+        if low.value().abs() < self.nothing && high.value().abs() < self.nothing {
             return Ok(());
         }
+        if (low.value() > 0.0) != (high.value() > 0.0) {
+            self.found.push((low, high));
+        } else if let Some(extremum) = beyond_zero(low, high, function)? {
+            self.found.extend([(low, extremum), (extremum, high)]);
+        }
+        Ok(())
     }
-    search(low, middle, blur, function, found)?;
-    search(middle, high, blur, function, found)
 }
 
 /// The cubic with the values and slopes of two nodes.
@@ -145,12 +179,10 @@ fn is_monotone(low: &Node, high: &Node, error: f64) -> bool {
     bounded(low.slope) && bounded(high.slope) && error < mean * (high.at - low.at)
 }
 
-/// Where a function has the other sign between two nodes of one sign whose slopes point at an extremum towards zero; the
-/// extremum is sought to within this `width`.
-pub fn beyond_zero<E>(
+/// Where a function has the other sign between two nodes of one sign whose slopes point at an extremum towards zero.
+fn beyond_zero<E>(
     low: Node,
     high: Node,
-    width: f64,
     function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
 ) -> Result<Option<Node>, E> {
     let sign = low.value().signum();
@@ -164,7 +196,7 @@ pub fn beyond_zero<E>(
         let beyond = (node.value() > 0.0) != (low.value() > 0.0);
         if beyond { Err(Ok(node)) } else { Ok(node.slope) }
     };
-    let width = PlaceTolerance::Absolute(width * high.at.abs().max(1.0));
+    let width = PlaceTolerance::Absolute(ROUNDED * high.at.abs().max(1.0));
     match illinois([(low.at, low.slope), (high.at, high.slope)], 0.0, width, slope) {
         Err(Err(error)) => Err(error),
         Err(Ok(beyond)) => Ok(Some(beyond)),
@@ -188,10 +220,10 @@ mod tests {
     }
 
     fn roots_of(mut function: impl FnMut(f64, bool) -> Result<Node, ()>) -> Vec<Bracket> {
-        let mut found = Vec::new();
+        let mut search = Search { finest: 1e-4, ..Search::default() };
         let (low, high) = (function(0.0, true).unwrap(), function(4.0, true).unwrap());
-        search(low, high, 0.0, &mut function, &mut found).unwrap();
-        found
+        search.between(low, high, 0.0, &mut function).unwrap();
+        search.found
     }
 
     #[test]

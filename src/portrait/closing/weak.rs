@@ -88,7 +88,7 @@ mod tests {
             let parameters = Parameters { d, d2, d3, r };
             let weak = weak_closing(&parameters).unwrap();
             let mut equation = Equation::new(&parameters, STEP, &Limits::PATIENT);
-            let found = closings(&mut equation, &[]).unwrap();
+            let found = closings(&mut equation, usize::MAX, &[]).unwrap();
             assert_eq!(found.len(), 1, "{parameters:?}");
             let near = |one: f64, other: f64, within: f64| (one / other - 1.0).abs() <= within;
             assert!(near(weak.first.value, found[0].first.value, 1e-12), "{weak:?} {found:?}");

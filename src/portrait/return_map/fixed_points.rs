@@ -2,15 +2,14 @@
 
 use super::machine_return::Landmarks;
 use super::machine_return::{Image, MachineReturn};
-use super::zeros::{NOTHING, zeros};
 use crate::flow::machine::arc::{SeriesStep, Watch};
 use crate::flow::machine::ledger::StepWorks;
 use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Ledger, Model, Phase};
 use crate::numerics::elementary::{exp, ln, pow};
-use crate::numerics::root::bisect;
+use crate::numerics::root::{self, PlaceTolerance, bisect, try_newton};
 use crate::numerics::scaling::{exponent, times_power};
-use crate::portrait::closing::search::Node;
+use crate::portrait::closing::search::{Bracket, Node, Search};
 use crate::portrait::{Cycle, Ride};
 
 /// Extremes of the velocity, and durations, along a motion.
@@ -62,6 +61,9 @@ pub struct FixedPoints {
 
 /// Logarithm of the multiplier from which cycles are computed backward in time.
 const STRONG: f64 = 4.0;
+
+/// Values of the growth below this count as zero.
+pub(crate) const NOTHING: f64 = 1e-12;
 
 /// Replaces a value that does not exist because the mass comes to rest or escapes.
 const FAR: f64 = 1e3;
@@ -220,24 +222,66 @@ impl Flow<'_> {
         scale: f64,
         found: &mut FixedPoints,
     ) -> Result<Vec<f64>, Reason> {
-        let zeros = zeros((first, last), &mut |u| self.growth(u, scale))?;
+        /// Number of intervals to begin with, and how often each is halved at most.
+        const PARTS: f64 = 8.0;
+        const HALVINGS: f64 = 4096.0;
+        let part = (last.at - first.at) / PARTS;
+        let finest = 0.5 * part / HALVINGS;
+        let mut search = Search { finest, nothing: NOTHING, ..Search::default() };
+        let mut left = first;
+        while left.at < last.at {
+            let near_end = left.at + 1.5 * part > last.at;
+            let right = if near_end { last } else { self.growth(left.at + part, scale)? };
+            search.between(left, right, 0.0, &mut |u, _| self.growth(u, scale))?;
+            left = right;
+        }
         let turn = |u: f64| scale * exp(u);
-        found.unresolved.extend(zeros.unresolved.iter().map(|(from, to)| (turn(*from), turn(*to))));
-        Ok(zeros.found)
+        let unresolved = search.unresolved.iter().map(|(from, to)| (turn(*from), turn(*to)));
+        found.unresolved.extend(unresolved);
+        search.found.into_iter().map(|bracket| self.zero(bracket, scale)).collect()
+    }
+
+    /// The zero of the growth in a bracket, by Newton's method.
+    fn zero(&mut self, (left, right): Bracket, scale: f64) -> Result<f64, Reason> {
+        let best = if left.value().abs() < right.value().abs() { left } else { right };
+        if best.value() == 0.0 {
+            return Ok(best.at);
+        }
+        let bracket = root::Bracket { low: left.at, high: right.at, rising: right.value() > 0.0 };
+        let width = 2.0 * f64::EPSILON * (1.0 + best.at.abs()).min(2.0);
+        let start = bracket.inside(best.at - best.value() / best.slope);
+        let root = try_newton(bracket, start, PlaceTolerance::Absolute(width), |u| {
+            self.growth(u, scale).map(|sample| (sample.value(), sample.slope))
+        });
+        Ok(root?.at)
     }
 
     /// The innermost cycle, if it repels so strongly that a few turns backward lead to it from rest and the map
     /// itself cannot resolve it.
     fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Reason> {
+        if self.model.guide_static == 0.0 || smallest.is_infinite() {
+            return Ok(None);
+        }
+        self.settled_backward(smallest)
+    }
+
+    /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
+    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Reason> {
+        let MachineReturn::Turns(image) = self.returned(x)? else { return Ok(None) };
+        let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
+        let repels = slips && image.log_slope >= STRONG;
+        let sharper = if repels { self.settled_backward(x)? } else { None };
+        Ok(Some(sharper.unwrap_or((x, image))))
+    }
+
+    /// The strongly repelling fixed point to which a few turns backward lead from `x`, with its image; `None` where they
+    /// lead to none.
+    fn settled_backward(&mut self, mut x: f64) -> Result<Option<(f64, Image)>, Reason> {
         /// Maximum number of turns.
         const TURNS: usize = 8;
         /// To rounding, a cycle that repels beyond all digits turns where the guide lets go.
         const ROUNDING: f64 = 1e-12;
         let held = self.model.guide_static;
-        if held == 0.0 || smallest.is_infinite() {
-            return Ok(None);
-        }
-        let mut x = smallest;
         for _ in 0..TURNS {
             // A turning point that the guide holds is on no cycle; neither is the equilibrium of a phase.
             let moves = |image: &Image| {
@@ -254,18 +298,6 @@ impl Flow<'_> {
             x = image.x;
         }
         Ok(None)
-    }
-
-    /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
-    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Reason> {
-        let MachineReturn::Turns(image) = self.returned(x)? else { return Ok(None) };
-        let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
-        if !slips || image.log_slope < STRONG {
-            return Ok(Some((x, image)));
-        }
-        let before = self.preimage(x)?;
-        let again = before.map(|before| self.preimage(before.x)).transpose()?.flatten();
-        Ok(Some(again.zip(before).map_or((x, image), |(again, before)| (before.x, again))))
     }
 
     /// A right turning point far beyond `scale`, or as far as motions can be followed.

@@ -3,9 +3,9 @@
 
 use crate::flow::{Fate, Flow, Reason};
 use crate::model::Model;
+use crate::portrait::return_map::fixed_points::NOTHING;
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
-use crate::portrait::return_map::zeros::NOTHING;
 
 /// A gap between right turning points.
 #[derive(Clone, Copy, Debug)]

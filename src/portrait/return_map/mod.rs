@@ -6,4 +6,3 @@ pub(crate) mod fixed_points;
 pub(crate) mod gaps;
 #[doc(hidden)]
 pub mod machine_return;
-pub(crate) mod zeros;

@@ -9,7 +9,7 @@ use crate::flow::{Detail, Limits, Problem, Reason};
 use crate::numerics::Interval;
 use crate::portrait::basin::Basin;
 use crate::portrait::basin::cycle::cycles_and_closings;
-use crate::portrait::closing::all::{STEP, innermost_closing};
+use crate::portrait::closing::all::{STEP, first_closings};
 use crate::portrait::closing::equation::Equation;
 use crate::portrait::closing::pair::Closing;
 use crate::portrait::design::friction_for;
@@ -103,9 +103,9 @@ impl<'a> OscillatorPoint<'a> {
             closings.first().copied()
         } else {
             let mut equation = Equation::new(parameters, STEP, self.limits);
-            let inner = innermost_closing(&mut equation);
+            let inner = first_closings(&mut equation, 1);
             cells.cost += equation.cost();
-            inner?
+            inner?.first().copied()
         };
         // It has to be followed as far as the window or the kicks reach only if these matter.
         let reach = |measure, reach| if cells.asks(measure) { reach } else { 0.0 };
