@@ -94,7 +94,7 @@ fn general_statements_fail_in_some_cases() {
         ("Fig. 10", "D3 > 0", "D = -0.637, D3 = 0.25, r = 1"),
         ("Fig. 10", "D3 < 0", "D = -1, D3 = -0.1, r = 0.1"),
         ("Fig. 10", "D3 = 0", "D = -1, r = 0.1"),
-        ("6.4", "for all values of D", "D = -1"),
+        ("6.4", "for all values of D", "D = -1, r = 1"),
         ("6.4, Fig. 13", "merely distorts", "D = -0.07, D2 = 0.2, r = 0.5"),
     ] {
         let evidence = about(equation, words);

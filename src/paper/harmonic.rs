@@ -3,28 +3,24 @@
 use std::f64::consts::{E, PI, TAU};
 
 use super::known::{Certain, Known};
-use super::measure::{
-    amplitude, at_rest, enclosed, extent, half_swing, largest, mean, missing, of_cycle, oscillator,
-    over, place, smallest, speed, towards,
-};
-use super::{Check, Evidence};
+use super::measure::{Case, at_rest, missing, oscillator};
+use super::{Check, Evidence, tends, worst};
 use crate::accuracy::harmonic_error::harmonic_balance;
 use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::closed_form::harmonics::HarmonicCycle;
-use crate::flow::{Limits, Reason};
+use crate::flow::Reason;
 use crate::model::Parameters;
 use crate::numerics::Interval;
 use crate::numerics::elementary::{powi, sin};
 use crate::numerics::interval::PI as PI_BOUNDS;
 
 pub const CHECKS: &[Check] = &[
-    ("Fourier series", |limits| {
-        let parameters = linear(-0.7);
-        let [few, many] = [3, 31].map(|number| by_harmonics(&parameters, number, limits));
-        let computed = amplitude(&smallest(&parameters, limits)?);
-        Ok(Evidence::tends((few?, computed), (many?, computed)).at(place(&parameters)))
+    worst("Fourier series", |it| {
+        let [few, many] = [3, 31].map(|number| by_harmonics(it, number));
+        let computed = it.smallest()?.amplitude();
+        Ok(Evidence::tends((few?, computed), (many?, computed)))
     }),
-    ("second derivative", |_| {
+    worst("second derivative", |_| {
         // Central differences of the velocity - A eta sin(eta tau), two of them.
         let (size, eta) = (0.7, 1.3);
         let velocity = |tau: f64| -size * eta * sin(eta * tau);
@@ -36,87 +32,48 @@ pub const CHECKS: &[Check] = &[
         let evidence = Evidence::equal(0.0, computed).corrected(-size * eta * eta);
         Ok(evidence.at("A = 0.7, eta = 1.3"))
     }),
-    ("frequency of cycles", |limits| {
-        over(DAMPINGS.map(linear), |parameters| {
-            let cycle = smallest(parameters, limits)?;
-            let frequency =
-                of_cycle(&cycle, TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
-            Ok(Evidence::near(1.0, frequency))
-        })
+    worst("frequency of cycles", |it| {
+        let cycle = it.smallest()?;
+        let frequency = cycle.known(TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
+        Ok(Evidence::near(1.0, frequency))
     }),
-    ("harmonic cycles", |limits| {
-        towards([-0.9, -0.999].map(units_of_friction), |parameters| {
-            let cycle = smallest(parameters, limits)?;
-            let ratio = cycle.v_max / cycle.q_max;
-            Ok((1.0, of_cycle(&cycle, ratio, |it| it.v_max / it.q_max)))
-        })
+    tends("harmonic cycles", |it| {
+        let cycle = it.smallest()?;
+        Ok((1.0, cycle.known(cycle.v_max / cycle.q_max, |it| it.v_max / it.q_max)))
     }),
-    ("mean displacement", |limits| {
-        let cases = [-0.4, -0.2, -0.1, -0.05, -0.02].map(|d| oscillator(d, 0.2, 0.2, 1e-3));
-        over(cases, |parameters| {
-            let cycle = largest(parameters, limits)?;
-            let formula = harmonic_mean(parameters.d2, largest_amplitude(parameters)?);
-            Ok(Evidence::near(formula, mean(parameters, &cycle, limits)?))
-        })
+    worst("mean displacement", |it| {
+        let formula = harmonic_mean(it.d2, largest_amplitude(it)?);
+        Ok(Evidence::near(formula, it.mean(&*it.largest()?)?))
     }),
-    ("slow change of amplitude", |limits| {
-        Evidence::worst([0.5, 1.0, 2.0].map(|size| {
-            let parameters = oscillator(-1e-3, 0.0, 2e-3, 1e-3);
-            let [left, _] = half_swing(&parameters, at_rest(size), limits)?;
-            let [right, _] = half_swing(&parameters, at_rest(left.value), limits)?;
-            let turns = enclosed(&parameters, at_rest(size), 10.0).turns;
-            let bounds = turns.get(1).map(|turn| turn.q - Interval::point(size));
-            let computed = Known::new(right.value - size, right.error + left.error).within(bounds);
-            let Parameters { d, d3, r, .. } = parameters;
-            let printed = -4.0 * r / PI - 2.0 * d * size - 0.75 * d3 * powi(size, 3);
-            let evidence = Evidence::near(TAU * printed, computed).corrected(PI * printed);
-            Ok(evidence.at(format!("{}, A = {size}", place(&parameters))))
-        }))
+    worst("slow change of amplitude", |it| {
+        let size = it.more;
+        let [left, _] = it.half_swing(at_rest(size))?;
+        let [right, _] = it.half_swing(at_rest(left.value))?;
+        let turns = it.enclosed(at_rest(size), 10.0).turns;
+        let bounds = turns.get(1).map(|turn| turn.q - Interval::point(size));
+        let computed = Known::new(right.value - size, right.error + left.error).within(bounds);
+        let Parameters { d, d3, r, .. } = **it;
+        let printed = -4.0 * r / PI - 2.0 * d * size - 0.75 * d3 * powi(size, 3);
+        Ok(Evidence::near(TAU * printed, computed).corrected(PI * printed))
     }),
-    ("amplitude as size", |limits| {
-        over(DAMPINGS.map(linear), |parameters| {
-            let cycle = smallest(parameters, limits)?;
-            Ok(Evidence::near(largest_amplitude(parameters)?, amplitude(&cycle)))
-        })
+    worst("amplitude as size", |it| {
+        Ok(Evidence::near(largest_amplitude(it)?, it.smallest()?.amplitude()))
     }),
-    ("A_q at D = -1", |limits| {
-        towards([-0.7, -0.9].map(units_of_friction), |parameters| {
-            Ok((1.0, extent(&smallest(parameters, limits)?)))
-        })
+    tends("A_q at D = -1", |it| Ok((1.0, it.smallest()?.extent()))),
+    tends("A_q and A_v at D = 0", |it| {
+        let cycle = it.smallest()?;
+        Ok((cycle.v_max, cycle.extent()))
     }),
-    ("A_q and A_v at D = 0", |limits| {
-        towards([-0.4, -0.02].map(linear), |parameters| {
-            let cycle = smallest(parameters, limits)?;
-            Ok((cycle.v_max, extent(&cycle)))
-        })
+    worst("amplitude between extents", |it| {
+        harmonic_against_extents(it, |a, low, high| low <= a && a <= high)
     }),
-    ("amplitude between extents", |limits| {
-        harmonic_against_extents(limits, |a, low, high| low <= a && a <= high)
-    }),
-    ("amplitude below extents", |limits| harmonic_against_extents(limits, |a, low, _| a < low)),
-    ("A_v at D = -1", |limits| {
-        towards([-0.9, -0.999].map(units_of_friction), |parameters| {
-            Ok((2.0 / E, speed(&smallest(parameters, limits)?)))
-        })
-    }),
+    worst("amplitude below extents", |it| harmonic_against_extents(it, |a, low, _| a < low)),
+    tends("A_v at D = -1", |it| Ok((2.0 / E, it.smallest()?.speed()))),
 ];
 
-/// Dampings at which the first-order answer is compared with the cycle.
-const DAMPINGS: [f64; 6] = [-0.9, -0.7, -0.4, -0.2, -0.1, -0.01];
-
-/// The piecewise linear oscillator, with the friction of Fig. 9.
-fn linear(d: f64) -> Parameters {
-    oscillator(d, 0.0, 0.0, 0.1)
-}
-
-/// The piecewise linear oscillator in units of its friction.
-pub(crate) fn units_of_friction(d: f64) -> Parameters {
-    oscillator(d, 0.0, 0.0, 1.0)
-}
-
 /// The amplitude by a number of harmonics.
-fn by_harmonics(parameters: &Parameters, number: usize, limits: &Limits) -> Result<f64, Reason> {
-    let found = harmonic_balance(parameters, number, 0, limits)?;
+fn by_harmonics(it: &Case, number: usize) -> Result<f64, Reason> {
+    let found = harmonic_balance(it, number, 0, &it.limits)?;
     let cycle = found.balanced.first().and_then(|balanced| balanced.cycle.as_ref().ok());
     cycle.map(HarmonicCycle::amplitude).ok_or(missing("a cycle of some harmonics"))
 }
@@ -127,18 +84,17 @@ pub(crate) fn largest_amplitude(parameters: &Parameters) -> Result<f64, Reason> 
     last.ok_or(missing("a stationary amplitude"))
 }
 
-/// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent.
+/// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent, over all dampings.
 fn harmonic_against_extents(
-    limits: &Limits,
+    it: &Case,
     holds: fn(f64, f64, f64) -> bool,
 ) -> Result<Evidence, Reason> {
     Evidence::always((1..20).map(|number| {
-        let parameters = linear(-0.05 * f64::from(number));
-        let cycle = smallest(&parameters, limits)?;
-        let harmonic = largest_amplitude(&parameters)?;
+        let d = -0.05 * f64::from(number);
+        let it = it.of(oscillator(d, 0.0, 0.0, 0.1));
+        let (cycle, harmonic) = (it.smallest()?, largest_amplitude(&it)?);
         let (low, high) = (cycle.v_max.min(cycle.q_max), cycle.v_max.max(cycle.q_max));
-        let place =
-            format!("{}: A = {harmonic:.5}, A_v = {low:.5}, A_q = {high:.5}", place(&parameters));
+        let place = format!("D = {d}, r = 0.1: A = {harmonic:.5}, A_v = {low:.5}, A_q = {high:.5}");
         let value = holds(harmonic, low, high);
         let certain = cycle.bounds.is_some_and(|it| {
             let [v, q] = [it.v_max, it.q_max];

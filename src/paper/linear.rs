@@ -3,99 +3,73 @@
 use std::f64::consts::PI;
 
 use super::equilibria::{least_kick, shifted};
-use super::harmonic::units_of_friction;
 use super::known::Known;
-use super::measure::{
-    at_rest, cycles, edge, extent, half_swing, of_cycle, oscillator, over, place, smallest, speed,
-    state_at,
-};
-use super::{Check, Evidence};
-use crate::flow::{Limits, Reason};
+use super::measure::{Case, at_rest};
+use super::{Check, Evidence, always, worst};
+use crate::flow::Reason;
 use crate::model::{Parameters, State};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{atan, atan2, exp, sin, sin_cos};
 use crate::portrait::Border;
 
 pub const CHECKS: &[Check] = &[
-    ("periodic border", |limits| {
-        let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
-        let found = edge(&parameters, limits)?;
+    worst("periodic border", |it| {
+        let found = it.edge()?;
         let cycles = f64::from(u8::from(found.value == Border::Cycle));
-        let at = format!("{}, where starts beyond a finite border escape", place(&parameters));
         // A basin without a border would need none.
         let needed = f64::from(u8::from(found.value != Border::None));
         let bounds = found.certain.then_some(Interval::point(cycles));
-        Ok(Evidence::equal(needed, Known::exact(cycles).within(bounds)).at(at))
+        Ok(Evidence::equal(needed, Known::exact(cycles).within(bounds)))
     }),
-    ("one cycle", |limits| {
-        Evidence::always(DAMPINGS.map(|d| {
-            let found = cycles(&units_of_friction(d), limits)?;
-            let further = found.map(|found| found.len() == 1 && found[0].clearance > 0.0);
-            Ok((format!("D = {d}"), further))
-        }))
+    always("one cycle", |it| {
+        Ok(it.cycles()?.map(|found| found.len() == 1 && found[0].clearance > 0.0))
     }),
-    ("circle of radius r", |limits| {
-        over(DAMPINGS.map(units_of_friction), |parameters| {
-            Ok(Evidence::at_most(parameters.r, least_kick(parameters, limits)?))
-        })
+    worst("circle of radius r", |it| Ok(Evidence::at_most(it.r, least_kick(it)?))),
+    worst("duration of a swing", |it| {
+        let [_, tau] = it.half_swing(at_rest(it.more))?;
+        Ok(Evidence::equal(PI / LinearSwing::of(it).omega, tau))
     }),
-    ("duration of a swing", |limits| over_swings(limits, |swing| PI / swing.omega, |[_, tau]| tau)),
-    ("centre with a false sign", |limits| shifted(limits, 1.0)),
-    ("velocity on the way", |limits| {
-        over(DAMPINGS.map(units_of_friction), |parameters| {
-            let swing = LinearSwing::of(parameters);
-            let tau = 0.4 * PI / swing.omega;
-            let start = at_rest(-parameters.r - 1.0);
-            let [_, velocity] = state_at(parameters, start, tau, limits)?;
-            let (d, a, b) = (swing.d, -1.0, -swing.d / swing.omega);
-            let (sine, cosine) = sin_cos(swing.omega * tau);
-            let formula = -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
-            let at = format!("{}, from q = -2, at tau = {tau:.4}", place(parameters));
-            Ok(Evidence::equal(formula * exp(-d * tau), velocity).at(at))
-        })
+    worst("centre with a false sign", |it| shifted(it, 1.0)),
+    worst("velocity on the way", |it| {
+        let swing = LinearSwing::of(it);
+        let tau = 0.4 * PI / swing.omega;
+        let [_, velocity] = it.state_at(at_rest(it.more), tau)?;
+        let (d, a, b) = (swing.d, -1.0, -swing.d / swing.omega);
+        let (sine, cosine) = sin_cos(swing.omega * tau);
+        let formula = -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
+        let at = format!("{}, at tau = {tau:.4}", it.place);
+        Ok(Evidence::equal(formula * exp(-d * tau), velocity).at(at))
     }),
-    ("end of a swing", |limits| {
-        over_swings(limits, |swing| swing.growth, |[end, _]| end.plus(1.0))
+    worst("end of a swing", |it| {
+        let [end, _] = it.half_swing(at_rest(it.more))?;
+        Ok(Evidence::equal(LinearSwing::of(it).growth, end.plus(it.r)))
     }),
-    ("clearance", |limits| {
-        over(std::iter::once(-0.999).chain(DAMPINGS).map(units_of_friction), |parameters| {
-            let (cycle, swing) = (smallest(parameters, limits)?, LinearSwing::of(parameters));
-            // An exponential has as many times the relative error of its exponent, 70 at D = -0.999.
-            let exponent = 1.0 + PI * swing.d.abs() / swing.omega;
-            let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
-            let bounds = cycle.bounds.map(|it| it.clearance);
-            let computed = Known::relative(cycle.clearance, error).within(bounds);
-            Ok(Evidence::equal(swing.clearance(), computed))
-        })
+    worst("clearance", |it| {
+        let (cycle, swing) = (it.smallest()?, LinearSwing::of(it));
+        // An exponential has as many times the relative error of its exponent, 70 at D = -0.999.
+        let exponent = 1.0 + PI * swing.d.abs() / swing.omega;
+        let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
+        let bounds = cycle.bounds.map(|it| it.clearance);
+        let computed = Known::relative(cycle.clearance, error).within(bounds);
+        Ok(Evidence::equal(swing.clearance(), computed))
     }),
-    ("border over the angle", on_the_curve),
-    ("A_q", |limits| {
-        over(DAMPINGS.map(units_of_friction), |parameters| {
-            let LinearSwing { growth, .. } = LinearSwing::of(parameters);
-            let formula = (growth + 1.0) / (growth - 1.0);
-            Ok(Evidence::equal(formula, extent(&smallest(parameters, limits)?)))
-        })
+    worst("border over the angle", on_the_curve),
+    worst("A_q", |it| {
+        let LinearSwing { growth, .. } = LinearSwing::of(it);
+        Ok(Evidence::equal((growth + 1.0) / (growth - 1.0), it.smallest()?.extent()))
     }),
-    ("A_v", |limits| {
-        over(DAMPINGS.map(units_of_friction), |parameters| {
-            let swing = LinearSwing::of(parameters);
-            let computed = speed(&smallest(parameters, limits)?);
-            let printed = Evidence::equal(swing.printed_velocity(), computed);
-            Ok(printed.corrected(swing.largest_velocity()))
-        })
+    worst("A_v", |it| {
+        let swing = LinearSwing::of(it);
+        let printed = Evidence::equal(swing.printed_velocity(), it.smallest()?.speed());
+        Ok(printed.corrected(swing.largest_velocity()))
     }),
-    ("scale of friction", |limits| {
-        let cycle = |r: f64| smallest(&oscillator(-0.4, 0.0, 0.0, r), limits);
+    worst("scale of friction", |it| {
+        let cycle = |r: f64| it.of(Parameters { r, ..**it }).smallest();
         let (one, three) = (cycle(1.0)?, cycle(3.0)?);
-        let ratio = three.q_max / one.q_max;
         let unit = one.bounds.map_or(Interval::ALL, |it| it.q_max);
-        let ratio = of_cycle(&three, ratio, |it| it.q_max / unit);
-        Ok(Evidence::equal(3.0, ratio).at("D = -0.4, D2 = D3 = 0"))
+        Ok(Evidence::equal(3.0, three.known(three.q_max / one.q_max, |it| it.q_max / unit)))
     }),
 ];
-
-/// Dampings at which formulas of the piecewise linear oscillator are tested.
-const DAMPINGS: [f64; 5] = [-0.9, -0.7, -0.4, -0.1, -0.01];
 
 /// What the formulas of a half swing are made of, in units of friction.
 struct LinearSwing {
@@ -139,35 +113,17 @@ impl LinearSwing {
     }
 }
 
-/// A formula of the half swing from `(-2, 0)` against the integrated one, at the worst of some dampings.
-fn over_swings(
-    limits: &Limits,
-    formula: fn(&LinearSwing) -> f64,
-    read: fn([Known; 2]) -> Known,
-) -> Result<Evidence, Reason> {
-    over(DAMPINGS.map(units_of_friction), |parameters| {
-        let computed = read(half_swing(parameters, at_rest(-2.0), limits)?);
-        let at = format!("{}, from q = -2", place(parameters));
-        Ok(Evidence::equal(formula(&LinearSwing::of(parameters)), computed).at(at))
-    })
-}
-
 /// Both coordinates of (31) against the motion that starts at the turning point of the cycle.
-fn on_the_curve(limits: &Limits) -> Result<Evidence, Reason> {
+fn on_the_curve(it: &Case) -> Result<Evidence, Reason> {
     const ANGLE: f64 = 2.0;
-    let mut cases = Vec::new();
-    for parameters in DAMPINGS.map(units_of_friction) {
-        let swing = LinearSwing::of(&parameters);
-        let start = at_rest(swing.curve(0.0).q);
-        let state = state_at(&parameters, start, ANGLE / swing.omega, limits)?;
-        // The start is rounded, and near D = -1 its clearance is a small fraction of it.
-        let rounded = 4.0 * f64::EPSILON * swing.growth * swing.clearance().max(1.0);
-        let State { q, v } = swing.curve(ANGLE);
-        for (name, formula, known) in [("q", q, state[0]), ("v", v, state[1])] {
-            let known = Known { error: known.error + rounded, ..known };
-            let at = format!("{name} at {}", place(&parameters));
-            cases.push(Ok(Evidence::equal(formula, known).at(at)));
-        }
-    }
-    Evidence::worst(cases)
+    let swing = LinearSwing::of(it);
+    let start = at_rest(swing.curve(0.0).q);
+    let state = it.state_at(start, ANGLE / swing.omega)?;
+    // The start is rounded, and near D = -1 its clearance is a small fraction of it.
+    let rounded = 4.0 * f64::EPSILON * swing.growth * swing.clearance().max(1.0);
+    let State { q, v } = swing.curve(ANGLE);
+    Evidence::worst([("q", q, state[0]), ("v", v, state[1])].map(|(name, formula, known)| {
+        let known = Known { error: known.error + rounded, ..known };
+        Ok(Evidence::equal(formula, known).at(format!("{name} at {}", it.place)))
+    }))
 }

@@ -5,7 +5,6 @@
 
 use std::ops::Deref;
 
-use super::Evidence;
 use super::known::{Certain, Known};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
@@ -41,80 +40,35 @@ impl Deref for BoundedCycle {
     }
 }
 
+impl BoundedCycle {
+    /// A number made from those of the cycle, and the same from their bounds.
+    pub fn known(&self, value: f64, bounds: impl Fn(&Enclosure) -> Interval) -> Known {
+        Known::relative(value, self.error.unwrap_or(f64::INFINITY) + ROUNDED)
+            .within(self.bounds.as_ref().map(bounds))
+    }
+
+    /// The extent `q_max`.
+    pub fn extent(&self) -> Known {
+        self.known(self.q_max, |it| it.q_max)
+    }
+
+    /// The largest velocity.
+    pub fn speed(&self) -> Known {
+        self.known(self.v_max, |it| it.v_max)
+    }
+
+    /// Half of what lies between the turning points.
+    pub fn amplitude(&self) -> Known {
+        self.known(0.5 * (self.q_max - self.q_min), |it| (it.q_max - it.q_min) * 0.5)
+    }
+}
+
 /// All cycles of the search; certain, if it is proved that there are these and no others.
 pub type AllFound = Certain<Vec<BoundedCycle>>;
-
-/// A number made from those of a cycle, and the same from their bounds.
-pub fn of_cycle(
-    cycle: &BoundedCycle,
-    value: f64,
-    bounds: impl Fn(&Enclosure) -> Interval,
-) -> Known {
-    Known::relative(value, cycle.error.unwrap_or(f64::INFINITY) + ROUNDED)
-        .within(cycle.bounds.as_ref().map(bounds))
-}
-
-/// The extent `q_max` of a cycle.
-pub fn extent(cycle: &BoundedCycle) -> Known {
-    of_cycle(cycle, cycle.q_max, |it| it.q_max)
-}
-
-/// The largest velocity of a cycle.
-pub fn speed(cycle: &BoundedCycle) -> Known {
-    of_cycle(cycle, cycle.v_max, |it| it.v_max)
-}
 
 /// An oscillator, in the order of the equation.
 pub fn oscillator(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
     Parameters { d, d2, d3, r }
-}
-
-/// The parameters that are not zero, D always: `D = -0.4, r = 0.1`.
-pub fn place(parameters: &Parameters) -> String {
-    let Parameters { d, d2, d3, r } = *parameters;
-    let mut text = format!("D = {}", short(d));
-    for (name, value) in [("D2", d2), ("D3", d3), ("r", r)] {
-        if value != 0.0 {
-            text += &format!(", {name} = {}", short(value));
-        }
-    }
-    text
-}
-
-/// A number in full, or rounded where it has more digits than anyone typed.
-fn short(value: f64) -> String {
-    /// Room for what people type.
-    const TYPED: usize = 10;
-    let full = format!("{value}");
-    if full.len() <= TYPED { full } else { format!("{value:.6}") }
-}
-
-/// The worst comparison over some oscillators; its place is the oscillator, unless it has one.
-pub fn over(
-    cases: impl IntoIterator<Item = Parameters>,
-    compare: impl Fn(&Parameters) -> Result<Evidence, Reason>,
-) -> Result<Evidence, Reason> {
-    Evidence::worst(cases.into_iter().map(|parameters| {
-        let evidence = compare(&parameters)?;
-        let unnamed = evidence.place.is_empty();
-        Ok(if unnamed { evidence.at(place(&parameters)) } else { evidence })
-    }))
-}
-
-/// What should hold for each of some oscillators.
-pub fn everywhere<A: Into<Certain<bool>>>(
-    cases: impl IntoIterator<Item = Parameters>,
-    holds: impl Fn(&Parameters) -> Result<A, Reason>,
-) -> Result<Evidence, Reason> {
-    Evidence::always(cases.into_iter().map(|it| Ok((place(&it), holds(&it)?))))
-}
-
-/// How a formula and what it should approach differ far from the limit and near it.
-pub fn towards(
-    [far, near]: [Parameters; 2],
-    compare: impl Fn(&Parameters) -> Result<(f64, Known), Reason>,
-) -> Result<Evidence, Reason> {
-    Ok(Evidence::tends(compare(&far)?, compare(&near)?).at(place(&near)))
 }
 
 pub fn at_rest(q: f64) -> State {
@@ -124,28 +78,6 @@ pub fn at_rest(q: f64) -> State {
 /// The two methods that answer every question about a motion, with the relative error of a step.
 const METHODS: [(Method, f64); 2] = [(Method::Taylor, 1e-15), (Method::Dop853, 1e-14)];
 
-/// A motion from `initial` until `until` by both methods, each reduced to numbers by `read`. Fails where one has none,
-/// or was given up.
-fn motions<const N: usize>(
-    (parameters, initial, until): (Parameters, State, f64),
-    (limits, sought): (&Limits, &'static str),
-    read: impl Fn(&Trajectory) -> Option<[f64; N]>,
-) -> Result<[Known; N], Reason> {
-    let mut answers = [None; 2];
-    for (answer, (method, tolerance)) in answers.iter_mut().zip(METHODS) {
-        let problem =
-            Problem { parameters, initial, until, method, tolerance, ..Problem::default() };
-        let detail = Detail { energy: true, ..Detail::default() };
-        let motion = trajectory(&problem, detail, limits);
-        if let Outcome::GaveUp { reason, .. } = motion.outcome {
-            return Err(reason);
-        }
-        *answer = read(&motion);
-    }
-    let [Some(first), Some(second)] = answers else { return Err(missing(sought)) };
-    Ok(std::array::from_fn(|index| Known::twice(first[index], second[index])))
-}
-
 /// Longer than any half swing asked for here.
 const LONG: f64 = 1000.0;
 
@@ -154,178 +86,239 @@ pub fn missing(sought: &'static str) -> Reason {
     Reason::NoConvergence { sought, change: f64::NAN }
 }
 
-/// Place and time of the first arrival at `v = 0`. Fails with the [`Reason`] why the motion has none.
-pub fn half_swing(
-    parameters: &Parameters,
-    initial: State,
-    limits: &Limits,
-) -> Result<[Known; 2], Reason> {
-    // Stopping at the arrival needs its time; a first run over one half swing finds it.
-    let until = parameters.omega().map_or(LONG, |omega| 2.0 * std::f64::consts::PI / omega);
-    let sought = (limits, "an arrival at v = 0");
-    let [q, tau] = motions((*parameters, initial, until), sought, |motion| {
-        motion.crossings.first().map(|crossing| [crossing.q, crossing.tau])
-    })?;
-    let turn = enclosed(parameters, initial, until).turns.first().copied();
-    Ok([q.within(turn.map(|turn| turn.q)), tau.within(turn.map(|turn| turn.tau))])
+/// An oscillator at which a claim is put to the test.
+///
+/// Its questions are answered within its limits, or fail with the [`Reason`] why there is no answer.
+#[derive(Clone)]
+pub struct Case<'a> {
+    /// Where this is, in the words of the table of claims.
+    pub place: String,
+    parameters: Parameters,
+    /// What the place says beside the parameters: where a motion starts, a size, D in units of one that is computed.
+    pub more: f64,
+    /// How long each question may take.
+    pub limits: Limits<'a>,
 }
 
-/// State at a time before the motion comes to rest.
-pub fn state_at(
-    parameters: &Parameters,
-    initial: State,
-    tau: f64,
-    limits: &Limits,
-) -> Result<[Known; 2], Reason> {
-    let sought = (limits, "a state in motion");
-    let [q, v] = motions((*parameters, initial, tau), sought, |motion| match motion.outcome {
-        Outcome::Moving { q, v, .. } => Some([q, v]),
-        _ => None,
-    })?;
-    let bounds = enclosed_state(parameters, initial, tau);
-    Ok([q.within(bounds.map(|it| it[0])), v.within(bounds.map(|it| it[1]))])
-}
+impl Deref for Case<'_> {
+    type Target = Parameters;
 
-/// Change of the energy over a motion, and the works of linear damping and of friction.
-pub fn energy_change(
-    parameters: &Parameters,
-    initial: State,
-    until: f64,
-    limits: &Limits,
-) -> Result<[Known; 3], Reason> {
-    let sought = (limits, "an energy ledger");
-    let [change, linear, friction] = motions((*parameters, initial, until), sought, |motion| {
-        let ledger = motion.ledger.as_ref()?;
-        Some([ledger.end - ledger.start, ledger.work("linear"), ledger.work("friction")])
-    })?;
-    let energy = |[q, v]: [Interval; 2]| (q.square() + v.square()) * 0.5;
-    let start = energy([initial.q, initial.v].map(Interval::point));
-    let end = enclosed_state(parameters, initial, until).map(energy);
-    Ok([change.within(end.map(|end| end - start)), linear, friction])
-}
-
-/// A motion until `until`. Fails with the [`Reason`] why it was given up.
-pub fn motion(
-    parameters: &Parameters,
-    initial: State,
-    until: f64,
-    limits: &Limits,
-) -> Result<Trajectory, Reason> {
-    let (parameters, tolerance) = (*parameters, 1e-12);
-    let problem = Problem { parameters, initial, until, tolerance, ..Problem::default() };
-    let motion = trajectory(&problem, Detail::default(), limits);
-    if let Outcome::GaveUp { reason, .. } = motion.outcome {
-        return Err(reason);
+    fn deref(&self) -> &Parameters {
+        &self.parameters
     }
-    Ok(motion)
 }
 
-/// Whether a motion comes to rest before `until`. Fails with the [`Reason`] why it was given up.
-pub fn captured(
-    parameters: &Parameters,
-    initial: State,
-    until: f64,
-    limits: &Limits,
-) -> Result<Certain<bool>, Reason> {
-    let end = motion(parameters, initial, until, limits)?.outcome;
-    let value = matches!(end, Outcome::Captured { .. });
-    let certain = match enclosed(parameters, initial, until).fate {
-        ProvedFate::Captured { .. } => value,
-        ProvedFate::Moving { .. } | ProvedFate::Escaped { .. } => !value,
-        ProvedFate::Open { .. } => false,
-    };
-    Ok(Certain { value, certain })
-}
+impl<'a> Case<'a> {
+    /// The cases of a line of the table, such as `D = -0.9 -0.3, r = 0.1, from q = 1`: one for each combination of its
+    /// values, the last of which vary fastest. Parameters that it does not name are 0.
+    pub fn all(line: &str, limits: &Limits<'a>) -> Vec<Self> {
+        let (place, parameters) = (String::new(), oscillator(0.0, 0.0, 0.0, 0.0));
+        let nowhere = Case { place, parameters, more: 0.0, limits: *limits };
+        line.split(", ").fold(vec![nowhere], |cases, part| {
+            cases.iter().flat_map(|case| case.with(part)).collect()
+        })
+    }
 
-/// All cycles by the general search, smallest first, whether or not a closed form exists. Fails with the [`Reason`]
-/// why the search failed.
-pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<AllFound, Reason> {
-    let mut equation = Equation::new(parameters, 0.5 * f64::EPSILON, limits);
-    let found = closings(&mut equation, usize::MAX, &[])?;
-    let found = found.iter().map(|closing| closing.describe(parameters, equation.side)).collect();
-    Ok(beside_proof(parameters, found))
-}
+    /// This case for each value of a part of a line. A value with words behind it is that of no parameter.
+    fn with(&self, part: &str) -> Vec<Self> {
+        let said = |more: &str| match self.place.as_str() {
+            "" => more.to_owned(),
+            place => format!("{place}, {more}"),
+        };
+        let (name, values) = part.split_once(" = ").unwrap_or_default();
+        let values: Vec<&str> = values.split(' ').collect();
+        let count = values.iter().take_while(|text| text.parse::<f64>().is_ok()).count();
+        let (numbers, unit) = values.split_at(count);
+        let is_named = |knob: &Knob| name.rsplit(' ').next() == Some(knob.spec().name);
+        let knob = Knob::PARAMETERS.into_iter().find(|knob| unit.is_empty() && is_named(knob));
+        let case = |number: &&str| {
+            let value = number.parse().unwrap_or(f64::NAN);
+            let place = said(&[&[name, "=", number], unit].concat().join(" "));
+            let (parameters, more) = match knob {
+                Some(knob) => (self.parameters.with(knob, value), self.more),
+                None => (self.parameters, value),
+            };
+            Case { place, parameters, more, limits: self.limits }
+        };
+        match numbers {
+            [] => vec![Case { place: said(part), ..self.clone() }],
+            _ => numbers.iter().map(case).collect(),
+        }
+    }
 
-/// Cycles that were found, with what is proved about them.
-pub fn beside_proof(parameters: &Parameters, found: Vec<Cycle>) -> AllFound {
-    let hints: Vec<f64> = found.iter().map(|cycle| cycle.clearance).collect();
-    let proof = prove(&ParameterBox::from(parameters), &hints);
-    let certain = proof.is_complete() && proof.cycles.len() == found.len();
-    let with_bounds = |cycle: Cycle| BoundedCycle {
-        cycle,
-        bounds: matching(&proof, &cycle).and_then(|proved| proved.enclosure),
-    };
-    Certain { value: found.into_iter().map(with_bounds).collect(), certain }
-}
+    /// The same questions to another oscillator.
+    pub fn of(&self, parameters: Parameters) -> Self {
+        Case { parameters, ..self.clone() }
+    }
 
-/// What borders the basin. Fails with the [`Reason`] why a border could not be computed.
-pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<Certain<Border>, Reason> {
-    let found = basin(parameters, 10.0, limits)?.border;
-    let proved = kicks::edge(&prove(&ParameterBox::from(parameters), &[]));
-    let certain = match found {
-        Border::None => proved == Some(kicks::ProvedEdge::None),
-        Border::Cycle => proved == Some(kicks::ProvedEdge::Cycle),
-        Border::Separatrix => proved == Some(kicks::ProvedEdge::Separatrix),
-        _ => false,
-    };
-    Ok(Certain { value: found, certain })
-}
+    /// A motion from `initial` until `until` by a method and to a tolerance.
+    fn run(
+        &self,
+        (initial, until): (State, f64),
+        (method, tolerance): (Method, f64),
+        energy: bool,
+    ) -> Result<Trajectory, Reason> {
+        let parameters = self.parameters;
+        let problem =
+            Problem { parameters, initial, until, method, tolerance, ..Problem::default() };
+        let motion = trajectory(&problem, Detail { energy, ..Detail::default() }, &self.limits);
+        if let Outcome::GaveUp { reason, .. } = motion.outcome {
+            return Err(reason);
+        }
+        Ok(motion)
+    }
 
-/// The value of D at which cycles vanish, `found` being where the search says so: enclosed to a thousandth.
-pub fn last_cycle(parameters: &Parameters, found: f64, error: f64) -> Known {
-    /// Next to that value proofs take long.
-    const AWAY: f64 = 1e-3;
-    let between = change_within(&ParameterBox::from(parameters), Knob::D, found, AWAY);
-    Known::relative(found, error).within(between.map(|change| change.between))
-}
+    /// A motion by both methods, each reduced to numbers by `read`. Fails, too, where one has none.
+    fn motions<const N: usize>(
+        &self,
+        course: (State, f64),
+        sought: &'static str,
+        read: impl Fn(&Trajectory) -> Option<[f64; N]>,
+    ) -> Result<[Known; N], Reason> {
+        let [first, second] =
+            METHODS.map(|method| Ok::<_, Reason>(read(&self.run(course, method, true)?)));
+        let (Some(first), Some(second)) = (first?, second?) else { return Err(missing(sought)) };
+        Ok(std::array::from_fn(|index| Known::twice(first[index], second[index])))
+    }
 
-/// The smallest cycle.
-pub fn smallest(parameters: &Parameters, limits: &Limits) -> Result<BoundedCycle, Reason> {
-    cycles(parameters, limits)?.value.first().copied().ok_or(missing("a limit cycle"))
-}
+    /// Place and time of the first arrival at `v = 0`.
+    pub fn half_swing(&self, initial: State) -> Result<[Known; 2], Reason> {
+        // Stopping at the arrival needs its time; a first run over one half swing finds it.
+        let until = self.omega().map_or(LONG, |omega| 2.0 * std::f64::consts::PI / omega);
+        let [q, tau] = self.motions((initial, until), "an arrival at v = 0", |motion| {
+            motion.crossings.first().map(|crossing| [crossing.q, crossing.tau])
+        })?;
+        let turn = self.enclosed(initial, until).turns.first().copied();
+        Ok([q.within(turn.map(|turn| turn.q)), tau.within(turn.map(|turn| turn.tau))])
+    }
 
-/// The largest cycle.
-pub fn largest(parameters: &Parameters, limits: &Limits) -> Result<BoundedCycle, Reason> {
-    cycles(parameters, limits)?.value.last().copied().ok_or(missing("a limit cycle"))
-}
+    /// State at a time before the motion comes to rest.
+    pub fn state_at(&self, initial: State, tau: f64) -> Result<[Known; 2], Reason> {
+        let read = |motion: &Trajectory| match motion.outcome {
+            Outcome::Moving { q, v, .. } => Some([q, v]),
+            _ => None,
+        };
+        let [q, v] = self.motions((initial, tau), "a state in motion", read)?;
+        let bounds = self.enclosed_state(initial, tau);
+        Ok([q.within(bounds.map(|it| it[0])), v.within(bounds.map(|it| it[1]))])
+    }
 
-/// Half of what lies between the turning points.
-pub fn amplitude(cycle: &BoundedCycle) -> Known {
-    of_cycle(cycle, 0.5 * (cycle.q_max - cycle.q_min), |it| (it.q_max - it.q_min) * 0.5)
-}
+    /// Change of the energy over a motion, and the works of linear damping and of friction.
+    pub fn energy_change(&self, initial: State, until: f64) -> Result<[Known; 3], Reason> {
+        let read = |motion: &Trajectory| {
+            let ledger = motion.ledger.as_ref()?;
+            Some([ledger.end - ledger.start, ledger.work("linear"), ledger.work("friction")])
+        };
+        let [change, linear, friction] =
+            self.motions((initial, until), "an energy ledger", read)?;
+        let energy = |[q, v]: [Interval; 2]| (q.square() + v.square()) * 0.5;
+        let start = energy([initial.q, initial.v].map(Interval::point));
+        let end = self.enclosed_state(initial, until).map(energy);
+        Ok([change.within(end.map(|end| end - start)), linear, friction])
+    }
 
-/// Mean displacement of a cycle over its period: over one turn all forces cancel, those that depend on the velocity and
-/// the spring's. Fails with the [`Reason`] why its arcs could not be computed.
-pub fn mean(parameters: &Parameters, cycle: &Cycle, limits: &Limits) -> Result<Known, Reason> {
-    /// Relative error of the integrals by arcs to 1e-14.
-    const INTEGRAL: f64 = 1e-11;
-    let [rise, fall] = arcs(parameters, cycle, limits)?;
-    let Parameters { d2, d3, r, .. } = *parameters;
-    let [up, down] = [rise.powers(), fall.powers()];
-    let even = d2 * (up.second + down.second);
-    let odd = d3 * (up.third - down.third) + r * (rise.swing.duration - fall.swing.duration);
-    Ok(Known::new(-(even + odd) / cycle.period, INTEGRAL * cycle.q_max))
-}
+    /// A motion until `until`.
+    pub fn motion(&self, initial: State, until: f64) -> Result<Trajectory, Reason> {
+        self.run((initial, until), (Method::Auto, 1e-12), false)
+    }
 
-/// The arcs of a cycle above and below `v = 0`. Fails with the [`Reason`] why they could not be computed.
-pub fn arcs(parameters: &Parameters, cycle: &Cycle, limits: &Limits) -> Result<[Arc; 2], Reason> {
-    let arc = |side, turn: f64| {
-        let clearance = Length::new(turn - parameters.r);
-        Arc::new(parameters, side, Direction::Forward, clearance, limits)
-    };
-    Ok([arc(Side::Upper, -cycle.q_min)?, arc(Side::Lower, cycle.q_max)?])
-}
+    /// Whether a motion comes to rest before `until`.
+    pub fn captured(&self, initial: State, until: f64) -> Result<Certain<bool>, Reason> {
+        let end = self.motion(initial, until)?.outcome;
+        let value = matches!(end, Outcome::Captured { .. });
+        let certain = match self.enclosed(initial, until).fate {
+            ProvedFate::Captured { .. } => value,
+            ProvedFate::Moving { .. } | ProvedFate::Escaped { .. } => !value,
+            ProvedFate::Open { .. } => false,
+        };
+        Ok(Certain { value, certain })
+    }
 
-/// The motion from a state, enclosed.
-pub fn enclosed(parameters: &Parameters, initial: State, until: f64) -> ProvedMotion {
-    let start = [initial.q, initial.v].map(Interval::point);
-    follow(&ParameterBox::from(parameters), start, until)
-}
+    /// The motion from a state, enclosed.
+    pub fn enclosed(&self, initial: State, until: f64) -> ProvedMotion {
+        let start = [initial.q, initial.v].map(Interval::point);
+        follow(&ParameterBox::from(&self.parameters), start, until)
+    }
 
-/// Bounds of a state at a time before the motion comes to rest.
-pub fn enclosed_state(parameters: &Parameters, initial: State, tau: f64) -> Option<[Interval; 2]> {
-    match enclosed(parameters, initial, tau).fate {
-        ProvedFate::Moving { q, v } => Some([q, v]),
-        _ => None,
+    /// Bounds of a state at a time before the motion comes to rest.
+    fn enclosed_state(&self, initial: State, tau: f64) -> Option<[Interval; 2]> {
+        match self.enclosed(initial, tau).fate {
+            ProvedFate::Moving { q, v } => Some([q, v]),
+            _ => None,
+        }
+    }
+
+    /// All cycles by the general search, smallest first, whether or not a closed form exists.
+    pub fn cycles(&self) -> Result<AllFound, Reason> {
+        let mut equation = Equation::new(self, 0.5 * f64::EPSILON, &self.limits);
+        let found = closings(&mut equation, usize::MAX, &[])?;
+        let found = found.iter().map(|closing| closing.describe(self, equation.side)).collect();
+        Ok(self.beside_proof(found))
+    }
+
+    /// Cycles that were found, with what is proved about them.
+    pub fn beside_proof(&self, found: Vec<Cycle>) -> AllFound {
+        let hints: Vec<f64> = found.iter().map(|cycle| cycle.clearance).collect();
+        let proof = prove(&ParameterBox::from(&self.parameters), &hints);
+        let certain = proof.is_complete() && proof.cycles.len() == found.len();
+        let with_bounds = |cycle: Cycle| BoundedCycle {
+            cycle,
+            bounds: matching(&proof, &cycle).and_then(|proved| proved.enclosure),
+        };
+        Certain { value: found.into_iter().map(with_bounds).collect(), certain }
+    }
+
+    /// The smallest cycle.
+    pub fn smallest(&self) -> Result<BoundedCycle, Reason> {
+        self.cycles()?.value.first().copied().ok_or(missing("a limit cycle"))
+    }
+
+    /// The largest cycle.
+    pub fn largest(&self) -> Result<BoundedCycle, Reason> {
+        self.cycles()?.value.last().copied().ok_or(missing("a limit cycle"))
+    }
+
+    /// What borders the basin.
+    pub fn edge(&self) -> Result<Certain<Border>, Reason> {
+        let found = basin(self, 10.0, &self.limits)?.border;
+        let proved = kicks::edge(&prove(&ParameterBox::from(&self.parameters), &[]));
+        let certain = match found {
+            Border::None => proved == Some(kicks::ProvedEdge::None),
+            Border::Cycle => proved == Some(kicks::ProvedEdge::Cycle),
+            Border::Separatrix => proved == Some(kicks::ProvedEdge::Separatrix),
+            _ => false,
+        };
+        Ok(Certain { value: found, certain })
+    }
+
+    /// The value of D at which cycles vanish, `found` being where the search says so: enclosed to a thousandth.
+    pub fn last_cycle(&self, found: f64, error: f64) -> Known {
+        /// Next to that value proofs take long.
+        const AWAY: f64 = 1e-3;
+        let known = ParameterBox::from(&self.parameters);
+        let between = change_within(&known, Knob::D, found, AWAY);
+        Known::relative(found, error).within(between.map(|change| change.between))
+    }
+
+    /// Mean displacement of a cycle over its period: over one turn all forces cancel, those that depend on the velocity
+    /// and the spring's.
+    pub fn mean(&self, cycle: &Cycle) -> Result<Known, Reason> {
+        /// Relative error of the integrals by arcs to 1e-14.
+        const INTEGRAL: f64 = 1e-11;
+        let [rise, fall] = self.arcs(cycle)?;
+        let Parameters { d2, d3, r, .. } = **self;
+        let [up, down] = [rise.powers(), fall.powers()];
+        let even = d2 * (up.second + down.second);
+        let odd = d3 * (up.third - down.third) + r * (rise.swing.duration - fall.swing.duration);
+        Ok(Known::new(-(even + odd) / cycle.period, INTEGRAL * cycle.q_max))
+    }
+
+    /// The arcs of a cycle above and below `v = 0`.
+    pub fn arcs(&self, cycle: &Cycle) -> Result<[Arc; 2], Reason> {
+        let arc = |side, turn: f64| {
+            let clearance = Length::new(turn - self.r);
+            Arc::new(self, side, Direction::Forward, clearance, &self.limits)
+        };
+        Ok([arc(Side::Upper, -cycle.q_min)?, arc(Side::Lower, cycle.q_max)?])
     }
 }

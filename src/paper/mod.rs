@@ -1,9 +1,9 @@
 //! The paper against computation: every claim that can be tested, tested.
 //!
-//! `assets/claims.txt` is the table. A [`Claim`] says where it stands, what it says, and holds a function, by its name in the
-//! files of this folder, that evaluates the paper's formula and computes the same thing without it: by integrating
-//! motions, by searching cycles, by differentiating the physical law. That function returns an [`Evidence`], numbers
-//! and nothing else; the [`Verdict`] follows from the numbers by one rule for all claims
+//! `assets/claims.txt` is the table. A [`Claim`] says where it stands, what it says, at which oscillators it is tested, and
+//! holds a [`Test`], by its name in the files of this folder, that evaluates the paper's formula and computes the same
+//! thing without it: by integrating motions, by searching cycles, by differentiating the physical law. From that follows
+//! an [`Evidence`], numbers and nothing else, and from the numbers the [`Verdict`] by one rule for all claims
 //! ([`Evidence::verdict`]). Where a proof encloses what was computed, a [`Certainty`] says what is certain.
 
 mod amplitudes;
@@ -24,6 +24,8 @@ pub use verdict::{Evidence, Verdict};
 use std::sync::LazyLock;
 
 use crate::flow::{Limits, Reason};
+use known::{Certain, Known};
+use measure::Case;
 
 /// A sentence or an equation of the paper that numbers can decide.
 #[derive(Debug)]
@@ -39,12 +41,55 @@ pub struct Claim {
     pub basis: &'static str,
     /// A scene that shows it.
     pub scene: Option<&'static str>,
-    /// Evaluates the formula and computes the same thing otherwise.
-    pub check: fn(&Limits) -> Result<Evidence, Reason>,
+    /// Where it is tested, a line for the cases of each [`Case::all`].
+    cases: Vec<&'static str>,
+    test: &'static Test,
 }
 
-/// The function that puts a claim to the test, by the name that the table has for it.
-type Check = (&'static str, fn(&Limits) -> Result<Evidence, Reason>);
+/// How a claim is put to the test: a formula is evaluated, and the same thing computed otherwise.
+#[derive(Debug)]
+enum Test {
+    /// By numbers, of which those of the worst case decide.
+    Worst(fn(&Case) -> Result<Evidence, Reason>),
+    /// By whether it holds in each case.
+    Always(fn(&Case) -> Result<Certain<bool>, Reason>),
+    /// By a formula and what it approaches, in one case and in the next one, which is nearer to the limit.
+    Tends(fn(&Case) -> Result<(f64, Known), Reason>),
+}
+
+impl Test {
+    fn run(&self, cases: &[Case]) -> Result<Evidence, Reason> {
+        match self {
+            Test::Worst(compare) => Evidence::worst(cases.iter().map(|case| {
+                let evidence = compare(case)?;
+                let unnamed = evidence.place.is_empty();
+                Ok(if unnamed { evidence.at(&case.place) } else { evidence })
+            })),
+            Test::Always(holds) => {
+                Evidence::always(cases.iter().map(|case| Ok((&case.place, holds(case)?))))
+            }
+            Test::Tends(compare) => Evidence::worst(cases.chunks_exact(2).map(|pair| {
+                let evidence = Evidence::tends(compare(&pair[0])?, compare(&pair[1])?);
+                Ok(evidence.at(&pair[1].place))
+            })),
+        }
+    }
+}
+
+/// How a claim is tested, by the name that the table has for it.
+type Check = (&'static str, Test);
+
+const fn worst(name: &'static str, compare: fn(&Case) -> Result<Evidence, Reason>) -> Check {
+    (name, Test::Worst(compare))
+}
+
+const fn always(name: &'static str, holds: fn(&Case) -> Result<Certain<bool>, Reason>) -> Check {
+    (name, Test::Always(holds))
+}
+
+const fn tends(name: &'static str, compare: fn(&Case) -> Result<(f64, Known), Reason>) -> Check {
+    (name, Test::Tends(compare))
+}
 
 /// Stands for the section of what the paper does not say.
 pub const UNSAID: &str = "-";
@@ -70,7 +115,7 @@ impl ClaimResult {
     }
 }
 
-/// The functions that put claims to the test, section by section.
+/// The tests of claims, section by section.
 const SECTIONS: [&[Check]; 7] = [
     model::CHECKS,
     equilibria::CHECKS,
@@ -83,19 +128,25 @@ const SECTIONS: [&[Check]; 7] = [
 
 static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| {
     const TABLE: &str = include_str!("../../assets/claims.txt");
-    let lines = TABLE.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
-    lines.filter_map(claim).collect()
+    let mut claims: Vec<Claim> = Vec::new();
+    for line in TABLE.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        match (line.strip_prefix("  "), claims.last_mut()) {
+            (Some(cases), Some(claim)) => claim.cases.push(cases),
+            _ => claims.extend(claim(line)),
+        }
+    }
+    claims
 });
 
-/// A line of the table; `None` if there is no function of its name.
+/// A line of the table; `None` if there is no test of its name.
 fn claim(line: &'static str) -> Option<Claim> {
     let mut cells = line.split(" | ");
     let mut cell = || cells.next();
     let (name, equation, section) = (cell()?, cell()?, cell()?);
     let (basis, scene, statement) = (cell()?, cell()?, cell()?);
-    let (_, check) = SECTIONS.into_iter().flatten().find(|(known, _)| *known == name)?;
+    let (_, test) = SECTIONS.into_iter().flatten().find(|(known, _)| *known == name)?;
     let scene = Some(scene).filter(|scene| *scene != "-");
-    Some(Claim { equation, section, statement, basis, scene, check: *check })
+    Some(Claim { equation, section, statement, basis, scene, cases: Vec::new(), test })
 }
 
 /// Every claim, in the order of the paper.
@@ -111,7 +162,9 @@ pub fn examine_all(limits: &Limits) -> Result<Vec<ClaimResult>, Reason> {
 /// Puts one claim to the test. Fails with [`Reason::Interrupted`] and no other: any other reason belongs to the
 /// answer.
 pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult, Reason> {
-    match (claim.check)(limits) {
+    let lines = if claim.cases.is_empty() { &[""] } else { claim.cases.as_slice() };
+    let cases: Vec<_> = lines.iter().flat_map(|line| Case::all(line, limits)).collect();
+    match claim.test.run(&cases) {
         Err(Reason::Interrupted) => Err(Reason::Interrupted),
         Ok(evidence) if claim.section == UNSAID => {
             Ok(ClaimResult { claim, evidence: Ok(evidence.unsaid()) })
@@ -132,5 +185,20 @@ mod tests {
         let lines = include_str!("../../assets/claims.txt").lines();
         let names = lines.filter_map(|line| line.split_once(" | ")).map(|(name, _)| name);
         assert_eq!(names.collect::<Vec<_>>(), functions);
+    }
+
+    #[test]
+    fn a_line_of_cases_has_one_for_each_combination_of_its_values() {
+        let line = "from q = 1 2, D = 0.5 0.9 D_F, r = 0.1 1, at rest";
+        let all = Case::all(line, &Limits::PATIENT);
+        assert_eq!(all.len(), 8);
+        assert_eq!(all[3].place, "from q = 1, D = 0.9 D_F, r = 1, at rest");
+        assert_eq!((all[3].d, all[3].r, all[3].more), (0.0, 1.0, 0.9));
+        // A limit is approached in pairs.
+        let limits = claims().filter(|claim| matches!(claim.test, Test::Tends(_)));
+        for claim in limits {
+            let cases = claim.cases.iter().flat_map(|line| Case::all(line, &Limits::PATIENT));
+            assert!([2, 4].contains(&cases.count()), "{claim:?}");
+        }
     }
 }

@@ -1,86 +1,69 @@
 //! Sections 2 and 3: from the mass on its belt to the equation, and the smooth steady state.
 
 use super::known::Known;
-use super::measure::{at_rest, half_swing, oscillator};
-use super::{Check, Evidence, belt};
+use super::measure::{Case, at_rest};
+use super::{Check, Evidence, always, belt, worst};
 use crate::closed_form::linear::Linear;
-use crate::flow::{Limits, Reason};
-use crate::model::Parameters;
+use crate::flow::Reason;
 use crate::numerics::elementary::{exp, ln, powi};
 use crate::numerics::interval::PI;
 
 pub const CHECKS: &[Check] = &[
-    ("slower than the belt", belt::stays_slower),
-    ("undamped frequency", |_| {
+    always("slower than the belt", belt::stays_slower),
+    worst("undamped frequency", |_| {
         let stiffness = derivatives(|x| -acceleration(x, 0.0, 0.0))[0];
         let value = stiffness.value.sqrt();
         let computed = Known::new(value, 0.5 * stiffness.error / value);
         Ok(Evidence::equal(C / M, computed).corrected(omega()).at(MASS))
     }),
-    ("linear damping", |_| {
+    worst("linear damping", |_| {
         let computed = coefficient(0, -0.5);
         let form = |mu: f64| (D1 + NORMAL * mu) / (2.0 * M * omega());
         Ok(Evidence::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
     }),
-    ("quadratic damping", |_| {
+    worst("quadratic damping", |_| {
         let computed = coefficient(1, -0.5);
         let form = NORMAL * falling() * shift() / (2.0 * M);
         Ok(Evidence::equal(form, computed).corrected(-form).at(MASS))
     }),
-    ("cubic damping", |_| {
+    worst("cubic damping", |_| {
         let computed = coefficient(2, -1.0 / 6.0);
         let unit = omega() * shift() * shift() / M;
         let form = |mu: f64| (D3 + NORMAL * mu / 6.0) * unit;
         Ok(Evidence::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
     }),
-    ("friction", |_| {
+    worst("friction", |_| {
         let jump = dimensionless(0.0, JOINT) - dimensionless(0.0, -JOINT);
         let printed = JOINT / (M * powi(omega(), 2));
         let computed = Known::relative(0.5 * jump, 1e-14);
         Ok(Evidence::equal(printed, computed).corrected(printed / shift()).at(MASS))
     }),
-    ("oscillation", |_| {
-        let cases = [-1.0, -0.999_999, -0.5, 0.0, 0.5, 0.999_999, 1.0];
-        let returns = |d: f64| Linear::new(d).first_standstill(-1.0, 0.0).is_some();
-        Evidence::always(cases.map(|d| Ok((format!("D = {d}"), returns(d)))))
+    always("oscillation", |it| Ok(Linear::new(it.d).first_standstill(-1.0, 0.0).is_some().into())),
+    worst("sign of friction", |it| {
+        let [end, _] = it.half_swing(at_rest(it.more))?;
+        let gained = (-end).plus(-it.more);
+        let fed = 2.0 * it.r;
+        Ok(Evidence::equal(fed, gained).corrected(-fed))
     }),
-    ("sign of friction", |limits| {
-        let parameters = oscillator(0.0, 0.0, 0.0, 0.1);
-        let [end, _] = half_swing(&parameters, at_rest(1.0), limits)?;
-        let gained = (-end).plus(-1.0);
-        let fed = 2.0 * parameters.r;
-        Ok(Evidence::equal(fed, gained).corrected(-fed).at("D = 0, r = 0.1, from q = 1"))
+    worst("rate of growth", |it| Ok(Evidence::equal(-it.d, growth(it)?[0]))),
+    worst("frequency of growth", |it| {
+        let printed = Evidence::equal(1.0, growth(it)?[1]);
+        Ok(printed.corrected((1.0 - it.d * it.d).sqrt()))
     }),
-    ("rate of growth", |limits| over_damping(limits, |d, growth, _| Evidence::equal(-d, growth))),
-    ("frequency of growth", |limits| {
-        over_damping(limits, |d, _, frequency| {
-            Evidence::equal(1.0, frequency).corrected((1.0 - d * d).sqrt())
-        })
-    }),
-    ("smooth stability", |limits| {
-        Evidence::always([-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9].map(|d| {
-            let parameters = oscillator(d, 0.2, 0.5, 0.0);
-            let [end, _] = half_swing(&parameters, at_rest(-1e-6), limits)?;
-            Ok((format!("D = {d}"), end.exceeds(1e-6).is(d < 0.0)))
-        }))
+    always("smooth stability", |it| {
+        let [end, _] = it.half_swing(at_rest(-1e-6))?;
+        Ok(end.exceeds(1e-6).is(it.d < 0.0))
     }),
 ];
 
-/// Rate and frequency of small motions without friction, at some values of D.
-fn over_damping(
-    limits: &Limits,
-    compare: impl Fn(f64, Known, Known) -> Evidence,
-) -> Result<Evidence, Reason> {
-    Evidence::worst([-0.7, -0.4, -0.1, 0.3].map(|d| {
-        let parameters = Parameters { d, d2: 0.0, d3: 0.0, r: 0.0 };
-        let [end, duration] = half_swing(&parameters, at_rest(-1.0), limits)?;
-        let relative = end.error / end.value + duration.error / duration.value;
-        let growth = ln(end.value) / duration.value;
-        let growth = Known::new(growth, relative * (1.0 + growth.abs()));
-        let frequency = Known::relative(std::f64::consts::PI / duration.value, relative)
-            .within(duration.bounds.map(|it| PI / it));
-        Ok(compare(d, growth, frequency).at(format!("D = {d}, r = 0")))
-    }))
+/// Rate and frequency of small motions.
+fn growth(it: &Case) -> Result<[Known; 2], Reason> {
+    let [end, duration] = it.half_swing(at_rest(-1.0))?;
+    let relative = end.error / end.value + duration.error / duration.value;
+    let growth = ln(end.value) / duration.value;
+    let frequency = Known::relative(std::f64::consts::PI / duration.value, relative)
+        .within(duration.bounds.map(|it| PI / it));
+    Ok([Known::new(growth, relative * (1.0 + growth.abs())), frequency])
 }
 
 /// A mass on a belt, in SI units, whose friction falls exponentially with the relative velocity. No two of its

@@ -82,14 +82,13 @@ impl Evidence {
 
     /// What should hold in each of these cases; the place becomes the first in which it does not. Fails with the
     /// first error among them.
-    pub fn always<A: Into<Certain<bool>>, E>(
-        cases: impl IntoIterator<Item = Result<(String, A), E>>,
+    pub fn always<E>(
+        cases: impl IntoIterator<Item = Result<(impl fmt::Display, Certain<bool>), E>>,
     ) -> Result<Self, E> {
         let (mut holds, mut all, mut place) = (0_u32, 0_u32, String::new());
         let (mut certain, mut refuted) = (true, false);
         for case in cases {
             let (case, answer) = case?;
-            let answer: Certain<bool> = answer.into();
             all += 1;
             holds += u32::from(answer.value);
             certain &= answer.certain;
@@ -134,12 +133,13 @@ impl Evidence {
         let (mut cases, mut held, mut mark) = (0, 0, Some(Certainty::Proved));
         for evidence in each {
             let evidence = evidence?;
-            cases += 1;
+            let is_first = cases == 0;
+            cases += evidence.cases;
             held += evidence.held;
             mark = Certainty::and(mark, evidence.mark);
             let order =
                 |it: &Self| (it.corrected.is_some_and(|value| !it.holds(value)), it.strain());
-            if cases == 1 || order(&evidence) > order(&worst) {
+            if is_first || order(&evidence) > order(&worst) {
                 worst = evidence;
             }
         }
@@ -310,7 +310,7 @@ mod tests {
         assert_eq!(Evidence::at_most(1.02, above).mark, Some(Certainty::Refuted));
         assert_eq!(Evidence::at_most(0.5, above).mark, None);
         // One case that certainly fails refutes, all that certainly hold prove.
-        let case = |value, certain| Ok::<_, ()>((String::new(), Certain { value, certain }));
+        let case = |value, certain| Ok::<_, ()>(("", Certain { value, certain }));
         let mark_of = |cases: [_; 2]| Evidence::always(cases).unwrap().mark;
         assert_eq!(mark_of([case(true, true), case(true, true)]), Some(Certainty::Proved));
         assert_eq!(mark_of([case(true, true), case(true, false)]), None);
@@ -323,8 +323,7 @@ mod tests {
     fn of_several_cases_all_or_some_or_none_hold() {
         let holds = |does: [bool; 3]| {
             let cases = does.into_iter().enumerate();
-            Evidence::always(cases.map(|(case, does)| Ok::<_, ()>((case.to_string(), does))))
-                .unwrap()
+            Evidence::always(cases.map(|(case, does)| Ok::<_, ()>((case, does.into())))).unwrap()
         };
         assert_eq!(holds([true; 3]).verdict(), Verdict::Agrees);
         assert_eq!(holds([true, false, true]).verdict(), Verdict::InPart);
