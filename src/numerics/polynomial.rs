@@ -18,6 +18,12 @@ pub fn value(coefficients: &[f64], t: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
 }
 
+/// The integral from 0 to `t`, by Horner's rule.
+pub fn integral(coefficients: &[f64], t: f64) -> f64 {
+    let terms = coefficients.iter().enumerate().rev();
+    t * terms.fold(0.0, |sum, (k, coefficient)| sum * t + coefficient / real(k + 1))
+}
+
 /// The value and the derivative, by Horner's rule.
 #[inline]
 pub fn value_and_slope(coefficients: &[f64], t: f64) -> (f64, f64) {

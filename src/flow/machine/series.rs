@@ -7,7 +7,8 @@
 use crate::model::force::{Fall, ForceBranch, ForcePiece, shift};
 use crate::numerics::count::{real, reciprocals};
 use crate::numerics::elementary::{exp2, log2, pow};
-use crate::numerics::polynomial::{value, value_and_slope};
+use crate::numerics::polynomial::{integral, value, value_and_slope};
+use crate::numerics::quadrature::gauss;
 
 /// Order of the series; near the one that costs least at full precision.
 pub const ORDER: usize = 20;
@@ -168,8 +169,20 @@ impl PhaseSeries {
         exp2((ORDER - 2..=ORDER).map(allowed).fold(f64::INFINITY, f64::min))
     }
 
-    /// The derivative of the force by the velocity, the divergence of the field. The exponential is that of the series.
-    pub fn force_slope(&self, t: f64) -> f64 {
+    /// The integral of the divergence of the field, the derivative of the force by the velocity, up to `duration`.
+    pub fn divergence(&self, duration: f64) -> f64 {
+        if self.local.len() > 2 || self.falling.is_some_and(|fall| fall.exponent != 1.0) {
+            return duration * gauss(|part| self.force_slope(part * duration));
+        }
+        // The slope is constant but for a multiple of the exponential.
+        let rigid = duration * self.local.get(1).unwrap_or(&0.0);
+        let fall =
+            self.falling.map(|fall| fall.sign() / fall.velocity * integral(&self.fall, duration));
+        rigid + fall.unwrap_or(0.0)
+    }
+
+    /// The derivative of the force by the velocity. The exponential is that of the series.
+    fn force_slope(&self, t: f64) -> f64 {
         let y = value(&self.y, t);
         let (_, slope) = value_and_slope(&self.local, y - self.y[0]);
         let fall = self.falling.map(|fall| fall.sign() * value(&self.fall, t) * fall.steepness(y));

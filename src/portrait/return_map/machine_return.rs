@@ -10,7 +10,6 @@ use crate::flow::machine::turn::Turn;
 use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Lines, Model, Phase};
 use crate::numerics::elementary::ln;
-use crate::numerics::quadrature::gauss;
 
 /// The integral of the divergence of the field along a motion.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,7 +17,7 @@ pub struct Divergence(pub f64);
 
 impl Watch for Divergence {
     fn step(&mut self, _: &Model, step: &SeriesStep) {
-        self.0 += gauss(|node| step.series.force_slope(node * step.duration)) * step.duration;
+        self.0 += step.series.divergence(step.duration);
     }
 }
 
