@@ -209,8 +209,8 @@ fn distance_from_fold(d: f64, d3: f64, r: f64) -> (f64, f64) {
     }
     let over = |number: f64| Twofold::of(number).over(Twofold::of(d.abs()));
     let (friction, cubic) = (over(r), over(d3.abs()));
-    let numerator = friction.by(cubic).by(friction).times(81.0 / 8.0);
-    let ratio = numerator.over(twofold::PI.by(twofold::PI));
+    let numerator = (friction * cubic * friction).times(81.0 / 8.0);
+    let ratio = numerator.over(twofold::PI * twofold::PI);
     (ratio.high, ratio.one_minus().value())
 }
 

@@ -67,7 +67,7 @@ pub fn half_swing(
     /// Upper bound on the duration of any half swing that arrives.
     const PATIENCE: f64 = 1e100;
     let mut stepper = grain.stepper();
-    let point = StepPoint { x: start.opposite(), v: Twofold::default() };
+    let point = StepPoint { x: -start, v: Twofold::default() };
     let watch = |_: &mut Taylor<Twofold>, _, _, _: &_| ControlFlow::Continue(());
     let found =
         swing(&mut stepper, &field, (point, 0), (Twofold::of(PATIENCE), true), limits, watch);

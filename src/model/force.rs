@@ -206,56 +206,43 @@ fn added(mut one: Vec<f64>, other: impl Iterator<Item = f64>) -> Vec<f64> {
     one
 }
 
-/// The force at velocities up to the belt's: `T - x0` less the damper's.
-pub(crate) fn slower(
+/// The force on one side of the belt's speed: `T - x0` less the damper's at velocities up to it, `-T` less the damper's
+/// above.
+pub(crate) fn branch(
     law: &LawParts,
     damper: &[f64],
     speed: f64,
     pull: f64,
     reach: f64,
+    above: bool,
 ) -> ForceBranch {
-    let alternating = |(k, number): (usize, f64)| if k % 2 == 0 { number } else { 0.0 - number };
+    let velocity = |slip: f64| if above { speed + slip } else { speed - slip };
+    // Up to the belt's speed the slip falls where the velocity rises.
+    let signed =
+        |(k, number): (usize, f64)| if above || k % 2 == 1 { 0.0 - number } else { number };
     let piece = |(from, to, coefficients): &LawPiece| {
         let to = to.min(reach);
         if from > &to {
             return None;
         }
-        let steady = (*from..=to).contains(&speed);
-        // The slip falls where the velocity rises.
-        let (center, about) = if steady { (0.0, speed) } else { (speed - from, *from) };
-        let pull_of = shifted(coefficients, about - from).into_iter().enumerate().map(alternating);
+        let steady = !above && (*from..=to).contains(&speed);
+        let about = if steady { speed } else { *from };
+        let center = velocity(about);
+        let pull_of = shifted(coefficients, about - from).into_iter().enumerate().map(signed);
         let mut coefficients = added(damper_about(damper, center), pull_of);
-        coefficients[0] = if steady { 0.0 } else { coefficients[0] - pull };
-        Some(ForcePiece {
-            low: speed - to,
-            high: speed - from,
-            center,
-            coefficients,
-            falls: *from == 0.0,
-        })
+        if steady {
+            coefficients[0] = 0.0;
+        } else if !above {
+            coefficients[0] -= pull;
+        }
+        let (one, other) = (velocity(*from), velocity(to));
+        let (low, high) = (one.min(other), one.max(other));
+        Some(ForcePiece { low, high, center, coefficients, falls: *from == 0.0 })
     };
     let mut pieces: Vec<ForcePiece> = law.pieces.iter().filter_map(piece).collect();
-    pieces.reverse();
-    let fall = |(drop, velocity, exponent)| Fall { drop, velocity, exponent, speed, above: false };
+    if !above {
+        pieces.reverse();
+    }
+    let fall = |(drop, velocity, exponent)| Fall { drop, velocity, exponent, speed, above };
     ForceBranch { pieces, fall: law.fall.map(fall) }
-}
-
-/// The force at velocities above the belt's: `-T` less the damper's.
-pub(crate) fn faster(law: &LawParts, damper: &[f64], speed: f64, reach: f64) -> ForceBranch {
-    let piece = |(from, to, coefficients): &LawPiece| {
-        let to = to.min(reach);
-        let center = speed + from;
-        let pull = coefficients.iter().map(|number| 0.0 - number);
-        let coefficients = added(damper_about(damper, center), pull);
-        let falls = *from == 0.0;
-        (from <= &to).then_some(ForcePiece {
-            low: center,
-            high: speed + to,
-            center,
-            coefficients,
-            falls,
-        })
-    };
-    let fall = |(drop, velocity, exponent)| Fall { drop, velocity, exponent, speed, above: true };
-    ForceBranch { pieces: law.pieces.iter().filter_map(piece).collect(), fall: law.fall.map(fall) }
 }

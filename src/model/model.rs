@@ -10,7 +10,7 @@
 //! No length is singled out: a machine with all its lengths scaled by a power of two moves alike to the last
 //! bit.
 
-use super::force::{ForceBranch, ForcePiece, faster, slower};
+use super::force::{ForceBranch, ForcePiece, branch};
 use super::reach::first_below_zero;
 use crate::model::{Belt, Modal, Parameters, Reason};
 use crate::numerics::elementary::powi;
@@ -113,6 +113,7 @@ impl Model {
         let law = parts.scaled(force, omega_0);
         let pull = force * mu;
         let reach = belt.law.range().1.min(first_below_zero(&parts)) / omega_0;
+        let side = |above| branch(&law, &damper, speed, pull, reach, above);
         let mut model = Model {
             omega_0,
             mass: belt.mass,
@@ -124,8 +125,8 @@ impl Model {
             lines: None,
             damping: 0.0,
             tolerance: FINEST,
-            slower: slower(&law, &damper, speed, pull, reach),
-            faster: faster(&law, &damper, speed, reach),
+            slower: side(false),
+            faster: side(true),
             damper,
         };
         if model.guide_static < model.guide {

@@ -39,19 +39,10 @@ fn falling_zero((drop, velocity, exponent): (f64, f64, f64), rest: &[f64]) -> f6
 
 /// Where a polynomial first becomes negative on `0 .. end`.
 fn falls_below_zero(coefficients: &[f64], end: f64) -> Option<f64> {
-    let value = |at: f64| polynomial::value(coefficients, at);
-    if value(0.0) < 0.0 {
+    if polynomial::value(coefficients, 0.0) < 0.0 {
         return Some(0.0);
     }
-    let mut from = 0.0;
-    for turn in zeros(&derivative(coefficients), end).into_iter().chain([end]) {
-        let far = if turn.is_finite() { turn } else { beyond_zeros(coefficients).max(2.0 * from) };
-        if value(far) < 0.0 {
-            return Some(bisect(from, far, TO_ROUNDING, |at| value(at) < 0.0).0);
-        }
-        from = turn;
-    }
-    None
+    zeros(coefficients, end).first().copied()
 }
 
 /// The zeros in `0 .. end` at which a polynomial changes its sign, in their order: between two zeros of its

@@ -49,24 +49,7 @@ impl Twofold {
         let square = Self::product(d, d);
         let difference = Self::sum(1.0, -square.high);
         let exact = Self::sum(difference.high, difference.low - square.low);
-        if exact.high < 0.0 { Twofold { high: -exact.high, low: -exact.low } } else { exact }
-    }
-
-    /// The sum, accurate to its last digits even under cancellation.
-    pub fn plus(self, other: Self) -> Self {
-        let (high, low) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
-        let middle = Self::sum(high.high, high.low + low.high);
-        Self::sum(middle.high, middle.low + low.low)
-    }
-
-    /// The difference.
-    pub fn minus(self, other: Self) -> Self {
-        self.plus(other.opposite())
-    }
-
-    /// `-self`.
-    pub fn opposite(self) -> Self {
-        Twofold { high: -self.high, low: -self.low }
+        if exact.high < 0.0 { -exact } else { exact }
     }
 
     /// `1 - self`.
@@ -79,13 +62,6 @@ impl Twofold {
     pub fn times(self, factor: f64) -> Self {
         let product = Self::product(self.high, factor);
         Self::sum(product.high, self.low.mul_add(factor, product.low))
-    }
-
-    /// The product.
-    pub fn by(self, other: Self) -> Self {
-        let product = Self::product(self.high, other.high);
-        let cross = self.high.mul_add(other.low, self.low * other.high);
-        Self::sum(product.high, product.low + cross)
     }
 
     /// The quotient; the divisor must not be zero.
@@ -139,8 +115,11 @@ impl From<f64> for Twofold {
 impl Add for Twofold {
     type Output = Self;
 
+    /// The sum, accurate to its last digits even under cancellation.
     fn add(self, other: Self) -> Self {
-        self.plus(other)
+        let (high, low) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
+        let middle = Self::sum(high.high, high.low + low.high);
+        Self::sum(middle.high, middle.low + low.low)
     }
 }
 
@@ -148,7 +127,7 @@ impl Sub for Twofold {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        self.minus(other)
+        self + -other
     }
 }
 
@@ -156,7 +135,9 @@ impl Mul for Twofold {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
-        self.by(other)
+        let product = Self::product(self.high, other.high);
+        let cross = self.high.mul_add(other.low, self.low * other.high);
+        Self::sum(product.high, product.low + cross)
     }
 }
 
@@ -164,7 +145,7 @@ impl Neg for Twofold {
     type Output = Self;
 
     fn neg(self) -> Self {
-        self.opposite()
+        Twofold { high: -self.high, low: -self.low }
     }
 }
 
@@ -209,7 +190,7 @@ mod tests {
             let back = Twofold::of(a).over(Twofold::of(b)).times(b);
             prop_assert!(((back.high - a) + back.low).abs() <= 4.0 * UNIT * a);
             let root = Twofold::of(a).sqrt();
-            let square = root.by(root);
+            let square = root * root;
             prop_assert!(((square.high - a) + square.low).abs() <= 8.0 * UNIT * a);
         }
     }

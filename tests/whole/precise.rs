@@ -24,21 +24,20 @@ fn two(value: f64) -> Twofold {
 }
 
 fn sum(terms: impl Iterator<Item = Twofold>) -> Twofold {
-    terms.fold(ZERO, Twofold::plus)
+    terms.fold(ZERO, |sum, term| sum + term)
 }
 
 /// The value of a polynomial at a time.
 fn at(series: &Series, t: Twofold) -> Twofold {
-    series.iter().rev().fold(ZERO, |sum, term| sum.by(t).plus(*term))
+    series.iter().rev().fold(ZERO, |sum, term| sum * t + *term)
 }
 
 /// `exp(x)` by its series at `x/4096`, followed by twelve squarings.
 fn exp(x: Twofold) -> Twofold {
     let small = x.times(1.0 / 4096.0);
-    let series = (1..=12)
-        .rev()
-        .fold(two(1.0), |sum, k| sum.by(small).over(two(f64::from(k))).plus(two(1.0)));
-    (0..12).fold(series, |power, _| power.by(power))
+    let series =
+        (1..=12).rev().fold(two(1.0), |sum, k| (sum * small).over(two(f64::from(k))) + two(1.0));
+    (0..12).fold(series, |power, _| power * power)
 }
 
 /// A machine with unit mass, stiffness and normal force, and `mu = kinetic + drop exp(-w/velocity)`.
@@ -81,31 +80,30 @@ impl Machine {
     }
 
     fn steady(&self) -> Twofold {
-        two(self.kinetic).plus(self.falling(two(self.speed)))
+        two(self.kinetic) + self.falling(two(self.speed))
     }
 
     /// The series of x and y in a phase.
     fn series(&self, phase: Phase, x: Twofold, y: Twofold) -> (Series, Series) {
         let faster = phase == Phase::Above;
         let side = if faster { -1.0 } else { 1.0 };
-        let slip = two(self.speed).minus(y).times(side);
-        let constant =
-            two(side * self.kinetic).minus(self.steady()).minus(two(phase.sign() * self.guide));
+        let slip = (two(self.speed) - y).times(side);
+        let constant = two(side * self.kinetic) - self.steady() - two(phase.sign() * self.guide);
         let (mut xs, mut ys, mut fall) = ([ZERO; ORDER + 1], [ZERO; ORDER + 1], [ZERO; ORDER + 1]);
         let (mut square, mut cube) = (fall, fall);
         (xs[0], ys[0], fall[0]) = (x, y, self.falling(slip));
         for k in 0..ORDER {
-            square[k] = sum((0..=k).map(|j| ys[j].by(ys[k - j])));
-            cube[k] = sum((0..=k).map(|j| square[j].by(ys[k - j])));
-            let mut rate = fall[k].times(side).minus(xs[k]);
-            rate = rate.minus(ys[k].times(self.damping)).minus(cube[k].times(self.cubic));
-            rate = if k == 0 { rate.plus(constant) } else { rate };
+            square[k] = sum((0..=k).map(|j| ys[j] * ys[k - j]));
+            cube[k] = sum((0..=k).map(|j| square[j] * ys[k - j]));
+            let mut rate = fall[k].times(side) - xs[k];
+            rate = rate - ys[k].times(self.damping) - cube[k].times(self.cubic);
+            rate = if k == 0 { rate + constant } else { rate };
             let count = two(f64::from(u32::try_from(k + 1).unwrap()));
             xs[k + 1] = ys[k].over(count);
             ys[k + 1] = rate.over(count);
             let products = (0..=k).map(|j| {
                 let order = f64::from(u32::try_from(k - j + 1).unwrap());
-                fall[j].by(ys[k - j + 1].times(order))
+                fall[j] * ys[k - j + 1].times(order)
             });
             // The slip decreases as the velocity rises, or increases with it.
             fall[k + 1] = sum(products).times(side).over(two(self.velocity)).over(count);
@@ -123,7 +121,7 @@ impl Machine {
             };
         }
         let damper = self.speed * (self.damping + self.cubic * self.speed * self.speed);
-        let needed = x.plus(self.steady()).value() + damper + self.guide;
+        let needed = (x + self.steady()).value() + damper + self.guide;
         let held = self.kinetic + self.drop + self.held;
         // A release is exactly at the end of the band.
         if needed >= held - 1e-14 {
@@ -150,24 +148,23 @@ impl Machine {
             match place {
                 ContactState::Rests => break,
                 ContactState::Sticks => {
-                    let damper =
-                        two(self.damping).plus(two(self.cubic * self.speed).times(self.speed));
+                    let damper = two(self.damping) + two(self.cubic * self.speed).times(self.speed);
                     let release = two(self.kinetic + self.drop + self.held)
-                        .minus(damper.times(self.speed))
-                        .minus(two(self.guide))
-                        .minus(self.steady());
-                    t = t.plus(release.minus(x).over(two(self.speed)));
+                        - damper.times(self.speed)
+                        - two(self.guide)
+                        - self.steady();
+                    t = t + (release - x).over(two(self.speed));
                     (x, y, place) = (release, two(self.speed), ContactState::Slips(Phase::Between));
                 }
                 ContactState::Slips(phase) => loop {
                     let (xs, ys) = self.series(phase, x, y);
                     if let Some((time, level)) = self.first_line(phase, &ys) {
-                        (x, y, t) = (at(&xs, time), two(level), t.plus(time));
+                        (x, y, t) = (at(&xs, time), two(level), t + time);
                         place = self.place(x, level != 0.0);
                         break;
                     }
                     let step = two(STEP);
-                    (x, y, t) = (at(&xs, step), at(&ys, step), t.plus(step));
+                    (x, y, t) = (at(&xs, step), at(&ys, step), t + step);
                     if t.value() > until {
                         break;
                     }
@@ -193,12 +190,12 @@ impl Machine {
             let time = STEP * f64::from(part) / f64::from(SCAN);
             let y = at(ys, two(time));
             for level in levels {
-                let beyond = y.minus(two(*level)).value();
+                let beyond = (y - two(*level)).value();
                 if beyond * (middle - level) < 0.0 {
                     let (mut low, mut high) = (two(time - STEP / f64::from(SCAN)), two(time));
                     for _ in 0..100 {
-                        let half = low.plus(high).times(0.5);
-                        let side = at(ys, half).minus(two(*level)).value();
+                        let half = (low + high).times(0.5);
+                        let side = (at(ys, half) - two(*level)).value();
                         if side * (middle - level) < 0.0 { high = half } else { low = half }
                     }
                     return Some((high, *level));

@@ -16,7 +16,7 @@ fn problem([d, d2, d3, r]: [f64; 4], q: f64, until: f64) -> Problem {
 }
 
 fn apart(one: Twofold, other: Twofold) -> f64 {
-    one.minus(other).value().abs()
+    (one - other).value().abs()
 }
 
 #[test]
@@ -42,9 +42,9 @@ fn linear_half_swings_shrink_by_one_and_the_same_factor() {
     let found = found.unwrap();
     let ratio = |before: Twofold, after: Twofold| {
         // From q0 > r to q1: q1 - r = -(q0 - r) e^x in magnitudes, mirrored each time.
-        let size = |q: Twofold| if q.high < 0.0 { q.opposite() } else { q };
+        let size = |q: Twofold| if q.high < 0.0 { -q } else { q };
         let r = Twofold::of(r);
-        size(after).plus(r).over(size(before).minus(r))
+        (size(after) + r).over(size(before) - r)
     };
     let ratios: Vec<_> =
         found.crossings.windows(2).map(|pair| ratio(pair[0].q, pair[1].q)).collect();

@@ -255,7 +255,7 @@ fn sharpen(
     let mut ends = root::Bracket { low, high, rising };
     let (mut s, mut before, mut found) = (0.0_f64, None::<(f64, f64)>, None);
     for _ in 0..STEPS {
-        let here = start.plus(start.times(exp_m1(s)));
+        let here = start + start.times(exp_m1(s));
         let residual = match precise.at(route, here) {
             Err(Reason::Interrupted) => return Err(Reason::Interrupted),
             Ok(Some(residual)) => residual,

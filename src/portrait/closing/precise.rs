@@ -96,25 +96,25 @@ impl<'a> PreciseEquation<'a> {
         let (second, times, difference, unit) = match route {
             Route::Forward => {
                 let (end, time) = self.swing(0, Forward, start)?;
-                let second = positive(end.minus(gap))?;
+                let second = positive(end - gap)?;
                 let (end, other) = self.swing(1, Forward, second)?;
-                let end = positive(end.minus(gap))?;
-                (second, [time, other], end.minus(start), start)
+                let end = positive(end - gap)?;
+                (second, [time, other], end - start, start)
             }
             Route::Mixed => {
-                let (second, time) = self.swing(1, Backward, start.plus(gap))?;
+                let (second, time) = self.swing(1, Backward, start + gap)?;
                 let (end, other) = self.swing(0, Forward, start)?;
-                let target = second.plus(gap);
-                (second, [time, other], end.minus(target), target)
+                let target = second + gap;
+                (second, [time, other], end - target, target)
             }
             Route::Backward => {
-                let (second, time) = self.swing(1, Backward, start.plus(gap))?;
-                let (end, other) = self.swing(0, Backward, second.plus(gap))?;
-                (second, [time, other], start.minus(end), end)
+                let (second, time) = self.swing(1, Backward, start + gap)?;
+                let (end, other) = self.swing(0, Backward, second + gap)?;
+                (second, [time, other], start - end, end)
             }
         };
         let value = ln_1p(difference.over(unit).value());
-        let duration = times[0].plus(times[1]).value();
+        let duration = (times[0] + times[1]).value();
         let residual = ClosingResidual { value, second: second.value(), duration };
         let sound = value.is_finite() && residual.second > 0.0;
         sound.then_some(residual).ok_or(None)

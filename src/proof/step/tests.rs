@@ -185,7 +185,7 @@ fn every_coefficient_obeys_the_equation_to_rounding() {
             series.expand(field, x, v);
             let of = Twofold::of;
             let product = |one: &[Twofold], other: &[f64], k: usize| {
-                (0..=k).fold(of(0.0), |sum, i| sum.plus(one[i].times(other[k - i])))
+                (0..=k).fold(of(0.0), |sum, i| sum + one[i].times(other[k - i]))
             };
             let first: Vec<Twofold> = series.v.iter().map(|&it| of(it)).collect();
             let squares: Vec<_> = (0..ORDER).map(|k| product(&first, &series.v, k)).collect();
@@ -202,7 +202,7 @@ fn every_coefficient_obeys_the_equation_to_rounding() {
                     squares[k].times(field[1]),
                     product(&squares, &series.v, k).times(field[2]),
                 ];
-                let defect = terms.into_iter().fold(of(0.0), Twofold::plus).high.abs();
+                let defect = terms.into_iter().fold(of(0.0), |sum, it| sum + it).high.abs();
                 // Lemma 2, term by term; of three factors, two have a combined degree of at most k.
                 let [a, b, c] = field.map(f64::abs);
                 let cubes = product(&square_sizes, &sizes, k).high;
@@ -214,7 +214,7 @@ fn every_coefficient_obeys_the_equation_to_rounding() {
                     * (1.0 + 1e-9);
                 assert!(defect <= allowed, "{field:?} degree {k}: {defect:e} > {allowed:e}");
                 // Lemma 3: the coefficients of v^2 themselves.
-                let off = squares[k].plus(of(-series.square[k])).high.abs();
+                let off = (squares[k] - of(series.square[k])).high.abs();
                 assert!(off <= 28.0 * UNIT * square_sizes[k].high, "degree {k}: {off:e}");
                 let off = series.x[k + 1] * (degree + 1.0) - series.v[k];
                 assert!(off.abs() <= 2.1 * UNIT * series.v[k].abs(), "degree {k}");
@@ -487,9 +487,9 @@ fn the_roundings_of_an_area_are_held() {
     let sums = Sums::of(&series, h);
     let exact = (0..ORDER).fold(Twofold::of(0.0), |sum, k| {
         let degree = f64::from(u8::try_from(k + 1).unwrap());
-        sum.plus(Twofold::of(series.square[k] / degree))
+        sum + Twofold::of(series.square[k] / degree)
     });
-    let off = exact.plus(Twofold::of(-sums.integral)).high;
+    let off = (exact - Twofold::of(sums.integral)).high;
     let bound = sums.area_roundings() * h;
     assert!(off > 0.6 * bound && off <= bound, "{off:e} {bound:e}");
 }

@@ -39,24 +39,6 @@ pub enum Context {
     Always,
 }
 
-/// The kind of a context, which decides on the others that hold with it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ContextKind {
-    /// A pane that is not an ordinary plot.
-    Pane,
-    Plot,
-    /// A point of the branch is held.
-    Held,
-    List,
-    /// A line in which characters are typed.
-    Text,
-    /// A question that is answered by one key.
-    Question,
-    Shared,
-    /// Holds with every list.
-    SharedByLists,
-}
-
 /// The description of a context.
 #[derive(Clone, Copy, Debug)]
 pub struct ContextSpec {
@@ -65,40 +47,47 @@ pub struct ContextSpec {
     pub name: &'static str,
     /// A heading for its keys.
     pub title: &'static str,
-    kind: ContextKind,
+    /// The contexts that hold with it where it is the most specific; `None` if it never is.
+    others: Option<&'static [Context]>,
 }
 
 const fn row(
     context: Context,
     name: &'static str,
     title: &'static str,
-    kind: ContextKind,
+    others: Option<&'static [Context]>,
 ) -> ContextSpec {
-    ContextSpec { context, name, title, kind }
+    ContextSpec { context, name, title, others }
 }
+
+/// What holds with a pane that is no ordinary plot, with a plot, with a list, and with what takes all other keys.
+const PANE: Option<&[Context]> = Some(&[Context::Everywhere, Context::Always]);
+const PLOT: Option<&[Context]> = Some(&[Context::Plots, Context::Everywhere, Context::Always]);
+const LIST: Option<&[Context]> = Some(&[Context::Lists, Context::Always]);
+const ALONE: Option<&[Context]> = Some(&[Context::Always]);
 
 /// All contexts other than those of the views.
 #[rustfmt::skip]
 const OTHERS: [ContextSpec; 19] = [
-    row(Context::Parameters, "parameters", "Parameters", ContextKind::Pane),
-    row(Context::Walk, "walk", "Walking along the branch", ContextKind::Held),
-    row(Context::Plots, "plots", "Every plot", ContextKind::Shared),
-    row(Context::Everywhere, "everywhere", "Everywhere", ContextKind::Shared),
-    row(Context::List(Listed::Palette), "help", "In this list", ContextKind::List),
-    row(Context::List(Listed::Scenes), "scenes", "In the scene picker", ContextKind::List),
-    row(Context::List(Listed::Layers), "layers", "In the layer list", ContextKind::List),
-    row(Context::List(Listed::Views), "views", "In the picker of views", ContextKind::List),
-    row(Context::List(Listed::Paper), "paper", "In the list of claims", ContextKind::List),
-    row(Context::List(Listed::Interrupted), "interrupted", "In the list of interrupted sessions", ContextKind::List),
-    row(Context::Palette, "palette", "While searching the list", ContextKind::Text),
-    row(Context::Count, "count", "After a count", ContextKind::Question),
-    row(Context::Letter, "letter", "Before the letter of a mark", ContextKind::Question),
-    row(Context::Lists, "lists", "In every list", ContextKind::SharedByLists),
-    row(Context::Search, "search", "While searching", ContextKind::Text),
-    row(Context::Entry, "entry", "While typing a value", ContextKind::Text),
-    row(Context::Prompt, "prompt", "On the command line", ContextKind::Text),
-    row(Context::Offer, "offer", "After pasting keystrokes", ContextKind::Question),
-    row(Context::Always, "always", "At any time", ContextKind::Shared),
+    row(Context::Parameters, "parameters", "Parameters", PANE),
+    row(Context::Walk, "walk", "Walking along the branch", ALONE),
+    row(Context::Plots, "plots", "Every plot", None),
+    row(Context::Everywhere, "everywhere", "Everywhere", None),
+    row(Context::List(Listed::Palette), "help", "In this list", LIST),
+    row(Context::List(Listed::Scenes), "scenes", "In the scene picker", LIST),
+    row(Context::List(Listed::Layers), "layers", "In the layer list", LIST),
+    row(Context::List(Listed::Views), "views", "In the picker of views", LIST),
+    row(Context::List(Listed::Paper), "paper", "In the list of claims", LIST),
+    row(Context::List(Listed::Interrupted), "interrupted", "In the list of interrupted sessions", LIST),
+    row(Context::Palette, "palette", "While searching the list", ALONE),
+    row(Context::Count, "count", "After a count", ALONE),
+    row(Context::Letter, "letter", "Before the letter of a mark", ALONE),
+    row(Context::Lists, "lists", "In every list", None),
+    row(Context::Search, "search", "While searching", ALONE),
+    row(Context::Entry, "entry", "While typing a value", ALONE),
+    row(Context::Prompt, "prompt", "On the command line", ALONE),
+    row(Context::Offer, "offer", "After pasting keystrokes", ALONE),
+    row(Context::Always, "always", "At any time", None),
 ];
 
 /// All contexts; those of the views come after the first one.
@@ -110,8 +99,8 @@ pub fn contexts() -> impl Iterator<Item = ContextSpec> {
 impl Context {
     fn spec(self) -> ContextSpec {
         if let Context::View(view) = self {
-            let kind = if view == View::Scan { ContextKind::Pane } else { ContextKind::Plot };
-            return row(self, view.spec().name, view.spec().heading, kind);
+            let others = if view == View::Scan { PANE } else { PLOT };
+            return row(self, view.spec().name, view.spec().heading, others);
         }
         let own = |row: &&ContextSpec| row.context == self;
         *OTHERS.iter().find(own).expect("every other context has its row")
@@ -129,18 +118,13 @@ impl Context {
 
     /// Whether characters that are no commands are typed into a line.
     pub fn takes_text(self) -> bool {
-        self.spec().kind == ContextKind::Text
+        matches!(self, Context::Palette | Context::Search | Context::Entry | Context::Prompt)
     }
 
     /// Whether this context holds only while something is open or awaited.
     pub fn is_overlay(self) -> bool {
-        matches!(
-            self.spec().kind,
-            ContextKind::List
-                | ContextKind::Text
-                | ContextKind::Question
-                | ContextKind::SharedByLists
-        )
+        let of_panes = matches!(self, Context::Parameters | Context::View(_) | Context::Walk);
+        !(of_panes || matches!(self, Context::Plots | Context::Everywhere | Context::Always))
     }
 
     /// The view that must have the focus for this context to hold; `None` if it depends on no view.
@@ -152,16 +136,7 @@ impl Context {
 /// All sets of contexts that hold together, each with the most specific context first.
 pub fn chains() -> &'static [Vec<Context>] {
     static CHAINS: LazyLock<Vec<Vec<Context>>> = LazyLock::new(|| {
-        let others: fn(ContextKind) -> Option<&'static [Context]> = |kind| match kind {
-            ContextKind::Plot => Some(&[Context::Plots, Context::Everywhere, Context::Always]),
-            ContextKind::Pane => Some(&[Context::Everywhere, Context::Always]),
-            ContextKind::List => Some(&[Context::Lists, Context::Always]),
-            ContextKind::Held | ContextKind::Text | ContextKind::Question => {
-                Some(&[Context::Always])
-            }
-            ContextKind::Shared | ContextKind::SharedByLists => None,
-        };
-        let chain = |row: ContextSpec| Some([&[row.context], others(row.kind)?].concat());
+        let chain = |row: ContextSpec| Some([&[row.context], row.others?].concat());
         contexts().filter_map(chain).collect()
     });
     &CHAINS
