@@ -7,8 +7,9 @@ use hopfscope::branch::along::{Points, branch};
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::model::{Knob, Parameters, State};
+use hopfscope::portrait::Portrait;
+use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::basin::cycle::cycles;
-use hopfscope::portrait::basin::{StartWindow, basin};
 
 fn main() {
     divan::main();
@@ -121,7 +122,7 @@ fn basin_by_ordering(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
     let window = StartWindow { q: (-6.0, 6.0), v: (-6.0, 6.0) };
     bencher.bench(|| {
-        let found = basin(black_box(&parameters), 6.0, &Limits::PATIENT).unwrap();
+        let found = Portrait::of_oscillator(black_box(&parameters), 6.0, &Limits::PATIENT).unwrap();
         found.count(&window, (320, 384), &Limits::PATIENT)
     });
 }

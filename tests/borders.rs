@@ -4,9 +4,10 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason, Trajectory};
 use hopfscope::model::{Parameters, State};
 use hopfscope::numerics::elementary::{hypot, pow};
-use hopfscope::portrait::Border;
+
+use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::basin::cycle::cycles_drawn;
-use hopfscope::portrait::basin::{Basin, StartWindow, basin};
+use hopfscope::portrait::{Border, Edge, Portrait};
 use hopfscope::scan::measure::{Measure, Value, measure};
 use hopfscope::session::fate::{End, fate};
 use proptest::prelude::*;
@@ -45,13 +46,14 @@ fn borders_are_those_computed_elsewhere() {
         .filter_map(|row| {
             let [left, right, low, high] = row.window;
             let window = StartWindow { q: (left, right), v: (low, high) };
-            let found = basin(&row.parameters, left.abs().max(right.abs()), &LIMITS);
+            let found =
+                Portrait::of_oscillator(&row.parameters, left.abs().max(right.abs()), &LIMITS);
             let right = found.as_ref().is_ok_and(|found| {
                 let near = |found: Option<f64>, expected: Option<f64>| match (found, expected) {
                     (Some(found), Some(expected)) => same(found, expected, 1e-10),
                     (found, expected) => found == expected,
                 };
-                let margin = found.margin();
+                let margin = found.margin;
                 let counts = found.count(&window, (9, 9), &LIMITS).unwrap();
                 near(margin.displacement, Some(row.displacement))
                     && near(margin.impulse, Some(row.impulse))
@@ -92,11 +94,11 @@ fn the_margin_is_the_extreme_of_the_cycle_that_borders_the_basin() {
 }
 
 /// A start next to a border, and whether it is inside.
-fn beside_the_border(found: &Basin, part: f64) -> Vec<(State, bool)> {
+fn beside_the_border(found: &Portrait, part: f64) -> Vec<(State, bool)> {
     /// Relative distance from the border.
     const BESIDE: f64 = 1e-5;
-    let Parameters { r, .. } = found.parameters;
-    let border = &found.borders[0];
+    let r = found.model.guide;
+    let Edge::Orbit(border) = &found.borders[0] else { panic!("no belt") };
     let reach = |clearance: Option<f64>| clearance.map_or(5.0 * r, |it| r + it);
     let left = -reach(border.upper.clearance().map(|length| length.value));
     let right = reach(border.lower.clearance().map(|length| length.value));
@@ -128,7 +130,7 @@ fn is_captured(parameters: Parameters, initial: State) -> Option<bool> {
 #[test]
 fn a_motion_that_rests_late_is_captured() {
     let parameters = Parameters { d: -0.034_406_894_384_943_01, d2: 0.0, d3: 0.0, r: 0.05 };
-    let found = basin(&parameters, 0.5, &LIMITS).unwrap();
+    let found = Portrait::of_oscillator(&parameters, 0.5, &LIMITS).unwrap();
     for (start, inside) in beside_the_border(&found, 0.02) {
         assert_eq!(is_captured(parameters, start), Some(inside), "{start:?}");
     }
@@ -139,13 +141,14 @@ fn motions_beside_the_border_are_captured_inside_and_run_away_outside() {
     let wrong: Vec<_> = rows()
         .par_iter()
         .flat_map_iter(|row| {
-            let found = basin(&row.parameters, 10.0 * row.parameters.r, &LIMITS).unwrap();
+            let found =
+                Portrait::of_oscillator(&row.parameters, 10.0 * row.parameters.r, &LIMITS).unwrap();
             let parts = [0.03, 0.2, 0.4, 0.5, 0.6, 0.8, 0.97];
             let starts: Vec<_> =
                 parts.iter().flat_map(|&part| beside_the_border(&found, part)).collect();
             let parameters = row.parameters;
             starts.into_iter().filter_map(move |(start, inside)| {
-                let fate = found.fate(start) == Fate::Rest;
+                let fate = found.fate(start.q, start.v) == Ok(Fate::Rest);
                 let motion = is_captured(parameters, start);
                 let agree = fate == inside && motion.is_none_or(|captured| captured == inside);
                 (!agree).then_some((parameters, start, inside, motion))
@@ -164,9 +167,10 @@ fn a_scan_measures_what_the_basin_has() {
         let problem = Problem { parameters, ..Problem::default() };
         let measures = [Measure::Margin, Measure::Area, Measure::Stability];
         let measured = measure(&problem.into(), &measures, &window.into(), &LIMITS).unwrap();
-        let found = basin(&parameters, left.abs().max(right.abs()), &LIMITS).unwrap();
-        let share = found.captured_share(&window);
-        let margin = found.margin();
+        let found =
+            Portrait::of_oscillator(&parameters, left.abs().max(right.abs()), &LIMITS).unwrap();
+        let share = found.rest_share(window.q, window.v).unwrap();
+        let margin = found.margin;
         let expected = [
             margin.displacement.into(),
             margin.impulse.into(),
@@ -189,15 +193,15 @@ fn a_scan_measures_what_the_basin_has() {
 fn areas_are_those_of_the_captured_part_of_a_window() {
     let closed = rows().into_iter().filter_map(|row| row.area.map(|area| (row, area)));
     for (row, area) in closed {
-        let found = basin(&row.parameters, 1.0, &LIMITS).unwrap();
-        let cycle = &found.borders[0];
+        let found = Portrait::of_oscillator(&row.parameters, 1.0, &LIMITS).unwrap();
+        let Edge::Orbit(cycle) = &found.borders[0] else { panic!("no belt") };
         let width = 2.0
             * (row.parameters.r + cycle.upper.clearance().unwrap().value)
                 .max(row.parameters.r + cycle.lower.clearance().unwrap().value);
         let height =
             2.0 * found.borders[0].curve(8).iter().fold(0.0_f64, |top, it| top.max(it.v.abs()));
         let window = StartWindow { q: (-width, width), v: (-height, height) };
-        let share = found.captured_share(&window);
+        let share = found.rest_share(window.q, window.v).unwrap();
         let whole = 4.0 * width * height;
         let error = whole * (share.error + 1e-12) + 1e-10 * area;
         assert!((share.part * whole - area).abs() <= error, "{row:?}: {share:?}");
@@ -209,13 +213,14 @@ fn areas_are_those_of_the_captured_part_of_a_window() {
 #[test]
 fn the_linear_basin_beside_repelling_nodes_has_its_closed_form() {
     for (d, r) in [(-1.0, 1.0), (-2.0, 1.0), (-1.5, 0.3), (-50.0, 2.0), (-1.000_000_1, 1e-3)] {
-        let found = basin(&Parameters { d, d2: 0.0, d3: 0.0, r }, 1.0, &LIMITS).unwrap();
+        let found =
+            Portrait::of_oscillator(&Parameters { d, d2: 0.0, d3: 0.0, r }, 1.0, &LIMITS).unwrap();
         assert!(
             same(found.area().unwrap(), 2.0 * r * r / -d, 1e-12),
             "D = {d}: {:?}",
             found.area()
         );
-        assert_eq!(found.margin().displacement, Some(r));
+        assert_eq!(found.margin.displacement, Some(r));
     }
 }
 
@@ -223,17 +228,17 @@ fn the_linear_basin_beside_repelling_nodes_has_its_closed_form() {
 fn the_motions_of_a_centre_are_neutral() {
     // Inside the parabola where the first integral of D2 vanishes all motions are periodic; outside all run away.
     let parameters = Parameters { d: 0.0, d2: 0.5, d3: 0.0, r: 0.0 };
-    let found = basin(&parameters, 3.0, &LIMITS).unwrap();
+    let found = Portrait::of_oscillator(&parameters, 3.0, &LIMITS).unwrap();
     for index in 0..400 {
         let place = |step: i32| -3.0 + 6.0 * f64::from(index * step % 400) / 399.0;
         let start = State { q: place(1), v: place(37) };
         let first_integral = 0.5 * start.v * start.v + start.q - 1.0;
         let expected = if first_integral < 0.0 { Fate::Neutral } else { Fate::Escapes };
-        assert_eq!(found.fate(start), expected, "{start:?}");
+        assert_eq!(found.fate(start.q, start.v), Ok(expected), "{start:?}");
     }
     assert_eq!(found.area(), None);
     let window = StartWindow { q: (-0.5, 0.5), v: (-0.5, 0.5) };
-    assert_eq!(found.captured_share(&window).part, 0.0);
+    assert_eq!(found.rest_share(window.q, window.v).unwrap().part, 0.0);
 }
 
 #[test]
@@ -260,8 +265,12 @@ fn starts_of_a_hair_beside_the_sticking_set_go_where_they_belong() {
         (close, -1.0, 1e-15, false),
     ] {
         let start = State { q, v };
-        let found = basin(&parameters, 3.0, &LIMITS).unwrap();
-        assert_eq!(found.fate(start) == Fate::Rest, captured, "{parameters:?} {start:?}");
+        let found = Portrait::of_oscillator(&parameters, 3.0, &LIMITS).unwrap();
+        assert_eq!(
+            found.fate(start.q, start.v) == Ok(Fate::Rest),
+            captured,
+            "{parameters:?} {start:?}"
+        );
         let problem = Problem { parameters, initial: start, until: 250.0, ..Problem::default() };
         let outcome = trajectory(&problem, Detail::default(), &LIMITS).outcome;
         let rests = matches!(outcome, Outcome::Captured { .. });
@@ -269,7 +278,10 @@ fn starts_of_a_hair_beside_the_sticking_set_go_where_they_belong() {
     }
     // For a start within rounding of the rim, a grid counts the rest and nothing beside it.
     let window = StartWindow { q: (1.0, 1.0), v: (-1e-9, 1e-9) };
-    let counts = basin(&node, 3.0, &LIMITS).unwrap().count(&window, (1, 3), &LIMITS).unwrap();
+    let counts = Portrait::of_oscillator(&node, 3.0, &LIMITS)
+        .unwrap()
+        .count(&window, (1, 3), &LIMITS)
+        .unwrap();
     assert_eq!((counts.captured, counts.escaped), (1, 2));
 }
 
@@ -293,14 +305,14 @@ proptest! {
         part in 0.02..0.98_f64,
     ) {
         let parameters = Parameters { d, d2, d3, r };
-        let Ok(found) = basin(&parameters, 10.0 * r, &LIMITS) else { return Ok(()) };
+        let Ok(found) = Portrait::of_oscillator(&parameters, 10.0 * r, &LIMITS) else { return Ok(()) };
         if found.border == Border::None {
             return Ok(());
         }
-        let margin = found.margin();
+        let margin = found.margin;
         prop_assert!(margin.displacement.is_some_and(|it| it >= r) && margin.impulse.is_some());
         for (start, inside) in beside_the_border(&found, part) {
-            prop_assert_eq!(found.fate(start) == Fate::Rest, inside, "{:?}", start);
+            prop_assert_eq!(found.fate(start.q, start.v) == Ok(Fate::Rest), inside, "{:?}", start);
             if let Some(captured) = is_captured(parameters, start) {
                 prop_assert_eq!(captured, inside, "{:?} {:?}", parameters, start);
             }

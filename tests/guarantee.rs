@@ -8,7 +8,7 @@ use hopfscope::flow::Limits;
 use hopfscope::model::{Interval, Knob, ParameterBox, Parameters, State, Tolerances};
 use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
-use hopfscope::portrait::basin::basin;
+use hopfscope::portrait::Portrait;
 use hopfscope::portrait::guarantee::oscillator::{TwoSided, guaranteed, nominal};
 use hopfscope::portrait::{Border, Margin};
 use hopfscope::question::answer;
@@ -202,7 +202,7 @@ fn the_margin_known_from_elsewhere() {
         let (_, margin) = guaranteed(&known, w, 0.0, &Limits::PATIENT).unwrap().unwrap();
         let displacement = margin.displacement.unwrap();
         assert!((displacement - expected).abs() < 5e-5, "w = {w}: {displacement}");
-        let nominal = nominal(&known, &Limits::PATIENT).unwrap().margin();
+        let nominal = nominal(&known, &Limits::PATIENT).unwrap().margin;
         assert!(displacement < nominal.displacement.unwrap());
     }
 }
@@ -221,7 +221,7 @@ fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
     let far = [(0.1157, -5e-3), (0.1157, -5e-4), (0.1157, -1e-9), (0.65, -1e-3), (0.36, -2e-4)];
     for (d, d3) in far {
         let plain = Parameters { d, d2: 0.3517, d3, r: 0.22 };
-        let margin = basin(&plain, 0.0, &Limits::PATIENT).unwrap().margin();
+        let margin = Portrait::of_oscillator(&plain, 0.0, &Limits::PATIENT).unwrap().margin;
         let exact = [plain.d, plain.d2, plain.d3, plain.r].map(|value| [value; 2]);
         let (known, _) = case(exact[0], exact[1], exact[2], exact[3], 0.0);
         let (_, found) = guaranteed(&known, 0.0, 0.0, &Limits::PATIENT).unwrap().unwrap();
@@ -266,7 +266,8 @@ fn no_parameters_of_a_box_have_a_smaller_margin() {
         for _ in 0..200 {
             let [d, d2, d3, r] = [d, d2, d3, r].map(|interval| between(&mut random, interval));
             let parameters = Parameters { d, d2, d3, r };
-            let own = kicks(basin(&parameters, 0.0, &Limits::PATIENT).unwrap().margin());
+            let own =
+                kicks(Portrait::of_oscillator(&parameters, 0.0, &Limits::PATIENT).unwrap().margin);
             let within = own.iter().zip(least).all(|(own, least)| *own >= least);
             assert!(within, "{parameters:?}: {own:?} within {least:?}");
             looked += 1;
@@ -322,8 +323,8 @@ fn no_rest_position_has_a_smaller_margin_and_one_attains_it() {
         let d3 = if roll(0.0, 1.0) < 0.5 { roll(-0.5, 0.5) } else { 0.0 };
         let parameters =
             Parameters { d: roll(-0.7, 0.2), d2: roll(-0.6, 0.6), d3, r: roll(0.05, 0.4) };
-        let found = basin(&parameters, 0.0, &Limits::PATIENT).unwrap();
-        let from_rest = found.margin().from_rest;
+        let found = Portrait::of_oscillator(&parameters, 0.0, &Limits::PATIENT).unwrap();
+        let from_rest = found.margin.from_rest;
         let Some((shift, push)) = from_rest.displacement.zip(from_rest.impulse) else {
             assert_eq!(found.border, Border::None, "{parameters:?}");
             continue;

@@ -11,9 +11,10 @@ use hopfscope::branch::fold::{border, fold};
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Cost, Detail, Limits, METHODS, Outcome, Problem, Reason};
 use hopfscope::model::{Knob, Parameters, State};
+use hopfscope::portrait::Portrait;
+use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::basin::capture::bands;
 use hopfscope::portrait::basin::cycle::cycles_drawn;
-use hopfscope::portrait::basin::{StartWindow, basin};
 
 /// Maximum number of evaluations between two polls.
 const BETWEEN: u64 = 10_000;
@@ -135,7 +136,7 @@ fn basins_stop_however_fine_the_grid() {
     let parameters = parameters()[0];
     let window = StartWindow { q: (-2.0, 2.0), v: (-2.0, 2.0) };
     let counted = |limits: &Limits| {
-        let found = basin(&parameters, 2.0, limits)?;
+        let found = Portrait::of_oscillator(&parameters, 2.0, limits)?;
         found.count(&window, (2_000, 50), limits)?;
         Ok(found.cost)
     };

@@ -45,7 +45,6 @@ fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Finding, Reason> {
         Cycles {
             parameters,
             cycles: Vec::new(),
-            harmonic: Vec::new(),
             border: Border::None,
             picture: None,
             cost: Cost::default(),

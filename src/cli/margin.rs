@@ -4,12 +4,12 @@ use clap::Args;
 
 use super::input::{self, WINDOW};
 use super::{
-    Certify, Failure, MachineCase, Output, SourceOptions, given, number, read, timed, troubled,
+    Certify, Failure, MachineCase, Output, Portrayed, SourceOptions, given, number, read, timed,
+    troubled,
 };
 use crate::flow::Limits;
-use crate::model::MachineProblem;
-use crate::portrait::Portrait;
-use crate::portrait::basin::basin;
+use crate::model::{MachineProblem, Parameters};
+use crate::portrait::Margin;
 use crate::portrait::guarantee::machine;
 use crate::portrait::guarantee::oscillator::{guaranteed, nominal};
 use crate::portrait::kicks::repeated::repeated;
@@ -17,7 +17,7 @@ use crate::portrait::proved::agreed;
 use crate::proof;
 use crate::proof::{ParameterBox, prove};
 use crate::report::About;
-use crate::report::margin::{basin_of_machine, basin_of_oscillator, kicks, margins};
+use crate::report::margin::{basin, kicks, margins};
 
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Debug, Args)]
@@ -48,11 +48,9 @@ impl MarginCommand {
         let timed = self.output.timed("the margin could not be computed", ask)?;
         let ((nominal, certain), seconds) = timed;
         let mut cost = nominal.cost;
-        if let Ok((basin, _)) = &certain {
-            cost += basin.cost;
-        }
+        certain.iter().for_each(|(worst, _)| cost += worst.cost);
         let certain = certain.map(|(_, margin)| margin);
-        let answer = margins(&About::boxed(&known), nominal.margin(), certain, bound);
+        let answer = margins(&About::boxed(&known), nominal.margin, certain, bound);
         self.output.print(answer.cost(cost, seconds))
     }
 
@@ -98,34 +96,23 @@ impl BasinCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let numbers = self.source.numbers();
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
-        if let Some(case) = self.source.portrayed()? {
-            let (found, before) = case.portrait(&self.output)?;
-            let window = window.unwrap_or_else(|| found.surroundings());
-            let (counts, seconds) = timed(self.output.repeat, || found.count(&window, self.grid));
-            let captured = found.rest_share(window.q, window.v).map(|share| share.part);
-            let seconds = before + seconds;
-            let answer = basin_of_machine(&case.about(), &found, counts, captured, seconds);
-            return self.output.print(answer);
-        }
-        let parameters = self.source.start.scene(None)?.problem.parameters;
-        let window = window.unwrap_or(WINDOW);
-        let reach = window.q.0.abs().max(window.q.1.abs());
-        let survey = || {
-            let found = basin(&parameters, reach, &Limits::PATIENT)?;
-            let counts = found.count(&window, self.grid, &Limits::PATIENT)?;
-            Ok((found, counts))
-        };
-        let timed = self.output.timed("the basin could not be completed", survey)?;
-        let ((found, counts), seconds) = timed;
-        let enclose = || {
+        let reach = window.unwrap_or(WINDOW).reach();
+        let Portrayed { about, portrait: found, seconds: before } =
+            self.source.portrait(&self.output, |_| reach)?;
+        let usual = || if about.is_machine() { found.surroundings() } else { WINDOW };
+        let window = window.unwrap_or_else(usual);
+        let count = || found.count(&window, self.grid, &Limits::PATIENT);
+        let (counts, seconds) = self.output.timed("the starts could not be counted", count)?;
+        // What is proved, is proved of the oscillator of the paper.
+        let parameters = found.model.parameters().filter(|_| !about.is_machine());
+        let enclose = |parameters: Parameters| {
             let proof = prove(&ParameterBox::from(&parameters), &[]);
-            let margin = found.margin();
-            let hints = [margin.displacement, margin.impulse, margin.from_rest.impulse];
-            agreed(proof::kicks::kicks(&proof, hints), &found)
+            let Margin { displacement, impulse, from_rest } = found.margin;
+            agreed(proof::kicks::kicks(&proof, [displacement, impulse, from_rest.impulse]), &found)
         };
-        let certified = self.certify.ask(enclose);
-        let about = About::oscillator(&parameters);
-        self.output.print(basin_of_oscillator(&about, &found, counts, certified.as_ref(), seconds))
+        let certified = self.certify.ask(|| parameters.map(enclose)).flatten();
+        let seconds = before + seconds;
+        self.output.print(basin(&about, &found, (&window, counts), certified.as_ref(), seconds))
     }
 }
 
@@ -148,18 +135,11 @@ pub struct KicksCommand {
 
 impl KicksCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        const FAILED: &str = "the kicks could not be followed";
         let law = read("--kicks", &self.law, |text| self.source.numbers().kicks(text))?;
-        let (about, (portrait, before)) = if let Some(case) = self.source.portrayed()? {
-            (case.about(), case.portrait(&self.output)?)
-        } else {
-            let parameters = self.source.start.scene(None)?.problem.parameters;
-            let reach = law.reach() + parameters.r;
-            let ask = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
-            (About::oscillator(&parameters), self.output.timed(FAILED, ask)?)
-        };
+        let Portrayed { about, portrait, seconds: before } =
+            self.source.portrait(&self.output, |r| law.reach() + r)?;
         let follow = || repeated(&portrait, &law, &Limits::PATIENT);
-        let (found, seconds) = self.output.timed(FAILED, follow)?;
+        let (found, seconds) = self.output.timed("the kicks could not be followed", follow)?;
         let held = portrait.model.guide_static;
         self.output.print(kicks(&about, &law, &found, held, before + seconds))
     }

@@ -5,10 +5,12 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::input::{self, MACHINE, Numbers, OSCILLATOR};
-use super::{Failure, MachineCase, read, second};
-use crate::flow::{METHODS, Method, Problem};
+use super::{Failure, MachineCase, Output, read, second};
+use crate::flow::{Limits, METHODS, Method, Problem};
 use crate::model::unit::WithTolerance;
 use crate::model::{Knob, ParameterBox};
+use crate::portrait::Portrait;
+use crate::report::About;
 use crate::runtime::standard::tell;
 use crate::scene::library::PLAIN;
 use crate::scene::{Scene, find};
@@ -22,6 +24,13 @@ pub struct SourceOptions {
     /// are then its own, such as --set "R=2 N", with a unit or in SI units
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "step", "epsilon"])]
     machine: Option<String>,
+}
+
+/// All motions of what a command is about, and the median time to find them.
+pub struct Portrayed {
+    pub about: About,
+    pub portrait: Portrait,
+    pub seconds: f64,
 }
 
 impl SourceOptions {
@@ -45,6 +54,24 @@ impl SourceOptions {
             ));
         }
         Ok(Some(case.checked()?))
+    }
+
+    /// All motions of the machine, or of the oscillator of the paper, where a border that is not closed is followed as far
+    /// as a function of r says.
+    pub fn portrait(
+        &self,
+        output: &Output,
+        reach: impl Fn(f64) -> f64,
+    ) -> Result<Portrayed, Failure> {
+        let (about, (portrait, seconds)) = if let Some(case) = self.portrayed()? {
+            (case.about(), case.portrait(output)?)
+        } else {
+            let parameters = self.start.scene(None)?.problem.parameters;
+            let reach = reach(parameters.r);
+            let ask = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
+            (About::oscillator(&parameters), output.timed("its basin could not be found", ask)?)
+        };
+        Ok(Portrayed { about, portrait, seconds })
     }
 
     /// The machine with the values set on the command line, if it is about one.

@@ -17,11 +17,10 @@ use crate::branch::fold::fold;
 use crate::flow::{Limits, Reason};
 use crate::model::{Knob, ParameterBox, Parameters};
 use crate::numerics::count::{real, truncated};
-use crate::portrait::basin::Basin;
 use crate::portrait::closing::all::all_closings;
 use crate::portrait::closing::equation::Equation;
 use crate::portrait::guarantee::oscillator::guaranteed;
-use crate::portrait::{Kicks, Margin};
+use crate::portrait::{Kicks, Margin, Portrait};
 
 /// What is asked of the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -237,7 +236,7 @@ fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Margin
     let found = all_closings(&mut equation)?;
     let stable = found.iter().find(|closing| closing.log_multiplier(parameters) < 0.0);
     Ok(MarginOfDraw {
-        margin: Basin::around(parameters, &found, reach, limits)?.margin(),
+        margin: Portrait::around(parameters, &found, reach, limits)?.margin,
         cycle: stable.map(|closing| closing.describe(parameters, equation.side).q_max),
         fold: fold(parameters, limits)?.0.map(|fold| fold.d),
     })

@@ -264,6 +264,12 @@ impl Model {
         }
     }
 
+    /// The length, in m, for which 1 stands in drawings: `x0` as in the paper; without a belt 1 m.
+    #[must_use]
+    pub fn drawing_length(&self) -> f64 {
+        if self.pull > 0.0 { self.pull } else { 1.0 }
+    }
+
     /// A velocity in m/s divided by the natural frequency; for that of the belt, exactly the speed of the model.
     #[must_use]
     pub fn scaled_velocity(&self, v: f64) -> f64 {

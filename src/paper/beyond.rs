@@ -10,7 +10,7 @@ use crate::flow::{Outcome, Reason};
 use crate::model::{Parameters, State};
 use crate::numerics::Interval;
 use crate::numerics::elementary::exp;
-use crate::portrait::basin::basin;
+use crate::portrait::Portrait;
 use crate::proof::motion::ProvedFate;
 
 pub const CHECKS: &[Check] = &[
@@ -44,7 +44,7 @@ pub const CHECKS: &[Check] = &[
     }),
     always("no return", |it| Ok(returns_to(it, it.more)?.is(false))),
     tends("parabola of escape", |it| {
-        let impulse = basin(it, 10.0, &it.limits)?.margin().impulse;
+        let impulse = Portrait::of_oscillator(it, 10.0, &it.limits)?.margin.impulse;
         let impulse = impulse.ok_or(missing("the separatrix"))?;
         Ok(((0.5 / (it.d2 * it.d2)).sqrt(), Known::relative(impulse, 1e-12)))
     }),

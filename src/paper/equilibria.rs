@@ -11,7 +11,7 @@ use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{exp, hypot};
 use crate::portrait::Margin;
-use crate::portrait::basin::basin;
+use crate::portrait::Portrait;
 use crate::proof::kicks::kicks;
 use crate::proof::motion::ProvedFate;
 use crate::proof::{ParameterBox, prove};
@@ -129,10 +129,10 @@ fn circle(parameters: &Parameters) -> f64 {
 pub(crate) fn least_kick(it: &Case) -> Result<Known, Reason> {
     /// Points on each step of the border, and the relative error of a distance between them.
     const POINTS: (u16, f64) = (200, 1e-5);
-    let basin = basin(it, 10.0, &it.limits)?;
+    let basin = Portrait::of_oscillator(it, 10.0, &it.limits)?;
     let border = basin.borders.first().map(|border| border.curve(POINTS.0)).unwrap_or_default();
     let least = border.iter().map(|point| hypot(point.q, point.v)).fold(f64::INFINITY, f64::min);
-    Ok(Known::relative(least, POINTS.1).within(at_most(it, &basin.margin())))
+    Ok(Known::relative(least, POINTS.1).within(at_most(it, &basin.margin)))
 }
 
 /// The distance of the border is at most that of two of its points, where these are enclosed.

@@ -10,8 +10,8 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
 use crate::model::{Knob, Parameters, Side, State};
 use crate::numerics::Interval;
+use crate::portrait::Portrait;
 use crate::portrait::basin::arc::Arc;
-use crate::portrait::basin::basin;
 use crate::portrait::closing::all::closings;
 use crate::portrait::closing::equation::Equation;
 use crate::portrait::closing::half_map::{Direction, Length};
@@ -280,7 +280,7 @@ impl<'a> Case<'a> {
 
     /// What borders the basin.
     pub fn edge(&self) -> Result<Certain<Border>, Reason> {
-        let found = basin(self, 10.0, &self.limits)?.border;
+        let found = Portrait::of_oscillator(self, 10.0, &self.limits)?.border;
         let proved = kicks::edge(&prove(&ParameterBox::from(&self.parameters), &[]));
         let certain = match found {
             Border::None => proved == Some(kicks::ProvedEdge::None),

@@ -11,8 +11,7 @@ use crate::fit::{
 use crate::flow::Limits;
 use crate::model::{Parameters, State};
 use crate::numerics::count::real;
-use crate::portrait::Border;
-use crate::portrait::basin::basin;
+use crate::portrait::Portrait;
 use crate::scene::{Point, Span, Window};
 
 /// Draws whose edge of the basin is drawn.
@@ -173,9 +172,8 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
 /// Adds the first border of the basin of these parameters, thinned, if there is one.
 fn border(picture: &mut Picture, parameters: &Parameters, largest: f64, line: LineStyle) {
     const COUNT: u16 = 24;
-    let found = basin(parameters, 2.0 * largest, &Limits::PATIENT).ok();
-    let found = found.filter(|found| found.border != Border::None);
-    if let Some(border) = found.as_ref().and_then(|found| found.borders.first()) {
+    let found = Portrait::of_oscillator(parameters, 2.0 * largest, &Limits::PATIENT).ok();
+    if let Some(border) = found.as_ref().and_then(Portrait::edge) {
         picture.curve(line, border.curve(COUNT).iter().map(|point| at(point.q, point.v)));
     }
 }

@@ -1,9 +1,13 @@
-//! What borders the basin of rest.
+//! What borders the basin of rest: its kind, and the curve that it was traced as.
 
 use serde::{Serialize, Serializer};
 
+use super::basin::orbit::Orbit;
 use crate::flow::Reason;
-use crate::model::Parameters;
+use crate::flow::machine::curve::MachineCurve;
+use crate::model::{Parameters, State};
+use crate::numerics::elementary::hypot;
+use crate::numerics::root::maximum;
 
 /// What borders the basin of rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,5 +67,84 @@ impl Border {
             None if bounded || !(escapes || self_excited_node) => Border::None,
             _ => Border::Separatrix,
         }
+    }
+}
+
+/// A border between regions of starts, as it was traced: a graph over the displacement above `v = 0`, and one below.
+#[derive(Clone, Debug)]
+pub enum Edge {
+    /// Two half swings, known by their clearances.
+    Orbit(Box<Orbit>),
+    /// A closed curve that may run along the belt's line, and the speed of the belt.
+    Curve(MachineCurve, f64),
+}
+
+impl Edge {
+    /// The velocities at a displacement between which the starts lie inside; `None` where none does.
+    #[must_use]
+    pub fn span_at(&self, q: f64) -> Option<(f64, f64)> {
+        match self {
+            Edge::Orbit(orbit) => orbit.span_at(q),
+            Edge::Curve(curve, speed) => {
+                let (up, down) = curve.velocities_at(q, *speed);
+                // Next to a turning point only one of both may be met.
+                Some((down.or(up.map(|_| 0.0))?, up.unwrap_or(0.0)))
+            }
+        }
+    }
+
+    /// The displacements at which it may have a corner.
+    #[must_use]
+    pub fn corners(&self) -> Vec<f64> {
+        match self {
+            Edge::Orbit(_) => Vec::new(),
+            Edge::Curve(curve, _) => curve.ends(),
+        }
+    }
+
+    /// Its points in the order of time, `count` on each integration step; a closed one ends with its first point.
+    #[must_use]
+    pub fn curve(&self, count: u16) -> Vec<State> {
+        match self {
+            Edge::Orbit(orbit) => orbit.curve(count),
+            Edge::Curve(curve, speed) => curve.closed(count, *speed),
+        }
+    }
+
+    /// The area within it; `None` where it is infinite.
+    #[must_use]
+    pub fn area(&self) -> Option<f64> {
+        match self {
+            Edge::Orbit(orbit) => {
+                orbit.is_closed().then(|| orbit.upper.area() + orbit.lower.area())
+            }
+            Edge::Curve(curve, speed) => Some(curve.area(*speed)),
+        }
+    }
+
+    /// Its least distance from the origin, refined between the points of its curve.
+    #[must_use]
+    pub fn inner_radius(&self) -> Option<f64> {
+        /// Points on each of its integration steps.
+        const POINTS: u16 = 24;
+        /// The part of the way between the neighbours of the nearest point in which the distance is flat.
+        const FLAT: f64 = 1e-9;
+        let curve = match self {
+            Edge::Orbit(orbit) => orbit.curve(POINTS),
+            Edge::Curve(curve, speed) => curve.points(POINTS, *speed),
+        };
+        let far = |state: &State| hypot(state.q, state.v);
+        let nearer = |one: &usize, other: &usize| far(&curve[*one]).total_cmp(&far(&curve[*other]));
+        let nearest = (0..curve.len()).min_by(nearer)?;
+        let State { v, .. } = curve[nearest];
+        let distance = |q: f64| {
+            let span = self.span_at(q);
+            span.map_or(f64::INFINITY, |(low, high)| hypot(q, if v < 0.0 { low } else { high }))
+        };
+        let ends = [nearest.saturating_sub(1), (nearest + 1).min(curve.len() - 1)];
+        let [one, other] = ends.map(|index| curve[index].q);
+        let (low, high) = (one.min(other), one.max(other));
+        let (low, high) = maximum(low, high, FLAT * (high - low), |q| -distance(q));
+        Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])))
     }
 }

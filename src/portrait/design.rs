@@ -11,9 +11,8 @@ use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Body, Parameters, Source, Tolerances};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois};
-use crate::portrait::basin::basin;
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::{Border, Margin};
+use crate::portrait::{Border, Margin, Portrait};
 
 /// A kick out of rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -105,9 +104,9 @@ pub fn friction_for(
     let mut cost = Cost::default();
     // Logarithm of the margin, as a fraction of the one wanted.
     let mut excess = |r: f64| -> Result<f64, Reason> {
-        let found = basin(&Parameters { r, ..*parameters }, wanted, limits)?;
+        let found = Portrait::of_oscillator(&Parameters { r, ..*parameters }, wanted, limits)?;
         cost += found.cost;
-        Ok(ln(kick.margin(&found.margin()) / wanted))
+        Ok(ln(kick.margin(&found.margin) / wanted))
     };
     let needed = least_friction(wanted, hardly_any(parameters, wanted), &mut excess)?;
     let lost = Reason::NoConvergence { sought: "the friction for a margin", change: f64::NAN };
@@ -259,7 +258,8 @@ mod tests {
     }
 
     fn margin(d: f64, d2: f64, d3: f64, r: f64) -> Margin {
-        basin(&Parameters { d, d2, d3, r }, 1.0, &Limits::PATIENT).unwrap().margin()
+        let parameters = Parameters { d, d2, d3, r };
+        Portrait::of_oscillator(&parameters, 1.0, &Limits::PATIENT).unwrap().margin
     }
 
     #[test]

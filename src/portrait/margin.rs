@@ -56,13 +56,16 @@ impl<T> Kicks<T> {
 }
 
 impl RestMargin {
-    /// The margin with functions of its displacement and of its impulse in their place.
+    /// From the sizes of both kicks, infinite where every one is survived.
     #[must_use]
-    pub fn map(&self, displacement: impl Fn(f64) -> f64, impulse: impl Fn(f64) -> f64) -> Self {
-        let [displacement, impulse] =
-            [self.displacement.map(displacement), self.impulse.map(impulse)];
-        RestMargin { displacement, impulse }
+    pub fn of(displacement: f64, impulse: f64) -> Self {
+        RestMargin { displacement: finite(displacement), impulse: finite(impulse) }
     }
+}
+
+/// A kick that is not survived; `None` of an infinite one.
+fn finite(kick: f64) -> Option<f64> {
+    Some(kick).filter(|kick| kick.is_finite())
 }
 
 impl Margin {
@@ -98,7 +101,6 @@ impl Reach {
     /// The margin of this mass, with what it is from rest.
     #[must_use]
     pub fn margin(&self, mass: f64, from_rest: RestMargin) -> Margin {
-        let finite = |kick: f64| Some(kick).filter(|kick| kick.is_finite());
         Margin {
             displacement: finite(self.displacement.0.min(self.displacement.1)),
             impulse: finite(mass * self.velocity.0.min(self.velocity.1)),

@@ -50,7 +50,7 @@ mod portrait;
 mod without_belt;
 
 pub use basin::cycle::{BasinPicture, Cycles};
-pub use border::Border;
+pub use border::{Border, Edge};
 pub use closing::return_map::{Return, ReturnMap};
 pub use cycle::{Cycle, CycleErrors, Ride};
 pub use margin::{Kicks, Margin, Reach, RestMargin};

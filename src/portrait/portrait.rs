@@ -7,28 +7,17 @@
 use rayon::prelude::*;
 
 use super::return_map::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
-use super::without_belt;
-use super::{Border, Cycle, Cycles, Margin, Reach, RestMargin};
+use super::{Border, Cycle, Edge, Margin, Reach, RestMargin};
+use crate::closed_form::lyapunov;
 use crate::flow::machine::curve::{CurvePiece, MachineCurve};
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
-use crate::model::{ContactState, Model, Parameters, Phase, State};
+use crate::model::{ContactState, Model, Phase};
 use crate::numerics::root::bisect;
-use crate::portrait::basin::cycle::cycles_and_closings;
-use crate::portrait::basin::orbit::{POINTS, filled, inner_radius};
+use crate::portrait::basin::orbit::Orbit;
 use crate::portrait::basin::stability::{Share, part_within};
-use crate::portrait::basin::{Basin, Counts, StartWindow, between};
+use crate::portrait::basin::{Counts, StartWindow, between};
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
-
-/// The border of the basin of rest, as it was traced.
-#[derive(Clone, Debug)]
-enum Traced {
-    Nothing,
-    /// A closed curve.
-    Curve(MachineCurve),
-    /// The orbits around the sticking set of the paper's oscillator.
-    Basin(Box<Basin>),
-}
 
 /// All possible motions of a machine.
 #[derive(Clone, Debug)]
@@ -57,42 +46,43 @@ pub struct Portrait {
     pub unresolved: Vec<(f64, f64)>,
     /// What it cost.
     pub cost: Cost,
-    gaps: Vec<Gap>,
-    traced: Traced,
+    /// The borders that were traced, innermost first, velocities being divided by the natural frequency: without a belt
+    /// all of them, on a belt that of the basin of rest.
+    pub borders: Vec<Edge>,
+    /// Fates inside the first border, between the first and the second, .., outside the last; empty where only gaps are
+    /// known.
+    pub(super) fates: Vec<Fate>,
+    /// How far out a border that is not closed was followed, in m.
+    pub(super) followed: f64,
+    pub(super) gaps: Vec<Gap>,
 }
 
 impl Portrait {
-    /// The portrait of a machine: by half swings that close where there is no belt, else by the return map.
-    ///
-    /// # Errors
-    /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
-    pub fn of(model: &Model) -> Result<Self, Reason> {
-        match without_belt::orbits(model) {
-            Some((cycles, basin)) => Ok(Portrait::within(model, &cycles, basin)),
-            None => Portrait::by_return_map(model),
+    /// The portrait of a model of which nothing is known yet.
+    pub(crate) fn blank(model: &Model) -> Self {
+        Portrait {
+            model: model.clone(),
+            cycles: Vec::new(),
+            neutral: false,
+            border: Border::None,
+            reach: None,
+            margin: Margin::ENDLESS,
+            landmarks: None,
+            stop: None,
+            known: f64::INFINITY,
+            unresolved: Vec::new(),
+            cost: Cost::default(),
+            borders: Vec::new(),
+            fates: Vec::new(),
+            followed: f64::INFINITY,
+            gaps: Vec::new(),
         }
-    }
-
-    /// The portrait of the oscillator of the paper, whose separatrix is followed as far as `reach`.
-    ///
-    /// # Errors
-    /// [`Reason`] if the search for cycles fails, or a border cannot be traced.
-    pub fn of_oscillator(
-        parameters: &Parameters,
-        reach: f64,
-        limits: &Limits,
-    ) -> Result<Self, Reason> {
-        let Parameters { d, d2, d3, r } = *parameters;
-        let model = Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], r, r)?;
-        let (found, closings) = cycles_and_closings(parameters, limits)?;
-        let basin = Basin::around(parameters, &closings, reach, limits)?;
-        Ok(Portrait::within(&model, &found, basin))
     }
 
     /// The portrait of any machine by its return map.
     ///
     /// # Errors
-    /// As for [`Self::of`].
+    /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
     pub fn by_return_map(model: &Model) -> Result<Self, Reason> {
         let mut flow = Flow::new(model);
         let landmarks = flow.landmarks()?;
@@ -118,46 +108,18 @@ impl Portrait {
             cycles.push(flow.describe(*x, image, stable)?);
         }
         let mut portrait = Portrait {
-            model: model.clone(),
             cycles,
             neutral: found.neutral,
-            border: Border::None,
-            reach: None,
-            margin: Margin::ENDLESS,
             landmarks,
             stop: found.stop,
             known: found.end,
             unresolved: found.unresolved,
-            cost: Cost::default(),
             gaps: gaps(&marks, &ways, found.stop),
-            traced: Traced::Nothing,
+            ..Portrait::blank(model)
         };
         portrait.settle_border(&mut flow, &marks)?;
         portrait.cost = flow.cost();
         Ok(portrait)
-    }
-
-    /// From the cycles of the oscillator that a model without a belt is, and the orbits that part its motions.
-    fn within(model: &Model, found: &Cycles, basin: Basin) -> Self {
-        let mut cost = found.cost;
-        cost += basin.cost;
-        let mut portrait = Portrait {
-            model: model.clone(),
-            cycles: found.cycles.iter().map(|cycle| cycle.scaled(1.0, model.omega_0)).collect(),
-            neutral: false,
-            border: without_belt::border(&basin),
-            reach: without_belt::reach(&basin, model),
-            margin: Margin::ENDLESS,
-            landmarks: None,
-            stop: None,
-            known: f64::INFINITY,
-            unresolved: Vec::new(),
-            cost,
-            gaps: Vec::new(),
-            traced: Traced::Basin(Box::new(basin)),
-        };
-        portrait.margin = portrait.margin_within(model.guide_static, model.mass);
-        portrait
     }
 
     fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Divide)]) -> Result<(), Reason> {
@@ -188,9 +150,10 @@ impl Portrait {
                 let touches = curve.pieces.iter().any(touches);
                 self.border = if touches { Border::Grazing } else { Border::Capture };
             }
-            let velocity = velocities_lost(&self.model, &curve, 0.0);
+            let edge = Edge::Curve(curve, self.model.speed);
+            let velocity = self.kept_within(&edge, 0.0);
             self.reach = Some(Reach { displacement: (*x, -left), velocity });
-            self.traced = Traced::Curve(curve);
+            self.borders.push(edge);
         } else if let Some(stop) = self.open_end() {
             self.border = Border::Unknown(stop);
             self.reach = Some(self.covered(0.0));
@@ -208,13 +171,16 @@ impl Portrait {
         self.stop.filter(hides).or(ends)
     }
 
-    /// The closed curve that borders the basin, if there is one.
+    /// The border of the basin, if one was traced.
     #[must_use]
-    pub fn border_curve(&self) -> Option<&MachineCurve> {
-        match &self.traced {
-            Traced::Curve(curve) => Some(curve),
-            Traced::Nothing | Traced::Basin(_) => None,
-        }
+    pub fn edge(&self) -> Option<&Edge> {
+        self.borders.first().filter(|_| !matches!(self.border, Border::None | Border::NoBasin))
+    }
+
+    /// Whether motions next to rest come to rest, or belong to a family of periodic ones with it.
+    #[must_use]
+    pub fn has_basin(&self) -> bool {
+        self.border != Border::NoBasin && self.fates.first().is_none_or(|fate| *fate == Fate::Rest)
     }
 
     /// The cycle that borders the basin of rest.
@@ -226,32 +192,42 @@ impl Portrait {
 
     /// The margin if the mass, of this size, may rest up to a `farthest` place on either side, in m.
     ///
-    /// Above `v = 0` the border has no minimum of its speed between its ends, below it likewise
-    /// ([`crate::portrait::basin`]), so over the places of rest it is lowest at one of the ends.
+    /// From the worst rest position it is the gap between the border and the places of rest on `v = 0`, and the height of
+    /// the border above the farthest of them: the upper half of the border is a graph `v(q)` with slope `a/v`, and where
+    /// it is level (`a = 0`) its second derivative is `-1/v`, because the spring's force falls with q. So it has no
+    /// minimum between its ends, and over a segment it is lowest at an end; the lower half likewise.
     #[must_use]
     pub fn margin_within(&self, farthest: f64, mass: f64) -> Margin {
         let Some(reach) = self.reach else { return Margin::ENDLESS };
+        if !self.has_basin() {
+            return Margin::ZERO;
+        }
         let ends = [farthest, -farthest];
-        let (gap, [one, other]) = match &self.traced {
-            Traced::Basin(basin) => {
-                let speed = |speed: f64| mass * (speed * self.model.omega_0);
-                return reach
-                    .margin(mass, basin.margin_within(farthest).from_rest.map(|x| x, speed));
+        let (gap, [one, other]) = match self.edge() {
+            Some(edge) => {
+                let left = match edge {
+                    // Of a border next to the places of rest, the clearance has digits that its place has not.
+                    Edge::Orbit(orbit) => orbit.clearance() - (farthest - self.model.guide),
+                    Edge::Curve(..) => reach.displacement.0.min(reach.displacement.1) - farthest,
+                };
+                (left.max(0.0), ends.map(|x| self.kept_within(edge, x)))
             }
-            Traced::Curve(border) => {
-                let least = reach.displacement.0.min(reach.displacement.1);
-                let ends = ends.map(|x| velocities_lost(&self.model, border, x));
-                ((least - farthest).max(0.0), ends)
-            }
-            Traced::Nothing if self.border == Border::NoBasin => return Margin::ZERO,
-            Traced::Nothing => {
+            None => {
                 let [right, left] = ends.map(|x| self.covered(x));
                 (right.displacement.0.min(left.displacement.1), [right.velocity, left.velocity])
             }
         };
         let lowest = one.0.min(one.1).min(other.0).min(other.1);
         let impulse = if gap > 0.0 { mass * lowest } else { 0.0 };
-        reach.margin(mass, RestMargin { displacement: Some(gap), impulse: Some(impulse) })
+        reach.margin(mass, RestMargin::of(gap, impulse))
+    }
+
+    /// Radius of the disk that Lyapunov's method proves to be captured (equation 24), as a fraction of the true margin:
+    /// how conservative it is, or by how much it is wrong, because it leaves out D2 and D3. `None` on a belt.
+    #[must_use]
+    pub fn lyapunov_share(&self) -> Option<f64> {
+        let margin = self.margin.displacement?.min(self.margin.impulse?);
+        lyapunov::radius(&self.model.parameters()?).map(|radius| radius / margin)
     }
 
     /// The kicks from rest at `from` that certainly come to rest, if motions that slip faster than the law covers are
@@ -283,33 +259,11 @@ impl Portrait {
         }
     }
 
-    /// Between which velocities, in m/s, motions from a displacement (m) lie within the border of the basin.
-    #[must_use]
-    pub fn span_at(&self, x: f64) -> Option<(f64, f64)> {
-        let (low, high) = self.span_within(x)?;
-        Some((low * self.model.omega_0, high * self.model.omega_0))
-    }
-
-    /// The displacements, in m, at which the border of the basin may have a corner.
-    #[must_use]
-    pub fn corners(&self) -> Vec<f64> {
-        match &self.traced {
-            Traced::Curve(curve) => curve.ends(),
-            Traced::Nothing | Traced::Basin(_) => Vec::new(),
-        }
-    }
-
-    /// The same, divided by the natural frequency.
-    fn span_within(&self, x: f64) -> Option<(f64, f64)> {
-        match &self.traced {
-            Traced::Nothing => None,
-            Traced::Basin(basin) => basin.borders.first()?.span_at(x),
-            Traced::Curve(curve) => {
-                let (up, down) = curve.velocities_at(x, self.model.speed);
-                // Next to a turning point only one of both may be met.
-                Some((down.or(up.map(|_| 0.0))?, up.unwrap_or(0.0)))
-            }
-        }
+    /// With and against the belt the velocities, in m/s, up to which motions from rest at a displacement stay within a
+    /// border: none where it begins at a node that repels, or does not pass there.
+    pub(crate) fn kept_within(&self, edge: &Edge, x: f64) -> (f64, f64) {
+        let (low, high) = edge.span_at(x).unwrap_or_default();
+        ((high * self.model.omega_0).abs(), (low * self.model.omega_0).abs())
     }
 
     /// The fate of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
@@ -318,13 +272,13 @@ impl Portrait {
     /// [`Reason`] if it does not reach its next right turning point.
     pub fn fate(&self, x: f64, v: f64) -> Result<Fate, Reason> {
         let y = self.model.scaled_velocity(v);
-        if self.model.place(x, y) == ContactState::Rests {
-            return Ok(Fate::Rest);
+        let rests = self.model.place(x, y) == ContactState::Rests;
+        // Without friction only one point rests, and that like what is around it.
+        if self.orders_starts() && !(rests && self.model.guide > 0.0) {
+            return Ok(self.fates[self.region(x, y)]);
         }
-        if let Traced::Basin(basin) = &self.traced
-            && !self.model.holds_more_at_rest()
-        {
-            return Ok(basin.fate(State { q: x, v: y }));
+        if rests {
+            return Ok(Fate::Rest);
         }
         let mut flow = Flow::new(&self.model);
         let turn = match flow.to_the_right(x, y) {
@@ -347,6 +301,18 @@ impl Portrait {
         Ok(self.fate_of_turn(x))
     }
 
+    /// Whether the borders alone say where a start ends: there is no belt, and what the guide holds at rest it holds of
+    /// every motion that turns there.
+    fn orders_starts(&self) -> bool {
+        !self.fates.is_empty() && !self.model.holds_more_at_rest()
+    }
+
+    /// How many of the nested borders a start lies outside of.
+    fn region(&self, x: f64, y: f64) -> usize {
+        let inside = |edge: &Edge| edge.span_at(x).is_some_and(|(low, high)| y > low && y < high);
+        self.borders.iter().position(inside).unwrap_or(self.borders.len())
+    }
+
     /// Why the portrait is incomplete: the friction law ends before all motions are known.
     #[must_use]
     pub fn incomplete(&self) -> Option<Reason> {
@@ -359,8 +325,8 @@ impl Portrait {
 
     /// The fate of a motion that turns on the right at `x`.
     fn fate_of_turn(&self, x: f64) -> Fate {
-        if let Traced::Basin(basin) = &self.traced {
-            return basin.fate(State { q: x, v: 0.0 });
+        if !self.fates.is_empty() {
+            return self.fates[self.region(x, 0.0)];
         }
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
         gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
@@ -369,32 +335,22 @@ impl Portrait {
     /// The area within [`Self::border`], in m^2/s; `None` where it is infinite, or where there is no basin.
     #[must_use]
     pub fn area(&self) -> Option<f64> {
-        let area = match &self.traced {
-            Traced::Nothing => None,
-            Traced::Basin(basin) => basin.area(),
-            Traced::Curve(curve) => Some(curve.area(self.model.speed)),
-        };
-        area.map(|area| area * self.model.omega_0)
+        let edge = self.edge().filter(|_| self.has_basin())?;
+        Some(edge.area()? * self.model.omega_0)
     }
 
     /// The radius, in m, of the largest circle about the origin that lies within [`Self::border`], velocities being
     /// divided by the natural frequency; `None` where there is none.
     #[must_use]
     pub fn inner_radius(&self) -> Option<f64> {
-        match &self.traced {
-            Traced::Nothing => None,
-            Traced::Basin(basin) => basin.inner_radius(),
-            Traced::Curve(curve) => {
-                let points = curve.points(POINTS, self.model.speed);
-                inner_radius(&points, &|x| self.span_within(x))
-            }
-        }
+        self.edge()?.inner_radius()
     }
 
     /// The fraction of the area of the basin that this circle fills; `None` where the area is infinite.
     #[must_use]
     pub fn integrity(&self) -> Option<f64> {
-        Some(filled(self.inner_radius()?, self.area()? / self.model.omega_0))
+        let (radius, area) = (self.inner_radius()?, self.area()? / self.model.omega_0);
+        Some(std::f64::consts::PI * radius * radius / area)
     }
 
     /// A window, in m and m/s, half as large again as the largest cycle, or as the margin where there is none.
@@ -414,51 +370,84 @@ impl Portrait {
     }
 
     /// Where the starts of a window end, evenly spaced, including both of its ends.
-    #[must_use]
-    pub fn count(&self, window: &StartWindow, (columns, rows): (usize, usize)) -> Counts {
-        let of_row = |row| {
-            let mut counts = Counts::default();
-            for column in 0..columns {
-                let x = between(window.q, column, columns);
-                let fate = self.fate(x, between(window.v, row, rows));
-                counts.add(fate.unwrap_or_else(Fate::Unknown), 1);
+    ///
+    /// # Errors
+    /// [`Reason::Interrupted`], asked for at each column.
+    pub fn count(
+        &self,
+        window: &StartWindow,
+        (columns, rows): (usize, usize),
+        limits: &Limits,
+    ) -> Result<Counts, Reason> {
+        let velocities: Vec<f64> = (0..rows).map(|row| between(window.v, row, rows)).collect();
+        let of_column = |column| {
+            if (limits.interrupted)() {
+                return Err(Reason::Interrupted);
             }
-            counts
+            let x = between(window.q, column, columns);
+            if self.orders_starts() {
+                return Ok(self.count_ordered(x, &velocities));
+            }
+            let mut counts = Counts::default();
+            for v in &velocities {
+                counts.add(self.fate(x, *v).unwrap_or_else(Fate::Unknown), 1);
+            }
+            Ok(counts)
         };
-        (0..rows).into_par_iter().map(of_row).reduce(Counts::default, Counts::and)
+        let columns = (0..columns).into_par_iter().map(of_column);
+        columns.try_reduce(Counts::default, |one, other| Ok(one.and(other)))
+    }
+
+    /// Where the starts at a displacement with these velocities, in ascending order, end: sorted by the borders there.
+    fn count_ordered(&self, x: f64, velocities: &[f64]) -> Counts {
+        let mut counts = Counts::default();
+        let rests = |v: f64| v == 0.0 && self.model.guide > 0.0 && self.model.rests_at(x);
+        // The rows between two speeds, a row at rest included: next to a node none else may be.
+        let rows_within = |(low, high): (f64, f64)| {
+            let scaled = |v: f64| self.model.scaled_velocity(v);
+            let first = velocities.partition_point(|&v| scaled(v) <= low && !rests(v));
+            let end = velocities.partition_point(|&v| scaled(v) < high || rests(v));
+            end.saturating_sub(first)
+        };
+        // The rows inside each border; nested, so that each takes what the inner ones left.
+        let mut taken = 0;
+        for (border, &fate) in self.borders.iter().zip(&self.fates) {
+            let rows_inside = rows_within(border.span_at(x).unwrap_or((0.0, 0.0)));
+            counts.add(fate, rows_inside.saturating_sub(taken) as u64);
+            taken = taken.max(rows_inside);
+        }
+        counts.add(self.fates[self.borders.len()], (velocities.len() - taken) as u64);
+        counts
     }
 
     /// The fraction of a window, in m and m/s, from which the mass comes to rest; `None` if motions from the window
     /// leave the known range.
     #[must_use]
     pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> Option<Share> {
-        let window = StartWindow { q: x, v };
-        match &self.traced {
-            Traced::Basin(basin) => {
-                let v = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
-                without_belt::rest_share(basin, &StartWindow { v, ..window })
-            }
-            Traced::Curve(_) => Some(part_within(&|x| self.span_at(x), &self.corners(), &window)),
-            Traced::Nothing if self.border == Border::NoBasin => Some(Share::exact(0.0)),
+        if !self.has_basin() {
+            return Some(Share::exact(0.0));
+        }
+        let scaled = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
+        let window = StartWindow { q: x, v: scaled };
+        let Some(edge) = self.edge() else {
             // Above v = 0, motions do not cross, and those from the upper end of a vertical edge go farther out than
             // those from below. Along a horizontal edge, dv/dt changes sign once, because the spring is linear:
             // motions that rise through it fall through it farther right, so the outermost ones pass a corner. The
             // same holds below v = 0.
-            Traced::Nothing => {
-                let rests = |x: f64, v: f64| self.fate(x, v) == Ok(Fate::Rest);
-                let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));
-                (self.border == Border::None || all()).then(|| Share::exact(1.0))
-            }
+            let rests = |x: f64, v: f64| self.fate(x, v) == Ok(Fate::Rest);
+            let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));
+            return (self.border == Border::None || all()).then(|| Share::exact(1.0));
+        };
+        if window.reach() > self.followed
+            && let Edge::Orbit(orbit) = edge
+            && !orbit.is_closed()
+        {
+            let parameters = self.model.parameters()?;
+            let farther = Orbit::separatrix(&parameters, window.reach(), &Limits::PATIENT).ok()?;
+            return Some(part_within(&Edge::Orbit(Box::new(farther)), &window));
         }
+        Some(part_within(edge, &window))
     }
-}
-
-/// The velocities with and against the belt, in m/s, at which a motion from rest at a displacement meets the border.
-fn velocities_lost(model: &Model, border: &MachineCurve, x: f64) -> (f64, f64) {
-    let (up, down) = border.velocities_at(x, model.speed);
-    // A border that does not pass there begins at a node that repels, or the mass rests outside of it.
-    let speed = |y: Option<f64>| y.map_or(0.0, |y| (y * model.omega_0).abs());
-    (speed(up), speed(down))
 }
 
 impl Flow<'_> {

@@ -5,10 +5,9 @@
 
 use thiserror::Error;
 
-use super::basin::Basin;
 use super::basin::cycle::Cycles;
 use crate::numerics::Interval;
-use crate::portrait::{Border, Cycle};
+use crate::portrait::{Border, Cycle, Margin, Portrait};
 use crate::proof::cycles::{OpenGap, ProvedCycle};
 use crate::proof::kicks::{ProvedEdge, ProvedKicks};
 use crate::proof::{ParameterBox, Proof, prove};
@@ -62,7 +61,7 @@ pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
 
 /// What is proved about the edge of a basin; nothing where the search says otherwise.
 #[must_use]
-pub fn agreed(proved: ProvedKicks, found: &Basin) -> ProvedKicks {
+pub fn agreed(proved: ProvedKicks, found: &Portrait) -> ProvedKicks {
     const DIFFERENT: &str = "not proved, because the proof contradicts the numbers above";
     let edge = match proved.edge {
         Some(ProvedEdge::None) => Some(Border::None),
@@ -70,11 +69,10 @@ pub fn agreed(proved: ProvedKicks, found: &Basin) -> ProvedKicks {
         Some(ProvedEdge::Separatrix) => Some(Border::Separatrix),
         None => None,
     };
-    let margin = found.margin();
-    let from_rest = margin.from_rest;
+    let Margin { displacement, impulse, from_rest } = found.margin;
     let pairs = [
-        (proved.displacement, margin.displacement),
-        (proved.impulse, margin.impulse),
+        (proved.displacement, displacement),
+        (proved.impulse, impulse),
         (proved.rest_displacement, from_rest.displacement),
         (proved.rest_impulse, from_rest.impulse),
     ];

@@ -8,7 +8,7 @@ use crate::flow::{
 use crate::model::belt::ReducedBelt;
 use crate::model::{Belt, Model, Source};
 use crate::portrait::Portrait;
-use crate::portrait::basin::cycle::{Cycles, cycles_drawn};
+use crate::portrait::basin::cycle::picture_reach;
 
 /// A mass on a belt by the cubic expansion of its friction.
 #[derive(Clone, Debug)]
@@ -17,16 +17,17 @@ pub struct CubicExpansion {
     pub belt: Belt,
     /// Its dimensionless form.
     pub reduced: ReducedBelt,
-    /// Its cycles, or why the search gave up.
-    pub cycles: Result<Cycles, Reason>,
+    /// What it does, or why the search gave up.
+    pub portrait: Result<Portrait, Reason>,
 }
 
 impl CubicExpansion {
-    /// Finds the cycles. Fails with [`Reason`] where the machine has no dimensionless form.
+    /// Finds its cycles and its basin. Fails with [`Reason`] where the machine has no dimensionless form.
     pub fn new(belt: &Belt, limits: &Limits) -> Result<Self, Reason> {
         let reduced = belt.reduce()?;
-        let cycles = cycles_drawn(&reduced.parameters, 12, limits);
-        Ok(CubicExpansion { belt: belt.clone(), reduced, cycles })
+        let reach = picture_reach(reduced.parameters.d2);
+        let portrait = Portrait::of_oscillator(&reduced.parameters, reach, limits);
+        Ok(CubicExpansion { belt: belt.clone(), reduced, portrait })
     }
 }
 

@@ -4,71 +4,171 @@
 //! Half swings are computed by their clearance from where the mass rests, which the return map loses among the digits
 //! of the turning point where damping is nearly critical.
 
-use super::{Border, Cycles, Reach};
+use super::basin::arc::Arc;
+use super::basin::orbit::Orbit;
+use super::closing::all::{STEP, all_closings};
+use super::closing::equation::{Equation, first_side};
+use super::closing::pair::Closing;
+use super::portrait::Portrait;
+use super::{Border, Edge, Reach};
 use crate::closed_form::harmonic::is_centre;
-use crate::flow::{Fate, Limits};
-use crate::model::Model;
-use crate::portrait::basin::arc::Arc;
-use crate::portrait::basin::cycle::cycles_and_closings;
-use crate::portrait::basin::stability::Share;
-use crate::portrait::basin::{Basin, StartWindow, basin};
+use crate::flow::{Fate, Limits, Reason};
+use crate::model::{Model, Parameters};
 
-/// How far a separatrix is followed, in units of `1/abs(D2)`.
-const REACH: f64 = 20.0;
+impl Portrait {
+    /// The portrait of a machine: by half swings that close where there is no belt, else by the return map.
+    ///
+    /// # Errors
+    /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
+    pub fn of(model: &Model) -> Result<Self, Reason> {
+        without_belt(model).map_or_else(|| Portrait::by_return_map(model), Ok)
+    }
 
-/// Its cycles and the orbits around rest, in m and `m omega_0`; `None` of a machine with a belt, with damping of a higher
-/// power than the third, with a family of periodic motions, or whose static friction holds what kinetic friction alone
-/// does not: a turning point of a cycle, or a node that repels.
-pub fn orbits(model: &Model) -> Option<(Cycles, Basin)> {
+    /// The portrait of the oscillator of the paper; `reach` is the largest displacement of interest, as far as which a
+    /// separatrix is followed.
+    ///
+    /// # Errors
+    /// [`Reason`] if the search for cycles fails, or a border cannot be traced.
+    pub fn of_oscillator(
+        parameters: &Parameters,
+        reach: f64,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        let mut equation = Equation::new(parameters, STEP, limits);
+        let closings = all_closings(&mut equation)?;
+        let mut portrait = Self::around(parameters, &closings, reach, limits)?;
+        portrait.cost += equation.cost();
+        Ok(portrait)
+    }
+
+    /// The same from its cycles, given by their closings; of some of them, from the innermost one on, what lies within
+    /// the outermost.
+    ///
+    /// # Errors
+    /// [`Reason`] if a border cannot be traced.
+    pub fn around(
+        parameters: &Parameters,
+        found: &[Closing],
+        reach: f64,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        Self::of_closings(&of_paper(parameters)?, parameters, found, reach, limits)
+    }
+
+    fn of_closings(
+        model: &Model,
+        parameters: &Parameters,
+        found: &[Closing],
+        reach: f64,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        let side = first_side(parameters);
+        let stable: Vec<bool> =
+            found.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
+        let border = Border::around(parameters, &stable);
+        let mut orbits = Vec::new();
+        let mut fates = Vec::new();
+        if border == Border::Separatrix {
+            orbits.push(Orbit::separatrix(parameters, reach, limits)?);
+            fates.push(if is_centre(parameters) { Fate::Neutral } else { Fate::Rest });
+        }
+        for closing in found {
+            orbits.push(Orbit::of_cycle(parameters, side, closing, limits)?);
+        }
+        fates.extend(fates_between(parameters, &stable, fates.is_empty()));
+        let describe = |closing: &Closing| closing.describe(parameters, side);
+        let cycles = found.iter().map(|closing| describe(closing).scaled(1.0, model.omega_0));
+        let blank = Portrait { cycles: cycles.collect(), border, fates, ..Portrait::blank(model) };
+        Ok(Portrait { followed: reach, ..blank.parted(orbits) })
+    }
+
+    /// With the orbits that part its motions, innermost first, and the kicks that follow from them.
+    pub(crate) fn parted(mut self, orbits: Vec<Orbit>) -> Self {
+        let arcs = orbits.iter().flat_map(|orbit| [&orbit.upper, &orbit.lower]);
+        arcs.for_each(|arc| self.cost += arc.cost);
+        self.borders = orbits.into_iter().map(|orbit| Edge::Orbit(Box::new(orbit))).collect();
+        self.reach = if self.has_basin() { self.reach_within() } else { Some(Reach::default()) };
+        self.margin = self.margin_within(self.model.guide_static, self.model.mass);
+        self
+    }
+
+    /// How far kicks may go within the border of the basin; `None` where nothing borders it.
+    fn reach_within(&self) -> Option<Reach> {
+        let Model { guide, guide_static, .. } = self.model;
+        let edge = self.edge()?;
+        let Edge::Orbit(orbit) = edge else { return None };
+        // What turns within the places that the guide holds rests there.
+        let turn = |arc: &Arc| {
+            let clearance = arc.clearance().map_or(f64::INFINITY, |clearance| clearance.value);
+            (guide + clearance).max(guide_static)
+        };
+        let displacement = (turn(&orbit.lower), turn(&orbit.upper));
+        Some(Reach { displacement, velocity: self.kept_within(edge, 0.0) })
+    }
+}
+
+/// The portrait of a machine by the half swings that close; `None` of one with a belt, with damping of a higher power
+/// than the third, with a family of periodic motions, or whose static friction holds what kinetic friction alone does
+/// not: a turning point of a cycle, or a node that repels.
+fn without_belt(model: &Model) -> Option<Portrait> {
+    /// How far a separatrix is followed, in units of `1/abs(D2)`.
+    const REACH: f64 = 20.0;
     let parameters = model.parameters()?;
     let node = parameters.d <= -1.0;
     if is_centre(&parameters) || (node && model.holds_more_at_rest()) {
         return None;
     }
-    let (found, closings) = cycles_and_closings(&parameters, &Limits::PATIENT).ok()?;
-    let mut turns = found.cycles.iter().flat_map(|cycle| [cycle.q_max, -cycle.q_min]);
-    if model.holds_more_at_rest() && turns.any(|turn| turn <= model.guide_static) {
+    let mut equation = Equation::new(&parameters, STEP, &Limits::PATIENT);
+    let found = all_closings(&mut equation).ok()?;
+    let least = found.iter().map(|closing| closing.first.value.min(closing.second.value));
+    let held = |clearance: f64| model.guide + clearance <= model.guide_static;
+    if model.holds_more_at_rest() && least.into_iter().any(held) {
         return None;
     }
     let reach = REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
-    let basin = Basin::around(&parameters, &closings, reach, &Limits::PATIENT).ok()?;
-    Some((found, basin))
-}
-
-/// What borders the basin of rest.
-pub fn border(basin: &Basin) -> Border {
-    match basin.border {
-        _ if basin.fates.first() != Some(&Fate::Rest) => Border::NoBasin,
+    let limits = &Limits::PATIENT;
+    let mut portrait = Portrait::of_closings(model, &parameters, &found, reach, limits).ok()?;
+    portrait.cost += equation.cost();
+    portrait.border = match portrait.border {
+        _ if !portrait.has_basin() => Border::NoBasin,
         // It comes out of the node that is the end of what the guide holds.
-        Border::Separatrix if basin.parameters.d <= -1.0 => Border::Capture,
+        Border::Separatrix if node => Border::Capture,
         border => border,
-    }
-}
-
-/// How far kicks may go within the border of the basin; `None` where there is none.
-pub fn reach(basin: &Basin, model: &Model) -> Option<Reach> {
-    if border(basin) == Border::NoBasin {
-        return Some(Reach::default());
-    }
-    let border = basin.borders.first().filter(|_| basin.border != Border::None)?;
-    // What turns within the places that the guide holds rests there.
-    let turn = |arc: &Arc| {
-        let turn = arc.clearance().map_or(f64::INFINITY, |clearance| model.guide + clearance.value);
-        turn.max(model.guide_static)
     };
-    let (low, high) = border.span_at(0.0).unwrap_or_default();
-    Some(Reach {
-        displacement: (turn(&border.lower), turn(&border.upper)),
-        velocity: (high * model.omega_0, -low * model.omega_0),
-    })
+    Some(portrait)
 }
 
-/// The fraction of a window, in m and `m omega_0`, from which the mass comes to rest.
-pub fn rest_share(found: &Basin, window: &StartWindow) -> Option<Share> {
-    if found.border != Border::Separatrix {
-        return Some(found.captured_share(window));
+/// The model of the oscillator of the paper, with a mass and a stiffness of one.
+pub(crate) fn of_paper(parameters: &Parameters) -> Result<Model, Reason> {
+    let Parameters { d, d2, d3, r } = *parameters;
+    Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], r, r)
+}
+
+/// The fates of the regions that nested cycles make, from the inside out. A separatrix may already have
+/// taken the sticking set's own region.
+fn fates_between(parameters: &Parameters, stable: &[bool], with_centre: bool) -> Vec<Fate> {
+    let within = |outer: usize| {
+        let inner = outer.checked_sub(1).and_then(|inner| stable.get(inner));
+        match (inner, stable.get(outer)) {
+            (None, Some(true)) if parameters.r > 0.0 && with_centre => Fate::Rest,
+            (_, Some(true)) => Fate::Cycle(outer),
+            (None, Some(false)) => Fate::Rest,
+            (None, None) if with_centre => centre_fate(parameters),
+            (None | Some(false), None) => Fate::Escapes,
+            (Some(_), _) => Fate::Cycle(outer - 1),
+        }
+    };
+    (0..=stable.len()).map(within).collect()
+}
+
+/// The fate of the whole plane where nothing parts it, and next to rest.
+pub(crate) fn centre_fate(parameters: &Parameters) -> Fate {
+    let Parameters { d, d3, r, .. } = *parameters;
+    if r > 0.0 || d > 0.0 || (d == 0.0 && d3 > 0.0) {
+        Fate::Rest
+    } else if is_centre(parameters) {
+        Fate::Neutral
+    } else {
+        Fate::Escapes
     }
-    let reach = window.q.0.abs().max(window.q.1.abs());
-    let basin = basin(&found.parameters, reach, &Limits::PATIENT).ok()?;
-    Some(basin.captured_share(window))
 }

@@ -3,7 +3,7 @@
 use super::fit::Fit;
 use super::request::Request;
 use super::whole::{self, WholeCycles, WholeMotion};
-use super::zones::{self, CertainZones, UncertainSubject};
+use super::zones::{CertainZones, zones};
 use crate::accuracy::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::accuracy::reference::Reference;
 use crate::accuracy::trade::Trade;
@@ -16,12 +16,11 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Problem, Reason, Trajectory};
 use crate::model::{Belt, Knob, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};
-use crate::portrait::basin::basin;
 use crate::portrait::basin::capture::bands;
 use crate::portrait::basin::cycle::cycles_drawn;
 use crate::portrait::basin::stability::Share;
 use crate::portrait::closing::return_map::return_map;
-use crate::portrait::{Cycles, ReturnMap};
+use crate::portrait::{Cycles, Portrait, ReturnMap};
 use crate::proof::{ParameterBox, Proof, prove};
 use crate::scan::grid::{Scan, ScanRow};
 
@@ -206,15 +205,10 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason
         Request::Cycles { parameters, machine, whole } => {
             cycles(parameters, machine.as_deref(), *whole, means)?
         }
-        Request::Zones(UncertainSubject::Parameters { known, disturbance }) => {
-            Finding::Zones(zones::of_oscillator(known, *disturbance, points, limits)?)
-        }
-        Request::Zones(UncertainSubject::Machine { belt, tolerances }) => {
-            Finding::Zones(zones::of_machine(belt, tolerances, points)?)
-        }
+        Request::Zones(subject) => Finding::Zones(zones(subject, points, limits)?),
         Request::Kicks { parameters, kicks } => {
-            let found = basin(parameters, kicks.reach(), limits)?;
-            Finding::Kicks(kicks.lost(&found), found.cost)
+            let found = Portrait::of_oscillator(parameters, kicks.reach(), limits)?;
+            Finding::Kicks(kicks.lost(&found)?, found.cost)
         }
         Request::Capture { parameters, reach, most } => {
             let found = bands(parameters, *reach, *most, limits)?;

@@ -1,13 +1,10 @@
 //! A machine by the whole model, drawn in the units of the paper's oscillator, so that every view that draws a
 //! motion or cycles draws these as well.
 
-use crate::flow::machine::curve::{CurvePiece, MachineCurve};
-use crate::flow::{
-    Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow,
-};
-use crate::model::{Belt, Model, Parameters, State};
-use crate::portrait::basin::cycle::cycles_drawn;
-use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, Portrait, survey};
+use crate::flow::{Detail, Fate, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
+use crate::model::{Belt, Model, Parameters};
+use crate::portrait::basin::cycle::picture_reach;
+use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, survey};
 
 /// What is known of a machine's motion beside its course.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,12 +30,6 @@ pub struct WholeCycles {
 /// A cycle in the units of the drawing.
 fn cycle(model: &Model, cycle: &Cycle) -> Cycle {
     cycle.scaled(1.0 / model.pull, 1.0 / model.omega_0)
-}
-
-/// A margin given in m and N s, in the units of the drawing.
-pub(super) fn margin(model: &Model, margin: &Margin) -> Margin {
-    let impulse = model.mass * model.pull * model.omega_0;
-    margin.map(|x| x / model.pull, |it| it / impulse)
 }
 
 /// The motion of a machine, with `between` points between the ends of each step.
@@ -86,56 +77,14 @@ pub fn portrait(
     points: u16,
     limits: &Limits,
 ) -> Result<(Cycles, Option<WholeCycles>), Reason> {
-    let expansion = cycles_drawn(parameters, points, limits);
+    let reach = picture_reach(parameters.d2);
+    let expansion = Portrait::of_oscillator(parameters, reach, limits);
     let found = survey::portrait(belt);
-    let expanded = expansion.as_ref().ok().and_then(|found| found.picture.as_ref());
-    let expanded = expanded.map(|picture| picture.margin);
+    let expanded = expansion.as_ref().map_or(Margin::ENDLESS, |found| found.margin);
     let kinds = found.as_ref().ok().map(|found| WholeCycles {
-        margins: [margin(&found.model, &found.margin), expanded.unwrap_or(Margin::ENDLESS)],
+        margins: [found.in_drawing(&found.margin), expanded],
         neutral: found.neutral,
     });
-    let drawn = if whole { drawn(&found?, parameters, points)? } else { expansion? };
-    Ok((drawn, kinds))
-}
-
-fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
-    let model = &found.model;
-    let mut flow = Flow::new(model);
-    let unit = model.stiffness * model.pull * model.pull;
-    let (mut curves, mut works) = (Vec::new(), Vec::new());
-    for cycle in &found.cycles {
-        let mut curve = MachineCurve::default();
-        flow.around(cycle.q_max, cycle.is_followed_backward(), &mut curve)?;
-        curves.push(places(&curve, model, points));
-        works.push(flow.works_around(cycle).unwrap_or_default().scaled(1.0 / unit));
-    }
-    let border = found.border_curve().map(|curve| places(curve, model, points));
-    let picture = BasinPicture {
-        curves,
-        works,
-        border: border.unwrap_or_default(),
-        margin: margin(model, &found.margin),
-        area: None,
-        lyapunov_share: None,
-    };
-    Ok(Cycles {
-        parameters: *parameters,
-        cycles: found.cycles.iter().map(|it| cycle(model, it)).collect(),
-        harmonic: Vec::new(),
-        border: found.border,
-        picture: Some(picture),
-        cost: found.cost,
-    })
-}
-
-/// A closed curve as points, `points` + 1 on each piece that slips.
-pub(super) fn places(curve: &MachineCurve, model: &Model, points: u16) -> Vec<State> {
-    let between =
-        |piece: &CurvePiece| if matches!(piece, CurvePiece::Slip(_)) { points } else { 1 };
-    let pieces = curve.pieces.iter();
-    let states = pieces.flat_map(|piece| piece.points(between(piece), model.speed));
-    let scaled = |State { q, v }| State { q: q / model.pull, v: v / model.pull };
-    let mut found: Vec<State> = states.map(scaled).collect();
-    found.extend(found.first().copied());
-    found
+    let shown = if whole { found } else { expansion };
+    Ok((shown?.drawn(parameters, points)?, kinds))
 }

@@ -3,13 +3,10 @@
 
 use std::sync::Arc;
 
-use super::whole::{margin, places};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Belt, ParameterBox, State, Tolerances};
-use crate::portrait::basin::Basin;
-use crate::portrait::basin::cycle::PICTURE_REACH;
-use crate::portrait::guarantee::machine;
-use crate::portrait::guarantee::oscillator::{guaranteed, hopeful, nominal};
+use crate::portrait::basin::cycle::picture_reach;
+use crate::portrait::guarantee::{Uncertain, machine, oscillator};
 use crate::portrait::{Margin, Portrait, survey};
 
 /// What is not known exactly, and disturbed.
@@ -28,6 +25,42 @@ pub enum UncertainSubject {
         /// Tolerances of its numbers, and the bound on the disturbance.
         tolerances: Tolerances,
     },
+}
+
+impl UncertainSubject {
+    /// What its border parts at the nominal parameters without disturbance. Fails with the [`Reason`] why the border
+    /// could not be computed.
+    pub fn nominal(&self, limits: &Limits) -> Result<Portrait, Reason> {
+        match self {
+            UncertainSubject::Parameters { known, .. } => oscillator::nominal(known, limits),
+            UncertainSubject::Machine { belt, .. } => survey::portrait(belt),
+        }
+    }
+
+    /// That whose basin lies within all others, and the margin that holds for certain, or why there is none; a border that
+    /// is not closed is followed as far as `reach`. Fails with the [`Reason`] why the border could not be computed.
+    pub fn guaranteed(
+        &self,
+        reach: f64,
+        limits: &Limits,
+    ) -> Result<Result<(Portrait, Margin), Uncertain>, Reason> {
+        match self {
+            UncertainSubject::Parameters { known, disturbance } => {
+                oscillator::guaranteed(known, *disturbance, reach, limits)
+            }
+            UncertainSubject::Machine { belt, tolerances } => machine::guaranteed(belt, tolerances),
+        }
+    }
+
+    /// That whose basin all others lie within, where it is known.
+    fn hopeful(&self, reach: f64, limits: &Limits) -> Result<Option<Portrait>, Reason> {
+        match self {
+            UncertainSubject::Parameters { known, disturbance } => {
+                oscillator::hopeful(known, *disturbance, reach, limits)
+            }
+            UncertainSubject::Machine { belt, tolerances } => machine::hopeful(belt, tolerances),
+        }
+    }
 }
 
 /// A region of the phase plane around the sticking set.
@@ -54,56 +87,39 @@ pub struct CertainZones {
     pub cost: Cost,
 }
 
-fn extent(basin: Option<&Basin>, otherwise: Extent, points: u16) -> Extent {
-    match basin.map(|basin| basin.borders.first()) {
-        None => otherwise,
-        Some(None) => Extent::Everything,
-        Some(Some(border)) => Extent::Within(border.curve(points)),
-    }
-}
-
-/// The zones of an oscillator, with `points` on each step of a border. Fails with the [`Reason`] why a border
-/// could not be computed.
-pub(super) fn of_oscillator(
-    known: &ParameterBox,
-    disturbance: f64,
+/// The zones, with `points` on each step of a border; of a machine in the units of its oscillator. Fails with the
+/// [`Reason`] why a border could not be computed.
+pub(super) fn zones(
+    subject: &UncertainSubject,
     points: u16,
     limits: &Limits,
 ) -> Result<CertainZones, Reason> {
-    let d2 = known.d2.lower().abs().min(known.d2.upper().abs());
-    let reach = PICTURE_REACH / d2.max(f64::MIN_POSITIVE);
-    let nominal = nominal(known, limits)?;
-    let found = guaranteed(known, disturbance, reach, limits)?;
-    let safe = found.as_ref().ok().map(|(basin, _)| basin);
-    let hopeful = hopeful(known, disturbance, reach, limits)?;
+    let reach = match subject {
+        UncertainSubject::Parameters { known, .. } => {
+            picture_reach(known.d2.lower().abs().min(known.d2.upper().abs()))
+        }
+        // On a belt every border is closed.
+        UncertainSubject::Machine { .. } => 0.0,
+    };
+    let nominal = subject.nominal(limits)?;
+    let found = subject.guaranteed(reach, limits)?;
+    let hopeful = subject.hopeful(reach, limits)?;
     let mut cost = nominal.cost;
-    safe.into_iter().chain(&hopeful).for_each(|basin| cost += basin.cost);
+    let others = found.iter().map(|(worst, _)| worst).chain(&hopeful);
+    others.for_each(|portrait| cost += portrait.cost);
+    let extent = |portrait: &Portrait| match portrait.edge() {
+        Some(edge) => Extent::Within(nominal.places(edge, points)),
+        None if portrait.has_basin() => Extent::Everything,
+        None => Extent::Nothing,
+    };
+    let certain = found.as_ref();
     Ok(CertainZones {
-        safe: extent(safe, Extent::Nothing, points),
-        hopeful: extent(hopeful.as_ref(), Extent::Everything, points),
-        nominal: nominal.margin(),
-        guaranteed: found.map(|(_, margin)| margin).map_err(|why| why.to_string()),
+        safe: certain.map_or(Extent::Nothing, |(worst, _)| extent(worst)),
+        hopeful: hopeful.as_ref().map_or(Extent::Everything, extent),
+        nominal: nominal.in_drawing(&nominal.margin),
+        guaranteed: certain
+            .map(|(_, margin)| nominal.in_drawing(margin))
+            .map_err(ToString::to_string),
         cost,
     })
-}
-
-/// The zones of a machine by the whole model, in the units of its oscillator. Fails with [`Reason`] where a
-/// machine within the tolerances has no portrait.
-pub(super) fn of_machine(
-    belt: &Belt,
-    known: &Tolerances,
-    points: u16,
-) -> Result<CertainZones, Reason> {
-    let Portrait { model, margin: nominal, .. } = survey::portrait(belt)?;
-    let drawn = |portrait: &Portrait| match portrait.border_curve() {
-        Some(curve) => Extent::Within(places(curve, &model, points)),
-        None => Extent::Everything,
-    };
-    let (safe, guaranteed) = match machine::guaranteed(belt, known)? {
-        Err(why) => (Extent::Nothing, Err(why.to_string())),
-        Ok((portrait, certain)) => (drawn(&portrait), Ok(margin(&model, &certain))),
-    };
-    let hopeful = machine::hopeful(belt, known)?.as_ref().map_or(Extent::Everything, drawn);
-    let nominal = margin(&model, &nominal);
-    Ok(CertainZones { safe, hopeful, nominal, guaranteed, cost: Cost::default() })
 }

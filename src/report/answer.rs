@@ -279,7 +279,7 @@ impl About {
     }
 
     /// Whether it is a machine.
-    pub(super) fn is_machine(&self) -> bool {
+    pub fn is_machine(&self) -> bool {
         self.machine.is_some()
     }
 

@@ -6,9 +6,8 @@ use super::cycle_numbers::machine_cycles;
 use super::proof::{ProvedRow, with_proof};
 use super::{About, Answer, Columns, Document, Quantity};
 use crate::accuracy::harmonic_error::{BalanceResult, HarmonicBalance};
-use crate::closed_form::harmonic::Harmonic;
+use crate::closed_form::harmonic::{Harmonic, amplitudes};
 use crate::closed_form::harmonics::HarmonicCycle;
-use crate::flow::Cost;
 use crate::portrait::{Border, Cycle, Cycles, Portrait};
 use crate::proof::Proof;
 use crate::words::{stability, with_unit};
@@ -23,17 +22,18 @@ pub fn cycles<'a>(
     seconds: f64,
 ) -> Answer<'a> {
     const SHORT: Quantity = Quantity::pure(6);
+    let by_one = amplitudes(&found.parameters);
     let harmonic = Columns::default()
-        .text("by one harmonic", |it: &&Harmonic| stability(it.stable).to_owned())
+        .text("by one harmonic", |it: &Harmonic| stability(it.stable).to_owned())
         .number("amplitude", SHORT, |it| it.amplitude)
         .number("mean", SHORT, |it| it.mean);
     let answer = with_proof(about.answer(), move || ProvedRow::found(&found.cycles, proof), proof)
-        .with("harmonic", &found.harmonic)
+        .with("harmonic", &by_one)
         .with_any("balance", rungs.map(|rungs| balance_columns().objects(balances(rungs))))
         .with("basin", Document::default().with("edge", found.border))
         .lines([border(found.border)])
-        .lines(found.harmonic.is_empty().then_some("by one harmonic: no cycle"))
-        .table(harmonic, &found.harmonic);
+        .lines(by_one.is_empty().then_some("by one harmonic: no cycle"))
+        .table(harmonic, by_one);
     let answer = match rungs {
         Some(rungs) => answer
             .csv(balance_columns(), balances(rungs))
@@ -61,7 +61,7 @@ pub fn of_machine<'a>(about: &About, found: &'a Portrait, seconds: f64) -> Answe
 impl Answer<'_> {
     /// With what is known of the motions of a machine, and what its portrait cost.
     pub fn portrayed(self, portrait: &Portrait, seconds: f64) -> Self {
-        self.lines(known(portrait)).cost(steps(portrait), seconds)
+        self.lines(known(portrait)).cost(portrait.cost, seconds)
     }
 }
 
@@ -103,11 +103,6 @@ pub(super) fn known(portrait: &Portrait) -> Vec<String> {
         format!("between x = {from} and {to} the search for cycles did not settle")
     });
     std::iter::once(border.to_owned()).chain(limit).chain(unresolved).collect()
-}
-
-/// What a portrait of a machine cost.
-pub(super) fn steps(portrait: &Portrait) -> Cost {
-    Cost { steps: portrait.cost.steps, ..Cost::default() }
 }
 
 /// The harmonic balance for one number of harmonics on the branch of one first-order answer. If the branch was lost

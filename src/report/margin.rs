@@ -2,11 +2,11 @@
 
 use super::certified::kick_columns;
 use super::{About, Answer, Columns, Document, Quantity, cycles};
-use crate::portrait::basin::{Basin, Counts};
+use crate::portrait::basin::{Counts, StartWindow};
 use crate::portrait::guarantee::Uncertain;
 use crate::portrait::kicks::RandomKick;
 use crate::portrait::kicks::repeated::Repeated;
-use crate::portrait::{Border, Margin, Portrait};
+use crate::portrait::{Margin, Portrait};
 use crate::proof::kicks::ProvedKicks;
 use crate::words::significant;
 
@@ -79,98 +79,70 @@ pub fn margins<'a>(
         .lines(nothing)
 }
 
-/// What is known of the starts of a window and of the kicks, whatever the oscillator.
-struct WindowShare {
-    border: Border,
-    counts: Counts,
-    margin: Margin,
-    /// The part of the window that comes to rest; `None` where it is not known.
-    captured: Option<f64>,
-}
-
-impl WindowShare {
-    /// An answer with this, whose one row has more columns: an area before, and others after the part that comes to rest.
-    fn told<'a>(
-        self,
-        answer: Answer<'a>,
-        about: &About,
-        area: Columns<'a, MarginRow>,
-        more: Columns<'a, MarginRow>,
-    ) -> Answer<'a> {
-        let WindowShare { border, counts, margin, captured } = self;
-        let ending = Quantity::pure(10).or("not known");
-        let columns = Columns::default()
-            .text("starts of the window, smallest kicks not captured", |(name, _): &MarginRow| {
-                (*name).to_owned()
-            })
-            .word("captured", move |_| counts.captured)
-            .titled("starts that are captured")
-            .word("cycle", move |_| counts.cycle)
-            .titled("starts that end on a stable cycle")
-            .word("escaped", move |_| counts.escaped)
-            .titled("starts that escape")
-            .word("undecided", move |_| counts.undecided)
-            .titled("starts that stay undecided")
-            .and(margin_columns(about, 10))
-            .and(area)
-            .number("captured_part", ending, move |_| captured)
-            .titled("part of the window that comes to rest")
-            .and(more);
-        let row = ("", margin);
-        answer
-            .with("edge", border)
-            .with("counts", counts)
-            .with("margin", margin)
-            .with("captured", captured)
-            .csv(columns.clone(), [row])
-            .captioned("", move || columns.table([row]).transposed())
-    }
-}
-
-/// The basin of the oscillator of the paper over a window, and what is proved of it.
-pub fn basin_of_oscillator<'a>(
+/// The basin, where the starts of a window end, and what is proved of it.
+pub fn basin<'a>(
     about: &About,
-    found: &Basin,
-    counts: Counts,
+    found: &Portrait,
+    (window, counts): (&StartWindow, Counts),
     certified: Option<&'a ProvedKicks>,
     seconds: f64,
 ) -> Answer<'a> {
-    let (border, parameters) = (found.border, found.parameters);
-    let (area, lyapunov_share) = (found.area(), found.lyapunov_share());
-    let captured = Some(counts.captured_part());
-    let window = WindowShare { border, counts, margin: found.margin(), captured };
-    let shown = Columns::default()
-        .number("area", Quantity::pure(10), move |_: &MarginRow| area)
-        .titled("area of the basin");
+    let (border, margin) = (found.border, found.margin);
+    let (area, lyapunov) = (found.area(), found.lyapunov_share());
+    let on_paper = !about.is_machine();
+    let captured = if on_paper {
+        Some(counts.captured_part())
+    } else {
+        found.rest_share(window.q, window.v).map(|share| share.part)
+    };
+    let lines = if on_paper { vec![cycles::border(border)] } else { cycles::known(found) };
+    let ending = Quantity::pure(10).or("not known");
+    let enclosed = on_paper.then(|| {
+        Columns::default()
+            .number("area", Quantity::pure(10), move |_: &MarginRow| area)
+            .titled("area of the basin")
+    });
+    let share = on_paper.then(|| {
+        Columns::default()
+            .number("lyapunov_share", Quantity::pure(4), move |_| lyapunov)
+            .titled("Lyapunov's disk (24), a part of the margin")
+    });
     let proved = certified
         .map(|kicks| Columns::default().part("certified", kick_columns(), move |_| Some(kicks)));
-    let share = Columns::default()
-        .number("lyapunov_share", Quantity::pure(4), move |_| lyapunov_share)
-        .titled("Lyapunov's disk (24), a part of the margin");
-    let too_large = lyapunov_share.is_some_and(|share| share > 1.0);
-    window
-        .told(about.answer().lines([cycles::border(border)]), about, shown, share.and(proved))
-        .with("parameters", parameters)
-        .with("area", area)
-        .with("lyapunov_share", lyapunov_share)
+    let columns = Columns::default()
+        .text("starts of the window, smallest kicks not captured", |(name, _): &MarginRow| {
+            (*name).to_owned()
+        })
+        .word("captured", move |_| counts.captured)
+        .titled("starts that are captured")
+        .word("cycle", move |_| counts.cycle)
+        .titled("starts that end on a stable cycle")
+        .word("escaped", move |_| counts.escaped)
+        .titled("starts that escape")
+        .word("undecided", move |_| counts.undecided)
+        .titled("starts that stay undecided")
+        .and(margin_columns(about, 10))
+        .and(enclosed)
+        .number("captured_part", ending, move |_| captured)
+        .titled("part of the window that comes to rest")
+        .and(share)
+        .and(proved);
+    let row = ("", margin);
+    let too_large = lyapunov.is_some_and(|share| on_paper && share > 1.0);
+    about
+        .answer()
+        .lines(lines)
+        .with("edge", border)
+        .with("counts", counts)
+        .with("margin", margin)
+        .with("captured", captured)
+        .with_any("area", on_paper.then_some(area))
+        .with_any("lyapunov_share", on_paper.then_some(lyapunov))
         .with_any("certified", certified.map(|it| kick_columns().object(&it)))
+        .csv(columns.clone(), [row])
+        .captioned("", move || columns.table([row]).transposed())
         .lines(too_large.then_some("Lyapunov's disk is too large, as it ignores D2 and D3"))
         .cost(found.cost, seconds)
-}
-
-/// The basin of a machine over a window; `captured` is the part that comes to rest.
-pub fn basin_of_machine<'a>(
-    about: &About,
-    found: &Portrait,
-    counts: Counts,
-    captured: Option<f64>,
-    seconds: f64,
-) -> Answer<'a> {
-    let window = WindowShare { border: found.border, counts, margin: found.margin, captured };
-    let answer = about.answer().lines(cycles::known(found));
-    window
-        .told(answer, about, Columns::default(), Columns::default())
-        .cost(cycles::steps(found), seconds)
 }
 
 /// What becomes of random kicks; `held` is the farthest place of rest on either side. The mean is null in a document if

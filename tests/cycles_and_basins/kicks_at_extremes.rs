@@ -4,7 +4,7 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Outcome, Problem};
 use hopfscope::model::{Parameters, State};
 use hopfscope::portrait::Border;
-use hopfscope::portrait::basin::basin;
+use hopfscope::portrait::{Edge, Portrait};
 use rayon::prelude::*;
 
 const SIZES: [f64; 11] = [0.0, 1e-150, -1e-150, 1e-12, -1e-12, 1.0, -1.0, 1e6, -1e6, 1e150, -1e150];
@@ -42,7 +42,7 @@ fn starts(r: f64, clearance: f64) -> [(f64, bool); 2] {
 /// What is wrong with the border at these parameters, if anything; `None` where there is no answer.
 fn judged(parameters: &Parameters) -> Option<Result<(), String>> {
     let limits = Limits { evaluations: BUDGET.0, ..Limits::PATIENT };
-    let found = basin(parameters, parameters.r, &limits).ok()?;
+    let found = Portrait::of_oscillator(parameters, parameters.r, &limits).ok()?;
     let r = parameters.r;
     let mut tried = Vec::new();
     match (found.border, found.borders.first()) {
@@ -51,7 +51,7 @@ fn judged(parameters: &Parameters) -> Option<Result<(), String>> {
             tried.extend([1e-100, 1.0, 1e10, 1e100, 1e200, 1e290].map(|far| (r + far, true)));
             tried.extend(tried.clone().iter().map(|(q, inside)| (-q, *inside)));
         }
-        (Border::Cycle | Border::Separatrix, Some(border)) => {
+        (Border::Cycle | Border::Separatrix, Some(Edge::Orbit(border))) => {
             let left = border.upper.clearance().map(|it| starts(r, it.value));
             let right = border.lower.clearance().map(|it| starts(r, it.value));
             tried.extend(left.into_iter().flatten().map(|(q, inside)| (-q, inside)));
@@ -65,7 +65,7 @@ fn judged(parameters: &Parameters) -> Option<Result<(), String>> {
     Some(match wrong {
         None => Ok(()),
         Some((q, inside)) => {
-            let margin = found.margin();
+            let margin = found.margin;
             Err(format!("{parameters:?}: {:?} {margin:?}, from {q:e}: {inside}", found.border))
         }
     })

@@ -16,8 +16,9 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Problem};
 use hopfscope::model::{HalfPlane, Knob, Parameters, Side, State};
 use hopfscope::numerics::elementary::{exp, ln};
+use hopfscope::portrait::Portrait;
 use hopfscope::portrait::basin::cycle::cycles;
-use hopfscope::portrait::basin::{Basin, Counts, StartWindow, basin};
+use hopfscope::portrait::basin::{Counts, StartWindow};
 use hopfscope::portrait::closing::all::closings;
 use hopfscope::portrait::closing::equation::{Equation, Route};
 use hopfscope::portrait::closing::half_map::{HalfMap, Length};
@@ -114,7 +115,7 @@ fn ordered_basins_agree_with_brute_force() {
     const GRID: usize = 13;
     let window = StartWindow { q: (-3.0, 3.0), v: (-3.0, 3.0) };
     parameter_sets(60).into_par_iter().for_each(|parameters| {
-        let ordered = basin(&parameters, 3.0, &LIMITS).expect("a basin");
+        let ordered = Portrait::of_oscillator(&parameters, 3.0, &LIMITS).expect("a basin");
         for index in 0..GRID * GRID {
             let place = |index: usize| -3.0 + 6.0 * index as f64 / (GRID - 1) as f64;
             let start = State { q: place(index % GRID), v: place(index / GRID) };
@@ -122,7 +123,7 @@ fn ordered_basins_agree_with_brute_force() {
                 continue;
             }
             // What tends to a cycle never stops moving.
-            let told = match ordered.fate(start) {
+            let told = match ordered.fate(start.q, start.v).unwrap() {
                 Fate::Cycle(_) => Fate::Moving,
                 fate => fate,
             };
@@ -132,27 +133,29 @@ fn ordered_basins_agree_with_brute_force() {
         let mut one_by_one = Counts::default();
         for index in 0..GRID * GRID {
             let place = |index: usize| -3.0 + 6.0 * index as f64 / (GRID - 1) as f64;
-            one_by_one
-                .add(ordered.fate(State { q: place(index % GRID), v: place(index / GRID) }), 1);
+            let fate = ordered.fate(place(index % GRID), place(index / GRID));
+            one_by_one.add(fate.unwrap(), 1);
         }
         assert_eq!(counts, one_by_one, "{parameters:?}");
     });
 }
 
 /// Whether the border passes so close that the end time of brute force cannot decide.
-fn near_a_border(basin: &Basin, start: State) -> bool {
-    let fate = basin.fate(start);
+fn near_a_border(basin: &Portrait, start: State) -> bool {
+    let fate = basin.fate(start.q, start.v);
     [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-3), (0.0, -1e-3)]
         .iter()
-        .any(|(dq, dv)| basin.fate(State { q: start.q + dq, v: start.v + dv }) != fate)
+        .any(|(dq, dv)| basin.fate(start.q + dq, start.v + dv) != fate)
 }
 
 #[test]
 fn few_starts_of_a_wide_window_come_to_rest_beside_a_large_cycle() {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
     let window = StartWindow { q: (-6.0, 6.0), v: (-6.0, 6.0) };
-    let counts =
-        basin(&parameters, 6.0, &LIMITS).unwrap().count(&window, (320, 384), &LIMITS).unwrap();
+    let counts = Portrait::of_oscillator(&parameters, 6.0, &LIMITS)
+        .unwrap()
+        .count(&window, (320, 384), &LIMITS)
+        .unwrap();
     assert_eq!(counts, Counts { captured: 358, cycle: 122_522, escaped: 0, undecided: 0 });
 }
 

@@ -6,7 +6,7 @@ use hopfscope::model::Parameters;
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::pow;
 use hopfscope::numerics::random::Random;
-use hopfscope::portrait::basin::basin;
+use hopfscope::portrait::Portrait;
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::proved::{agreed, matching, proved};
 use hopfscope::proof::kicks::{ProvedEdge, kicks};
@@ -60,7 +60,7 @@ fn next_to_a_fold_search_and_proof_agree() {
 #[test]
 fn a_proof_that_contradicts_the_basin_found_is_not_shown() {
     let all = |d: f64| Parameters { d, d2: 0.2, d3: 0.5, r: 0.1 };
-    let survey = |parameters| basin(&parameters, 1.0, &Limits::PATIENT);
+    let survey = |parameters| Portrait::of_oscillator(&parameters, 1.0, &Limits::PATIENT);
     let kicks =
         |parameters: Parameters| kicks(&prove(&ParameterBox::from(&parameters), &[]), [None; 3]);
     let [cycle, none] = [-0.2, 0.2].map(all);

@@ -5,7 +5,7 @@ use hopfscope::flow::Limits;
 use hopfscope::model::{Knob, Parameters};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{exp, powi, sin_cos};
-use hopfscope::portrait::basin::basin;
+use hopfscope::portrait::Portrait;
 use hopfscope::proof::kicks::{ProvedEdge, ProvedKicks, kicks};
 use hopfscope::proof::motion::{ProvedFate, ProvedMotion, follow};
 use hopfscope::proof::range::{MOST_STEPS, change_within, range};
@@ -141,7 +141,7 @@ fn margins_are_never_larger_than_the_truth() {
         let d3 = if roll(0.0, 1.0) < 0.5 { roll(-0.5, 0.5) } else { 0.0 };
         let parameters =
             Parameters { d: roll(-0.8, 0.1), d2: roll(-0.5, 0.5), d3, r: roll(0.05, 0.5) };
-        let margin = basin(&parameters, 10.0, &Limits::PATIENT).unwrap().margin();
+        let margin = Portrait::of_oscillator(&parameters, 10.0, &Limits::PATIENT).unwrap().margin;
         let proof = prove(&ParameterBox::from(&parameters), &[]);
         let from_rest = margin.from_rest;
         let found = kicks(&proof, [margin.displacement, margin.impulse, from_rest.impulse]);

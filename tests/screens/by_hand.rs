@@ -89,7 +89,6 @@ pub fn by_hand(request: &Request) -> Finding {
                 Cycles {
                     parameters: *parameters,
                     border: Border::Cycle,
-                    harmonic: Vec::new(),
                     cost: Cost { evaluations: 1_200, steps: 60, rejected: 0 },
                     cycles,
                     picture: Some(picture(curves[0].clone(), curves)),

@@ -4,7 +4,6 @@
 use hopfscope::flow::{Fate, Limits};
 use hopfscope::model::{Model, Parameters};
 use hopfscope::numerics::random::Random;
-use hopfscope::portrait::basin::basin;
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::{Border, Margin, Portrait};
 
@@ -51,8 +50,8 @@ fn the_oscillator_of_the_paper_and_a_machine_without_a_belt_have_the_same_cycles
             compared[0] += 1;
         }
         assert_eq!(found.border, portrait.border, "{parameters:?}");
-        let basin = basin(&parameters, 10.0, &Limits::PATIENT).unwrap();
-        let margin = basin.margin();
+        let basin = Portrait::of_oscillator(&parameters, 10.0, &Limits::PATIENT).unwrap();
+        let margin = basin.margin;
         assert_eq!(margins(&margin), margins(&closed.margin), "{parameters:?}");
         assert_eq!((basin.area(), basin.integrity()), (closed.area(), closed.integrity()));
         let roundness =

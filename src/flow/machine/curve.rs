@@ -145,4 +145,17 @@ impl MachineCurve {
     pub fn points(&self, between: u16, speed: f64) -> Vec<State> {
         self.pieces.iter().flat_map(|piece| piece.points(between, speed)).collect()
     }
+
+    /// The same as a closed curve to be drawn, on which the belt's line needs its ends alone.
+    pub fn closed(&self, between: u16, speed: f64) -> Vec<State> {
+        let on = |piece: &CurvePiece| match piece {
+            CurvePiece::Slip(_) => between,
+            CurvePiece::Line { .. } => 1,
+        };
+        let pieces = self.pieces.iter();
+        let mut found: Vec<State> =
+            pieces.flat_map(|piece| piece.points(on(piece), speed)).collect();
+        found.extend(found.first().copied());
+        found
+    }
 }

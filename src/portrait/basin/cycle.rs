@@ -15,19 +15,21 @@
 //! # Ok::<(), hopfscope::flow::Reason>(())
 //! ```
 
-use super::Basin;
 use super::orbit::works as works_over;
-use crate::closed_form::harmonic::{Harmonic, amplitudes};
-use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Ledger, Parameters, Side, State};
+use crate::flow::machine::curve::MachineCurve;
+use crate::flow::{Cost, Flow, Limits, Reason};
+use crate::model::{Ledger, Model, Parameters, Side, State};
 use crate::numerics::elementary::exp;
 use crate::portrait::closing::all::{STEP, all_closings};
 use crate::portrait::closing::equation::Equation;
 use crate::portrait::closing::pair::{Closing, share};
-use crate::portrait::{Border, Cycle, CycleErrors, Margin};
+use crate::portrait::portrait::Portrait;
+use crate::portrait::{Border, Cycle, CycleErrors, Edge, Margin};
 
 /// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
-pub(crate) const PICTURE_REACH: f64 = 20.0;
+pub(crate) fn picture_reach(d2: f64) -> f64 {
+    20.0 / d2.abs().max(f64::MIN_POSITIVE)
+}
 
 /// Finds all limit cycles at these parameters.
 ///
@@ -49,12 +51,8 @@ pub fn cycles_drawn(
     points: u16,
     limits: &Limits,
 ) -> Result<Cycles, Reason> {
-    let (mut answer, closings) = cycles_and_closings(parameters, limits)?;
-    let reach = PICTURE_REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
-    let basin = Basin::around(parameters, &closings, reach, limits)?;
-    answer.cost += basin.cost;
-    answer.picture = Some(BasinPicture::of(&basin, points));
-    Ok(answer)
+    let reach = picture_reach(parameters.d2);
+    Portrait::of_oscillator(parameters, reach, limits)?.drawn(parameters, points)
 }
 
 /// All limit cycles, without a picture, and the closed pairs of half swings that they are.
@@ -73,7 +71,6 @@ pub(crate) fn cycles_and_closings(
     let answer = Cycles {
         parameters: *parameters,
         cycles: closings.iter().map(describe).collect(),
-        harmonic: amplitudes(parameters),
         border: Border::around(parameters, &stable),
         picture: None,
         cost: equation.cost(),
@@ -81,25 +78,62 @@ pub(crate) fn cycles_and_closings(
     Ok((answer, closings))
 }
 
-impl BasinPicture {
-    fn of(basin: &Basin, points: u16) -> Self {
-        let mut curves: Vec<Vec<State>> =
-            basin.borders.iter().map(|border| border.curve(points)).collect();
-        let works = basin.borders.iter().skip(usize::from(basin.border == Border::Separatrix));
-        let works = works.filter_map(|border| works_over(border, &basin.parameters)).collect();
-        let border = match basin.border {
-            Border::Cycle => curves.first().cloned().unwrap_or_default(),
-            Border::Separatrix => curves.remove(0),
-            _ => Vec::new(),
-        };
-        BasinPicture {
-            curves,
-            works,
-            border,
-            margin: basin.margin(),
-            area: basin.area(),
-            lyapunov_share: basin.lyapunov_share(),
+impl Portrait {
+    /// Its cycles and what borders the basin, drawn in units of the oscillator of the paper, which for a machine has these
+    /// parameters; with this many points on each integration step of a curve.
+    ///
+    /// # Errors
+    /// [`Reason`] why a cycle on a belt could not be followed once more.
+    pub fn drawn(&self, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
+        let model = &self.model;
+        let unit = model.drawing_length();
+        let energy = model.stiffness * unit * unit;
+        let (mut curves, mut works) = (Vec::new(), Vec::new());
+        if self.fates.is_empty() {
+            let mut flow = Flow::new(model);
+            for cycle in &self.cycles {
+                let mut curve = MachineCurve::default();
+                flow.around(cycle.q_max, cycle.is_followed_backward(), &mut curve)?;
+                curves.push(self.places(&Edge::Curve(curve, model.speed), points));
+                works.push(flow.works_around(cycle).unwrap_or_default().scaled(1.0 / energy));
+            }
         }
+        // A separatrix lies within all cycles.
+        let orbits = self.borders.iter().skip(self.borders.len().saturating_sub(self.cycles.len()));
+        for edge in orbits {
+            if let Edge::Orbit(orbit) = edge {
+                curves.push(self.places(edge, points));
+                works.extend(works_over(orbit, parameters));
+            }
+        }
+        let border = self.edge().map(|edge| self.places(edge, points)).unwrap_or_default();
+        let lyapunov_share = self.lyapunov_share();
+        let area = self.area().filter(|_| !self.fates.is_empty());
+        let margin = self.in_drawing(&self.margin);
+        let cycle = |cycle: &Cycle| cycle.scaled(1.0 / unit, 1.0 / model.omega_0);
+        Ok(Cycles {
+            parameters: *parameters,
+            cycles: self.cycles.iter().map(cycle).collect(),
+            border: self.border,
+            picture: Some(BasinPicture { curves, works, border, margin, area, lyapunov_share }),
+            cost: self.cost,
+        })
+    }
+
+    /// The points of a border in these units.
+    #[must_use]
+    pub fn places(&self, edge: &Edge, points: u16) -> Vec<State> {
+        let unit = self.model.drawing_length();
+        let scaled = |State { q, v }| State { q: q / unit, v: v / unit };
+        edge.curve(points).into_iter().map(scaled).collect()
+    }
+
+    /// A margin of the machine in these units.
+    #[must_use]
+    pub fn in_drawing(&self, margin: &Margin) -> Margin {
+        let Model { mass, omega_0, .. } = self.model;
+        let unit = self.model.drawing_length();
+        margin.map(|x| x / unit, |it| it / (mass * unit * omega_0))
     }
 }
 
@@ -177,8 +211,6 @@ pub struct Cycles {
     pub parameters: Parameters,
     /// The cycles, smallest first.
     pub cycles: Vec<Cycle>,
-    /// The first-order harmonic answer, for comparison.
-    pub harmonic: Vec<Harmonic>,
     /// What borders the basin of the sticking set.
     pub border: Border,
     /// Curves and margins, if asked for.

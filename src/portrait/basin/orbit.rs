@@ -17,9 +17,7 @@ use crate::flow::step::Powers;
 use crate::flow::{Limits, Reason, Trajectory};
 use crate::model::parameters::energy;
 use crate::model::{Ledger, Parameters, Side, State};
-use crate::numerics::elementary::hypot;
 use crate::numerics::quadrature::GAUSS;
-use crate::numerics::root::maximum;
 use crate::portrait::closing::equation::first_side;
 use crate::portrait::closing::half_map::{Direction, HalfSwing, Length};
 use crate::portrait::closing::pair::Closing;
@@ -148,6 +146,12 @@ impl Orbit {
         points
     }
 
+    /// How far outside of the sticking set it turns on the nearer side; infinite where it comes from infinity on both.
+    pub fn clearance(&self) -> f64 {
+        let clearances = [&self.upper, &self.lower].into_iter().filter_map(Arc::clearance);
+        clearances.map(|clearance| clearance.value).fold(f64::INFINITY, f64::min)
+    }
+
     /// Whether it encloses a bounded part of the plane.
     pub fn is_closed(&self) -> bool {
         self.closed
@@ -257,37 +261,6 @@ pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
     let energies = (energy(motion.problem.initial), energy(now.state()));
     let works = [-2.0 * d * powers.second, -d2 * powers.third, -d3 * powers.fourth, -r * path];
     Some(Ledger::of_terms(&motion.problem.parameters, energies, works))
-}
-
-/// The velocities between which the starts at a displacement lie inside a border; `None` where none does.
-pub type Span<'a> = &'a dyn Fn(f64) -> Option<(f64, f64)>;
-
-/// Points on each integration step of a border from which its least distance is sought.
-pub(crate) const POINTS: u16 = 24;
-
-/// The least distance of a border from the origin, refined between the points of its curve; `span_at` has its
-/// velocities at a displacement.
-pub(crate) fn inner_radius(curve: &[State], span_at: Span) -> Option<f64> {
-    /// The part of the way between the neighbours of the nearest point in which the distance is flat.
-    const FLAT: f64 = 1e-9;
-    let far = |state: &State| hypot(state.q, state.v);
-    let nearest =
-        (0..curve.len()).min_by(|one, other| far(&curve[*one]).total_cmp(&far(&curve[*other])))?;
-    let State { v, .. } = curve[nearest];
-    let distance = |q: f64| {
-        let span = span_at(q);
-        span.map_or(f64::INFINITY, |(low, high)| hypot(q, if v < 0.0 { low } else { high }))
-    };
-    let ends = [nearest.saturating_sub(1), (nearest + 1).min(curve.len() - 1)];
-    let [one, other] = ends.map(|index| curve[index].q);
-    let (low, high) = (one.min(other), one.max(other));
-    let (low, high) = maximum(low, high, FLAT * (high - low), |q| -distance(q));
-    Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])))
-}
-
-/// The fraction of an area that a circle fills.
-pub(crate) fn filled(radius: f64, area: f64) -> f64 {
-    std::f64::consts::PI * radius * radius / area
 }
 
 #[cfg(test)]

@@ -8,12 +8,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::Serialize;
 
-use super::orbit::Span;
-use super::{Basin, StartWindow};
-use crate::flow::Fate;
+use super::StartWindow;
 use crate::numerics::elementary::{asin, cos, powi, sin};
 use crate::numerics::quadrature::{Integral, integrate};
 use crate::numerics::root::{TO_ROUNDING, bisect};
+use crate::portrait::border::Edge;
 
 /// A fraction, and a bound on its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -34,31 +33,20 @@ impl Share {
 /// Absolute error to which each interval is integrated.
 const TOLERANCE: f64 = 1e-12;
 
-impl Basin {
-    /// The fraction of a window's area that belongs to the basin of the sticking set.
-    pub fn captured_share(&self, window: &StartWindow) -> Share {
-        if self.fates.first() != Some(&Fate::Rest) {
-            return Share::exact(0.0);
-        }
-        let Some(edge) = self.borders.first() else { return Share::exact(1.0) };
-        part_within(&|q| edge.span_at(q), &[], window)
-    }
-}
-
-/// The fraction of a window's area that lies within a border with these corners.
+/// The fraction of a window's area that lies within a border; both in the same units.
 ///
 /// Adaptive Gauss-Kronrod quadrature over the displacements inside it. The error is ten times the sum of the
 /// differences between its two rules, and rounding.
-pub(crate) fn part_within(span: Span, corners: &[f64], window: &StartWindow) -> Share {
-    let Some((left, right)) = support(span, window.q) else {
+pub(crate) fn part_within(edge: &Edge, window: &StartWindow) -> Share {
+    let Some((left, right)) = support(edge, window.q) else {
         return Share::exact(0.0);
     };
     let (width, height) = (window.q.1 - window.q.0, window.v.1 - window.v.0);
     let density = |q: f64| {
-        let (low, high) = span(q).unwrap_or((0.0, 0.0));
+        let (low, high) = edge.span_at(q).unwrap_or((0.0, 0.0));
         (high.min(window.v.1) - low.max(window.v.0)).max(0.0) / height / width
     };
-    let Integral { value, error } = over_scales(density, (left, right), corners);
+    let Integral { value, error } = over_scales(density, (left, right), edge);
     Share { part: value.clamp(0.0, 1.0), error: error + f64::EPSILON }
 }
 
@@ -71,7 +59,7 @@ pub(crate) fn part_within(span: Span, corners: &[f64], window: &StartWindow) -> 
 pub(crate) fn over_scales(
     density: impl Fn(f64) -> f64,
     (left, right): (f64, f64),
-    corners: &[f64],
+    edge: &Edge,
 ) -> Integral {
     const SCALES: i32 = 8;
     const WIDER: f64 = 30.0;
@@ -81,7 +69,7 @@ pub(crate) fn over_scales(
     let lengths = (1..=SCALES).map(|power| (right - left) * powi(WIDER, -power));
     let places = lengths.flat_map(|length| [left + length, -length, length, right - length]);
     let angles = places
-        .chain(corners.iter().copied())
+        .chain(edge.corners())
         .filter(|q| (left..right).contains(q))
         .map(|q| asin(((q - middle) / half).clamp(-1.0, 1.0)));
     let mut ends: Vec<f64> = angles.chain([-FRAC_PI_2, FRAC_PI_2]).collect();
@@ -96,8 +84,8 @@ pub(crate) fn over_scales(
 }
 
 /// The displacements of a range at which some start lies inside the border: around the sticking set.
-pub(crate) fn support(span: Span, (from, to): (f64, f64)) -> Option<(f64, f64)> {
-    let inside = |q: f64| span(q).is_some();
+pub(crate) fn support(edge: &Edge, (from, to): (f64, f64)) -> Option<(f64, f64)> {
+    let inside = |q: f64| edge.span_at(q).is_some();
     // Inside lies an interval with 0 in it.
     let nearest = 0.0_f64.clamp(from, to);
     inside(nearest).then(|| {
@@ -117,11 +105,14 @@ mod tests {
     use super::*;
     use crate::flow::Limits;
     use crate::model::Parameters;
-    use crate::portrait::basin::basin;
+    use crate::portrait::Portrait;
 
     fn share(parameters: Parameters, window: StartWindow) -> Share {
         let reach = window.q.0.abs().max(window.q.1.abs());
-        basin(&parameters, reach, &Limits::PATIENT).unwrap().captured_share(&window)
+        Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT)
+            .unwrap()
+            .rest_share(window.q, window.v)
+            .unwrap()
     }
 
     fn square(half: f64) -> StartWindow {
@@ -154,12 +145,12 @@ mod tests {
             let parameters = Parameters { d, d2, d3, r };
             for half in [1e3, 1e5, 1e7] {
                 let v = (-0.5, 0.4);
-                let found = basin(&parameters, half, &Limits::PATIENT).unwrap();
-                let whole = found.captured_share(&StartWindow { q: (-half, half), v });
+                let found = Portrait::of_oscillator(&parameters, half, &Limits::PATIENT).unwrap();
+                let whole = found.rest_share((-half, half), v).unwrap();
                 let ends = [-half, -300.0, -10.0, -3.0, -1.0, 0.0, 1.0, 3.0, 10.0, 300.0, half];
                 let (mut sum, mut error) = (0.0, whole.error);
                 for q in ends.windows(2) {
-                    let share = found.captured_share(&StartWindow { q: (q[0], q[1]), v });
+                    let share = found.rest_share((q[0], q[1]), v).unwrap();
                     let weight = (q[1] - q[0]) / (2.0 * half);
                     (sum, error) = (sum + weight * share.part, error + weight * share.error);
                 }
@@ -187,8 +178,8 @@ mod tests {
     fn a_counted_grid_comes_near_the_integral() {
         let parameters = Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.1 };
         let window = StartWindow { q: (-2.0, 2.0), v: (-1.0, 3.0) };
-        let found = basin(&parameters, 2.0, &Limits::PATIENT).unwrap();
-        let share = found.captured_share(&window);
+        let found = Portrait::of_oscillator(&parameters, 2.0, &Limits::PATIENT).unwrap();
+        let share = found.rest_share(window.q, window.v).unwrap();
         let counts = found.count(&window, (2001, 2001), &Limits::PATIENT).unwrap();
         #[expect(clippy::cast_precision_loss, reason = "four million")]
         let counted = counts.captured as f64 / (2001.0 * 2001.0);

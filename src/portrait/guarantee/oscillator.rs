@@ -15,14 +15,14 @@ use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Fate, Limits, Reason};
 use crate::model::{HalfPlane, ParameterBox, Parameters, Side};
 use crate::portrait::basin::orbit::Orbit;
-use crate::portrait::basin::{Basin, basin};
 use crate::portrait::closing::all::{STEP, innermost_bracket};
 use crate::portrait::closing::equation::Equation;
 use crate::portrait::closing::half_map::HalfMap;
 use crate::portrait::closing::pair::Closing;
 use crate::portrait::closing::polish::polish;
 use crate::portrait::closing::weak::has_cycle;
-use crate::portrait::{Border, Margin, RestMargin};
+use crate::portrait::without_belt::{centre_fate, of_paper};
+use crate::portrait::{Border, Margin, Portrait, RestMargin};
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,12 +64,12 @@ impl TwoSided {
         HalfPlane::new(self.on(side), side)
     }
 
-    /// The basin of its sticking set, which is all that its innermost border parts, for `D > -1`; `reach` as
-    /// for [`crate::portrait::basin::basin`]. The second number bounds the relative error of the border's clearance.
+    /// What its innermost border parts, for `D > -1`; `reach` as for [`Portrait::of_oscillator`]. The second number
+    /// bounds the relative error of the border's clearance.
     ///
     /// # Errors
     /// The [`Reason`] why the border could not be computed; [`Reason::NotApplicable`] for `D <= -1`.
-    pub fn basin(&self, reach: f64, limits: &Limits) -> Result<(Basin, f64), Reason> {
+    pub fn portrait(&self, reach: f64, limits: &Limits) -> Result<(Portrait, f64), Reason> {
         if self.upper.d <= -1.0 {
             return Err(Reason::NotApplicable { needs: "D above -1" });
         }
@@ -85,15 +85,12 @@ impl TwoSided {
         } else {
             (Border::None, None, 0.0)
         };
-        let mut cost = equation.cost();
-        let mut fates = vec![Fate::Rest];
-        if let Some(orbit) = &orbit {
-            cost += orbit.upper.cost;
-            cost += orbit.lower.cost;
-            fates.push(Fate::Escapes);
-        }
-        let borders = orbit.into_iter().collect();
-        Ok((Basin { parameters: self.upper, border, borders, fates, cost }, error))
+        let orbits: Vec<Orbit> = orbit.into_iter().collect();
+        let outside = orbits.iter().map(|_| Fate::Escapes);
+        let fates = [centre_fate(&self.upper)].into_iter().chain(outside).collect();
+        let model = of_paper(&self.upper)?;
+        let blank = Portrait { border, fates, cost: equation.cost(), ..Portrait::blank(&model) };
+        Ok((blank.parted(orbits), error))
     }
 
     /// The innermost closed pair of swings, and the relative error of its clearances: from the closed form where
@@ -142,22 +139,22 @@ fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
     }
 }
 
-/// The basin at the middle of a box, undisturbed.
+/// What the innermost border at the middle of a box parts, undisturbed.
 ///
 /// # Errors
 /// The [`Reason`] why a border could not be computed.
-pub fn nominal(known: &ParameterBox, limits: &Limits) -> Result<Basin, Reason> {
+pub fn nominal(known: &ParameterBox, limits: &Limits) -> Result<Portrait, Reason> {
     let middle = known.middle();
     if middle.d > -1.0 {
-        Ok(TwoSided { upper: middle, lower: middle }.basin(0.0, limits)?.0)
+        Ok(TwoSided { upper: middle, lower: middle }.portrait(0.0, limits)?.0)
     } else {
-        basin(&middle, 0.0, limits)
+        Portrait::of_oscillator(&middle, 0.0, limits)
     }
 }
 
-/// The basin of the worst system, inside whose first border every motion stays for all parameters of a box and all
+/// The worst system, inside whose first border every motion stays for all parameters of a box and all
 /// disturbances up to `disturbance`, and the margin that holds for certain, or why nothing is certain; `reach` as for
-/// [`basin`].
+/// [`Portrait::of_oscillator`].
 ///
 /// Guarantee: see the module; the margin is rounded down by its error, which is estimated, not enclosed.
 ///
@@ -168,22 +165,22 @@ pub fn guaranteed(
     disturbance: f64,
     reach: f64,
     limits: &Limits,
-) -> Result<Result<(Basin, Margin), Uncertain>, Reason> {
+) -> Result<Result<(Portrait, Margin), Uncertain>, Reason> {
     if let Some(reason) = uncertain(known, disturbance) {
         return Ok(Err(reason));
     }
-    let (basin, error) = TwoSided::worst(known, disturbance).basin(reach, limits)?;
+    let (worst, error) = TwoSided::worst(known, disturbance).portrait(reach, limits)?;
     if error > 0.5 {
         return Err(Reason::NoConvergence {
             sought: "the border of the worst system",
             change: error,
         });
     }
-    let margin = rounded_down(&basin, farthest_rest(known, disturbance), error);
-    Ok(Ok((basin, margin)))
+    let margin = rounded_down(&worst, farthest_rest(known, disturbance), error);
+    Ok(Ok((worst, margin)))
 }
 
-/// The basin of the best system, outside of whose first border nothing comes to rest; `None` where that is not known.
+/// The best system, outside of whose first border nothing comes to rest; `None` where that is not known.
 ///
 /// # Errors
 /// The [`Reason`] why the border could not be computed.
@@ -192,10 +189,10 @@ pub fn hopeful(
     disturbance: f64,
     reach: f64,
     limits: &Limits,
-) -> Result<Option<Basin>, Reason> {
+) -> Result<Option<Portrait>, Reason> {
     let best = TwoSided::best(known, disturbance);
-    let found = (best.upper.d > -1.0).then(|| best.basin(reach, limits)).transpose()?;
-    Ok(found.map(|(basin, _)| basin))
+    let found = (best.upper.d > -1.0).then(|| best.portrait(reach, limits)).transpose()?;
+    Ok(found.map(|(best, _)| best))
 }
 
 /// How far out a mass may rest before the kick: at the smallest friction, because the gap to the border only grows
@@ -205,10 +202,10 @@ fn farthest_rest(known: &ParameterBox, disturbance: f64) -> f64 {
     if disturbance > 0.0 { (r + disturbance).next_up() } else { r }
 }
 
-/// The margin of a basin whose border has clearances with this relative error, rounded down.
-fn rounded_down(basin: &Basin, farthest: f64, error: f64) -> Margin {
-    let r = basin.parameters.r;
-    let Margin { displacement, impulse, from_rest } = basin.margin_within(farthest);
+/// The margin within a border whose clearances have this relative error, rounded down.
+fn rounded_down(worst: &Portrait, farthest: f64, error: f64) -> Margin {
+    let r = worst.model.guide;
+    let Margin { displacement, impulse, from_rest } = worst.margin_within(farthest, 1.0);
     // Of a displacement only the clearance is in error; an impulse comes of an arc from that clearance.
     let shrunk = |length: f64, error: f64| (length * (1.0 - error)).next_down().max(0.0);
     // What is left of the clearance beyond the farthest rest has all of its error.

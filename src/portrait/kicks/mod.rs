@@ -12,10 +12,10 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::basin::Basin;
-use super::basin::orbit::Span;
 use super::basin::stability::{Share, over_scales, support};
-use crate::flow::Fate;
+use super::border::{Border, Edge};
+use super::portrait::Portrait;
+use crate::flow::Reason;
 use crate::model::unit::quantity;
 use crate::numerics::elementary::{erfc, exp};
 use crate::numerics::quadrature::Integral;
@@ -163,22 +163,29 @@ impl RandomKick {
         self.q.0.abs() + self.law.reach() * self.q.1
     }
 
-    /// The fraction of the kicks that is lost: that leads out of the basin of the sticking set.
-    ///
-    /// The basin has to be known as far as [`RandomKick::reach`]. Quadrature as in `part_within`.
-    pub fn lost(&self, basin: &Basin) -> Share {
-        if basin.fates.first() != Some(&Fate::Rest) {
-            return Share::exact(1.0);
+    /// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
+    /// basin is not known.
+    pub fn lost(&self, portrait: &Portrait) -> Result<Share, Reason> {
+        const NEEDS: Reason = Reason::NotApplicable {
+            needs: "a basin of rest that is known, and no family of periodic motions",
+        };
+        if matches!(portrait.border, Border::Unknown(_)) || portrait.neutral {
+            return Err(NEEDS);
         }
-        let Some(edge) = basin.borders.first() else { return Share::exact(0.0) };
-        self.lost_outside(&|q| edge.span_at(q), &[])
+        if !portrait.has_basin() {
+            return Ok(Share::exact(1.0));
+        }
+        let rate = portrait.model.omega_0;
+        let scaled = RandomKick { v: (self.v.0 / rate, self.v.1 / rate), ..*self };
+        Ok(portrait.edge().map_or(Share::exact(0.0), |edge| scaled.lost_outside(edge)))
     }
 
-    /// The fraction of the kicks that leads out of a border with corners at these displacements.
-    pub fn lost_outside(&self, span: Span, corners: &[f64]) -> Share {
+    /// The fraction of the kicks that leads out of a border, which has to be known as far as [`RandomKick::reach`].
+    /// Quadrature as in `part_within`.
+    fn lost_outside(&self, edge: &Edge) -> Share {
         let (law, (mean, spread)) = (self.law, self.q);
         let lost_at = |q: f64| {
-            let Some((low, high)) = span(q) else { return 1.0 };
+            let Some((low, high)) = edge.span_at(q) else { return 1.0 };
             law.above(high - self.v.0, self.v.1) + law.above(self.v.0 - low, self.v.1)
         };
         if spread == 0.0 {
@@ -188,12 +195,12 @@ impl RandomKick {
             return Share { part, error: KNOWN * part };
         }
         let far = law.reach() * spread;
-        let Some((left, right)) = support(span, (mean - far, mean + far)) else {
+        let Some((left, right)) = support(edge, (mean - far, mean + far)) else {
             return Share::exact(1.0);
         };
         let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
         let lost = |q: f64| law.density(q - mean, spread) * lost_at(q);
-        let Integral { value, error } = over_scales(lost, (left, right), corners);
+        let Integral { value, error } = over_scales(lost, (left, right), edge);
         Share { part: (beyond + value).clamp(0.0, 1.0), error: error + f64::EPSILON }
     }
 }
@@ -201,10 +208,9 @@ impl RandomKick {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flow::Limits;
-    use crate::model::{Parameters, State};
+    use crate::flow::{Fate, Limits};
+    use crate::model::Parameters;
     use crate::numerics::root::bisect;
-    use crate::portrait::basin::{StartWindow, basin};
 
     #[test]
     fn erfc_has_the_digits_of_the_tables() {
@@ -238,10 +244,10 @@ mod tests {
     fn uniform_kicks_over_a_window_lose_what_the_window_does_not_hold() {
         for (d, d2, d3) in [(-0.2, 0.0, 0.0), (-0.3, 0.4, 0.2), (-0.05, 0.5, 0.0)] {
             let parameters = Parameters { d, d2, d3, r: 0.1 };
-            let found = basin(&parameters, 2.0, &Limits::PATIENT).unwrap();
-            let window = StartWindow { q: (-0.5, 0.7), v: (-0.6, 0.4) };
+            let found = Portrait::of_oscillator(&parameters, 2.0, &Limits::PATIENT).unwrap();
             let kicks = RandomKick { law: Distribution::Uniform, q: (0.1, 0.6), v: (-0.1, 0.5) };
-            let (lost, held) = (kicks.lost(&found), found.captured_share(&window));
+            let lost = kicks.lost(&found).unwrap();
+            let held = found.rest_share((-0.5, 0.7), (-0.6, 0.4)).unwrap();
             assert!((lost.part + held.part - 1.0).abs() <= lost.error + held.error + 1e-12);
         }
     }
@@ -249,9 +255,9 @@ mod tests {
     #[test]
     fn normal_kicks_are_lost_as_often_as_a_monte_carlo_loses_them() {
         let parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
-        let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
+        let found = Portrait::of_oscillator(&parameters, 3.0, &Limits::PATIENT).unwrap();
         let kicks = RandomKick { law: Distribution::Normal, q: (0.02, 0.08), v: (0.0, 0.1) };
-        let lost = kicks.lost(&found);
+        let lost = kicks.lost(&found).unwrap();
         // Points of a lattice in the unit square, made normal by the inverse of the distribution.
         let inverse =
             |part: f64| bisect(-9.0, 9.0, 40, |at| Distribution::Normal.above(at, 1.0) <= part).0;
@@ -260,8 +266,8 @@ mod tests {
         for index in 0..draws {
             let spread = |ratio: f64| (0.5 + ratio * f64::from(index)).fract();
             let (a, b) = (spread(0.754_877_666_246_693), spread(0.569_840_290_998_053));
-            let start = State { q: 0.02 + 0.08 * inverse(a), v: 0.1 * inverse(b) };
-            out += u32::from(found.fate(start) != Fate::Rest);
+            let fate = found.fate(0.02 + 0.08 * inverse(a), 0.1 * inverse(b));
+            out += u32::from(fate != Ok(Fate::Rest));
         }
         let counted = f64::from(out) / f64::from(draws);
         assert!(lost.part > 0.02 && lost.part < 0.5 && lost.error < 1e-8, "{lost:?}");
@@ -275,8 +281,9 @@ mod tests {
         let parameters = Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.2 };
         let short_of_half = |spread: f64| {
             let kicks = RandomKick { law: Distribution::Normal, q: (0.0, spread), v: (0.0, 1.0) };
-            let found = basin(&parameters, kicks.reach(), &Limits::PATIENT).unwrap();
-            0.5 - kicks.lost(&found).part
+            let found =
+                Portrait::of_oscillator(&parameters, kicks.reach(), &Limits::PATIENT).unwrap();
+            0.5 - kicks.lost(&found).unwrap().part
         };
         let at_thousand = 1e3 * short_of_half(1e3);
         for spread in [1e4, 1e6] {
@@ -290,9 +297,10 @@ mod tests {
         // Without D2 both sides are alike: erfc(1/sqrt(2)) lie beyond.
         for (d, d3) in [(-0.3, 0.0), (-0.3, 0.5), (0.1, -0.2)] {
             let parameters = Parameters { d, d2: 0.0, d3, r: 0.1 };
-            let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
-            let v = (0.0, found.margin().impulse.unwrap());
-            let lost = RandomKick { law: Distribution::Normal, q: (0.0, 0.0), v }.lost(&found);
+            let found = Portrait::of_oscillator(&parameters, 3.0, &Limits::PATIENT).unwrap();
+            let v = (0.0, found.margin.impulse.unwrap());
+            let lost =
+                RandomKick { law: Distribution::Normal, q: (0.0, 0.0), v }.lost(&found).unwrap();
             assert!((lost.part - 0.317_310_507_862_914_15).abs() <= lost.error, "{lost:?}");
             assert!(lost.error < 1e-10, "{lost:?}");
         }
@@ -301,10 +309,13 @@ mod tests {
     #[test]
     fn kicks_without_spread_are_lost_or_not() {
         let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
-        let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
-        let margin = found.margin().impulse.unwrap();
+        let found = Portrait::of_oscillator(&parameters, 3.0, &Limits::PATIENT).unwrap();
+        let margin = found.margin.impulse.unwrap();
         let lost = |v: f64| {
-            RandomKick { law: Distribution::Normal, q: (0.0, 0.0), v: (v, 0.0) }.lost(&found).part
+            RandomKick { law: Distribution::Normal, q: (0.0, 0.0), v: (v, 0.0) }
+                .lost(&found)
+                .unwrap()
+                .part
         };
         assert_eq!([lost(0.999 * margin), lost(1.001 * margin)], [0.0, 1.0]);
     }

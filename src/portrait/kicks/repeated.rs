@@ -14,8 +14,8 @@ use rayon::prelude::*;
 use super::RandomKick;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
 use crate::numerics::count::{real, truncated};
+use crate::portrait::Portrait;
 use crate::portrait::basin::stability::Share;
-use crate::portrait::{Border, Portrait};
 
 /// What becomes of repeated kicks.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,23 +45,6 @@ const COLUMNS: f64 = 600.0;
 /// Kicks beyond this many spreads are too rare to matter for where kicks end.
 const FAR: f64 = 5.0;
 
-/// What the parts that are lost rest on.
-const NEEDS: Reason = Reason::NotApplicable {
-    needs: "a basin of rest that is known, and no family of periodic motions",
-};
-
-/// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
-/// basin is not known.
-pub fn part_lost(portrait: &Portrait, kicks: &RandomKick) -> Result<Share, Reason> {
-    match portrait.border {
-        Border::Unknown(_) => Err(NEEDS),
-        _ if portrait.neutral => Err(NEEDS),
-        Border::None => Ok(Share::exact(0.0)),
-        Border::NoBasin => Ok(Share::exact(1.0)),
-        _ => Ok(kicks.lost_outside(&|x| portrait.span_at(x), &portrait.corners())),
-    }
-}
-
 /// Follows kicks until one is lost. Fails with the [`Reason`] why a motion could not be followed, with
 /// [`Reason::NotApplicable`] where the basin is not known, or without friction.
 pub fn repeated(
@@ -69,7 +52,7 @@ pub fn repeated(
     kicks: &RandomKick,
     limits: &Limits,
 ) -> Result<Repeated, Reason> {
-    let first = part_lost(portrait, kicks)?;
+    let first = kicks.lost(portrait)?;
     if portrait.model.guide_static == 0.0 {
         return Err(WITHOUT);
     }
@@ -160,7 +143,7 @@ impl Chain {
         }
         let lost = centres.iter().map(|&centre| {
             let from = RandomKick { q: (kicks.q.0 + centre, kicks.q.1), ..*kicks };
-            Ok(part_lost(portrait, &from)?.part)
+            Ok(from.lost(portrait)?.part)
         });
         let lost = DVector::from_vec(lost.collect::<Result<_, Reason>>()?);
         for (row, lost) in lost.iter().enumerate() {
@@ -263,7 +246,6 @@ mod tests {
     use crate::flow::{Detail, Outcome, Problem};
     use crate::model::{Parameters, State};
     use crate::numerics::random::Random;
-    use crate::portrait::basin::basin;
     use crate::portrait::kicks::Distribution;
 
     /// Where the motion from a start of the basin comes to rest.
@@ -284,7 +266,7 @@ mod tests {
     /// Kicks one after the other, each from where the last one came to rest: mean number until one is lost, and
     /// its standard error.
     fn drawn(parameters: &Parameters, kicks: &RandomKick, most: u32) -> (f64, f64) {
-        let found = basin(parameters, 5.0, &Limits::PATIENT).unwrap();
+        let found = Portrait::of_oscillator(parameters, 5.0, &Limits::PATIENT).unwrap();
         let mut random = Random::new(7);
         let (mut kicked, mut runs, mut squares, mut sum) = (0, 0.0, 0.0, 0.0);
         while kicked < most {
@@ -295,7 +277,7 @@ mod tests {
                     State { q: place + kicks.q.0 + kicks.q.1 * a, v: kicks.v.0 + kicks.v.1 * b };
                 kicked += 1;
                 run += 1.0;
-                if found.fate(start) != Fate::Rest {
+                if found.fate(start.q, start.v) != Ok(Fate::Rest) {
                     break;
                 }
                 place = rest_of(*parameters, start);

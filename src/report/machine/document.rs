@@ -157,16 +157,16 @@ fn design(designed: &DesignAnswer) -> Document {
 
 /// The answer of the expansion, for a document.
 fn expansion(expansion: &CubicExpansion, portrait: &Portrait) -> Document {
-    let found = expansion.cycles.as_ref();
+    let found = expansion.portrait.as_ref();
     let cycles = found.iter().flat_map(|found| &found.cycles);
     let cycles: Vec<_> = cycles.map(|cycle| expanded(cycle, expansion, portrait)).collect();
-    let margin = expansion.margin().map(|own| expanded_margin(&own, expansion, &portrait.margin));
+    let margin = |own: &Portrait| expanded_margin(&own.margin, expansion, &portrait.margin);
     Document::default()
         .with("parameters", expansion.reduced.parameters)
         .with_any("reason", found.err().map(ToString::to_string))
         .with("cycles", cycles)
         .with("edge", found.ok().map(|found| found.border))
-        .with("margin", margin)
+        .with("margin", found.ok().map(margin))
 }
 
 /// A cycle of the expansion in SI units, with the differences to the nearest cycle of the same stability of the whole

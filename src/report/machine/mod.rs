@@ -6,7 +6,7 @@ mod text;
 
 use super::answer::PLACES;
 use super::cycle_numbers::{machine_cycles, of_machine};
-use super::cycles::{NO_CYCLE, known, steps};
+use super::cycles::{NO_CYCLE, known};
 use super::margin::{GUARANTEED, margin_columns};
 use super::page::SourceFile;
 use super::{About, Answer, Columns, Quantity};
@@ -99,7 +99,7 @@ pub fn machine<'a>(found: &'a MachineAnswer) -> Answer<'a> {
         .lines(portrait.cycles.is_empty().then_some(NO_CYCLE))
         .heading("Remarks")
         .lines(text::remarks(found))
-        .cost(steps(portrait), found.seconds)
+        .cost(portrait.cost, found.seconds)
 }
 
 /// The page of a machine: with its pictures, what computed it, and the files of the machine.
@@ -207,13 +207,6 @@ fn rows(answer: &MachineAnswer) -> Vec<QuantityRow> {
         rows.push(QuantityRow::physical("R for the margin", designed.force(), "N"));
     }
     rows
-}
-
-impl CubicExpansion {
-    /// The dimensionless margin; `None` if it has no answer.
-    fn margin(&self) -> Option<Margin> {
-        Some(self.cycles.as_ref().ok()?.picture.as_ref()?.margin)
-    }
 }
 
 /// A margin of an expansion in m and N s.

@@ -87,12 +87,11 @@ pub(super) fn remarks(found: &MachineAnswer) -> Vec<String> {
 /// The result of the cubic expansion, in a sentence.
 fn by_expansion(expansion: &CubicExpansion, portrait: &Portrait) -> String {
     let lead = "friction as a cubic (the oscillator of the paper) says: ";
-    let found = match &expansion.cycles {
+    let found = match &expansion.portrait {
         Ok(found) => found,
         Err(reason) => return format!("{lead}nothing; {reason}"),
     };
-    let Some(own) = expansion.margin() else { return format!("{lead}nothing; ") };
-    let margin = margin_sentence(&in_units(&own, expansion), &portrait.margin);
+    let margin = margin_sentence(&in_units(&found.margin, expansion), &portrait.margin);
     let count = |stable| found.cycles.iter().filter(|cycle| cycle.stable == stable).count();
     let (unstable, stable) = (count(false), count(true));
     format!("{lead}{margin}; {unstable} unstable and {stable} stable cycles")

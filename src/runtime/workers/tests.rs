@@ -26,7 +26,6 @@ fn nothing(request: &Request) -> Finding {
         Cycles {
             parameters: Parameters { d: number(request), d2: 0.0, d3: 0.0, r: 0.1 },
             cycles: Vec::new(),
-            harmonic: Vec::new(),
             border: Border::None,
             picture: None,
             cost: Cost::default(),

@@ -7,10 +7,9 @@ use super::table::Measure;
 use crate::flow::{Limits, Reason, follow_by_series};
 use crate::model::{MachineProblem, State};
 use crate::portrait::Portrait;
-use crate::portrait::basin::StartWindow;
 use crate::portrait::design::friction_of_guide;
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::kicks::repeated::{part_lost, repeated};
+use crate::portrait::kicks::repeated::repeated;
 
 /// A point, and its portrait once that is known.
 pub(super) struct MachinePoint<'a> {
@@ -70,17 +69,9 @@ impl<'a> MachinePoint<'a> {
 
     fn portray(&mut self, cells: &mut Cells) -> Result<(), Reason> {
         let portrait = self.problem.subject.portrait()?;
-        let conditions = cells.conditions;
         cells.cost.steps += portrait.cost.steps;
         cells.cycles(&portrait.cycles);
-        cells.edge(portrait.border, portrait.margin);
-        cells.share(Measure::Stability, || {
-            let StartWindow { q, v } = conditions.about(&portrait.model);
-            portrait.rest_share(q, v)
-        });
-        cells.share(Measure::Lost, || part_lost(&portrait, &conditions.kicks).ok());
-        cells.fill(Measure::Area, || portrait.area());
-        cells.fill(Measure::Integrity, || [portrait.inner_radius(), portrait.integrity()]);
+        cells.around_rest(&portrait);
         let incomplete = portrait.incomplete();
         self.portrait = Some(portrait);
         incomplete.map_or(Ok(()), Err)

@@ -7,7 +7,6 @@ use crate::branch::fold::fold;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Problem, Reason};
 use crate::numerics::Interval;
-use crate::portrait::basin::Basin;
 use crate::portrait::basin::cycle::cycles_and_closings;
 use crate::portrait::closing::all::{STEP, first_closings};
 use crate::portrait::closing::equation::Equation;
@@ -50,8 +49,8 @@ impl<'a> OscillatorPoint<'a> {
             Measure::Guaranteed => {
                 let known = cells.conditions.around(parameters);
                 let found = guaranteed(&known, cells.conditions.disturbance, 0.0, limits)?;
-                let (basin, margin) = found.map_err(|why| why.to_string())?;
-                cells.cost += basin.cost;
+                let (worst, margin) = found.map_err(|why| why.to_string())?;
+                cells.cost += worst.cost;
                 cells.margin(Measure::Guaranteed, margin);
             }
             Measure::Settling => {
@@ -111,13 +110,9 @@ impl<'a> OscillatorPoint<'a> {
         let reach = |measure, reach| if cells.asks(measure) { reach } else { 0.0 };
         let reach = reach(Measure::Stability, conditions.reach())
             .max(reach(Measure::Lost, conditions.kicks.reach()));
-        let basin = Basin::around(parameters, inner.as_slice(), reach, self.limits)?;
-        cells.cost += basin.cost;
-        cells.edge(basin.border, basin.margin());
-        cells.share(Measure::Stability, || Some(basin.captured_share(&conditions.window)));
-        cells.share(Measure::Lost, || Some(conditions.kicks.lost(&basin)));
-        cells.fill(Measure::Area, || [basin.area()]);
-        cells.fill(Measure::Integrity, || [basin.inner_radius(), basin.integrity()]);
+        let portrait = Portrait::around(parameters, inner.as_slice(), reach, self.limits)?;
+        cells.cost += portrait.cost;
+        cells.around_rest(&portrait);
         Ok(())
     }
 

@@ -10,7 +10,7 @@ use crate::model::State;
 use crate::portrait::basin::StartWindow;
 use crate::portrait::basin::stability::Share;
 use crate::portrait::kicks::repeated::Repeated;
-use crate::portrait::{Border, Cycle, Margin};
+use crate::portrait::{Cycle, Margin, Portrait};
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,12 +112,20 @@ impl<'a> Cells<'a> {
         });
     }
 
-    /// The edge of the basin, and the kicks that it leaves.
-    pub fn edge(&mut self, border: Border, margin: Margin) {
-        self.fill(Measure::Border, || [Value::Word(border.name())]);
+    /// The edge of the basin, the kicks that it leaves, and how much it encloses.
+    pub fn around_rest(&mut self, portrait: &Portrait) {
+        let (conditions, margin) = (self.conditions, portrait.margin);
+        self.fill(Measure::Border, || [Value::Word(portrait.border.name())]);
         self.margin(Measure::Margin, margin);
         let rest = margin.from_rest;
         self.fill(Measure::FromRest, || [rest.displacement, rest.impulse]);
+        self.share(Measure::Stability, || {
+            let StartWindow { q, v } = conditions.about(&portrait.model);
+            portrait.rest_share(q, v)
+        });
+        self.share(Measure::Lost, || conditions.kicks.lost(portrait).ok());
+        self.fill(Measure::Area, || portrait.area());
+        self.fill(Measure::Integrity, || [portrait.inner_radius(), portrait.integrity()]);
     }
 
     /// A margin, of this measure.
@@ -126,7 +134,7 @@ impl<'a> Cells<'a> {
     }
 
     /// A fraction and its error, where it is known.
-    pub fn share(&mut self, measure: Measure, share: impl FnOnce() -> Option<Share>) {
+    fn share(&mut self, measure: Measure, share: impl FnOnce() -> Option<Share>) {
         self.fill(measure, || share().into_iter().flat_map(|it| [it.part, it.error]));
     }
 

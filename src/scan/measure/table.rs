@@ -238,7 +238,7 @@ impl Conditions {
 
     /// How far the edge of the basin matters.
     pub fn reach(&self) -> f64 {
-        self.window.q.0.abs().max(self.window.q.1.abs())
+        self.window.reach()
     }
 }
 

@@ -244,7 +244,6 @@ pub fn by_hand(request: &Request) -> Finding {
             Cycles {
                 parameters: *parameters,
                 cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
-                harmonic: Vec::new(),
                 border: Border::Cycle,
                 picture: Some(BasinPicture {
                     curves: Vec::new(),
