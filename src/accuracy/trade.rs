@@ -44,6 +44,8 @@ pub struct TradePoint {
     /// How many turning points, or changes of the sign of v, it has.
     pub turns: usize,
     pub cost: Cost,
+    /// What it took, measured by the caller that has a clock; 0 without one.
+    pub seconds: f64,
 }
 
 /// Every method over its tolerances on one motion.
@@ -95,6 +97,7 @@ impl TradePoint {
             deviation: reference.compare(found),
             turns: found.crossings.len(),
             cost: found.cost,
+            seconds: 0.0,
         }
     }
 
@@ -105,10 +108,15 @@ impl TradePoint {
 
     /// The decimal logarithms of evaluations and error; `None` where one of them is none or zero.
     pub fn place(&self) -> Option<(f64, f64)> {
+        let place = (log10(self.evaluations()), log10(self.error()?));
+        (place.0.is_finite() && place.1.is_finite()).then_some(place)
+    }
+
+    /// Its evaluations, as a cost that can be compared.
+    pub fn evaluations(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let evaluations = self.cost.evaluations as f64;
-        let place = (log10(evaluations), log10(self.error()?));
-        (place.0.is_finite() && place.1.is_finite()).then_some(place)
+        evaluations
     }
 
     /// Whether the motion ends as it should: right kind of outcome, right number of half swings.
@@ -180,26 +188,18 @@ impl Trade {
         sum
     }
 
-    /// Evaluations of each row, to be compared as costs.
-    pub fn evaluations(&self) -> Vec<f64> {
-        #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-        self.rows.iter().map(|row| row.cost.evaluations as f64).collect()
-    }
-
-    /// Which rows are the best choices when each costs this much.
+    /// Whether a row is a best choice when each costs this much.
     ///
     /// No other row that ends as the motion does has a smaller error for the same or less, or the same
     /// error for less. A row that ends otherwise is never among them.
-    pub fn front(&self, costs: &[f64]) -> Vec<bool> {
-        let judged = |(row, cost): (&TradePoint, &f64)| {
-            row.error().filter(|_| row.agrees()).map(|error| (error, *cost))
+    pub fn is_best(&self, row: &TradePoint, cost: fn(&TradePoint) -> f64) -> bool {
+        let judged = |row: &TradePoint| {
+            let error = row.error().filter(|_| row.agrees())?;
+            Some((error, cost(row)))
         };
-        let all: Vec<Option<(f64, f64)>> = self.rows.iter().zip(costs).map(judged).collect();
-        let beats = |one: (f64, f64), other: (f64, f64)| {
-            one.0 <= other.0 && one.1 <= other.1 && one != other
-        };
-        let best = |row: (f64, f64)| !all.iter().flatten().any(|other| beats(*other, row));
-        all.iter().map(|row| row.is_some_and(best)).collect()
+        let Some(own) = judged(row) else { return false };
+        let beats = |other: (f64, f64)| other.0 <= own.0 && other.1 <= own.1 && other != own;
+        !self.rows.iter().filter_map(judged).any(beats)
     }
 }
 
@@ -286,24 +286,15 @@ mod tests {
 
     #[test]
     fn the_front_has_no_row_that_another_beats_and_none_that_ends_otherwise() {
-        let trade = trade([-0.1, 0.0, 0.0, 0.5], 2.0, 50.0);
-        let costs = trade.evaluations();
-        let front = trade.front(&costs);
-        let chosen: Vec<&TradePoint> = trade
-            .rows
-            .iter()
-            .zip(&front)
-            .filter(|(_, front)| **front)
-            .map(|(row, _)| row)
-            .collect();
+        let trade = &trade([-0.1, 0.0, 0.0, 0.5], 2.0, 50.0);
+        let front = |cost| trade.rows.iter().filter(move |row| trade.is_best(row, cost));
+        let chosen: Vec<&TradePoint> = front(TradePoint::evaluations).collect();
         assert!(chosen.iter().any(|row| row.problem.method == Method::Exact));
         assert!(chosen.iter().all(|row| row.agrees()));
         // Three evaluations to the last digit: only what equals them is left.
         assert!(chosen.iter().all(|row| row.method == Method::Exact), "{chosen:?}");
         // If everything cost the same, the smallest error would be best.
-        let same = trade.front(&vec![1.0; costs.len()]);
-        let errors = trade.rows.iter().zip(&same).filter(|(_, front)| **front);
-        let errors: Vec<f64> = errors.filter_map(|(row, _)| row.error()).collect();
+        let errors: Vec<f64> = front(|_| 1.0).filter_map(TradePoint::error).collect();
         assert!(!errors.is_empty() && errors.iter().all(|error| *error == errors[0]));
     }
 

@@ -2,9 +2,7 @@
 
 use clap::Args;
 
-use super::{
-    Certify, Failure, MachineCase, Output, SourceOptions, in_turn, number, second, timed, troubled,
-};
+use super::{Certify, Failure, Output, SourceOptions, in_turn, number, second, timed, troubled};
 use crate::accuracy::trade::Trade;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, MotionUnits, Outcome, Problem, Trajectory, follow};
@@ -27,35 +25,51 @@ struct MotionOptions {
     until: Option<String>,
 }
 
+/// The motion that is asked for.
+struct AskedMotion {
+    about: About,
+    problem: Problem,
+    /// That of a machine, whose motions are in SI units; `None` for the oscillator of the paper.
+    model: Option<Model>,
+}
+
 impl MotionOptions {
-    /// The end that is asked for.
-    fn end(&self) -> Result<Option<f64>, Failure> {
-        number("--until", self.until.as_ref(), self.source.numbers().until)
-    }
-
-    /// The motion of a machine, if it is about one.
-    fn of_machine(&self) -> Result<Option<MachineCase>, Failure> {
-        let Some(mut case) = self.source.machine()? else { return Ok(None) };
-        case.described.problem.until = self.end()?.unwrap_or(case.described.problem.until);
-        case.checked().map(Some)
-    }
-
-    /// The motion of a machine, by the method and to the tolerance that are asked for or else its own.
-    fn problem_of_machine(&self, case: &MachineCase, model: &Model) -> Result<Problem, Failure> {
-        let MachineProblem { start: (q, v), until, .. } = case.described.problem;
+    /// The motion of the scene with this name, or of the scene or the machine among the options. That of a machine is
+    /// followed by the method and to the tolerance that are asked for or else its own.
+    fn asked(&self, named: Option<&str>) -> Result<AskedMotion, Failure> {
         let start = &self.source.start;
+        let end = number("--until", self.until.as_ref(), self.source.numbers().until)?;
+        let Some(mut case) = self.source.machine()? else {
+            let problem = start.scene(named)?.problem;
+            let problem = Problem { until: end.unwrap_or(problem.until), ..problem };
+            let about = About::oscillator(&problem.parameters);
+            return Ok(AskedMotion { about, problem, model: None });
+        };
+        case.described.problem.until = end.unwrap_or(case.described.problem.until);
+        let case = case.checked()?;
+        let MachineProblem { subject, start: (q, v), until, .. } = &case.described.problem;
+        let model = subject.model().map_err(troubled)?;
         let way = second(start.method)?;
         let own = if way.is_some() { Knob::Tolerance.usual() } else { model.tolerance };
-        let tolerance = start.tol.unwrap_or(own);
-        let (method, initial) = (way.unwrap_or(Method::Taylor), State { q, v });
-        Ok(Problem { initial, until, method, tolerance, ..Problem::default() })
+        let problem = Problem {
+            initial: State { q: *q, v: *v },
+            until: *until,
+            method: way.unwrap_or(Method::Taylor),
+            tolerance: start.tol.unwrap_or(own),
+            ..Problem::default()
+        };
+        Ok(AskedMotion { about: case.about(), problem, model: Some(model) })
     }
+}
 
-    /// The motion of the scene with this name, or of the one among the options.
-    fn problem(&self, named: Option<&str>) -> Result<Problem, Failure> {
-        let mut problem = self.source.start.scene(named)?.problem;
-        problem.until = self.end()?.unwrap_or(problem.until);
-        Ok(problem)
+impl AskedMotion {
+    /// Follows the motion, as a problem that may have another method or accuracy.
+    fn follow(&self, problem: &Problem, energy: bool) -> Trajectory {
+        let detail = Detail { energy, ..Detail::default() };
+        match &self.model {
+            Some(model) => follow(model, problem, MotionUnits::physical(model), detail),
+            None => trajectory(problem, detail, &Limits::PATIENT),
+        }
     }
 }
 
@@ -70,47 +84,27 @@ pub struct TrajectoryCommand {
 
 impl TrajectoryCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        if let Some(case) = self.asked.of_machine()? {
-            return self.of_machine(&case);
+        let (asked, output) = (self.asked.asked(None)?, &self.asked.output);
+        let (problem, is_machine) = (&asked.problem, asked.model.is_some());
+        let (mut found, seconds) = timed(output.repeat, || asked.follow(problem, is_machine));
+        // The energy ledger of the oscillator only checks the motion and is no part of its cost, so it is computed in a
+        // second run.
+        if !is_machine && !matches!(found.outcome, Outcome::GaveUp { .. }) {
+            found = asked.follow(problem, true);
         }
-        let output = &self.asked.output;
-        let problem = self.asked.problem(None)?;
-        let follow = |energy| {
-            let detail = Detail { energy, ..Detail::default() };
-            trajectory(&problem, detail, &Limits::PATIENT)
-        };
-        // The energy ledger only checks the motion and is no part of its cost, so it is computed in a second run.
-        let (mut found, seconds) = timed(output.repeat, || follow(false));
-        if !matches!(found.outcome, Outcome::GaveUp { .. }) {
-            found = follow(true);
-        }
-        let State { q, v } = problem.initial;
         let enclose = || {
-            let start = [q, v].map(Interval::point);
+            let start = [problem.initial.q, problem.initial.v].map(Interval::point);
             enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
         };
-        let certified = self.certify.ask(enclose);
-        let about = About::oscillator(&problem.parameters);
-        output.print(motion::motion(&about, &found, certified.as_ref(), seconds))?;
+        let certified = (!is_machine).then(|| self.certify.ask(enclose)).flatten();
+        output.print(motion::motion(&asked.about, &found, certified.as_ref(), seconds))?;
         match found.outcome {
-            Outcome::GaveUp { tau, reason } => {
-                let Problem { until, .. } = problem;
+            Outcome::GaveUp { tau, reason } if !is_machine => {
+                let until = problem.until;
                 Err(Failure::Unanswered(format!("gave up at tau = {tau:?} of {until:?}: {reason}")))
             }
-            _ => Ok(()),
+            outcome => outcome.answered().map_err(troubled),
         }
-    }
-
-    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let about = case.about();
-        let output = &self.asked.output;
-        let model = case.described.problem.subject.model().map_err(troubled)?;
-        let problem = self.asked.problem_of_machine(case, &model)?;
-        let detail = Detail { energy: true, ..Detail::default() };
-        let units = MotionUnits::physical(&model);
-        let (found, seconds) = timed(output.repeat, || follow(&model, &problem, units, detail));
-        output.print(motion::motion(&about, &found, None, seconds))?;
-        found.outcome.answered().map_err(troubled)
     }
 }
 
@@ -126,37 +120,20 @@ pub struct TradeCommand {
 
 impl TradeCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        let detail = Detail::default();
-        if let Some(case) = self.asked.of_machine()? {
-            let about = case.about();
-            let model = case.described.problem.subject.model().map_err(troubled)?;
-            let problem = self.asked.problem_of_machine(&case, &model)?;
-            let found = Trade::of_machine(&model, &problem).map_err(troubled)?;
-            let units = MotionUnits::physical(&model);
-            return self.tell(&about, found, |problem| follow(&model, problem, units, detail));
-        }
-        let problem = self.asked.problem(self.named.as_deref())?;
-        let found = Trade::of(&problem, &Limits::PATIENT).map_err(|reason| {
+        let (asked, output) = (self.asked.asked(self.named.as_deref())?, &self.asked.output);
+        let unmeasured = |reason| {
             Failure::Unanswered(format!("there is nothing to measure errors against: {reason}"))
-        })?;
-        let about = About::oscillator(&problem.parameters);
-        self.tell(&about, found, |problem| trajectory(problem, detail, &Limits::PATIENT))
-    }
-
-    /// Tells a trade with the times that its rows take when they are followed again.
-    fn tell(
-        &self,
-        about: &About,
-        found: Trade,
-        again: impl Fn(&Problem) -> Trajectory,
-    ) -> Result<(), Failure> {
-        let output = &self.asked.output;
+        };
+        let mut found = match &asked.model {
+            Some(model) => Trade::of_machine(model, &asked.problem).map_err(troubled)?,
+            None => Trade::of(&asked.problem, &Limits::PATIENT).map_err(unmeasured)?,
+        };
         let seconds = in_turn(output.repeat, found.rows.len(), |index| {
             // A row that was given up used its whole budget; it is not repeated.
             let row = &found.rows[index];
-            row.error().map(|_| again(&row.problem))
+            row.error().map(|_| asked.follow(&row.problem, false))
         });
-        let timed = trade::TimedTrade { trade: found, seconds };
-        output.print(trade::trade(about, &timed, || in_letters(&timed.trade, &timed.seconds)))
+        found.rows.iter_mut().zip(seconds).for_each(|(row, seconds)| row.seconds = seconds);
+        output.print(trade::trade(&asked.about, &found, || in_letters(&found)))
     }
 }

@@ -19,9 +19,8 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
             curves(picture, found);
         }
         if session.layers.contains(&Layer::Front) {
-            let front = found.front(&found.evaluations());
-            let best = found.rows.iter().zip(front).filter(|(_, front)| *front);
-            let at: Vec<Point> = best.filter_map(|(row, _)| place(row)).collect();
+            let is_best = |row: &&TradePoint| found.is_best(row, TradePoint::evaluations);
+            let at: Vec<Point> = found.rows.iter().filter(is_best).filter_map(place).collect();
             if !at.is_empty() {
                 let marks = Marks::new(Mark::Stable, Role::Special, at);
                 picture.items.push(Item::Marks(Marks { brief: "best choices", ..marks }));

@@ -16,13 +16,12 @@ const LETTERS: [char; METHODS.len()] = ['a', 'e', 't', '8', '5', '4', 'i', '~', 
 
 /// The logarithm of the error over that of the time; later methods lie below, the best choices are capitals.
 ///
-/// `seconds` are the times that the rows took. Empty where no row has both.
-pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
+/// Empty where no row has both.
+pub fn in_letters(trade: &Trade) -> String {
     const AREA: Rect = Rect { x: 0, y: 0, width: 78, height: 24 };
-    let front = trade.front(seconds);
     let mut points: Vec<(Point, char)> = Vec::new();
     let mut key: Vec<String> = Vec::new();
-    for ((row, seconds), front) in trade.rows.iter().zip(seconds).zip(front) {
+    for row in &trade.rows {
         let Ok(deviation) = row.deviation else { continue };
         let method = row.problem.method;
         let letter = LETTERS[method as usize];
@@ -30,9 +29,10 @@ pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
         if !key.contains(&entry) {
             key.push(entry);
         }
-        if deviation.error > 0.0 && *seconds > 0.0 {
-            let at = Point { x: log10(1e3 * seconds), y: log10(deviation.error) };
-            points.push((at, if front { letter.to_ascii_uppercase() } else { letter }));
+        if deviation.error > 0.0 && row.seconds > 0.0 {
+            let at = Point { x: log10(1e3 * row.seconds), y: log10(deviation.error) };
+            let is_best = trade.is_best(row, |row| row.seconds);
+            points.push((at, if is_best { letter.to_ascii_uppercase() } else { letter }));
         }
     }
     let around = |place: fn(&Point) -> f64| {

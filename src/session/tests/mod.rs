@@ -184,6 +184,7 @@ fn trade(cost: Cost) -> Trade {
         deviation: Ok(Deviation { error, time: 0.0, agrees: true }),
         turns: 3,
         cost: Cost { evaluations, ..cost },
+        seconds: 0.0,
     };
     let zero = Twofold::of(0.0);
     let reference = Reference {
