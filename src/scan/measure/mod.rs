@@ -3,8 +3,7 @@
 //! [`MEASURES`] is the one table: what a measure is called, what it means, which columns it fills and
 //! with which other it is computed. Each computation is done at most once for a point, however many measures rest on it.
 
-mod machine;
-mod oscillator;
+mod point;
 mod row;
 mod settling;
 mod table;
@@ -14,8 +13,6 @@ pub use table::{Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, Value,
 
 use crate::flow::{Limits, Problem, Reason};
 use crate::model::{Group, Knob, MachineProblem};
-use machine::MachinePoint;
-use oscillator::OscillatorPoint;
 use row::Cells;
 
 /// What is scanned: a motion of the oscillator of the paper, or of a machine by its whole model.
@@ -62,17 +59,21 @@ pub fn measure(
     conditions: &Conditions,
     limits: &Limits,
 ) -> Result<ScanRow, Reason> {
-    let mut cells = Cells::new(measures, conditions);
-    let wanted = computed(measures);
-    match source {
-        ScanSource::Oscillator(problem) => {
-            let mut point = OscillatorPoint::new(problem, limits);
-            cells.compute(wanted, limits, |measure, cells| point.compute(measure, cells))?;
-        }
-        ScanSource::Machine(problem) => {
-            let mut point = MachinePoint::new(problem);
-            let wanted = MachinePoint::computed(wanted);
-            cells.compute(wanted, limits, |measure, cells| point.compute(measure, cells))?;
+    let mut wanted = computed(measures);
+    // Of a machine cycles and margin are one computation, on which repeated kicks rest.
+    if matches!(source, ScanSource::Machine(_))
+        && (wanted.remove(&Measure::Margin) || wanted.contains(&Measure::Repeated))
+    {
+        wanted.insert(Measure::Cycles);
+    }
+    let stops = || if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(()) };
+    let mut cells = Cells::new(source, measures, conditions, limits);
+    for measure in wanted {
+        stops()?;
+        let computed = cells.compute(measure);
+        stops()?;
+        if let Err(why) = computed {
+            cells.reasons.push(format!("{}: {why}", measure.spec().name));
         }
     }
     Ok(cells.row())

@@ -1,16 +1,17 @@
 //! The row of a point while it is computed, and the cells that the oscillator of the paper and machines fill alike.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::error::Error;
 
+use super::ScanSource;
 use super::settling::Settling;
 use super::table::{CYCLES, Conditions, Measure, Value};
 use crate::flow::{Cost, Limits, Outcome, Reason, Trajectory};
 use crate::model::State;
 use crate::portrait::basin::StartWindow;
 use crate::portrait::basin::stability::Share;
-use crate::portrait::kicks::repeated::Repeated;
-use crate::portrait::{Cycle, Margin, Portrait};
+use crate::portrait::closing::pair::Closing;
+use crate::portrait::{Cycle, Cycles, Margin, Portrait};
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,36 +28,30 @@ pub(super) type Failed = Box<dyn Error>;
 
 /// A row that is being computed.
 pub(super) struct Cells<'a> {
+    pub source: &'a ScanSource,
     measures: &'a [Measure],
     pub conditions: &'a Conditions,
+    pub limits: &'a Limits<'a>,
     filled: BTreeMap<Measure, Vec<Value>>,
-    reasons: Vec<String>,
+    /// What gave up, and why.
+    pub reasons: Vec<String>,
     pub cost: Cost,
+    /// The cycles of the oscillator, once they are known.
+    pub known: Option<(Cycles, Vec<Closing>)>,
+    /// All motions of a machine, once they are known.
+    pub portrait: Option<Portrait>,
 }
 
 impl<'a> Cells<'a> {
-    pub fn new(measures: &'a [Measure], conditions: &'a Conditions) -> Self {
+    pub fn new(
+        source: &'a ScanSource,
+        measures: &'a [Measure],
+        conditions: &'a Conditions,
+        limits: &'a Limits<'a>,
+    ) -> Self {
         let (filled, reasons, cost) = Default::default();
-        Cells { measures, conditions, filled, reasons, cost }
-    }
-
-    /// Computes each of these, and all that is computed with it. Fails with [`Reason::Interrupted`], and no other.
-    pub fn compute(
-        &mut self,
-        wanted: BTreeSet<Measure>,
-        limits: &Limits,
-        mut compute: impl FnMut(Measure, &mut Self) -> Result<(), Failed>,
-    ) -> Result<(), Reason> {
-        let stops = || if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(()) };
-        for measure in wanted {
-            stops()?;
-            let computed = compute(measure, self);
-            stops()?;
-            if let Err(why) = computed {
-                self.reasons.push(format!("{}: {why}", measure.spec().name));
-            }
-        }
-        Ok(())
+        let (known, portrait) = (None, None);
+        Cells { source, measures, conditions, limits, filled, reasons, cost, known, portrait }
     }
 
     /// The row; columns that were not filled have no value.
@@ -89,6 +84,7 @@ impl<'a> Cells<'a> {
     /// How a motion ended, when and after how many half swings, and where it rests. Fails with why it was given up.
     pub fn motion(&mut self, found: &Trajectory) -> Result<(), Reason> {
         let (outcome, swings) = (found.outcome, Value::Count(found.crossings.len()));
+        self.cost += found.cost;
         let ended = outcome.answered().map(|()| [outcome.tau().into(), swings]);
         let word = Value::Word(outcome.word());
         self.fill(Measure::Outcome, || {
@@ -136,11 +132,6 @@ impl<'a> Cells<'a> {
     /// A fraction and its error, where it is known.
     fn share(&mut self, measure: Measure, share: impl FnOnce() -> Option<Share>) {
         self.fill(measure, || share().into_iter().flat_map(|it| [it.part, it.error]));
-    }
-
-    /// What becomes of repeated kicks.
-    pub fn repeated(&mut self, found: &Repeated) {
-        self.fill(Measure::Repeated, || [found.mean, found.later, found.error]);
     }
 
     /// When the starts of a window come to rest. Fails with why one of their motions was given up.
