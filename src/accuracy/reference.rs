@@ -6,6 +6,8 @@
 //! millions of swings) the closed form takes its place, or else an implicit run near rounding; then the
 //! difference of a further method from it is taken as its own error, and no smaller error can be measured.
 
+use thiserror::Error;
+
 use crate::flow::precise::{COARSE, FINE, precise};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{
@@ -69,32 +71,21 @@ pub struct Deviation {
 }
 
 /// Why a motion cannot be compared.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum NoComparison {
     /// It was given up.
+    #[error("gave up: {0}")]
     GaveUp(Reason),
     /// It escapes where the reference does not, or the other way round.
+    #[error("escapes where the motion does not, or misses it")]
     OtherFate,
     /// The motion of a machine stands still more or less often than the reference.
+    #[error("not the same standstills")]
     OtherTurns,
     /// The motion of a machine escapes as the reference does, and neither has a standstill before that.
+    #[error("escapes with no standstill to compare")]
     NoTurns,
 }
-
-impl std::fmt::Display for NoComparison {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            NoComparison::GaveUp(reason) => write!(out, "gave up: {reason}"),
-            NoComparison::OtherFate => {
-                write!(out, "escapes where the motion does not, or misses it")
-            }
-            NoComparison::OtherTurns => write!(out, "not the same standstills"),
-            NoComparison::NoTurns => write!(out, "escapes with no standstill to compare"),
-        }
-    }
-}
-
-impl std::error::Error for NoComparison {}
 
 impl Reference {
     /// The reference for a motion; method and tolerance of the problem are not looked at. Fails with [`Reason`]

@@ -4,16 +4,21 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::{fmt, io};
 
+use thiserror::Error;
+
 use super::standard::tell;
 
 /// Why a command has no answer.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub enum Failure {
     /// The input is wrong; exit code 2.
+    #[error("{0}")]
     Usage(String),
     /// The answer could not be computed or shown; exit code 1.
+    #[error("{0}")]
     Unanswered(String),
     /// All has been said; this is the exit code.
+    #[error("exit code {0}")]
     Said(u8),
 }
 
@@ -60,14 +65,5 @@ impl Failure {
         };
         tell(self);
         ExitCode::from(code)
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Failure::Usage(line) | Failure::Unanswered(line) => out.write_str(line),
-            Failure::Said(code) => write!(out, "exit code {code}"),
-        }
     }
 }

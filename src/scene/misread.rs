@@ -1,14 +1,15 @@
 //! Mistakes in files that people write: one line, `file:line:column: message`.
 
-use std::fmt;
 use std::ops::Range;
 
 use serde::de::DeserializeOwned;
+use thiserror::Error;
 
 use crate::words::printable;
 
 /// A mistake in a file, and its place.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{}:{line}:{column}: {}", printable::line(.file), printable::line(.message))]
 pub struct Misread {
     pub file: String,
     /// Line, from 1.
@@ -18,15 +19,6 @@ pub struct Misread {
     /// What is wrong and what is allowed, in one line.
     pub message: String,
 }
-
-impl fmt::Display for Misread {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { file, line, column, message } = self;
-        write!(out, "{}:{line}:{column}: {}", printable::line(file), printable::line(message))
-    }
-}
-
-impl std::error::Error for Misread {}
 
 /// A complaint about a part of a text, given as a range of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]

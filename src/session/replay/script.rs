@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use thiserror::Error;
+
 use crate::scene::Point;
 use crate::session::{Gesture, Key, Msg, Pointed, PointerTarget};
 use crate::words::printable;
@@ -24,7 +26,8 @@ pub(super) const GESTURES: [(Gesture, &str); 3] =
 
 /// Why a text is no keystroke file, or why its replay ends early: the screen does not show an expected text, or there
 /// are too many keys.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("line {line}, column {column}: {}", printable::line(.why))]
 pub struct ScriptError {
     /// Line, from 1; of keys from another file, that of the step that plays them.
     pub line: usize,
@@ -33,15 +36,6 @@ pub struct ScriptError {
     /// What is wrong and what is allowed, in one line.
     pub why: String,
 }
-
-impl fmt::Display for ScriptError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { line, column, why } = self;
-        write!(out, "line {line}, column {column}: {}", printable::line(why))
-    }
-}
-
-impl std::error::Error for ScriptError {}
 
 /// Why a file with more steps is not run.
 pub(super) fn too_long() -> String {
