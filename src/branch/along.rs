@@ -24,7 +24,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::continuation::{CurvePlace, CurvePoint, CycleCurve, covers, is_beside, passes};
+use super::continuation::{CurvePlace, CurvePoint, CycleCurve, Tangent, covers, is_beside, passes};
 use super::escape::{escape_point, escape_product};
 use super::special::{Special, SpecialKind, vanishing};
 use crate::closed_form::piecewise_linear::LinearCycle;
@@ -275,7 +275,7 @@ impl CurveTracer<'_> {
         let border = if outside.p > to { to } else { from };
         let fraction = (border - inside.p) / (outside.p - inside.p);
         let u = inside.u + fraction * (outside.u - inside.u);
-        let found = self.curve.at_parameter(border, u, inside.route())?;
+        let found = self.curve.correct((u, border), Tangent::ACROSS_U, inside.route())?;
         let scale = self.curve.scale;
         Ok(found.filter(|it| is_beside([inside, outside], (it.u, it.p), scale)))
     }
@@ -328,7 +328,7 @@ impl CurveTracer<'_> {
             if (one.p < 0.0) != (other.p < 0.0) {
                 let u = one.u - one.p * (other.u - one.u) / (other.p - one.p);
                 let route = Route::contracting(0.5 * (one.log_multiplier + other.log_multiplier));
-                found.extend(self.curve.at_parameter(0.0, u, route)?);
+                found.extend(self.curve.correct((u, 0.0), Tangent::ACROSS_U, route)?);
             }
         }
         for point in &found {

@@ -8,60 +8,21 @@
 
 mod trace;
 
-pub use trace::{Band, ChartLine};
+pub use trace::{Band, ChartLine, Plane, Resolution};
 use trace::{HALVINGS, Tracer, values};
 
 use super::regime::Regime;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters};
 
-/// What a chart is drawn over: two different ones of D, D2, D3, r, and their ranges.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plane {
-    /// The parameter to the right.
-    pub right: Knob,
-    /// The parameter upwards.
-    pub up: Knob,
-    pub right_range: (f64, f64),
-    /// Range of the one upwards.
-    pub up_range: (f64, f64),
-}
-
 /// A chart of regimes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
     /// What it is drawn over.
     pub plane: Plane,
-    /// The parameter along which lines run.
-    pub along: Knob,
     /// The lines, by the value of the other parameter.
     pub lines: Vec<ChartLine>,
     pub cost: Cost,
-}
-
-impl Plane {
-    /// The parameter along which lines run: D where it is one of the two, else the one that moves a fold
-    /// from everywhere to everywhere.
-    pub fn along(&self) -> Knob {
-        let has = |symbol: Knob| self.right == symbol || self.up == symbol;
-        [Knob::D, Knob::R, Knob::D3].into_iter().find(|&symbol| has(symbol)).unwrap_or(self.up)
-    }
-
-    fn range(&self, symbol: Knob) -> (f64, f64) {
-        if symbol == self.right { self.right_range } else { self.up_range }
-    }
-}
-
-/// How finely a chart is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Resolution {
-    /// Lines that it has in any case, about.
-    pub lines: usize,
-    /// Largest distance between a boundary and its chord from line to line, as a fraction of the range; where
-    /// it is more, further lines are drawn between. Infinite: none are.
-    pub chord: f64,
-    /// Relative error of the clearance at a fold; that of the boundaries is at most a hundred times this.
-    pub tolerance: f64,
 }
 
 /// Draws a chart; the two parameters of the plane do not matter. Fails with [`Reason::Interrupted`], or
@@ -76,29 +37,17 @@ pub fn chart(
     if plane.right == plane.up || !charted(plane.right) || !charted(plane.up) {
         return Err(Reason::NotApplicable { needs: "two different ones of D, D2, D3, r" });
     }
-    let along = plane.along();
-    let across = if along == plane.right { plane.up } else { plane.right };
-    let mut tracer = Tracer {
-        parameters: *parameters,
-        along,
-        across,
-        range: plane.range(along),
-        across_range: plane.range(across),
-        limits,
-        cost: Cost::default(),
-        tolerance: resolution.tolerance,
-        ratio: 1.0,
-        known: None,
-    };
-    let mut lines: Vec<ChartLine> = Vec::new();
+    let (parameters, across, cost) = (*parameters, plane.across(), Cost::default());
+    let (lines, ratio, known) = (Vec::new(), 1.0, None);
+    let mut tracer = Tracer { parameters, plane, resolution, limits, lines, cost, ratio, known };
     for at in values(across, plane.range(across), resolution.lines) {
         let line = tracer.line(at)?;
-        if let Some(before) = lines.last().cloned() {
-            tracer.between(&before, &line, resolution.chord, HALVINGS, &mut lines)?;
+        if let Some(before) = tracer.lines.last().cloned() {
+            tracer.between(&before, &line, HALVINGS)?;
         }
-        lines.push(line);
+        tracer.lines.push(line);
     }
-    Ok(Chart { plane, along, lines, cost: tracer.cost })
+    Ok(Chart { plane, lines: tracer.lines, cost: tracer.cost })
 }
 
 impl Chart {
@@ -118,14 +67,15 @@ impl Chart {
 
     /// The point (right, up) at a place on a line.
     pub fn point(&self, at: f64, along: f64) -> (f64, f64) {
-        if self.along == self.plane.right { (along, at) } else { (at, along) }
+        if self.plane.along() == self.plane.right { (along, at) } else { (at, along) }
     }
 
     /// The regime at a point (right, up); `None` outside and where it could not be found out.
     ///
     /// Between two lines with the same bands their ends are interpolated; else the nearer line counts.
     pub fn regime_at(&self, right: f64, up: f64) -> Option<Regime> {
-        let (at, along) = if self.along == self.plane.right { (up, right) } else { (right, up) };
+        let (at, along) =
+            if self.plane.along() == self.plane.right { (up, right) } else { (right, up) };
         let after = self.lines.partition_point(|line| line.at < at);
         let (before, after) = (self.lines.get(after.wrapping_sub(1)), self.lines.get(after));
         let (Some(before), Some(after)) = (before, after) else {

@@ -220,16 +220,6 @@ impl<'a> CycleCurve<'a> {
         Ok(closing?.node.value())
     }
 
-    /// The cycle at exactly `p`, near `u`.
-    pub fn at_parameter(
-        &mut self,
-        p: f64,
-        u: f64,
-        route: Route,
-    ) -> Result<Option<CurvePoint>, Reason> {
-        self.correct((u, p), Tangent::ACROSS_U, route)
-    }
-
     /// Where the line between or beyond two points leads after `length` from the second one.
     pub fn ahead(&self, point: &CurvePoint, tangent: Tangent, length: f64) -> (f64, f64) {
         (point.u + UNIT_OF_U * tangent.u * length, point.p + self.scale * tangent.p * length)

@@ -256,7 +256,7 @@ pub fn parted(plane: Plane) -> Chart {
         ChartLine { at, bands, fold: Some(fold), harmonic, escape: None, failure: None }
     };
     let cost = Cost { evaluations: 9_000, steps: 300, rejected: 0 };
-    Chart { plane, along: plane.right, lines: (0..=20).map(line).collect(), cost }
+    Chart { plane, lines: (0..=20).map(line).collect(), cost }
 }
 
 /// What accuracy costs on a short motion, computed once and for all.

@@ -22,7 +22,7 @@ fn drawn(parameters: &Parameters, plane: Plane, count: usize) -> Chart {
 
 /// Every band of every line against the regime computed at its middle.
 fn bands_are_right(parameters: &Parameters, chart: &Chart) {
-    let across = if chart.along == chart.plane.right { chart.plane.up } else { chart.plane.right };
+    let across = chart.plane.across();
     let mut checked = 0;
     for line in &chart.lines {
         assert_eq!(line.failure, None, "{line:?}");
@@ -36,7 +36,7 @@ fn bands_are_right(parameters: &Parameters, chart: &Chart) {
                 symbol.set(&mut here, &mut State { q: 0.0, v: 0.0 }, value);
             };
             set(across, line.at);
-            set(chart.along, 0.5 * (band.from + band.to));
+            set(chart.plane.along(), 0.5 * (band.from + band.to));
             let expected = regime(&here, &Limits::PATIENT).unwrap();
             assert_eq!(band.regime, Some(expected), "{here:?}");
             checked += 1;
@@ -48,7 +48,7 @@ fn bands_are_right(parameters: &Parameters, chart: &Chart) {
 #[test]
 fn over_d_the_boundaries_are_the_known_folds_and_escape_points() {
     let over_r = drawn(&PLAIN, plane(Knob::D, (-0.5, 0.1), Knob::R, (0.1, 0.2)), 4);
-    assert_eq!(over_r.along, Knob::D);
+    assert_eq!(over_r.plane.along(), Knob::D);
     let parameters = Parameters { r: 0.1, ..PLAIN };
     let known = fold(&parameters, &Limits::PATIENT).unwrap().0.unwrap().d;
     assert_eq!(over_r.lines[0].fold, Some(known));
@@ -74,7 +74,7 @@ fn without_d_the_fold_is_where_it_comes_to_the_given_d() {
     let known = fold(&Parameters { r: 0.1, ..PLAIN }, &Limits::PATIENT).unwrap().0.unwrap().d;
     let parameters = Parameters { d: known, ..PLAIN };
     let chart = drawn(&parameters, plane(Knob::R, (0.0, 0.5), Knob::D3, (-0.5, 2.0)), 10);
-    assert_eq!(chart.along, Knob::R);
+    assert_eq!(chart.plane.along(), Knob::R);
     let mut seen = 0;
     for line in chart.lines.iter().filter(|line| line.at > 0.0) {
         let product = powi(line.fold.unwrap(), 2) * line.at;

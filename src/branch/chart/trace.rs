@@ -43,17 +43,57 @@ pub(crate) fn values(symbol: Knob, range: (f64, f64), count: usize) -> Vec<f64> 
     values
 }
 
+/// What a chart is drawn over: two different ones of D, D2, D3, r, and their ranges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// The parameter to the right.
+    pub right: Knob,
+    /// The parameter upwards.
+    pub up: Knob,
+    pub right_range: (f64, f64),
+    /// Range of the one upwards.
+    pub up_range: (f64, f64),
+}
+
+impl Plane {
+    /// The parameter along which lines run: D where it is one of the two, else the one that moves a fold
+    /// from everywhere to everywhere.
+    pub fn along(&self) -> Knob {
+        let has = |symbol: Knob| self.right == symbol || self.up == symbol;
+        [Knob::D, Knob::R, Knob::D3].into_iter().find(|&symbol| has(symbol)).unwrap_or(self.up)
+    }
+
+    /// The other parameter, at a value of which each line stands.
+    pub fn across(&self) -> Knob {
+        if self.along() == self.right { self.up } else { self.right }
+    }
+
+    pub fn range(&self, symbol: Knob) -> (f64, f64) {
+        if symbol == self.right { self.right_range } else { self.up_range }
+    }
+}
+
+/// How finely a chart is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resolution {
+    /// Lines that it has in any case, about.
+    pub lines: usize,
+    /// Largest distance between a boundary and its chord from line to line, as a fraction of the range; where
+    /// it is more, further lines are drawn between. Infinite: none are.
+    pub chord: f64,
+    /// Relative error of the clearance at a fold; that of the boundaries is at most a hundred times this.
+    pub tolerance: f64,
+}
+
 /// Draws lines one after the other; each helps to find the fold on the next.
 pub(crate) struct Tracer<'a> {
     pub parameters: Parameters,
-    pub along: Knob,
-    pub across: Knob,
-    pub range: (f64, f64),
-    pub across_range: (f64, f64),
+    pub plane: Plane,
+    pub resolution: Resolution,
     pub limits: &'a Limits<'a>,
+    /// Those that are drawn, by their values.
+    pub lines: Vec<ChartLine>,
     pub cost: Cost,
-    /// Relative error of the clearance at a fold.
-    pub tolerance: f64,
     /// The fold in units of the harmonic one, on the line before.
     pub ratio: f64,
     /// The fold found last.
@@ -66,18 +106,19 @@ impl Tracer<'_> {
         &mut self,
         before: &ChartLine,
         after: &ChartLine,
-        chord: f64,
         halvings: u32,
-        lines: &mut Vec<ChartLine>,
     ) -> Result<(), Reason> {
+        let chord = self.resolution.chord;
         let through_zero = before.at < 0.0 && after.at > 0.0;
         let failed = before.failure.is_some() || after.failure.is_some();
         if halvings == 0 || chord.is_infinite() || through_zero || failed {
             return Ok(());
         }
         let middle = self.line(f64::midpoint(before.at, after.at))?;
-        let (width, height) =
-            (self.range.1 - self.range.0, self.across_range.1 - self.across_range.0);
+        let [width, height] = [self.plane.along(), self.plane.across()].map(|knob| {
+            let (from, to) = self.plane.range(knob);
+            to - from
+        });
         let bent = [|line: &ChartLine| line.fold, |line: &ChartLine| line.escape].into_iter().any(
             |boundary| {
                 let [Some(from), Some(middle), Some(to)] = [before, &middle, after].map(boundary)
@@ -89,18 +130,18 @@ impl Tracer<'_> {
             },
         );
         if bent || !before.alike(after) {
-            self.between(before, &middle, chord, halvings - 1, lines)?;
-            lines.push(middle.clone());
-            self.between(&middle, after, chord, halvings - 1, lines)?;
+            self.between(before, &middle, halvings - 1)?;
+            self.lines.push(middle.clone());
+            self.between(&middle, after, halvings - 1)?;
         }
         Ok(())
     }
 
     /// The line at this value of the other parameter.
     pub fn line(&mut self, at: f64) -> Result<ChartLine, Reason> {
-        let here = self.parameters.with(self.across, at);
+        let here = self.parameters.with(self.plane.across(), at);
         let harmonic = self.harmonic(&here);
-        let boundaries = if self.along == Knob::D {
+        let boundaries = if self.plane.along() == Knob::D {
             self.boundaries_in_d(&here)
         } else {
             self.boundaries_at_d(&here)
@@ -123,7 +164,7 @@ impl Tracer<'_> {
 
     /// The fold next to a guess, while `symbol` varies.
     fn fold_near(&mut self, guess: &FoldGuess, symbol: Knob) -> Result<Option<Parameters>, Reason> {
-        let (found, cost) = fold_near(guess, symbol, self.tolerance, self.limits)?;
+        let (found, cost) = fold_near(guess, symbol, self.resolution.tolerance, self.limits)?;
         self.cost += cost;
         self.known = found.or(self.known);
         Ok(found.map(|found| found.parameters))
@@ -136,7 +177,7 @@ impl Tracer<'_> {
         {
             return Ok(found.d);
         }
-        let (found, cost) = fold_within(parameters, self.tolerance, self.limits)?;
+        let (found, cost) = fold_within(parameters, self.resolution.tolerance, self.limits)?;
         self.cost += cost;
         found
             .map(|found| found.d)
@@ -157,8 +198,9 @@ impl Tracer<'_> {
         }
         let strong = harmonic::fold(here.d3, here.r).is_none_or(|fold| fold.d < DOUBTFUL)
             || here.r * here.d2.abs() > -DOUBTFUL;
-        if strong && self.range.0 >= -1.0 {
-            let end = Parameters { d: self.range.0.max(CRITICAL), ..*here };
+        let least = self.plane.range(Knob::D).0;
+        if strong && least >= -1.0 {
+            let end = Parameters { d: least.max(CRITICAL), ..*here };
             let found = cycles(&end, self.limits)?;
             self.cost += found.cost;
             if found.cycles.is_empty() {
@@ -175,7 +217,7 @@ impl Tracer<'_> {
         if d >= 0.0 {
             return nowhere;
         }
-        if self.along == Knob::D3 {
+        if self.plane.along() == Knob::D3 {
             if r == 0.0 {
                 return nowhere;
             }
@@ -216,32 +258,33 @@ impl Tracer<'_> {
         let d = here.d;
         let Some(guess) = self.harmonic(here) else { return Ok(None) };
         let guess = guess * self.ratio;
-        let near = here.with(self.along, guess);
+        let near = here.with(self.plane.along(), guess);
         let beside = match &self.known {
             Some(known) => FoldGuess::beside(known, &near),
             None => FoldGuess::in_damping(&near),
         };
         if let Some(beside) = beside
-            && let Some(found) = self.fold_near(&beside.moved_to(&near), self.along)?
+            && let Some(found) = self.fold_near(&beside.moved_to(&near), self.plane.along())?
         {
-            return Ok(Some(found.value(self.along)));
+            return Ok(Some(found.value(self.plane.along())));
         }
         let excess = |tracer: &mut Self, z: f64| -> Result<f64, Reason> {
-            let found = tracer.fold(&here.with(tracer.along, exp(z)))?;
+            let found = tracer.fold(&here.with(tracer.plane.along(), exp(z)))?;
             Ok(ln(found / d))
         };
-        root(ln(guess), STRIDE, SLACK * self.tolerance, |z| excess(self, z)).map(|z| Some(exp(z)))
+        root(ln(guess), STRIDE, SLACK * self.resolution.tolerance, |z| excess(self, z))
+            .map(|z| Some(exp(z)))
     }
 
     /// The fold of one harmonic (48) on the line.
     fn harmonic(&self, here: &Parameters) -> Option<f64> {
         let Parameters { d, d3, r, .. } = *here;
-        if self.along == Knob::D {
+        if self.plane.along() == Knob::D {
             return harmonic::fold(d3, r).map(|fold| fold.d);
         }
         // (48) solved for r^2 D3.
         let product = 8.0 * powi(-d, 3) * powi(std::f64::consts::PI / 9.0, 2);
-        let value = match self.along {
+        let value = match self.plane.along() {
             Knob::D3 => product / (r * r),
             _ => (product / d3).sqrt(),
         };
@@ -250,9 +293,9 @@ impl Tracer<'_> {
 
     /// The bands between the boundaries within the range.
     fn bands(&self, here: &Parameters, boundaries: Boundaries, failed: bool) -> Vec<Band> {
-        let (from, to) = self.range;
+        let (from, to) = self.plane.range(self.plane.along());
         let inside = |value: &f64| *value > from && *value < to;
-        let fixed = match self.along {
+        let fixed = match self.plane.along() {
             Knob::D => vec![-1.0, 0.0],
             _ => vec![0.0],
         };
@@ -279,12 +322,12 @@ impl Tracer<'_> {
         boundaries: Boundaries,
         failed: bool,
     ) -> Option<Regime> {
-        let parameters = here.with(self.along, value);
+        let parameters = here.with(self.plane.along(), value);
         let Parameters { d, d3, r, .. } = parameters;
         if failed && d < 0.0 && d3 >= 0.0 && r > 0.0 {
             return None;
         }
-        if self.along == Knob::D {
+        if self.plane.along() == Knob::D {
             return Some(Regime::of(&parameters, boundaries[0], boundaries[1]));
         }
         // A line that crosses a boundary at the given D lies below the boundary in D before it.

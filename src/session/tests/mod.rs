@@ -297,8 +297,7 @@ pub fn by_hand(request: &Request) -> Finding {
             Finding::Speeds(MachineBranch { cost, ..MachineBranch::default() })
         }
         Request::Regimes { plane, .. } => {
-            let along = plane.along();
-            Finding::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
+            Finding::Regimes(Chart { plane: *plane, lines: Vec::new(), cost })
         }
         Request::Scan { scan, from } => {
             Finding::Scan(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
