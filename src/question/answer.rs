@@ -1,5 +1,7 @@
 //! Answers, how they are computed, and by which means.
 
+use thiserror::Error;
+
 use super::fit::Fit;
 use super::request::Request;
 use super::whole::{self, WholeCycles, WholeMotion};
@@ -12,12 +14,10 @@ use crate::branch::along::{Points, branch};
 use crate::branch::chart::{Chart, Plane, Resolution, chart};
 use crate::branch::machine::MachineBranch;
 use crate::flow::quality::DRAFT;
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Limits, Problem, Reason, Trajectory};
+use crate::flow::{Cost, Limits, Reason, Trajectory};
 use crate::model::{Belt, Knob, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::basin::capture::bands;
-use crate::portrait::basin::cycle::cycles_drawn;
 use crate::portrait::basin::stability::Share;
 use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Cycles, Portrait, ReturnMap};
@@ -91,21 +91,14 @@ pub struct Answered {
 }
 
 /// Why a request has no answer.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum NoAnswer {
     /// The computation gave up.
+    #[error("{0}")]
     Reason(Reason),
     /// The computation panicked with this message: a defect of the program.
+    #[error("internal error: {0}")]
     Panic(String),
-}
-
-impl std::fmt::Display for NoAnswer {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            NoAnswer::Reason(reason) => write!(out, "{reason}"),
-            NoAnswer::Panic(message) => write!(out, "internal error: {message}"),
-        }
-    }
 }
 
 /// Consecutive rows of a scan.
@@ -200,10 +193,14 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason
         Request::Fit { recording } => Finding::Fit(Fit::of(recording, limits, &|_| ())?),
         Request::Refit { fit, held, drawn } => Finding::Refit(fit.held(*held, *drawn, limits)?),
         Request::Trajectory { problem, machine } => {
-            motion(problem, machine.as_deref(), fineness.points(16), limits)?
+            let points = fineness.points(16);
+            let (drawn, course) = whole::motion(problem, machine.as_deref(), points, limits)?;
+            Finding::Trajectory(drawn, course)
         }
         Request::Cycles { parameters, machine, whole } => {
-            cycles(parameters, machine.as_deref(), *whole, means)?
+            let machine = machine.as_deref();
+            let (drawn, known) = whole::cycles(parameters, machine, *whole, points, limits)?;
+            Finding::Cycles(drawn, known)
         }
         Request::Zones(subject) => Finding::Zones(zones(subject, points, limits)?),
         Request::Kicks { parameters, kicks } => {
@@ -246,38 +243,6 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason
             found => Finding::Reference(found.map(Box::new)),
         },
     })
-}
-
-/// A motion, with `points` on each step: of the paper's oscillator, or of a machine by the whole model.
-fn motion(
-    problem: &Problem,
-    machine: Option<&Belt>,
-    points: u16,
-    limits: &Limits,
-) -> Result<Finding, Reason> {
-    let Some(belt) = machine else {
-        // Without friction, nothing happens at v = 0, so crossings are not located.
-        let crossings = problem.parameters.r > 0.0;
-        let detail = Detail { crossings, samples_per_step: points.into(), energy: true };
-        return Ok(Finding::Trajectory(trajectory(problem, detail, limits), None));
-    };
-    let (drawn, course) = whole::motion(belt, problem, points.into())?;
-    Ok(Finding::Trajectory(drawn, Some(Box::new(course))))
-}
-
-/// The cycles of the paper's oscillator, or those of a machine: by the `whole` model, or by its cubic expansion.
-fn cycles(
-    parameters: &Parameters,
-    machine: Option<&Belt>,
-    whole: bool,
-    Resources { fineness, limits, .. }: &Resources,
-) -> Result<Finding, Reason> {
-    let points = fineness.points_per_step();
-    let Some(belt) = machine else {
-        return Ok(Finding::Cycles(cycles_drawn(parameters, points, limits)?, None));
-    };
-    let (drawn, cycles) = whole::portrait(belt, parameters, whole, points, limits)?;
-    Ok(Finding::Cycles(drawn, cycles.map(Box::new)))
 }
 
 /// The chart over two parameters, of a few lines if it is a `rough` draft.

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use strum::{EnumDiscriminants, IntoStaticStr, VariantArray};
 
 use super::fit::{Fit, Recording, Unsure};
@@ -17,13 +17,6 @@ use crate::scan::grid::Scan;
 
 /// Every topic, the most urgent first.
 pub const TOPICS: &[Topic] = Topic::VARIANTS;
-
-impl Serialize for Topic {
-    /// Serializes as the name on the screen.
-    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        out.serialize_str(self.name())
-    }
-}
 
 impl Topic {
     /// The name on the screen.
@@ -42,9 +35,10 @@ impl Topic {
 /// name on the screen.
 #[derive(Clone, Debug, PartialEq, EnumDiscriminants)]
 #[strum_discriminants(name(Topic), derive(Hash, PartialOrd, Ord, IntoStaticStr, VariantArray))]
+#[strum_discriminants(strum(serialize_all = "lowercase"), derive(Serialize))]
+#[strum_discriminants(serde(into = "&'static str"))]
 pub enum Request {
     /// The fit of the oscillator to a record, and the margin that follows.
-    #[strum_discriminants(strum(serialize = "fit"))]
     Fit { recording: Recording },
     /// The fit with some numbers held.
     #[strum_discriminants(strum(serialize = "fit"))]
@@ -66,7 +60,6 @@ pub enum Request {
         machine: Option<Arc<Belt>>,
     },
     /// All cycles, with their curves and the border of the basin.
-    #[strum_discriminants(strum(serialize = "cycles"))]
     Cycles {
         /// The parameters; of a machine, those of its cubic expansion.
         parameters: Parameters,
@@ -79,7 +72,6 @@ pub enum Request {
     #[strum_discriminants(strum(serialize = "certainty"))]
     Zones(UncertainSubject),
     /// The fraction of random kicks that is lost.
-    #[strum_discriminants(strum(serialize = "kicks"))]
     Kicks {
         parameters: Parameters,
         /// The density of the kicks.
@@ -95,7 +87,6 @@ pub enum Request {
         most: usize,
     },
     /// The cycles along a parameter.
-    #[strum_discriminants(strum(serialize = "branch"))]
     Branch {
         /// The parameters; the one that varies is set to 0, so that stepping it leaves the request unchanged.
         parameters: Parameters,
@@ -121,7 +112,6 @@ pub enum Request {
         range: (f64, f64),
     },
     /// The fate of kicks over two parameters.
-    #[strum_discriminants(strum(serialize = "regimes"))]
     Regimes {
         /// The parameters; the two that vary are set to 0, so that stepping them leaves the request unchanged.
         parameters: Parameters,
@@ -131,7 +121,6 @@ pub enum Request {
         rough: bool,
     },
     /// The cycles of a machine over the speed of its belt.
-    #[strum_discriminants(strum(serialize = "speeds"))]
     Speeds {
         /// The machine; its own belt speed is set to 1, so that stepping it leaves the request unchanged.
         belt: Arc<Belt>,
@@ -141,10 +130,8 @@ pub enum Request {
         rough: bool,
     },
     /// Accuracy against cost of every method on a motion, whose own method and accuracy are the usual ones.
-    #[strum_discriminants(strum(serialize = "trade"))]
     Trade(Problem),
     /// The rows of a scan that are still missing.
-    #[strum_discriminants(strum(serialize = "scan"))]
     Scan {
         scan: Arc<Scan>,
         /// Index of the first point wanted.
@@ -154,11 +141,9 @@ pub enum Request {
     #[strum_discriminants(strum(serialize = "paper"))]
     Claims,
     /// A proof of the number of cycles. Nothing waits for it; the screen shows it once it is there.
-    #[strum_discriminants(strum(serialize = "proof"))]
     Proof { parameters: Parameters },
     /// The reference against which errors are measured, a motion to more digits than any method yields, its own method
     /// and accuracy being the usual ones; the least urgent.
-    #[strum_discriminants(strum(serialize = "reference"))]
     Reference(Problem),
 }
 

@@ -1,6 +1,7 @@
 //! A machine by the whole model, drawn in the units of the paper's oscillator, so that every view that draws a
 //! motion or cycles draws these as well.
 
+use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
 use crate::model::{Belt, Model, Parameters};
 use crate::portrait::basin::cycle::picture_reach;
@@ -32,12 +33,20 @@ fn cycle(model: &Model, cycle: &Cycle) -> Cycle {
     cycle.scaled(1.0 / model.pull, 1.0 / model.omega_0)
 }
 
-/// The motion of a machine, with `between` points between the ends of each step.
+/// A motion with `between` points between the ends of each step: of the paper's oscillator, or of a machine by the whole
+/// model.
 pub fn motion(
-    belt: &Belt,
     problem: &Problem,
-    between: u32,
-) -> Result<(Trajectory, WholeMotion), Reason> {
+    machine: Option<&Belt>,
+    between: u16,
+    limits: &Limits,
+) -> Result<(Trajectory, Option<Box<WholeMotion>>), Reason> {
+    let Some(belt) = machine else {
+        // Without friction, nothing happens at v = 0, so crossings are not located.
+        let crossings = problem.parameters.r > 0.0;
+        let detail = Detail { crossings, samples_per_step: between.into(), energy: true };
+        return Ok((trajectory(problem, detail, limits), None));
+    };
     let portrait = survey::portrait(belt)?;
     let mut model = portrait.model.clone();
     model.tolerance = problem.tolerance;
@@ -47,7 +56,7 @@ pub fn motion(
         return Err(Reason::NotApplicable { needs });
     }
     let detail =
-        Detail { samples_per_step: between as usize + 1, energy: true, ..Detail::default() };
+        Detail { samples_per_step: usize::from(between) + 1, energy: true, ..Detail::default() };
     let mut found = follow(&model, problem, MotionUnits::of_paper(&model), detail);
     if found.ledger.is_none() {
         let by_series = Problem { method: Method::Taylor, ..*problem };
@@ -65,25 +74,26 @@ pub fn motion(
     };
     let course =
         WholeMotion { fate, cycle: tends.map(|it| cycle(&model, it)), border: portrait.border };
-    Ok((found, course))
+    Ok((found, Some(Box::new(course))))
 }
 
-/// The cycles of a machine with their curves, `points` on each step, and the border of the basin: by the whole
-/// model or by its cubic expansion.
-pub fn portrait(
-    belt: &Belt,
+/// The cycles with their curves, `points` on each step, and the border of the basin: of the paper's oscillator, or of a
+/// machine by the `whole` model or by its cubic expansion.
+pub fn cycles(
     parameters: &Parameters,
+    machine: Option<&Belt>,
     whole: bool,
     points: u16,
     limits: &Limits,
-) -> Result<(Cycles, Option<WholeCycles>), Reason> {
+) -> Result<(Cycles, Option<Box<WholeCycles>>), Reason> {
     let reach = picture_reach(parameters.d2);
     let expansion = Portrait::of_oscillator(parameters, reach, limits);
+    let Some(belt) = machine else { return Ok((expansion?.drawn(parameters, points)?, None)) };
     let found = survey::portrait(belt);
     let expanded = expansion.as_ref().map_or(Margin::ENDLESS, |found| found.margin);
-    let kinds = found.as_ref().ok().map(|found| WholeCycles {
-        margins: [found.in_drawing(&found.margin), expanded],
-        neutral: found.neutral,
+    let kinds = found.as_ref().ok().map(|found| {
+        let margins = [found.in_drawing(&found.margin), expanded];
+        Box::new(WholeCycles { margins, neutral: found.neutral })
     });
     let shown = if whole { found } else { expansion };
     Ok((shown?.drawn(parameters, points)?, kinds))
