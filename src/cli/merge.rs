@@ -9,7 +9,7 @@ use clap::Args;
 use super::Failure;
 use super::output::without;
 use super::part::Shard;
-use super::scan::{ScanCommand, ScanRequest};
+use super::scan::ScanCommand;
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::runtime::new_file::{NewFile, Readers};
@@ -138,7 +138,7 @@ impl PartSource {
             let (beside, command) = (beside.display(), &provenance.command);
             return Err(Failure::Usage(format!("{beside}: {command:?} is not a scan")));
         };
-        let ScanRequest { part, shard } = command.asked()?;
+        let (part, shard) = (command.asked()?, command.shard());
         if part.form == Format::Table {
             let line =
                 format!("{}: a table rounds its numbers; merge needs csv or json", path.display());

@@ -114,14 +114,6 @@ fn measures_list() -> String {
     format!("What to measure; repeatable:\n{}", rows.join("\n"))
 }
 
-/// A scan as requested on a command line.
-#[derive(Clone, Debug)]
-pub struct ScanRequest {
-    pub part: ScanPart,
-    /// The shard that the part is, if one was asked for.
-    pub shard: Option<Shard>,
-}
-
 impl ScanCommand {
     /// The scan of a command line without the program name; `None` if this version cannot parse it.
     pub fn of_line(arguments: &[String]) -> Option<Self> {
@@ -132,7 +124,7 @@ impl ScanCommand {
 
     /// Computes and writes rows until all are done or a signal stops it.
     pub fn run(&self) -> Result<(), Failure> {
-        let asked = self.asked()?;
+        let part = self.asked()?;
         if self.plan.is_wanted() {
             let jobs = self.jobs.unwrap_or(1);
             return self.plan.run(
@@ -144,9 +136,8 @@ impl ScanCommand {
         }
         let stop = stop_signal()?;
         let interrupted = || stop.load(Ordering::Relaxed) != 0;
-        let all = asked.part.points.len();
-        let scan = asked.part.scan.clone();
-        let mut file = self.opened(asked.part, &interrupted)?;
+        let (all, scan) = (part.points.len(), part.scan.clone());
+        let mut file = self.opened(part, &interrupted)?;
         let (left, open) = (file.left(), file.open());
         let done = all - left + file.ahead();
         let jobs = self.jobs.map(usize::from);
@@ -171,7 +162,9 @@ impl ScanCommand {
         took.map_err(|error| {
             Failure::Unanswered(format!("cannot start threads for the scan: {error}"))
         })?;
-        let tally = Tally { wanted: left, rows: left - file.left(), given_up };
+        let lost =
+            if given_up > 0 { format!(", {given_up} of them given up") } else { String::new() };
+        let tally = format!("{} of {left} rows{lost}", left - file.left());
         match broken {
             // A closed pipe is not an error: its reader has seen enough.
             Some(error) if self.output.is_none() && error.kind() == io::ErrorKind::BrokenPipe => {
@@ -185,13 +178,13 @@ impl ScanCommand {
             None => {
                 let signal = Some(stop.load(Ordering::Relaxed));
                 let signal = signal.filter(|signal| *signal != 0 && file.left() > 0);
-                self.report(&tally, signal)
+                self.report(&tally, given_up > 0, signal)
             }
         }
     }
 
     /// The scan and the points to compute, after checking the options.
-    pub fn asked(&self) -> Result<ScanRequest, Failure> {
+    pub fn asked(&self) -> Result<ScanPart, Failure> {
         let (base, conditions) = self.subject()?;
         let mut measures = self.measure.clone();
         if self.certify && !measures.contains(&Measure::Proved) {
@@ -204,8 +197,12 @@ impl ScanCommand {
         let points = self.part.points(scan.points())?;
         // By default only the first part has a heading, so that `cat` can join the parts.
         let headed = points.start == 0 || self.header == HeaderWhen::Always;
-        let part = ScanPart { scan, form: self.form()?, points, headed };
-        Ok(ScanRequest { part, shard: self.part.shard() })
+        Ok(ScanPart { scan, form: self.form()?, points, headed })
+    }
+
+    /// The shard that its part is, if one was asked for.
+    pub fn shard(&self) -> Option<Shard> {
+        self.part.shard()
     }
 
     /// The motion, and what its measures depend on.
@@ -296,9 +293,9 @@ impl ScanCommand {
     }
 
     /// Reports the rows that were given up, or the signal that stopped the scan.
-    fn report(&self, tally: &Tally, signal: Option<i32>) -> Result<(), Failure> {
+    fn report(&self, tally: &str, lost: bool, signal: Option<i32>) -> Result<(), Failure> {
         let Some(signal) = signal else {
-            if tally.given_up > 0 {
+            if lost {
                 tell(format!("note: {tally}; the last column says why"));
             }
             return Ok(());
@@ -306,24 +303,6 @@ impl ScanCommand {
         let again = if self.output.is_some() { "; --resume continues" } else { "" };
         tell(format!("stopped: {tally}{again}"));
         Err(Failure::Said(exit_code(signal)))
-    }
-}
-
-/// The number of rows wanted, written and given up.
-#[derive(Clone, Copy, Debug, Default)]
-struct Tally {
-    wanted: usize,
-    rows: usize,
-    given_up: usize,
-}
-
-impl std::fmt::Display for Tally {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(out, "{} of {} rows", self.rows, self.wanted)?;
-        if self.given_up > 0 {
-            write!(out, ", {} of them given up", self.given_up)?;
-        }
-        Ok(())
     }
 }
 

@@ -200,21 +200,32 @@ pub fn merge(
     let mut parts = parts.to_vec();
     parts.sort_by_key(|file| file.part.points.start);
     let mut waiting = parts.into_iter().peekable();
-    let mut reading: Vec<OpenPart> = Vec::new();
+    // Open parts, each with its next row that is not written yet.
+    let mut reading: Vec<(RowReader, FileRow)> = Vec::new();
+    let check = |(rows, row): &(RowReader, FileRow)| {
+        recheck.map_or(Ok(()), |limits| rows.check(row, limits))
+    };
     let mut missing = Vec::new();
     let mut expected = 0;
     write(whole.heading().as_bytes())?;
     loop {
-        let first = reading.iter().enumerate().min_by_key(|(_, open)| open.row.index);
-        let next = first.map(|(place, open)| (place, open.row.index));
+        let indices = reading.iter().map(|(_, row)| row.index).enumerate();
+        let next = indices.min_by_key(|(_, index)| *index);
         let due = |file: &&PartFile| next.is_none_or(|(_, index)| file.part.points.start <= index);
         if let Some(file) = waiting.next_if(due) {
-            reading.extend(OpenPart::new(file, recheck)?);
+            let opened = File::open(&file.path);
+            let opened = opened.map_err(|error| Failure::file(&file.path, &error))?;
+            let mut rows = RowReader::new(&file.part, &file.path, opened, file.checksum)?;
+            if let Some(row) = rows.row()? {
+                let open = (rows, row);
+                check(&open)?;
+                reading.push(open);
+            }
             continue;
         }
         let Some((place, index)) = next else { break };
-        if let Some(other) = reading[place + 1..].iter().find(|open| open.row.index == index) {
-            let [one, other] = [&reading[place], other].map(|open| open.file.path.display());
+        if let Some(other) = reading[place + 1..].iter().find(|(_, row)| row.index == index) {
+            let [one, other] = [&reading[place], other].map(|(rows, _)| rows.path.display());
             let row = index + 1;
             return Err(Failure::Usage(format!("{one} and {other} both hold row {row}")));
         }
@@ -222,41 +233,15 @@ pub fn merge(
             missing.push(expected..index);
         }
         expected = index + 1;
-        write(&reading[place].row.line)?;
-        if !reading[place].advance(recheck)? {
-            reading.remove(place);
+        write(&reading[place].1.line)?;
+        if let Some(row) = reading[place].0.row()? {
+            reading[place].1 = row;
+        } else {
+            check(&reading.remove(place))?;
         }
     }
     if expected < whole.scan.points() {
         missing.push(expected..whole.scan.points());
     }
     Ok(missing)
-}
-
-/// An open part, with its next row that is not written yet.
-struct OpenPart<'a> {
-    file: &'a PartFile,
-    rows: RowReader<'a>,
-    row: FileRow,
-}
-
-impl<'a> OpenPart<'a> {
-    /// Opens a part at its first row; `None` if it has none.
-    fn new(file: &'a PartFile, recheck: Option<&Limits>) -> Result<Option<Self>, Failure> {
-        let opened = File::open(&file.path).map_err(|error| Failure::file(&file.path, &error))?;
-        let mut rows = RowReader::new(&file.part, &file.path, opened, file.checksum)?;
-        let Some(row) = rows.row()? else { return Ok(None) };
-        recheck.map_or(Ok(()), |limits| rows.check(&row, limits))?;
-        Ok(Some(OpenPart { file, rows, row }))
-    }
-
-    /// Reads the next row; `false` if there is none.
-    fn advance(&mut self, recheck: Option<&Limits>) -> Result<bool, Failure> {
-        let Some(row) = self.rows.row()? else {
-            return recheck
-                .map_or(Ok(false), |limits| self.rows.check(&self.row, limits).map(|()| false));
-        };
-        self.row = row;
-        Ok(true)
-    }
 }

@@ -115,7 +115,7 @@ pub fn by_hand(request: &Request) -> Finding {
             let rows = (*from..scan.points()).map(row).collect();
             Finding::Scan(Rows { first: *from, rows })
         }
-        Request::Zones(_) => Finding::Zones(CertainZones {
+        Request::Zones { .. } => Finding::Zones(CertainZones {
             safe: Extent::Within(circle(0.4)),
             hopeful: Extent::Within(circle(0.6)),
             nominal: margin(0.5),
