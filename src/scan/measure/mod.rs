@@ -9,47 +9,12 @@ mod settling;
 mod table;
 
 pub use row::ScanRow;
-pub use table::{Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, Value, computed};
+pub use table::{
+    Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, ScanSource, Value, computed,
+};
 
-use crate::flow::{Limits, Problem, Reason};
-use crate::model::{Group, Knob, MachineProblem};
+use crate::flow::{Limits, Reason};
 use row::Cells;
-
-/// What is scanned: a motion of the oscillator of the paper, or of a machine by its whole model.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ScanSource {
-    /// A dimensionless motion.
-    Oscillator(Problem),
-    /// A motion in SI units.
-    Machine(Box<MachineProblem>),
-}
-
-impl From<Problem> for ScanSource {
-    fn from(problem: Problem) -> Self {
-        ScanSource::Oscillator(problem)
-    }
-}
-
-impl ScanSource {
-    /// What can be scanned over.
-    pub fn groups(&self) -> &'static [Group] {
-        match self {
-            ScanSource::Oscillator(_) => &[Group::Motion],
-            ScanSource::Machine(_) => MachineProblem::GROUPS,
-        }
-    }
-
-    /// Gives a number a value. Fails with one line if there is no such number.
-    pub(in crate::scan) fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
-        match self {
-            ScanSource::Oscillator(Problem { parameters, initial, .. }) => {
-                knob.set(parameters, initial, value);
-                Ok(())
-            }
-            ScanSource::Machine(problem) => problem.set(knob, value),
-        }
-    }
-}
 
 /// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`],
 /// and [`ScanRow::reason`] says why. Fails with [`Reason::Interrupted`], and no other.

@@ -1,7 +1,7 @@
 //! The computations at a point of a scan: of the paper's oscillator, or of a machine by its whole model.
 
-use super::ScanSource::{self, Machine, Oscillator};
 use super::row::{Cells, Failed};
+use super::table::ScanSource::{self, Machine, Oscillator};
 use super::table::{CYCLES, Measure, Value};
 use crate::branch::escape::escape_point;
 use crate::branch::fold::fold;

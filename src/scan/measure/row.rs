@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 use std::error::Error;
 
-use super::ScanSource;
 use super::settling::Settling;
-use super::table::{CYCLES, Conditions, Measure, Value};
+use super::table::{CYCLES, Conditions, Measure, ScanSource, Value};
 use crate::flow::{Cost, Limits, Outcome, Reason, Trajectory};
 use crate::model::State;
 use crate::portrait::basin::StartWindow;

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::model::{Knob, Model, ParameterBox, Parameters};
+use crate::flow::Problem;
+use crate::model::{Group, Knob, MachineProblem, Model, ParameterBox, Parameters};
 use crate::numerics::count::real;
 use crate::portrait::basin::StartWindow;
 use crate::portrait::design::Kick;
@@ -194,6 +195,42 @@ impl Value {
             Value::Number(value) => Some(value),
             Value::Count(count) => Some(real(count)),
             Value::Nothing | Value::Word(_) => None,
+        }
+    }
+}
+
+/// What is scanned: a motion of the oscillator of the paper, or of a machine by its whole model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScanSource {
+    /// A dimensionless motion.
+    Oscillator(Problem),
+    /// A motion in SI units.
+    Machine(Box<MachineProblem>),
+}
+
+impl From<Problem> for ScanSource {
+    fn from(problem: Problem) -> Self {
+        ScanSource::Oscillator(problem)
+    }
+}
+
+impl ScanSource {
+    /// What can be scanned over.
+    pub fn groups(&self) -> &'static [Group] {
+        match self {
+            ScanSource::Oscillator(_) => &[Group::Motion],
+            ScanSource::Machine(_) => MachineProblem::GROUPS,
+        }
+    }
+
+    /// Gives a number a value. Fails with one line if there is no such number.
+    pub(in crate::scan) fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
+        match self {
+            ScanSource::Oscillator(Problem { parameters, initial, .. }) => {
+                knob.set(parameters, initial, value);
+                Ok(())
+            }
+            ScanSource::Machine(problem) => problem.set(knob, value),
         }
     }
 }
