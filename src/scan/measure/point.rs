@@ -11,12 +11,11 @@ use crate::model::{MachineProblem, Parameters, State};
 use crate::numerics::Interval;
 use crate::portrait::Portrait;
 use crate::portrait::basin::cycle::cycles_and_closings;
-use crate::portrait::basin::{Basin, StartWindow};
 use crate::portrait::closing::all::{STEP, first_closings};
 use crate::portrait::closing::equation::Equation;
 use crate::portrait::design::{friction_for, friction_of_guide};
 use crate::portrait::guarantee::{machine, oscillator};
-use crate::portrait::kicks::repeated::{part_lost, repeated};
+use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::proved;
 
 impl Cells<'_> {
