@@ -272,7 +272,7 @@ fn test_functions(model: &Model, landmarks: Option<&Landmarks>) -> TestFunctions
     let mut flow = Flow::new(model);
     let mut left = |right: f64| {
         let place = ContactState::Slips(Phase::Below);
-        let turn = flow.turn(place, (right, 0.0), &mut ()).ok()?;
+        let turn = flow.turn(place, (right, 0.0), &mut |_| {}).ok()?;
         (!turn.rests).then_some(turn.x)
     };
     // What comes to rest on the left would have turned where the guide lets go.

@@ -143,6 +143,15 @@ impl<N> Outcome<N> {
         }
     }
 
+    /// The outcome of a motion that escapes, or is given up, at this time.
+    pub(crate) fn without_end(tau: N, reason: Reason) -> Self {
+        if reason == Reason::Escapes {
+            Outcome::Escaped { tau }
+        } else {
+            Outcome::GaveUp { tau, reason }
+        }
+    }
+
     /// The same outcome in other numbers.
     pub fn map<M>(self, number: impl Fn(N) -> M) -> Outcome<M> {
         match self {
@@ -276,6 +285,25 @@ pub struct Trajectory<N = f64> {
     pub samples: Vec<Sample>,
     /// Cost of the computation.
     pub cost: Cost,
+}
+
+impl<N: Scalar> Trajectory<N> {
+    /// A motion of which nothing is known yet but its start.
+    pub(crate) fn begun(problem: &Problem, method: Method) -> Self {
+        let State { q, v } = problem.initial;
+        Trajectory {
+            problem: *problem,
+            method,
+            implicit_steps: 0,
+            outcome: Outcome::Moving { tau: N::of(0.0), q: N::of(q), v: N::of(v) },
+            crossings: Vec::new(),
+            legs: Vec::new(),
+            extremes: None,
+            ledger: None,
+            samples: Vec::new(),
+            cost: Cost::default(),
+        }
+    }
 }
 
 impl Trajectory {

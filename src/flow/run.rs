@@ -35,28 +35,11 @@ impl<N: Scalar> MotionRun<N> {
     /// A run at its start.
     pub fn new(problem: &Problem, method: Method, detail: Detail) -> Self {
         let State { q, v } = problem.initial;
-        let mut samples = Vec::new();
+        let mut found = Trajectory::begun(problem, method);
         if detail.samples_per_step > 0 {
-            samples.push(Sample { tau: 0.0, q, v });
+            found.samples.push(Sample { tau: 0.0, q, v });
         }
-        MotionRun {
-            detail,
-            found: Trajectory {
-                problem: *problem,
-                method,
-                implicit_steps: 0,
-                outcome: Outcome::Moving { tau: N::of(0.0), q: N::of(q), v: N::of(v) },
-                crossings: Vec::new(),
-                legs: Vec::new(),
-                extremes: None,
-                ledger: None,
-                samples,
-                cost: Cost::default(),
-            },
-            time: Sum::default(),
-            works: [0.0; 3],
-            path: 0.0,
-        }
+        MotionRun { detail, found, time: Sum::default(), works: [0.0; 3], path: 0.0 }
     }
 
     /// Ends the run without an answer.
@@ -109,12 +92,7 @@ impl<N: Scalar> MotionRun<N> {
 
     /// The outcome of a motion that escapes, or is given up.
     fn gives_up(&self, reason: Reason) -> Outcome<N> {
-        let tau = self.time.value();
-        if reason == Reason::Escapes {
-            Outcome::Escaped { tau }
-        } else {
-            Outcome::GaveUp { tau, reason }
-        }
+        Outcome::without_end(self.time.value(), reason)
     }
 
     /// One smooth motion on both sides of `v = 0`: there is no friction, or it is part of the field.

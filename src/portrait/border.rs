@@ -75,8 +75,8 @@ impl Border {
 pub enum Edge {
     /// Two half swings, known by their clearances.
     Orbit(Box<Orbit>),
-    /// A closed curve that may run along the belt's line, and the speed of the belt.
-    Curve(MachineCurve, f64),
+    /// A closed curve that may run along the belt's line.
+    Curve(MachineCurve),
 }
 
 impl Edge {
@@ -85,8 +85,8 @@ impl Edge {
     pub fn span_at(&self, q: f64) -> Option<(f64, f64)> {
         match self {
             Edge::Orbit(orbit) => orbit.span_at(q),
-            Edge::Curve(curve, speed) => {
-                let (up, down) = curve.velocities_at(q, *speed);
+            Edge::Curve(curve) => {
+                let (up, down) = curve.velocities_at(q);
                 // Next to a turning point only one of both may be met.
                 Some((down.or(up.map(|_| 0.0))?, up.unwrap_or(0.0)))
             }
@@ -98,7 +98,7 @@ impl Edge {
     pub fn corners(&self) -> Vec<f64> {
         match self {
             Edge::Orbit(_) => Vec::new(),
-            Edge::Curve(curve, _) => curve.ends(),
+            Edge::Curve(curve) => curve.ends(),
         }
     }
 
@@ -107,7 +107,7 @@ impl Edge {
     pub fn curve(&self, count: u16) -> Vec<State> {
         match self {
             Edge::Orbit(orbit) => orbit.curve(count),
-            Edge::Curve(curve, speed) => curve.closed(count, *speed),
+            Edge::Curve(curve) => curve.closed(count),
         }
     }
 
@@ -118,7 +118,7 @@ impl Edge {
             Edge::Orbit(orbit) => {
                 orbit.is_closed().then(|| orbit.upper.area() + orbit.lower.area())
             }
-            Edge::Curve(curve, speed) => Some(curve.area(*speed)),
+            Edge::Curve(curve) => Some(curve.area()),
         }
     }
 
@@ -131,7 +131,7 @@ impl Edge {
         const FLAT: f64 = 1e-9;
         let curve = match self {
             Edge::Orbit(orbit) => orbit.curve(POINTS),
-            Edge::Curve(curve, speed) => curve.points(POINTS, *speed),
+            Edge::Curve(curve) => curve.points((POINTS, POINTS)),
         };
         let far = |state: &State| hypot(state.q, state.v);
         let nearer = |one: &usize, other: &usize| far(&curve[*one]).total_cmp(&far(&curve[*other]));

@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use super::return_map::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
 use super::{Border, Cycle, Edge, Margin, Reach, RestMargin};
 use crate::closed_form::lyapunov;
-use crate::flow::machine::curve::{CurvePiece, MachineCurve};
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
 use crate::model::{ContactState, Model, Phase};
 use crate::numerics::root::bisect;
@@ -135,22 +134,21 @@ impl Portrait {
             self.border = Border::NoBasin;
             self.reach = Some(Reach::default());
         } else if let Some((x, mark)) = divide.filter(|_| last < self.gaps.len()) {
-            let mut curve = MachineCurve::default();
-            let left = match mark {
+            flow.follows = true;
+            let (curve, left) = match mark {
                 Divide::Cycle(index) => {
                     self.border = Border::Cycle;
                     let cycle = &self.cycles[*index];
-                    flow.around(*x, !cycle.sticks() && !cycle.overtakes, &mut curve)?
+                    flow.around(*x, !cycle.sticks() && !cycle.overtakes)?
                 }
-                Divide::Jump => flow.jump_border(*x, landmarks, &mut curve)?,
-                Divide::Capture => flow.capture_border(*x, landmarks, &mut curve)?,
+                Divide::Jump => flow.jump_border(*x, landmarks)?,
+                Divide::Capture => flow.capture_border(*x, landmarks)?,
             };
             if !matches!(mark, Divide::Cycle(_)) {
-                let touches = |piece: &CurvePiece| matches!(piece, CurvePiece::Line { .. });
-                let touches = curve.pieces.iter().any(touches);
+                let touches = curve.steps.iter().any(|step| step.place == ContactState::Sticks);
                 self.border = if touches { Border::Grazing } else { Border::Capture };
             }
-            let edge = Edge::Curve(curve, self.model.speed);
+            let edge = Edge::Curve(curve);
             let velocity = self.kept_within(&edge, 0.0);
             self.reach = Some(Reach { displacement: (*x, -left), velocity });
             self.borders.push(edge);
@@ -208,7 +206,7 @@ impl Portrait {
                 let left = match edge {
                     // Of a border next to the places of rest, the clearance has digits that its place has not.
                     Edge::Orbit(orbit) => orbit.clearance() - (farthest - self.model.guide),
-                    Edge::Curve(..) => reach.displacement.0.min(reach.displacement.1) - farthest,
+                    Edge::Curve(_) => reach.displacement.0.min(reach.displacement.1) - farthest,
                 };
                 (left.max(0.0), ends.map(|x| self.kept_within(edge, x)))
             }
@@ -461,7 +459,7 @@ impl Flow<'_> {
         }
         for _ in 0..2 {
             let place = self.model.place(x, y);
-            let turn = self.turn(place, (x, y), &mut ())?;
+            let turn = self.turn(place, (x, y), &mut |_| {})?;
             if turn.rests {
                 return Ok(None);
             }

@@ -241,7 +241,9 @@ fn in_one_turn_of_a_cycle_the_belt_gives_what_damper_and_guide_take() {
     for machine in hopfscope::scene::machine::library::machines() {
         let found = portrait(&machine.belt);
         for cycle in &found.cycles {
-            let ledger = Flow::new(&found.model).works_around(cycle).unwrap();
+            let backward = cycle.is_followed_backward();
+            let around = Flow::new(&found.model).around(cycle.q_max, backward);
+            let ledger = around.unwrap().0.ledger(&found.model);
             let [belt, damper, guide] =
                 ["belt", "damper", "guide"].map(|source| ledger.work(source).abs());
             let (size, left) = (belt + damper + guide, ledger.residual.abs());

@@ -5,62 +5,15 @@
 //! exactly once. So the values at the ends of a step and at that maximum decide whether a line was reached,
 //! however shallow the contact; nothing is sampled.
 
-use super::series::{ORDER, PhaseSeries};
+use super::curve::{MachineStep, ORDER};
+use super::series::PhaseSeries;
 use crate::flow::Cost;
 use crate::model::force::ForceBranch;
 use crate::model::model::FINEST;
-use crate::model::{Model, Phase, Reason};
+use crate::model::{ContactState, Model, Phase, Reason};
 use crate::numerics::elementary::ln;
 use crate::numerics::polynomial::{derivative, value, value_and_slope};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
-
-/// One step of a motion, as its series.
-pub struct SeriesStep<'a> {
-    /// The phase.
-    pub phase: Phase,
-    /// The series, of which `duration` belongs to the step.
-    pub series: &'a PhaseSeries,
-    /// Duration, in `1/omega_0`.
-    pub duration: f64,
-    /// Where the velocity has its extremum in the step.
-    pub peak: Option<f64>,
-}
-
-/// What looks at a motion while it is computed.
-pub trait Watch {
-    /// A step in slip.
-    fn step(&mut self, model: &Model, step: &SeriesStep);
-    /// A step in slip by a method without series: its duration, and displacement and velocity at its end.
-    fn passes(&mut self, _duration: f64, _end: (f64, f64)) {}
-    /// A piece during which the mass rides on the belt.
-    fn stick(&mut self, _model: &Model, _from: f64, _to: f64) {}
-    /// Whether a motion that turns no more is to be followed to its end nevertheless.
-    fn follows(&self) -> bool {
-        false
-    }
-    /// For how long the motion is still to be followed, in `1/omega_0`.
-    fn left(&self) -> f64 {
-        f64::INFINITY
-    }
-}
-
-impl Watch for () {
-    fn step(&mut self, _: &Model, _: &SeriesStep) {}
-}
-
-impl<A: Watch, B: Watch> Watch for (&mut A, &mut B) {
-    fn step(&mut self, model: &Model, step: &SeriesStep) {
-        self.0.step(model, step);
-        self.1.step(model, step);
-    }
-    fn stick(&mut self, model: &Model, from: f64, to: f64) {
-        self.0.stick(model, from, to);
-        self.1.stick(model, from, to);
-    }
-    fn follows(&self) -> bool {
-        self.0.follows() || self.1.follows()
-    }
-}
 
 /// The end of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,16 +57,18 @@ const ESCAPED: f64 = 1e60;
 pub struct Flow<'a> {
     /// The model.
     pub model: &'a Model,
-    series: PhaseSeries,
-    /// Steps taken.
-    pub steps: u64,
+    /// The last step, and for how long a motion is still to be followed.
+    pub series: PhaseSeries,
+    /// Whether a motion that turns no more is to be followed to its end nevertheless.
+    pub follows: bool,
+    steps: u64,
 }
 
 impl<'a> Flow<'a> {
     /// Ready to compute.
     #[must_use]
     pub fn new(model: &'a Model) -> Self {
-        Flow { model, series: PhaseSeries::new(), steps: 0 }
+        Flow { model, series: PhaseSeries::new(), follows: false, steps: 0 }
     }
 
     /// What its steps cost: an evaluation for each term of a series.
@@ -122,7 +77,14 @@ impl<'a> Flow<'a> {
         Cost { evaluations: self.steps * ORDER as u64, steps: self.steps, rejected: 0 }
     }
 
-    /// Follows a motion from `(x, y)` to the end of its phase, forward in time or backward.
+    /// Takes a step, which `watch` sees first.
+    pub(super) fn passes(&mut self, step: MachineStep, watch: &mut impl FnMut(&PhaseSeries)) {
+        self.series.step = step;
+        watch(&self.series);
+        self.series.left -= self.series.step.duration;
+    }
+
+    /// Follows a motion from `(x, y)` to the end of its phase, forward in time or backward; `watch` sees each of its steps.
     ///
     /// # Errors
     /// [`Reason`] where it does not get there.
@@ -131,7 +93,7 @@ impl<'a> Flow<'a> {
         phase: Phase,
         (x, y): (f64, f64),
         backward: bool,
-        watch: &mut impl Watch,
+        watch: &mut impl FnMut(&PhaseSeries),
     ) -> Result<ArcEnd, Reason> {
         let model = self.model;
         let (side, offset) = (model.side(phase), model.offset(phase));
@@ -154,9 +116,9 @@ impl<'a> Flow<'a> {
             let piece = side.piece(y, rising_here).ok_or(self.outside(y))?;
             self.series.expand((side, piece), (x, y), forward, known.take());
             self.steps += 1;
-            let series = &self.series;
-            let acceleration = forward * series.y[1];
-            let entered = *first.get_or_insert(acceleration);
+            let (series, left) = (&self.series, self.series.left);
+            let terms = &series.step.y;
+            let entered = *first.get_or_insert(forward * terms[1]);
             let length = series.length(model.tolerance);
             let length = if model.tolerance > FINEST { length.min(LONGEST) } else { length };
             if !(length > 0.0 && length.is_finite()) {
@@ -168,13 +130,19 @@ impl<'a> Flow<'a> {
                 });
             }
             let (low, high) = (piece.low.max(least), piece.high.min(most));
-            let found = crossing(series, phase, length, (low, high));
-            let (duration, level) = found.hit.map_or((length, None), |(t, at)| (t, Some(at)));
-            let peak = found.peak.filter(|peak| *peak <= duration);
-            watch.step(model, &SeriesStep { phase, series, duration, peak });
-            x = value(&series.x, duration);
-            let (velocity, slope) = series.velocity(duration);
-            y = level.unwrap_or(velocity);
+            let velocity = |t: f64| value_and_slope(terms, t);
+            let turning = |t: f64| value_and_slope(&derivative(terms), t);
+            let (peak, hit) = crossing(phase, length, (low, high), &velocity, &turning);
+            let (duration, level) = match hit {
+                Some((time, level)) if time <= left => (time, Some(level)),
+                _ => (length.min(left), None),
+            };
+            let peak = peak.filter(|peak| *peak <= duration);
+            let (last, slope) = velocity(duration);
+            (x, y) = (value(&series.step.x, duration), level.unwrap_or(last));
+            let place = ContactState::Slips(phase);
+            let step = MachineStep { place, duration, peak, offset, ..series.step };
+            self.passes(step, watch);
             if let Some(level) = level {
                 if level == most || level == least {
                     let accelerations = (entered, forward * slope);
@@ -188,9 +156,9 @@ impl<'a> Flow<'a> {
             }
             rising = Some(slope > 0.0);
             let size = x.abs().max(y.abs());
-            let end = if watch.follows() { NEAR * started } else { f64::INFINITY };
+            let end = if self.follows { NEAR * started } else { f64::INFINITY };
             let turns = size > end || !creeps(phase, side, (x, y), forward);
-            if size < SETTLED * started || !turns || watch.left() <= 0.0 {
+            if size < SETTLED * started || !turns || self.series.left <= 0.0 {
                 return Err(Reason::Settles);
             }
             if size.is_nan() || size > ESCAPED * started {
@@ -207,7 +175,7 @@ impl<'a> Flow<'a> {
         if rate == 0.0 { phase == Phase::Below } else { rate > 0.0 }
     }
 
-    fn outside(&self, y: f64) -> Reason {
+    pub(super) fn outside(&self, y: f64) -> Reason {
         Reason::BeyondLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
     }
 }
@@ -224,79 +192,48 @@ fn creeps(phase: Phase, side: &ForceBranch, (x, y): (f64, f64), forward: f64) ->
         && side.decay(x.abs(), forward).is_some_and(|decay| decay >= OVERDAMPED)
 }
 
-/// A step of any method, as far as the search for its events needs it.
-pub trait StepInside {
-    /// The velocity at a time from its start, and its derivative.
-    fn velocity(&mut self, t: f64) -> (f64, f64);
-
-    /// Where the acceleration vanishes between 0 and `end`, at which it has opposite signs.
-    fn turning(&mut self, end: f64) -> f64;
-}
-
-impl StepInside for &PhaseSeries {
-    fn velocity(&mut self, t: f64) -> (f64, f64) {
-        PhaseSeries::velocity(self, t)
-    }
-
-    fn turning(&mut self, end: f64) -> f64 {
-        let slopes = derivative(&self.y);
-        let bracket = Bracket { low: 0.0, high: end, rising: slopes[0] < 0.0 };
-        newton(bracket, 0.5 * end, PlaceTolerance::Absolute(1e-16 * end), |t| {
-            value_and_slope(&slopes, t)
-        })
-        .at
-    }
-}
-
-/// Where a step turns, and where it first reaches a level.
-pub struct StepLevels {
-    peak: Option<f64>,
-    /// Time and level.
-    pub hit: Option<(f64, f64)>,
-}
-
-/// The first of two levels that a step reaches, given that the speed turns at most once, from growing to
-/// falling.
-pub fn crossing(
-    mut step: impl StepInside,
+/// Where a step turns, and the first of two levels that it reaches, with the time at which it does; given that the speed
+/// turns at most once, from growing to falling.
+///
+/// `inside` is the velocity with its derivative at a time from the start of the step, `turning` this one with the next.
+pub(super) fn crossing(
     phase: Phase,
     end: f64,
     (low, high): (f64, f64),
-) -> StepLevels {
+    inside: &impl Fn(f64) -> (f64, f64),
+    turning: &impl Fn(f64) -> (f64, f64),
+) -> (Option<f64>, Option<(f64, f64)>) {
     let sign = phase.sign();
     let (outer, inner) = if sign > 0.0 { (high, low) } else { (low, high) };
     let grows = |slope: f64| sign * slope > 0.0;
     let beyond = |y: f64, level: f64| sign * (y - level);
-    let (velocity, slope) = step.velocity(end);
+    // On a bracket in which y is monotone.
+    let root = |level: f64, (low, high): (f64, f64), rising: bool| {
+        let settled = PlaceTolerance::Absolute(1e-16 * high);
+        let ahead = |t: f64| {
+            let (velocity, slope) = inside(t);
+            (velocity - level, slope)
+        };
+        newton(Bracket { low, high, rising }, high, settled, ahead).at
+    };
+    let (velocity, slope) = inside(end);
     let mut peak = None;
-    if grows(step.velocity(0.0).1) {
+    if grows(inside(0.0).1) {
         let (until, fastest) = if grows(slope) {
             (end, velocity)
         } else {
-            let turn = step.turning(end);
+            let bracket = Bracket { low: 0.0, high: end, rising: sign < 0.0 };
+            // Where the velocity is flat, an error e in time costs only e^2 in it.
+            let settled = PlaceTolerance::Absolute(1e-9 * end);
+            let turn = newton(bracket, 0.5 * end, settled, turning).at;
             peak = Some(turn);
-            (turn, step.velocity(turn).0)
+            (turn, inside(turn).0)
         };
         if beyond(fastest, outer) >= 0.0 {
-            let at = root(&mut step, outer, (0.0, until), sign);
-            return StepLevels { peak, hit: Some((at, outer)) };
+            return (peak, Some((root(outer, (0.0, until), sign > 0.0), outer)));
         }
     }
     let falls = beyond(velocity, inner) <= 0.0 && !grows(slope);
-    let hit = falls.then(|| {
-        let begin = peak.unwrap_or(0.0);
-        (root(&mut step, inner, (begin, end), -sign), inner)
-    });
-    StepLevels { peak, hit }
-}
-
-/// The time in a bracket on which y is monotone, with the given direction, at which it is at a level.
-fn root(step: &mut impl StepInside, level: f64, (low, high): (f64, f64), direction: f64) -> f64 {
-    let bracket = Bracket { low, high, rising: direction > 0.0 };
-    let settled = PlaceTolerance::Absolute(1e-16 * high);
-    let ahead = |t: f64| {
-        let (velocity, slope) = step.velocity(t);
-        (velocity - level, slope)
-    };
-    newton(bracket, high, settled, ahead).at
+    let begin = peak.unwrap_or(0.0);
+    (peak, falls.then(|| (root(inner, (begin, end), sign < 0.0), inner)))
 }

@@ -1,161 +1,185 @@
-//! A piece of a motion kept as a curve: the series of its steps, and the rides on the belt between them.
+//! A motion of a machine as a curve: the series of its steps, in slip and while the mass rides on the belt; and where
+//! its energy comes from and goes, the belt's work against the damper's and the guide's.
 
-use super::arc::{SeriesStep, Watch};
-use super::series::Terms;
-use crate::model::{Model, Phase, State};
+use crate::model::{ContactState, Ledger, Model, Phase, State, Work};
+use crate::numerics::count::reciprocals;
 use crate::numerics::elementary::powi;
 use crate::numerics::polynomial::{value, value_and_slope};
 use crate::numerics::quadrature::gauss;
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 
-#[derive(Clone, Debug)]
-pub enum CurvePiece {
-    /// A step in slip: its series hold everywhere between its ends.
-    Slip(Slip),
-    /// A ride on the belt, or another piece of its line, from one displacement to another.
-    Line {
-        /// Where it begins.
-        from: f64,
-        /// Where it ends.
-        to: f64,
-    },
-}
+/// Order of the series; near the one that costs least at full precision.
+pub const ORDER: usize = 20;
 
-/// A step in slip.
+/// Terms of a series.
+pub const TERMS: usize = ORDER + 1;
+
+/// Coefficients in powers of time.
+pub type Terms = [f64; TERMS];
+
+/// `1/k`.
+pub(super) const INVERSE: Terms = reciprocals();
+
+/// A step of a motion: its series hold everywhere between its ends.
 #[derive(Clone, Debug)]
-pub struct Slip {
-    pub phase: Phase,
+pub struct MachineStep {
+    /// What the mass does.
+    pub place: ContactState,
     /// Duration, in `1/omega_0`.
     pub duration: f64,
-    offset: f64,
-    x: Box<Terms>,
-    y: Box<Terms>,
+    /// Where the velocity has its extremum in the step; on the belt anywhere.
+    pub peak: Option<f64>,
+    /// What is added to a displacement in the series of `x`: the distance to the balance of a phase.
+    pub(super) offset: f64,
+    pub(super) x: Terms,
+    pub(super) y: Terms,
 }
 
-impl Slip {
+impl MachineStep {
+    /// A ride on the belt, or another piece of its line, from one displacement to another.
+    pub fn ride(from: f64, to: f64, speed: f64) -> Self {
+        let duration = (to - from) / speed;
+        MachineStep { duration, ..Self::even(ContactState::Sticks, [from, speed], speed) }
+    }
+
+    /// A step of one velocity, whose displacement begins here and changes at this rate.
+    pub(super) fn even(place: ContactState, [x, rate]: [f64; 2], y: f64) -> Self {
+        let mut step = MachineStep {
+            place,
+            duration: 0.0,
+            peak: Some(0.0),
+            offset: 0.0,
+            x: [0.0; TERMS],
+            y: [0.0; TERMS],
+        };
+        (step.x[0], step.x[1], step.y[0]) = (x, rate, y);
+        step
+    }
+
     /// Displacement and velocity (divided by the natural frequency) at a time from the start of the step.
     pub fn at(&self, t: f64) -> (f64, f64) {
-        (value(&self.x[..], t) - self.offset, value(&self.y[..], t))
+        (value(&self.x, t) - self.offset, value(&self.y, t))
     }
 
     /// The velocity where the step passes a displacement; `None` where it does not.
     fn velocity_at(&self, x: f64) -> Option<f64> {
         let target = x + self.offset;
-        let (from, to) = (self.x[0], value(&self.x[..], self.duration));
+        let (from, to) = (self.x[0], value(&self.x, self.duration));
         if from.min(to) > target || from.max(to) < target {
             return None;
         }
-        let bracket = Bracket { low: 0.0, high: self.duration, rising: to > from };
+        // A piece of the belt's line may be passed backward.
+        let (low, high) = (self.duration.min(0.0), self.duration.max(0.0));
+        let bracket = Bracket { low, high, rising: (to > from) == (self.duration > 0.0) };
         let settled = PlaceTolerance::Absolute(1e-16 * self.duration.abs());
         let height = |t: f64| {
-            let (height, slope) = value_and_slope(&self.x[..], t);
+            let (height, slope) = value_and_slope(&self.x, t);
             (height - target, slope)
         };
         let time = newton(bracket, bracket.middle(), settled, height).at;
-        Some(value(&self.y[..], time))
+        Some(value(&self.y, time))
     }
-}
 
-impl CurvePiece {
-    /// `between` + 1 of its points.
-    pub fn points(&self, between: u16, speed: f64) -> impl Iterator<Item = State> {
-        let part = move |point: u16| f64::from(point) / f64::from(between.max(1));
-        let at = move |point: u16| match self {
-            CurvePiece::Slip(slip) => slip.at(slip.duration * part(point)),
-            CurvePiece::Line { from, to } => (from + part(point) * (to - from), speed),
+    /// The works of belt, damper and guide up to a time from the start of the step, divided by the stiffness.
+    ///
+    /// In slip the belt pulls by its law; a mass that rides is pulled as much as it takes to hold it at the belt's speed.
+    pub(super) fn works(&self, model: &Model, until: f64) -> [f64; 3] {
+        let belt = |part: f64| {
+            let (x, y) = self.at(part * until);
+            let other = model.damper(y);
+            y * match self.place {
+                ContactState::Slips(Phase::Above) => model.force(Phase::Above, y).0 + other,
+                ContactState::Slips(phase) => model.pull + model.force(phase, y).0 + other,
+                _ => x + model.pull + other + model.guide,
+            }
         };
-        (0..=between).map(at).map(|(q, v)| State { q, v })
+        let damper = |part: f64| {
+            let y = self.at(part * until).1;
+            y * model.damper(y)
+        };
+        let way = value(&self.x, until) - self.x[0];
+        [gauss(belt) * until, gauss(damper) * until, model.guide * way.abs()]
     }
 }
 
 /// A motion, or the border of a basin, as a curve in the phase plane.
 #[derive(Clone, Debug, Default)]
 pub struct MachineCurve {
-    /// Its pieces, in the order in which they were computed, forward or backward in time.
-    pub pieces: Vec<CurvePiece>,
-}
-
-impl Watch for MachineCurve {
-    fn follows(&self) -> bool {
-        true
-    }
-
-    fn step(&mut self, model: &Model, step: &SeriesStep) {
-        self.pieces.push(CurvePiece::Slip(Slip {
-            phase: step.phase,
-            duration: step.duration,
-            offset: model.offset(step.phase),
-            x: Box::new(step.series.x),
-            y: Box::new(step.series.y),
-        }));
-    }
-
-    fn stick(&mut self, _: &Model, from: f64, to: f64) {
-        self.pieces.push(CurvePiece::Line { from, to });
-    }
+    /// Its steps, in the order in which they were computed, forward or backward in time.
+    pub steps: Vec<MachineStep>,
 }
 
 impl MachineCurve {
-    /// The velocities at which it passes a displacement, at `y > 0` and at `y < 0`; `speed` is that of the
-    /// belt.
-    pub fn velocities_at(&self, x: f64, speed: f64) -> (Option<f64>, Option<f64>) {
+    /// The velocities at which it passes a displacement, at `y > 0` and at `y < 0`.
+    pub fn velocities_at(&self, x: f64) -> (Option<f64>, Option<f64>) {
         let mut found = (None, None);
-        for piece in &self.pieces {
-            match piece {
-                CurvePiece::Slip(slip) => {
-                    if let Some(y) = slip.velocity_at(x) {
-                        if slip.phase == Phase::Below {
-                            found.1 = Some(y);
-                        } else {
-                            found.0 = Some(y);
-                        }
-                    }
-                }
-                CurvePiece::Line { from, to } => {
-                    if from.min(*to) <= x && x <= from.max(*to) {
-                        found.0 = Some(speed);
-                    }
-                }
-            }
+        for step in &self.steps {
+            let below = step.place == ContactState::Slips(Phase::Below);
+            let side = if below { &mut found.1 } else { &mut found.0 };
+            *side = step.velocity_at(x).or(*side);
         }
         found
     }
 
     /// The area within a closed curve: the integral of `y dx` along it, which is that of `y^2` over time.
-    pub fn area(&self, speed: f64) -> f64 {
-        let of = |piece: &CurvePiece| match piece {
-            CurvePiece::Slip(slip) => {
-                gauss(|part| powi(slip.at(part * slip.duration).1, 2)) * slip.duration
-            }
-            CurvePiece::Line { from, to } => speed * (to - from).abs(),
-        };
-        self.pieces.iter().map(of).sum()
+    pub fn area(&self) -> f64 {
+        let square = |step: &MachineStep| gauss(|part| powi(step.at(part * step.duration).1, 2));
+        self.steps.iter().map(|step| square(step) * step.duration.abs()).sum()
     }
 
-    /// The displacements at which its pieces end: it is smooth between them.
+    /// The displacements at which its steps end: it is smooth between them.
     pub fn ends(&self) -> Vec<f64> {
-        let of = |piece: &CurvePiece| match piece {
-            CurvePiece::Slip(slip) => [0.0, slip.duration].map(|t| slip.at(t).0),
-            CurvePiece::Line { from, to } => [*from, *to],
-        };
-        self.pieces.iter().flat_map(of).collect()
+        self.steps.iter().flat_map(|step| [0.0, step.duration].map(|t| step.at(t).0)).collect()
     }
 
-    /// Its points, `between` + 1 on each piece; velocities divided by the natural frequency.
-    pub fn points(&self, between: u16, speed: f64) -> Vec<State> {
-        self.pieces.iter().flat_map(|piece| piece.points(between, speed)).collect()
+    /// Its points, one more than this number on each step in slip and on each ride; velocities divided by the natural
+    /// frequency.
+    pub fn points(&self, (in_slip, on_belt): (u16, u16)) -> Vec<State> {
+        let points = |step: &MachineStep| {
+            let rides = step.place == ContactState::Sticks;
+            let between = if rides { on_belt } else { in_slip }.max(1);
+            let part = |point: u16| f64::from(point) / f64::from(between);
+            let at = |point: u16| step.at(step.duration * part(point));
+            (0..=between).map(at).map(|(q, v)| State { q, v }).collect::<Vec<State>>()
+        };
+        self.steps.iter().flat_map(points).collect()
+    }
+
+    /// The ledger of a closed curve, in J.
+    pub fn ledger(&self, model: &Model) -> Ledger {
+        let mut sum = [0.0; 3];
+        for step in &self.steps {
+            add(&mut sum, step.works(model, step.duration));
+        }
+        let start = self.steps.first().map_or((0.0, 0.0), |step| step.at(0.0));
+        ledger(model, sum, start, start)
     }
 
     /// The same as a closed curve to be drawn, on which the belt's line needs its ends alone.
-    pub fn closed(&self, between: u16, speed: f64) -> Vec<State> {
-        let on = |piece: &CurvePiece| match piece {
-            CurvePiece::Slip(_) => between,
-            CurvePiece::Line { .. } => 1,
-        };
-        let pieces = self.pieces.iter();
-        let mut found: Vec<State> =
-            pieces.flat_map(|piece| piece.points(on(piece), speed)).collect();
+    pub fn closed(&self, between: u16) -> Vec<State> {
+        let mut found = self.points((between, 1));
         found.extend(found.first().copied());
         found
     }
+}
+
+/// Adds the works of a step.
+pub(super) fn add(sum: &mut [f64; 3], works: [f64; 3]) {
+    for (sum, work) in sum.iter_mut().zip(works) {
+        *sum += work;
+    }
+}
+
+/// The ledger of a motion between two states with these works of belt, damper and guide, in J.
+pub(super) fn ledger(
+    model: &Model,
+    [belt, damper, guide]: [f64; 3],
+    start: (f64, f64),
+    end: (f64, f64),
+) -> Ledger {
+    let energy = |(x, y): (f64, f64)| 0.5 * ((x + model.pull) * (x + model.pull) + y * y);
+    let works = [("belt", belt), ("damper", -damper), ("guide", -guide)];
+    let work = |(source, amount)| Work { source, amount, acts: amount != 0.0 };
+    let works = works.into_iter().map(work).collect();
+    Ledger::new((energy(start), energy(end)), works).scaled(model.stiffness)
 }

@@ -4,7 +4,6 @@
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod arc;
 pub(crate) mod curve;
-pub(crate) mod ledger;
 #[doc(hidden)]
 pub mod motion;
 pub(crate) mod series;

@@ -1,13 +1,12 @@
 //! A motion of a machine in time, by any of the methods that can follow one.
 
-use super::arc::{Flow, SeriesStep, Watch};
-use super::ledger::StepWorks;
-use super::series::ORDER;
+use super::arc::Flow;
+use super::curve::{MachineStep, ORDER, add, ledger};
+use super::series::PhaseSeries;
 use super::stepped::{self, PhaseStepper};
 use crate::flow::motion::Leg;
-use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Sample, Trajectory};
+use crate::flow::{Crossing, Detail, Limits, Method, Outcome, Problem, Sample, Trajectory};
 use crate::model::{ContactState, Model, Phase, Reason, State};
-use crate::numerics::polynomial::value;
 
 /// The units in which a motion of a machine is told. The model itself computes in m and `1/omega_0`.
 #[derive(Clone, Copy, Debug)]
@@ -47,49 +46,40 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
     let start = (q * length, v * length / omega_0);
     let whole = until * omega_0;
     let mut stepper = stepped::stepper(model, method);
-    let detail = Detail { energy: detail.energy && stepper.is_none(), ..detail };
+    let by_series = stepper.is_none();
+    // A step without series is known at its end alone.
+    let samples_per_step = detail.samples_per_step.min(if by_series { usize::MAX } else { 1 });
     let mut recorder = MotionRecorder {
         units,
-        detail,
-        works: StepWorks::default(),
-        legs: Vec::new(),
-        crossings: Vec::new(),
-        samples: vec![Sample { tau: 0.0, q, v }],
+        detail: Detail { samples_per_step, energy: detail.energy && by_series, ..detail },
         whole,
-        left: whole,
-        steps: 0,
+        works: [0.0; 3],
         state: start,
-        x: (start.0, start.0),
-        y: (start.1, start.1),
+        extremes: [(start.0, start.0), (start.1, start.1)],
+        found: Trajectory::begun(problem, if by_series { Method::Taylor } else { method }),
     };
-    let ended = recorder.run(&mut Flow::new(model), stepper.as_mut());
-    let end = recorder.sample(0.0, recorder.state);
-    if detail.samples_per_step == 0 {
-        recorder.samples.push(end);
-    }
+    recorder.found.samples = vec![Sample { tau: 0.0, q, v }];
+    let mut flow = Flow::new(model);
+    (flow.series.left, flow.follows) = (whole, true);
+    let ended = recorder.run(&mut flow, stepper.as_mut());
+    let end = recorder.sample(flow.series.left, recorder.state);
     let Sample { tau, q, v } = end;
-    let MotionRecorder { works, legs, crossings, samples, steps, state, x, y, .. } = recorder;
-    let scaled = |(low, high): (f64, f64), one: f64| (low * one, high * one);
-    let evaluations =
-        stepper.as_ref().map_or(steps * ORDER as u64, |stepper| stepper.cost().evaluations);
-    let works = detail.energy.then(|| works.ledger(model, start, state));
-    Trajectory {
-        problem: *problem,
-        method: if stepper.is_some() { method } else { Method::Taylor },
-        implicit_steps: 0,
-        outcome: match ended {
-            None => Outcome::Moving { tau, q, v },
-            Some(Reason::Settles) => Outcome::Captured { tau, q },
-            Some(Reason::Escapes) => Outcome::Escaped { tau },
-            Some(reason) => Outcome::GaveUp { tau, reason },
-        },
-        crossings,
-        legs,
-        extremes: Some([scaled(x, 1.0 / length), scaled(y, omega_0 / length)]),
-        ledger: works.map(|works| works.scaled(1.0 / energy)),
-        samples,
-        cost: Cost { evaluations, steps, ..Cost::default() },
+    let MotionRecorder { detail, works, state, extremes: [x, y], mut found, .. } = recorder;
+    if detail.samples_per_step == 0 {
+        found.samples.push(end);
     }
+    found.outcome = match ended {
+        None => Outcome::Moving { tau, q, v },
+        Some(Reason::Settles) => Outcome::Captured { tau, q },
+        Some(reason) => Outcome::without_end(tau, reason),
+    };
+    let scaled = |(low, high): (f64, f64), one: f64| (low * one, high * one);
+    found.extremes = Some([scaled(x, 1.0 / length), scaled(y, omega_0 / length)]);
+    let by_terms = found.cost.steps * ORDER as u64;
+    found.cost.evaluations = stepper.map_or(by_terms, |stepper| stepper.cost().evaluations);
+    let works = detail.energy.then(|| ledger(model, works, start, state));
+    found.ledger = works.map(|works| works.scaled(1.0 / energy));
+    found
 }
 
 /// Follows a motion from displacement and velocity (m, m/s) for `until` seconds by Taylor series, with its ledger.
@@ -109,16 +99,14 @@ const MOST_STEPS: u64 = 200_000;
 struct MotionRecorder {
     units: MotionUnits,
     detail: Detail,
-    works: StepWorks,
-    legs: Vec<Leg>,
-    crossings: Vec<Crossing>,
-    samples: Vec<Sample>,
+    /// How long the motion is followed.
     whole: f64,
-    left: f64,
-    steps: u64,
+    /// Works of belt, damper and guide.
+    works: [f64; 3],
+    /// Displacement and velocity at the end of the last step, and their extremes.
     state: (f64, f64),
-    x: (f64, f64),
-    y: (f64, f64),
+    extremes: [(f64, f64); 2],
+    found: Trajectory,
 }
 
 impl MotionRecorder {
@@ -130,104 +118,57 @@ impl MotionRecorder {
         mut stepper: Option<&mut PhaseStepper<'a>>,
     ) -> Option<Reason> {
         let most = if stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
+        let model = flow.model;
         let (mut x, mut y) = self.state;
-        let mut place = flow.model.place(x, y);
+        let mut place = model.place(x, y);
         loop {
-            if self.left <= 0.0 {
+            let left = flow.series.left;
+            if left <= 0.0 {
                 return None;
             }
-            if self.steps > most {
+            if self.found.cost.steps > most {
                 return Some(Reason::Steps);
             }
-            let start = self.sample(0.0, (x, y));
-            if !self.legs.is_empty() && y == 0.0 {
-                self.crossings.push(Crossing { tau: start.tau, q: start.q });
+            let start = self.sample(left, (x, y));
+            if !self.found.legs.is_empty() && y == 0.0 {
+                self.found.crossings.push(Crossing { tau: start.tau, q: start.q });
             }
-            self.legs.push(Leg { place, start });
-            match flow.leg(stepper.as_deref_mut(), place, (x, y), self) {
+            self.found.legs.push(Leg { place, start });
+            let mut keep = |series: &PhaseSeries| self.keep(model, &series.step, series.left);
+            match flow.leg(stepper.as_deref_mut(), place, (x, y), &mut keep) {
                 Ok(Some(leg)) => (place, x, y) = (leg.place, leg.x, leg.y),
-                _ if self.left <= 0.0 => return None,
+                _ if flow.series.left <= 0.0 => return None,
                 Ok(None) => return Some(Reason::Settles),
                 Err(stop) => return Some(stop),
             }
         }
     }
 
-    fn reaches(&mut self, (x, y): (f64, f64)) {
-        self.x = (self.x.0.min(x), self.x.1.max(x));
-        self.y = (self.y.0.min(y), self.y.1.max(y));
-    }
-
-    /// A state `later` than the last one.
-    fn sample(&self, later: f64, (x, y): (f64, f64)) -> Sample {
+    /// A state with this much time left.
+    fn sample(&self, left: f64, (x, y): (f64, f64)) -> Sample {
         let MotionUnits { length, omega_0, .. } = self.units;
-        let tau = (self.whole - (self.left - later).max(0.0)) / omega_0;
+        let tau = (self.whole - left) / omega_0;
         Sample { tau, q: x / length, v: y * omega_0 / length }
     }
 
-    /// Keeps points of a step, evenly spaced, including its end but not its start.
-    fn keep(&mut self, duration: f64, at: impl Fn(f64) -> (f64, f64)) {
+    /// Keeps what is asked for of a step at whose start this much time is left: points, evenly spaced, including its end
+    /// but not its start.
+    fn keep(&mut self, model: &Model, step: &MachineStep, left: f64) {
         let count = u32::try_from(self.detail.samples_per_step).unwrap_or(u32::MAX);
         for part in 1..=count {
-            let t = duration * f64::from(part) / f64::from(count);
-            self.samples.push(self.sample(t, at(t)));
+            let t = step.duration * f64::from(part) / f64::from(count);
+            self.found.samples.push(self.sample(left - t, step.at(t)));
         }
-    }
-
-    /// Takes note of the end of a step, which may lie beyond the time.
-    fn ends(&mut self, duration: f64, state: (f64, f64)) {
-        self.left -= duration;
-        self.steps += 1;
-        self.state = state;
-        self.reaches(state);
-    }
-}
-
-impl Watch for MotionRecorder {
-    fn follows(&self) -> bool {
-        true
-    }
-
-    fn left(&self) -> f64 {
-        self.left
-    }
-
-    fn step(&mut self, model: &Model, step: &SeriesStep) {
-        if self.left <= 0.0 {
-            return;
-        }
-        let duration = step.duration.min(self.left);
         if self.detail.energy {
-            self.works.slip(model, step, duration);
+            add(&mut self.works, step.works(model, step.duration));
         }
-        let offset = model.offset(step.phase);
-        let at = |t: f64| (value(&step.series.x, t) - offset, value(&step.series.y, t));
-        if let Some(peak) = step.peak.filter(|peak| *peak < duration) {
-            self.reaches(at(peak));
+        self.found.cost.steps += 1;
+        self.state = step.at(step.duration);
+        for (x, y) in step.peak.map(|peak| step.at(peak)).into_iter().chain([self.state]) {
+            for ((low, high), value) in self.extremes.iter_mut().zip([x, y]) {
+                (*low, *high) = (low.min(value), high.max(value));
+            }
         }
-        self.keep(duration, at);
-        self.ends(step.duration, at(duration));
-    }
-
-    fn passes(&mut self, duration: f64, end: (f64, f64)) {
-        if self.detail.samples_per_step > 0 {
-            self.samples.push(self.sample(duration, end));
-        }
-        self.ends(duration, end);
-    }
-
-    fn stick(&mut self, model: &Model, from: f64, to: f64) {
-        if self.left <= 0.0 {
-            return;
-        }
-        let duration = (to - from) / model.speed;
-        let ride = duration.min(self.left);
-        let to = if duration > self.left { from + self.left * model.speed } else { to };
-        if self.detail.energy {
-            self.works.ride(model, from, to);
-        }
-        self.keep(ride, |t| (from + t * model.speed, model.speed));
-        self.ends(duration, (to, model.speed));
     }
 }
 
@@ -255,7 +196,7 @@ impl Flow<'_> {
                 return Err(Reason::Interrupted);
             }
             let place = self.model.place(x, y);
-            match self.turn(place, (x, y), &mut ()) {
+            match self.turn(place, (x, y), &mut |_| {}) {
                 Ok(turn) if turn.rests => return Ok(turn.x),
                 Ok(turn) => (x, y) = (turn.x, 0.0),
                 Err(Reason::Settles) if place == ContactState::Slips(Phase::Below) => {

@@ -4,31 +4,21 @@
 //! series by Horner's scheme, plus an exponential with a recurrence of its own. The step is the one that
 //! keeps the last terms below rounding (Jorba and Zou, Experimental Mathematics 14, 2005).
 
+use super::curve::{INVERSE, MachineCurve, MachineStep, ORDER, TERMS, Terms};
+use crate::model::ContactState;
 use crate::model::force::{Fall, ForceBranch, ForcePiece, shift};
-use crate::numerics::count::{real, reciprocals};
+use crate::numerics::count::real;
 use crate::numerics::elementary::{exp2, log2, pow};
 use crate::numerics::polynomial::{integral, value, value_and_slope};
 use crate::numerics::quadrature::gauss;
 
-/// Order of the series; near the one that costs least at full precision.
-pub const ORDER: usize = 20;
-
-/// Terms of a series.
-pub const TERMS: usize = ORDER + 1;
-
-/// Coefficients in powers of time.
-pub type Terms = [f64; TERMS];
-
-/// `1/k`.
-const INVERSE: Terms = reciprocals();
-
-/// The series of one step.
+/// The series of one step, and what it takes to compute them.
 #[derive(Clone, Debug)]
 pub struct PhaseSeries {
-    /// Displacement from the balance of the phase, `x + offset`.
-    pub x: Terms,
-    /// Velocity.
-    pub y: Terms,
+    /// The step.
+    pub step: MachineStep,
+    /// For how long the motion is still to be followed at its start, in `1/omega_0`.
+    pub left: f64,
     /// Coefficients of h about the present velocity.
     local: Vec<f64>,
     /// Partial sums of Horner's scheme, as series.
@@ -45,8 +35,8 @@ pub struct PhaseSeries {
 impl PhaseSeries {
     pub fn new() -> Self {
         PhaseSeries {
-            x: [0.0; TERMS],
-            y: [0.0; TERMS],
+            step: MachineStep::even(ContactState::Rests, [0.0; 2], 0.0),
+            left: f64::INFINITY,
             local: Vec::new(),
             rows: Vec::new(),
             powers: Vec::new(),
@@ -82,17 +72,17 @@ impl PhaseSeries {
             force += fall.value(y);
             self.begin_fall(&fall, y);
         }
-        (self.x[0], self.y[0]) = (x, y);
+        (self.step.x[0], self.step.y[0]) = (x, y);
         for k in 0..ORDER {
-            let mut rate = force - self.x[k];
+            let mut rate = force - self.step.x[k];
             if k == 0
                 && let Some(acceleration) = acceleration
             {
                 rate = acceleration;
             }
             let factor = forward * INVERSE[k + 1];
-            self.x[k + 1] = factor * self.y[k];
-            self.y[k + 1] = factor * rate;
+            self.step.x[k + 1] = factor * self.step.y[k];
+            self.step.y[k + 1] = factor * rate;
             force = self.polynomial(k + 1, degree);
             if let Some(fall) = self.falling {
                 force += self.next_fall(&fall, k + 1);
@@ -106,17 +96,17 @@ impl PhaseSeries {
             return 0.0;
         }
         if degree == 1 {
-            return self.local[1] * self.y[k];
+            return self.local[1] * self.step.y[k];
         }
         // Row r holds `c_(r+1) + d (c_(r+2) + d (..))` with d = y - y(0); the last of all is a constant.
         for row in 0..degree - 1 {
             self.rows[row][k] = if row + 2 == degree {
-                self.local[degree] * self.y[k]
+                self.local[degree] * self.step.y[k]
             } else {
-                product(&self.y, &self.rows[row + 1], k)
+                product(&self.step.y, &self.rows[row + 1], k)
             };
         }
-        product(&self.y, &self.rows[0], k)
+        product(&self.step.y, &self.rows[0], k)
     }
 
     fn begin_fall(&mut self, fall: &Fall, y: f64) {
@@ -139,17 +129,18 @@ impl PhaseSeries {
     fn next_fall(&mut self, fall: &Fall, k: usize) -> f64 {
         let toward = -fall.sign() / fall.velocity;
         if let Some(exponent) = whole(fall) {
-            self.powers[0][k] = toward * self.y[k];
+            self.powers[0][k] = toward * self.step.y[k];
             for row in 1..exponent {
                 let (slip, below) = (&self.powers[0], &self.powers[row - 1]);
                 self.powers[row][k] = product(slip, below, k) + slip[0] * below[k];
             }
         } else {
             // slip P' = n slip' P for the power P of the slip.
-            let ratio = (fall.slip(self.y[0]) / fall.velocity).max(LEAST_SLIP);
+            let ratio = (fall.slip(self.step.y[0]) / fall.velocity).max(LEAST_SLIP);
             let weight = |j: usize| fall.exponent * real(j) - real(k - j);
             let power = &self.powers[0];
-            let sum: f64 = (1..=k).map(|j| weight(j) * toward * self.y[j] * power[k - j]).sum();
+            let sum: f64 =
+                (1..=k).map(|j| weight(j) * toward * self.step.y[j] * power[k - j]).sum();
             self.powers[0][k] = sum / ratio * INVERSE[k];
         }
         let last = self.powers.len() - 1;
@@ -161,16 +152,21 @@ impl PhaseSeries {
     /// The longest step that keeps the last terms below `aim`, relative to the state; infinite for a state
     /// that does not move.
     pub fn length(&self, aim: f64) -> f64 {
-        let size = self.x[0].abs().max(self.y[0].abs());
+        let size = self.step.x[0].abs().max(self.step.y[0].abs());
         let allowed = |k: usize| {
-            let term = self.x[k].abs().max(self.y[k].abs());
+            let term = self.step.x[k].abs().max(self.step.y[k].abs());
             if term > 0.0 { log2(aim * size / term) * INVERSE[k] } else { f64::INFINITY }
         };
         exp2((ORDER - 2..=ORDER).map(allowed).fold(f64::INFINITY, f64::min))
     }
 
-    /// The integral of the divergence of the field, the derivative of the force by the velocity, up to `duration`.
-    pub fn divergence(&self, duration: f64) -> f64 {
+    /// The integral of the divergence of the field, the derivative of the force by the velocity, over the step; 0 on the
+    /// belt.
+    pub fn divergence(&self) -> f64 {
+        let duration = self.step.duration;
+        if self.step.place == ContactState::Sticks {
+            return 0.0;
+        }
         if self.local.len() > 2 || self.falling.is_some_and(|fall| fall.exponent != 1.0) {
             return duration * gauss(|part| self.force_slope(part * duration));
         }
@@ -183,15 +179,17 @@ impl PhaseSeries {
 
     /// The derivative of the force by the velocity. The exponential is that of the series.
     fn force_slope(&self, t: f64) -> f64 {
-        let y = value(&self.y, t);
-        let (_, slope) = value_and_slope(&self.local, y - self.y[0]);
+        let y = value(&self.step.y, t);
+        let (_, slope) = value_and_slope(&self.local, y - self.step.y[0]);
         let fall = self.falling.map(|fall| fall.sign() * value(&self.fall, t) * fall.steepness(y));
         slope + fall.unwrap_or(0.0)
     }
+}
 
-    /// The velocity and its derivative.
-    pub fn velocity(&self, t: f64) -> (f64, f64) {
-        value_and_slope(&self.y, t)
+impl MachineCurve {
+    /// What keeps the steps of a motion that is followed.
+    pub fn keeper(&mut self) -> impl FnMut(&PhaseSeries) {
+        |series| self.steps.push(series.step.clone())
     }
 }
 

@@ -1,13 +1,14 @@
 //! An arc by an explicit Runge-Kutta method in place of Taylor series: a second opinion that shares with the first
 //! the model, what happens at its lines and how they are found, but not the steps.
 
-use super::arc::{ArcEnd, StepInside, Watch, crossing};
+use super::arc::{ArcEnd, Flow, crossing};
+use super::curve::MachineStep;
+use super::series::PhaseSeries;
 use crate::flow::Method;
 use crate::flow::explicit::{Dop853, Dopri5};
-use crate::flow::step::{Field, Step, StepPoint, Stepper};
+use crate::flow::step::{Field, StepPoint, Stepper};
 use crate::flow::tableau::{dop853, dopri5};
-use crate::model::{Model, Phase, Reason};
-use crate::numerics::root::{Bracket, PlaceTolerance, newton};
+use crate::model::{ContactState, Model, Phase, Reason};
 
 /// The methods that can follow a machine.
 pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";
@@ -52,81 +53,70 @@ const LONGEST: f64 = 0.125;
 /// Maximum number of steps of a motion.
 pub(crate) const STEPS: u64 = 2_000_000;
 
-/// The last step of a stepper. Its ends are known, the rest takes evaluations.
-struct LastStep<'s, 'a> {
-    stepper: &'s PhaseStepper<'a>,
-    field: PhaseField<'a>,
-    from: StepPoint,
-    step: Step,
-}
-
-impl StepInside for LastStep<'_, '_> {
-    fn velocity(&mut self, t: f64) -> (f64, f64) {
-        let StepPoint { x, v } = if t == 0.0 {
-            self.from
-        } else if t == self.step.duration {
-            self.step.end
-        } else {
-            self.stepper.at(t)
-        };
-        (v, self.field.acceleration(x, v))
+impl<'a> Flow<'a> {
+    /// Follows a motion to the end of its phase, or until no time is left. Fails with [`Reason`] where it leaves the
+    /// law, escapes, or needs too many steps.
+    pub(super) fn stepped(
+        &mut self,
+        stepper: &mut PhaseStepper<'a>,
+        phase: Phase,
+        (x, y): (f64, f64),
+        watch: &mut impl FnMut(&PhaseSeries),
+    ) -> Result<ArcEnd, Reason> {
+        let model = self.model;
+        let (field, offset) = (PhaseField { model, phase }, model.offset(phase));
+        let (least, most) = model.range(phase);
+        let pieces = &model.side(phase).pieces;
+        let low = pieces.first().map_or(f64::INFINITY, |piece| piece.low).max(least);
+        let high = pieces.last().map_or(f64::NEG_INFINITY, |piece| piece.high).min(most);
+        let mut from = StepPoint { x: x + offset, v: y };
+        let entered = field.acceleration(from.x, from.v);
+        // What has just been released is not faster than the belt, whatever rounding says.
+        let mut outer = if phase == Phase::Between && y == most { f64::INFINITY } else { high };
+        stepper.begin(&field);
+        for _ in 0..STEPS {
+            let longest = LONGEST.min(self.series.left);
+            let mut step = stepper.advance(from, longest, false).map_err(|_| Reason::Escapes)?;
+            // The ends of the step are known, the rest takes evaluations.
+            let velocity = |t: f64| {
+                let point = if t == 0.0 {
+                    from
+                } else if t == step.duration {
+                    step.end
+                } else {
+                    stepper.at(t)
+                };
+                (point.v, field.acceleration(point.x, point.v))
+            };
+            let turning = |t: f64| {
+                let (velocity, slope) = velocity(t);
+                (slope, field.divergence(velocity) * slope - velocity)
+            };
+            let (_, hit) = crossing(phase, step.duration, (low, outer), &velocity, &turning);
+            let mut reached = None;
+            if let Some((time, level)) = hit {
+                step = stepper.advance(from, time, false).map_err(|_| Reason::Escapes)?;
+                // Where the shorter step was refused, it ends before the line.
+                reached = (step.duration >= time).then_some(level);
+            }
+            outer = high;
+            let y = reached.unwrap_or(step.end.v.clamp(least, most));
+            from = StepPoint { x: step.end.x, v: y };
+            let x = from.x - offset;
+            // Its end stands for the step: it has no series.
+            let end = MachineStep::even(ContactState::Slips(phase), [x, 0.0], y);
+            self.passes(MachineStep { duration: step.duration, ..end }, watch);
+            if reached.is_some() && (y == least || y == most) {
+                let accelerations = (entered, field.acceleration(from.x, y));
+                return Ok(ArcEnd { x, on_belt: y != 0.0, accelerations });
+            }
+            if reached.is_some() {
+                return Err(self.outside(y));
+            }
+            if self.series.left <= 0.0 {
+                return Err(Reason::Settles);
+            }
+        }
+        Err(Reason::Steps)
     }
-
-    fn turning(&mut self, end: f64) -> f64 {
-        let bracket = Bracket { low: 0.0, high: end, rising: self.velocity(0.0).1 < 0.0 };
-        // Where the velocity is flat, an error e in time costs only e^2 in it.
-        newton(bracket, 0.5 * end, PlaceTolerance::Absolute(1e-9 * end), |t| {
-            let (velocity, slope) = self.velocity(t);
-            (slope, self.field.divergence(velocity) * slope - velocity)
-        })
-        .at
-    }
-}
-
-/// Follows a motion to the end of its phase, or until no time is left. Fails with [`Reason`] where it leaves the
-/// law, escapes, or needs too many steps.
-pub(crate) fn stepped<'a>(
-    stepper: &mut PhaseStepper<'a>,
-    field: PhaseField<'a>,
-    (x, y): (f64, f64),
-    watch: &mut impl Watch,
-) -> Result<ArcEnd, Reason> {
-    let PhaseField { model, phase } = field;
-    let offset = model.offset(phase);
-    let (least, most) = model.range(phase);
-    let pieces = &model.side(phase).pieces;
-    let low = pieces.first().map_or(f64::INFINITY, |piece| piece.low).max(least);
-    let high = pieces.last().map_or(f64::NEG_INFINITY, |piece| piece.high).min(most);
-    let mut from = StepPoint { x: x + offset, v: y };
-    let entered = field.acceleration(from.x, from.v);
-    // What has just been released is not faster than the belt, whatever rounding says.
-    let mut outer = if phase == Phase::Between && y == most { f64::INFINITY } else { high };
-    stepper.begin(&field);
-    for _ in 0..STEPS {
-        let longest = LONGEST.min(watch.left());
-        let mut step = stepper.advance(from, longest, false).map_err(|_| Reason::Escapes)?;
-        let inside = LastStep { stepper, field, from, step };
-        let mut reached = None;
-        if let Some((time, level)) = crossing(inside, phase, step.duration, (low, outer)).hit {
-            step = stepper.advance(from, time, false).map_err(|_| Reason::Escapes)?;
-            // Where the shorter step was refused, it ends before the line.
-            reached = (step.duration >= time).then_some(level);
-        }
-        outer = high;
-        let y = reached.unwrap_or(step.end.v.clamp(least, most));
-        from = StepPoint { x: step.end.x, v: y };
-        let x = from.x - offset;
-        watch.passes(step.duration, (x, y));
-        if reached.is_some() && (y == least || y == most) {
-            let accelerations = (entered, field.acceleration(from.x, y));
-            return Ok(ArcEnd { x, on_belt: y != 0.0, accelerations });
-        }
-        if reached.is_some() {
-            return Err(Reason::BeyondLaw { slip: (model.speed - y).abs() * model.omega_0 });
-        }
-        if watch.left() <= 0.0 {
-            return Err(Reason::Settles);
-        }
-    }
-    Err(Reason::Steps)
 }

@@ -3,8 +3,10 @@
 //! Where the inclusion leaves a choice, the mass is held: by the belt wherever static friction suffices, and
 //! likewise by the guide. An orbit that touches the belt's line tangentially sticks.
 
-use super::arc::{ArcEnd, Flow, Watch};
-use super::stepped::{PhaseField, PhaseStepper, stepped};
+use super::arc::{ArcEnd, Flow};
+use super::curve::MachineStep;
+use super::series::PhaseSeries;
+use super::stepped::PhaseStepper;
 use crate::model::{ContactState, Phase, Reason};
 
 /// A turning point.
@@ -49,7 +51,7 @@ impl<'a> Flow<'a> {
         &mut self,
         mut place: ContactState,
         (mut x, mut y): (f64, f64),
-        watch: &mut impl Watch,
+        watch: &mut impl FnMut(&PhaseSeries),
     ) -> Result<Turn, Reason> {
         /// Maximum number of legs: three contacts with the belt's line and one more by rounding, and a ride.
         const LEGS: usize = 8;
@@ -79,14 +81,16 @@ impl<'a> Flow<'a> {
         stepper: Option<&mut PhaseStepper<'a>>,
         place: ContactState,
         (x, y): (f64, f64),
-        watch: &mut impl Watch,
+        watch: &mut impl FnMut(&PhaseSeries),
     ) -> Result<Option<LegEnd>, Reason> {
         let model = self.model;
         let phase = match place {
             ContactState::Rests => return Ok(None),
             ContactState::Sticks => {
                 let release = model.lines.map_or(x, |lines| lines.release);
-                watch.stick(model, x, release);
+                let mut ride = MachineStep::ride(x, release, model.speed);
+                ride.duration = ride.duration.min(self.series.left);
+                self.passes(ride, watch);
                 let place = ContactState::Slips(Phase::Between);
                 return Ok(Some(LegEnd { place, x: release, y, log_ratio: f64::NEG_INFINITY }));
             }
@@ -94,7 +98,7 @@ impl<'a> Flow<'a> {
         };
         let end = match stepper {
             None => self.arc(phase, (x, y), false, watch)?,
-            Some(stepper) => stepped(stepper, PhaseField { model, phase }, (x, y), watch)?,
+            Some(stepper) => self.stepped(stepper, phase, (x, y), watch)?,
         };
         let (place, x) = self.after(phase, &end);
         let y = if end.on_belt { model.speed } else { 0.0 };

@@ -16,7 +16,6 @@
 //! ```
 
 use super::orbit::works as works_over;
-use crate::flow::machine::curve::MachineCurve;
 use crate::flow::{Cost, Flow, Limits, Reason};
 use crate::model::{Ledger, Model, Parameters, Side, State};
 use crate::numerics::elementary::exp;
@@ -91,11 +90,11 @@ impl Portrait {
         let (mut curves, mut works) = (Vec::new(), Vec::new());
         if self.fates.is_empty() {
             let mut flow = Flow::new(model);
+            flow.follows = true;
             for cycle in &self.cycles {
-                let mut curve = MachineCurve::default();
-                flow.around(cycle.q_max, cycle.is_followed_backward(), &mut curve)?;
-                curves.push(self.places(&Edge::Curve(curve, model.speed), points));
-                works.push(flow.works_around(cycle).unwrap_or_default().scaled(1.0 / energy));
+                let (curve, _) = flow.around(cycle.q_max, cycle.is_followed_backward())?;
+                works.push(curve.ledger(model).scaled(1.0 / energy));
+                curves.push(self.places(&Edge::Curve(curve), points));
             }
         }
         // A separatrix lies within all cycles.

@@ -2,44 +2,14 @@
 
 use super::machine_return::Landmarks;
 use super::machine_return::{Image, MachineReturn};
-use crate::flow::machine::arc::{SeriesStep, Watch};
-use crate::flow::machine::ledger::StepWorks;
+use crate::flow::machine::curve::MachineCurve;
 use crate::flow::{Flow, Reason};
-use crate::model::{ContactState, Ledger, Model, Phase};
+use crate::model::{ContactState, Model, Phase};
 use crate::numerics::elementary::{exp, ln, pow};
 use crate::numerics::root::{self, PlaceTolerance, bisect, try_newton};
 use crate::numerics::scaling::{exponent, times_power};
 use crate::portrait::closing::search::{Bracket, Node, Search};
 use crate::portrait::{Cycle, Ride};
-
-/// Extremes of the velocity, and durations, along a motion.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Extremes {
-    /// Smallest and largest velocity.
-    pub y: (f64, f64),
-    /// Total time.
-    pub duration: f64,
-    /// The last ride on the belt, with the time spent on all.
-    pub ride: Option<Ride>,
-}
-
-impl Watch for Extremes {
-    fn step(&mut self, _: &Model, step: &SeriesStep) {
-        self.duration += step.duration;
-        if let Some(peak) = step.peak {
-            let y = step.series.velocity(peak).0;
-            self.y = (self.y.0.min(y), self.y.1.max(y));
-        }
-    }
-
-    fn stick(&mut self, model: &Model, from: f64, to: f64) {
-        let duration = (to - from) / model.speed;
-        self.duration += duration;
-        self.y.1 = self.y.1.max(model.speed);
-        let before = self.ride.map_or(0.0, |ride| ride.duration);
-        self.ride = Some(Ride { from, to, duration: before + duration });
-    }
-}
 
 /// The fixed points of the return map, and whether it is the identity somewhere.
 #[derive(Clone, Debug, Default)]
@@ -357,11 +327,19 @@ impl Flow<'_> {
         let Model { omega_0, guide, .. } = *self.model;
         let sticks = image.sticks_from.is_some();
         let overtakes = image.overtakes_from.is_some();
-        let mut extremes = Extremes::default();
-        self.around(x, !stable && !sticks && !overtakes, &mut extremes)?;
-        let Extremes { y: (slowest, fastest), duration, ride } = extremes;
+        let (curve, _) = self.around(x, !stable && !sticks && !overtakes)?;
+        let peaks = curve.steps.iter().filter_map(|step| Some(step.at(step.peak?).1));
+        let (slowest, fastest) =
+            peaks.fold((0.0_f64, 0.0_f64), |(low, high), y| (low.min(y), high.max(y)));
+        let duration: f64 = curve.steps.iter().map(|step| step.duration).sum();
+        let rides = || curve.steps.iter().filter(|step| step.place == ContactState::Sticks);
+        let riding: f64 = rides().map(|step| step.duration).sum();
+        // The last of them, with the time spent on all.
+        let ride = rides().last().map(|step| {
+            let [from, to] = [0.0, step.duration].map(|t| step.at(t).0);
+            Ride { from, to, duration: riding / omega_0 }
+        });
         let log_multiplier = if sticks { f64::NEG_INFINITY } else { image.log_slope };
-        let ride = ride.map(|ride| Ride { duration: ride.duration / omega_0, ..ride });
         Ok(Cycle {
             stable,
             q_min: image.left,
@@ -380,35 +358,23 @@ impl Flow<'_> {
         })
     }
 
-    /// Follows a motion once around from a right turning point; backward in time if that attracts.
+    /// The motion once around from a right turning point, with its left one; backward in time if that attracts.
     ///
     /// # Errors
     /// [`Reason`] if rounding carries the motion away.
-    pub fn around(
-        &mut self,
-        x: f64,
-        backward: bool,
-        watch: &mut impl Watch,
-    ) -> Result<f64, Reason> {
-        if backward {
-            let left = self.arc(Phase::Between, (x, 0.0), true, watch)?.x;
-            self.arc(Phase::Below, (left, 0.0), true, watch)?;
-            return Ok(left);
-        }
-        let left = self.turn(ContactState::Slips(Phase::Below), (x, 0.0), watch)?.x;
-        self.turn(ContactState::Slips(Phase::Between), (left, 0.0), watch)?;
-        Ok(left)
-    }
-
-    /// The ledger of one turn of a cycle.
-    ///
-    /// # Errors
-    /// [`Reason`], where rounding carries the motion off.
-    pub fn works_around(&mut self, cycle: &Cycle) -> Result<Ledger, Reason> {
-        let mut works = StepWorks::default();
-        let start = (cycle.q_max, 0.0);
-        self.around(cycle.q_max, cycle.is_followed_backward(), &mut works)?;
-        Ok(works.ledger(self.model, start, start))
+    pub fn around(&mut self, x: f64, backward: bool) -> Result<(MachineCurve, f64), Reason> {
+        let mut curve = MachineCurve::default();
+        let left = if backward {
+            let left = self.arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?.x;
+            self.arc(Phase::Below, (left, 0.0), true, &mut curve.keeper())?;
+            left
+        } else {
+            let [below, between] = [Phase::Below, Phase::Between].map(ContactState::Slips);
+            let left = self.turn(below, (x, 0.0), &mut curve.keeper())?.x;
+            self.turn(between, (left, 0.0), &mut curve.keeper())?;
+            left
+        };
+        Ok((curve, left))
     }
 }
 

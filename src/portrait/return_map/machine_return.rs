@@ -4,22 +4,13 @@
 //! motions that come to ride on the belt leave it at the same place. So at most one cycle sticks to the belt, and its
 //! multiplier is exactly 0; the fixed points order everything else.
 
-use crate::flow::machine::arc::{ArcEnd, SeriesStep, Watch};
-use crate::flow::machine::curve::{CurvePiece, MachineCurve};
+use crate::flow::machine::arc::ArcEnd;
+use crate::flow::machine::curve::{MachineCurve, MachineStep};
+use crate::flow::machine::series::PhaseSeries;
 use crate::flow::machine::turn::Turn;
 use crate::flow::{Flow, Reason};
-use crate::model::{ContactState, Lines, Model, Phase};
+use crate::model::{ContactState, Lines, Phase};
 use crate::numerics::elementary::ln;
-
-/// The integral of the divergence of the field along a motion.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Divergence(pub f64);
-
-impl Watch for Divergence {
-    fn step(&mut self, _: &Model, step: &SeriesStep) {
-        self.0 += step.series.divergence(step.duration);
-    }
-}
 
 /// The image of a right turning point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,19 +40,20 @@ impl Flow<'_> {
     /// The next right turning point after the one at `x`, outside of what the guide holds. Fails with
     /// [`Reason`] if the motion does not turn; a motion that settles at an equilibrium counts as coming to rest.
     pub fn returned(&mut self, x: f64) -> Result<MachineReturn, Reason> {
-        let mut divergence = Divergence::default();
-        let left = match self.turn(ContactState::Slips(Phase::Below), (x, 0.0), &mut divergence) {
+        let mut divergence = 0.0;
+        let mut add = |series: &PhaseSeries| divergence += series.divergence();
+        let left = match self.turn(ContactState::Slips(Phase::Below), (x, 0.0), &mut add) {
             Ok(Turn { x, rests: true, .. }) => return Ok(MachineReturn::Rests(x)),
             Ok(turn) => turn,
             Err(Reason::Settles) => return Ok(MachineReturn::Rests(self.model.guide)),
             Err(stop) => return Err(stop),
         };
-        match self.turn(ContactState::Slips(Phase::Between), (left.x, 0.0), &mut divergence) {
+        match self.turn(ContactState::Slips(Phase::Between), (left.x, 0.0), &mut add) {
             Ok(Turn { x, rests: true, .. }) => Ok(MachineReturn::Rests(x)),
             Ok(Turn { x, way, .. }) => Ok(MachineReturn::Turns(Image {
                 x,
                 left: left.x,
-                log_slope: left.way.log_ratio + way.log_ratio + divergence.0,
+                log_slope: left.way.log_ratio + way.log_ratio + divergence,
                 sticks_from: way.sticks_from,
                 overtakes_from: way.overtakes_from,
             })),
@@ -76,7 +68,7 @@ impl Flow<'_> {
     pub(crate) fn right_before(
         &mut self,
         left: f64,
-        watch: &mut impl Watch,
+        watch: &mut impl FnMut(&PhaseSeries),
     ) -> Result<Option<(f64, f64)>, Reason> {
         let left = left.min(-self.model.guide_static);
         match self.arc(Phase::Below, (left, 0.0), true, watch) {
@@ -91,8 +83,9 @@ impl Flow<'_> {
     /// [`Image::x`] is the turning point before. It contracts where the map itself expands. `None` if no such motion
     /// leads to `x`. Fails with [`Reason`] where the friction law ends or the steps run out.
     pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Reason> {
-        let mut divergence = Divergence::default();
-        let (left, entered) = match self.arc(Phase::Between, (x, 0.0), true, &mut divergence) {
+        let mut divergence = 0.0;
+        let mut add = |series: &PhaseSeries| divergence += series.divergence();
+        let (left, entered) = match self.arc(Phase::Between, (x, 0.0), true, &mut add) {
             Ok(end) if end.on_belt => return Ok(None),
             Ok(end) => (end.x, end.log_ratio()),
             Err(Reason::Settles) => (-self.model.guide, f64::NEG_INFINITY),
@@ -100,11 +93,11 @@ impl Flow<'_> {
             Err(Reason::Escapes) => return Ok(None),
             Err(stop) => return Err(stop),
         };
-        let before = self.right_before(left, &mut divergence)?;
+        let before = self.right_before(left, &mut add)?;
         Ok(before.map(|(x, ratio)| Image {
             x,
             left,
-            log_slope: divergence.0 - entered - ratio,
+            log_slope: divergence - entered - ratio,
             sticks_from: None,
             overtakes_from: None,
         }))
@@ -113,7 +106,12 @@ impl Flow<'_> {
     /// The left turning point from which a motion between rest and the belt's speed reaches `(x, y)`; where
     /// there is none, the edge of what the guide holds. Fails with [`Reason`] where the friction law ends or the
     /// steps run out.
-    pub fn left_before(&mut self, x: f64, y: f64, watch: &mut impl Watch) -> Result<f64, Reason> {
+    pub fn left_before(
+        &mut self,
+        x: f64,
+        y: f64,
+        watch: &mut impl FnMut(&PhaseSeries),
+    ) -> Result<f64, Reason> {
         match self.arc(Phase::Between, (x, y), true, watch) {
             Ok(end) => Ok(end.x),
             Err(Reason::Settles) => Ok(-self.model.guide),
@@ -160,39 +158,37 @@ impl Flow<'_> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };
         let grazing = self.grazing(&lines)?;
-        let released = match self.turn(ContactState::Sticks, (lines.release, model.speed), &mut ())
-        {
-            Ok(turn) => (!turn.rests).then_some(turn.x),
-            Err(Reason::Settles) => None,
-            Err(stop) => return Err(stop),
-        };
-        let low_left = self.left_before(lines.low, model.speed, &mut ())?;
+        let released =
+            match self.turn(ContactState::Sticks, (lines.release, model.speed), &mut |_| {}) {
+                Ok(turn) => (!turn.rests).then_some(turn.x),
+                Err(Reason::Settles) => None,
+                Err(stop) => return Err(stop),
+            };
+        let low_left = self.left_before(lines.low, model.speed, &mut |_| {})?;
         let beyond = self.beyond(&lines, low_left)?;
         Ok(Some(Landmarks { lines, grazing, released, low_left, beyond }))
     }
 
     fn grazing(&mut self, lines: &Lines) -> Result<Grazing, Reason> {
         let (guide, speed) = (self.model.guide, self.model.speed);
-        let mut divergence = Divergence::default();
-        let left = self.left_before(lines.fold, speed, &mut divergence)?;
+        let mut divergence = 0.0;
+        let mut add = |series: &PhaseSeries| divergence += series.divergence();
+        let left = self.left_before(lines.fold, speed, &mut add)?;
         // If overdamped, it comes to rest without another turn.
-        let after = match self.arc(Phase::Between, (lines.fold, speed), false, &mut divergence) {
+        let after = match self.arc(Phase::Between, (lines.fold, speed), false, &mut add) {
             Ok(end) => end.x,
             Err(Reason::Settles) => -guide,
             Err(stop) => return Err(stop),
         };
         let left = left.min(-self.model.guide_static);
-        let before = match self.right_before(left, &mut divergence) {
+        let before = match self.right_before(left, &mut add) {
             Err(Reason::BeyondLaw { .. }) => None,
             before => before?,
         };
         let (right, ratio) = before.map_or((None, 0.0), |(right, ratio)| (Some(right), ratio));
         let between = (left + guide) / (after + guide);
-        let log_slope = if after > -guide {
-            divergence.0 - ratio + ln(between.abs())
-        } else {
-            f64::NEG_INFINITY
-        };
+        let log_slope =
+            if after > -guide { divergence - ratio + ln(between.abs()) } else { f64::NEG_INFINITY };
         Ok(Grazing { left, right, image: after, log_slope })
     }
 
@@ -204,13 +200,14 @@ impl Flow<'_> {
             Reason::Escapes | Reason::Settles | Reason::BeyondLaw { .. } => Ok(None),
             _ => Err(stop),
         };
-        let rose = match self.arc(Phase::Above, (lines.release, speed), true, &mut ()) {
+        let rose = match self.arc(Phase::Above, (lines.release, speed), true, &mut |_| {}) {
             Ok(end) => end.x,
             Err(stop) => return back(stop),
         };
         let left =
-            if rose >= lines.low { low_left } else { self.left_before(rose, speed, &mut ())? };
-        let found = self.right_before(left, &mut ()).or_else(|stop| back(stop).map(|_| None))?;
+            if rose >= lines.low { low_left } else { self.left_before(rose, speed, &mut |_| {})? };
+        let found =
+            self.right_before(left, &mut |_| {}).or_else(|stop| back(stop).map(|_| None))?;
         Ok(found.map(|(right, _)| right))
     }
 }
@@ -225,27 +222,27 @@ impl Flow<'_> {
         &mut self,
         x: f64,
         landmarks: Option<&Landmarks>,
-        curve: &mut MachineCurve,
-    ) -> Result<f64, Reason> {
+    ) -> Result<(MachineCurve, f64), Reason> {
         let speed = self.model.speed;
         let Some(marks) = landmarks else { return Err(Reason::Steps) };
         // Where static friction holds what the orbit comes from, its way to the line is not on the border.
-        match self.arc(Phase::Between, (x, 0.0), true, &mut ()) {
+        match self.arc(Phase::Between, (x, 0.0), true, &mut |_| {}) {
             Ok(ArcEnd { on_belt: true, .. }) => {}
-            Ok(_) | Err(Reason::Settles) => return self.capture_border(x, landmarks, curve),
+            Ok(_) | Err(Reason::Settles) => return self.capture_border(x, landmarks),
             Err(stop) => return Err(stop),
         }
+        let mut curve = MachineCurve::default();
         let corner =
             if Some(x) == marks.grazing.right { marks.lines.fold } else { marks.lines.low };
-        let left = self.left_before(corner, speed, curve)?;
+        let left = self.left_before(corner, speed, &mut curve.keeper())?;
         let left = left.min(-self.model.guide_static);
-        self.arc(Phase::Below, (left, 0.0), true, curve)?;
-        let mut end = self.arc(Phase::Between, (x, 0.0), true, curve)?;
+        self.arc(Phase::Below, (left, 0.0), true, &mut curve.keeper())?;
+        let mut end = self.arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;
         if end.on_belt && end.x > marks.lines.release {
-            end = self.arc(Phase::Above, (end.x, speed), true, curve)?;
+            end = self.arc(Phase::Above, (end.x, speed), true, &mut curve.keeper())?;
         }
-        curve.pieces.push(CurvePiece::Line { from: corner, to: end.x });
-        Ok(left)
+        curve.steps.push(MachineStep::ride(corner, end.x, speed));
+        Ok((curve, left))
     }
 
     /// The border through the right turning point `x` up to which the guide catches the mass: the motion
@@ -254,23 +251,25 @@ impl Flow<'_> {
         &mut self,
         x: f64,
         landmarks: Option<&Landmarks>,
-        curve: &mut MachineCurve,
-    ) -> Result<f64, Reason> {
+    ) -> Result<(MachineCurve, f64), Reason> {
         let (guide, speed) = (self.model.guide, self.model.speed);
-        let mut left = match self.arc(Phase::Between, (x, 0.0), true, curve) {
+        let mut curve = MachineCurve::default();
+        let rise = self.arc(Phase::Between, (x, 0.0), true, &mut curve.keeper());
+        let mut left = match rise {
             Err(Reason::Settles) => -guide,
             end => {
                 let end = end?;
                 let lines = landmarks.map(|marks| marks.lines).filter(|_| end.on_belt);
                 lines.map_or(Ok(end.x), |lines| {
-                    curve.pieces.push(CurvePiece::Line { from: lines.fold, to: end.x });
-                    self.left_before(lines.fold, speed, curve)
+                    curve.steps.push(MachineStep::ride(lines.fold, end.x, speed));
+                    self.left_before(lines.fold, speed, &mut curve.keeper())
                 })?
             }
         };
         left = left.min(-self.model.guide_static);
-        match self.arc(Phase::Below, (left, 0.0), true, curve) {
-            Ok(_) | Err(Reason::Settles) => Ok(left),
+        let fall = self.arc(Phase::Below, (left, 0.0), true, &mut curve.keeper());
+        match fall {
+            Ok(_) | Err(Reason::Settles) => Ok((curve, left)),
             Err(stop) => Err(stop),
         }
     }
