@@ -1,7 +1,7 @@
 //! Time from a key press to its picture at draft quality: `cargo bench --bench draft`.
 //!
 //! This covers the whole path, as in the explorer: the key enters the loop, the session asks, the worker
-//! answers from its thread, the painter writes. Measured for every scene, every row of its parameter pane
+//! answers from its thread, the screen writes. Measured for every scene, every row of its parameter pane
 //! (including the dial) and both arrows: the time from the key to the last byte of the first picture in which
 //! every layer has a current answer, draft or not. The terminal accepts each picture at once.
 
@@ -17,7 +17,7 @@ use hopfscope::runtime::{Application, Event, Explorer, Options, Pump};
 use hopfscope::scene::{Request, Scene, Topic, library};
 use hopfscope::session::{Effect, Msg, Session, Size};
 use hopfscope::terminal::{Environment, Screen};
-use ratatui::Frame;
+use ratatui::buffer::Buffer;
 
 /// The screen sizes measured.
 const SIZES: [(u16, u16); 2] = [(80, 24), (200, 60)];
@@ -71,8 +71,7 @@ impl Application for Watched {
         wants
     }
 
-    fn draw(&self, frame: &mut Frame) {
-        self.explorer.draw(frame);
+    fn picture(&self, size: Size) -> Buffer {
         let session = self.explorer.session();
         let missing = |request: &Request| {
             request.topic() != Topic::Reference
@@ -82,6 +81,7 @@ impl Application for Watched {
                 )
         };
         self.complete.store(!self.explorer.wants().iter().any(missing), Ordering::Release);
+        self.explorer.picture(size)
     }
 }
 
@@ -149,7 +149,7 @@ fn costliest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, Stri
     let line = Line { complete: Arc::clone(&complete), arrived: arrive, events: events.clone() };
     let size = ratatui::layout::Size { width, height };
     let (answer, channel) = (Arc::new(answer), (events.clone(), received));
-    let screen = Screen::new(line, size).expect("a screen");
+    let screen = Screen::new(line, size);
     let explorer = Explorer::new(session, Environment::default());
     let application = Watched { explorer, complete, idle: Arc::clone(&idle) };
     let mut pump =

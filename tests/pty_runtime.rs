@@ -15,7 +15,9 @@ use hopfscope::runtime::workers::Tell;
 use hopfscope::runtime::{Application, Options, launch};
 use hopfscope::scene::{Answered, Finding, Request};
 use hopfscope::session::{Code, Effect, Key, Msg};
-use ratatui::Frame;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::widgets::Widget;
 use rustix::process::Signal;
 use support::{Answers, Terminal};
 
@@ -86,7 +88,7 @@ impl Application for Machinery {
         Some(format!("count {}", self.count))
     }
 
-    fn draw(&self, frame: &mut Frame) {
+    fn picture(&self, size: Size) -> Buffer {
         let (width, height) = self.size;
         let confirmed = match &self.confirmed {
             None => "...".to_owned(),
@@ -97,7 +99,9 @@ impl Application for Machinery {
             "count {} {confirmed}\nsize {width}x{height}\npasted {}\n{}",
             self.count, self.pasted, self.told
         );
-        frame.render_widget(text, frame.area());
+        let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, size)));
+        text.render(buffer.area, &mut buffer);
+        buffer
     }
 }
 

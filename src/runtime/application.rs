@@ -1,11 +1,9 @@
-//! The interface of what the loop runs, the events to which it reacts, and the outcomes of effects.
+//! The interface of what the loop runs, the events to which it reacts, and why it ends.
 
 use std::path::Path;
 
-use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
-use ratatui::{Frame, Terminal};
 
 use super::workers::Work;
 use crate::scene::Request;
@@ -64,14 +62,8 @@ pub trait Application {
     /// Sets whether the background of the terminal is light.
     fn background(&mut self, _is_light: bool) {}
 
-    fn draw(&self, frame: &mut Frame);
-
-    /// Its picture at this size, without a terminal.
-    fn picture(&self, size: Size) -> Buffer {
-        let Ok(mut terminal) = Terminal::new(TestBackend::new(size.width, size.height));
-        let Ok(drawn) = terminal.draw(|frame| self.draw(frame));
-        drawn.buffer.clone()
-    }
+    /// Its picture at this size.
+    fn picture(&self, size: Size) -> Buffer;
 }
 
 /// An event to which the loop must react.
@@ -110,16 +102,6 @@ pub enum LoopEnd {
     Closed,
     /// The thread that reads the terminal has panicked, with this message.
     Deaf(String),
-}
-
-/// The outcome of an effect.
-#[derive(Debug)]
-pub enum EffectOutcome {
-    Done,
-    /// The application must be told something, which may have further effects.
-    Told(Msg),
-    /// The loop ends, or pauses.
-    Stop(LoopEnd),
 }
 
 /// The result of a keystroke file that was played without a terminal.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::unbounded;
-use ratatui::Frame;
+use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
 use super::application::{Application, ReplayResult};
@@ -117,8 +117,8 @@ impl Application for Explorer {
         self.look = Look::new(self.environment.fit(self.wishes));
     }
 
-    fn draw(&self, frame: &mut Frame) {
-        view::draw(frame, &self.session, &self.look);
+    fn picture(&self, size: Size) -> Buffer {
+        view::picture(size, &self.session, &self.look)
     }
 }
 
@@ -162,7 +162,7 @@ pub fn play(
     may_play_write: bool,
 ) -> io::Result<ReplayResult<Explorer>> {
     let crate::session::Size { width, height } = session.size;
-    let screen = Screen::new(io::sink(), Size { width, height })?;
+    let screen = Screen::new(io::sink(), Size { width, height });
     let files = Files { may_play_write, ..Files::default() };
     let options = Options { replay: Some(script), files, ..Options::default() };
     let explorer = Explorer::new(session, environment);

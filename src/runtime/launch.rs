@@ -41,7 +41,7 @@ pub fn launch(
     guard.mouse(options.mouse)?;
     guard.enter()?;
     input::start(send.clone())?;
-    let screen = Screen::new(Arc::clone(&guard.out), terminal_size())?;
+    let screen = Screen::new(Arc::clone(&guard.out), terminal_size());
     let mut pump = Pump::new(application, screen, answer, (send, events), options, terminal_size);
     pump.repaint()?;
     // A panic has already been reported and the terminal given back; the panic still ends the program.

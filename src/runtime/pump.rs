@@ -16,7 +16,7 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::application::{Application, EffectOutcome, Event, LoopEnd};
+use super::application::{Application, Event, LoopEnd};
 use super::effects::Files;
 use super::new_file::Readers;
 use super::record::RecordingFile;
@@ -29,10 +29,9 @@ use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
 use crate::view;
 
-mod play;
 mod playing;
 
-use play::Playing;
+use playing::Playing;
 
 /// How long a frame waits for the worker before it shows the old answers, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
@@ -199,8 +198,8 @@ impl<M: Application, W: Write> Pump<M, W> {
     /// Draws again, on a terminal that was just taken.
     pub fn repaint(&mut self) -> io::Result<()> {
         self.held = false;
-        self.screen.probe(Instant::now(), self.application.asks_for_background())?;
-        self.resized()
+        self.resized();
+        self.screen.probe(Instant::now(), self.application.asks_for_background())
     }
 
     /// Waits for an answer that the terminal owes, so that it does not arrive after the program has ended.
@@ -240,7 +239,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                 Ok(None)
             }
             Event::Resized => {
-                self.resized()?;
+                self.resized();
                 Ok(None)
             }
             Event::End(end) => Ok(Some(end)),
@@ -249,15 +248,14 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Follows the size of the terminal, and draws everything again even if that is the size it was: in between
     /// it may have been another one, which has moved or cut what is on the screen.
-    fn resized(&mut self) -> io::Result<()> {
-        self.screen.repaint((self.terminal_size)())?;
+    fn resized(&mut self) {
+        self.screen.repaint((self.terminal_size)());
         let Size { width, height } = self.screen.size();
         let msg = Msg::Resize { width, height };
         self.options.recorder.note(&msg);
         // A resize has no effects.
         drop(self.application.update(msg));
         self.changed.get_or_insert_with(Instant::now);
-        Ok(())
     }
 
     /// Changes the session and carries out the resulting effects.
@@ -271,19 +269,20 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(self.options.files.copy(text))
     }
 
-    /// Begins to write a figure; if that fails, the outcome tells the session why.
-    fn write_figure(&mut self, path: PathBuf, plot: Option<usize>, replace: bool) -> EffectOutcome {
+    /// Begins to write a figure; if that fails, the session is told why.
+    fn write_figure(
+        &mut self,
+        path: PathBuf,
+        plot: Option<usize>,
+        replace: bool,
+    ) -> io::Result<Option<LoopEnd>> {
         let begun = Files::admit(&path, replace)
             .and_then(|()| self.application.figure(&path, plot))
             .and_then(|work| self.workers.write(path, replace, work));
         self.writing |= begun.is_ok();
         match begun {
-            Ok(()) => EffectOutcome::Done,
-            Err(text) => {
-                let notice = Notice { error: true, text };
-                self.note_unwritten(&notice);
-                EffectOutcome::Told(Msg::Written(notice))
-            }
+            Ok(()) => Ok(None),
+            Err(text) => self.told(Notice { error: true, text }, true),
         }
     }
 
@@ -328,8 +327,8 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     fn draw(&mut self) -> io::Result<()> {
         self.pass_time();
-        let application = &self.application;
-        self.screen.draw(Instant::now(), |frame| application.draw(frame))?;
+        let picture = self.application.picture(self.screen.size());
+        self.screen.draw(Instant::now(), picture)?;
         self.changed = None;
         Ok(())
     }
@@ -337,11 +336,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     /// Gives the application a message and carries out the resulting effects in their order.
     fn give(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
         for effect in self.application.update(msg) {
-            let stop = match self.carry_out(effect)? {
-                EffectOutcome::Done => None,
-                EffectOutcome::Told(msg) => self.give(msg)?,
-                EffectOutcome::Stop(stop) => Some(stop),
-            };
+            let stop = self.carry_out(effect)?;
             if stop.is_some() {
                 return Ok(stop);
             }
@@ -349,29 +344,40 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(None)
     }
 
-    fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome> {
-        if let Some(outcome) = self.withheld(&effect) {
-            return Ok(outcome);
+    /// Tells the application what became of an effect, which may have further effects.
+    fn told(&mut self, notice: Notice, of_figure: bool) -> io::Result<Option<LoopEnd>> {
+        self.note_unwritten(&notice);
+        self.give(if of_figure { Msg::Written(notice) } else { Msg::Told(notice) })
+    }
+
+    fn carry_out(&mut self, effect: Effect) -> io::Result<Option<LoopEnd>> {
+        if let Some(text) = self.withheld(&effect) {
+            let of_figure = matches!(effect, Effect::Figure { .. });
+            let notice = Notice { error: true, text };
+            return if notice.text.is_empty() { Ok(None) } else { self.told(notice, of_figure) };
         }
         let done = match effect {
-            Effect::Quit => return Ok(EffectOutcome::Stop(LoopEnd::Quit)),
-            Effect::Suspend => return Ok(EffectOutcome::Stop(LoopEnd::Suspend)),
-            Effect::Mouse(on) => return Ok(EffectOutcome::Stop(LoopEnd::Mouse(on))),
-            Effect::Repaint => return self.resized().map(|()| EffectOutcome::Done),
+            Effect::Quit => return Ok(Some(LoopEnd::Quit)),
+            Effect::Suspend => return Ok(Some(LoopEnd::Suspend)),
+            Effect::Mouse(on) => return Ok(Some(LoopEnd::Mouse(on))),
+            Effect::Repaint => {
+                self.resized();
+                return Ok(None);
+            }
             Effect::StopWriting => {
                 self.workers.stop_writing();
-                return Ok(EffectOutcome::Done);
+                return Ok(None);
             }
             Effect::PutAside(path) => {
                 Files::put_aside(&path);
-                return Ok(EffectOutcome::Done);
+                return Ok(None);
             }
             Effect::Figure { path, plot, replace } => {
-                return Ok(self.write_figure(path, plot, replace));
+                return self.write_figure(path, plot, replace);
             }
             Effect::Read { path, purpose } => {
                 let result = self.read(&path);
-                return Ok(EffectOutcome::Told(Msg::Read { path, purpose, result }));
+                return self.give(Msg::Read { path, purpose, result });
             }
             Effect::Play(script) => return self.begin(script),
             Effect::Copy(text) => self.copy(&text)?,
@@ -385,9 +391,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             }
             Effect::Record { path, forget, replace } => self.write_record(&path, forget, replace),
         };
-        let notice = done.into();
-        self.note_unwritten(&notice);
-        Ok(EffectOutcome::Told(Msg::Told(notice)))
+        self.told(done.into(), false)
     }
 }
 

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
-use super::painter::{END, PLAIN};
+use super::screen::{END, PLAIN};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScreenMode {

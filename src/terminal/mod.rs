@@ -2,15 +2,13 @@
 //!
 //! - [`capabilities`]: what the environment says the terminal can show;
 //! - [`guard`]: the modes that the explorer turns on, and that are turned off again in every case;
-//! - [`painter`]: converts changed cells to bytes, each frame in one write; with `strokes`, the cheapest order
+//! - [`screen`]: converts changed cells to bytes, each frame in one write; with `strokes`, the cheapest order
 //!   and cursor moves, and [`pen`], the shortest change of colours;
-//! - [`pacing`]: when the next frame may be sent;
-//! - [`screen`]: painter and pacing combined, for the loop to draw on.
+//! - [`pacing`]: when the next frame may be sent.
 
 pub mod capabilities;
 pub mod guard;
 pub mod pacing;
-pub mod painter;
 pub mod pen;
 pub mod screen;
 mod strokes;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use ratatui::buffer::Cell;
 use ratatui::style::{Color, Modifier};
 
-/// The attributes of cells that the painter draws, each with the codes that switch it on and off.
+/// The attributes of cells that are drawn, each with the codes that switch it on and off.
 ///
 /// One code switches off both bold and dim; `difference` then switches the other on again.
 const ATTRIBUTES: [(Modifier, u8, u8); 6] = [

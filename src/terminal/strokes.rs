@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use ratatui::buffer::Cell;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Size};
 use unicode_width::UnicodeWidthStr;
 
@@ -45,39 +45,11 @@ struct Stroke {
     certain: bool,
 }
 
-/// What the terminal shows, cell by cell, as far as the painter has drawn it.
-#[derive(Clone, Debug, Default)]
-pub struct Shown {
-    size: Size,
-    cells: Vec<Cell>,
-}
-
-impl Shown {
-    /// A screen of blanks.
-    pub fn blank(size: Size) -> Shown {
-        Shown { size, cells: vec![Cell::EMPTY; usize::from(size.width) * usize::from(size.height)] }
-    }
-
-    fn index(&self, x: u16, y: u16) -> Option<usize> {
-        let inside = x < self.size.width && y < self.size.height;
-        inside.then(|| usize::from(y) * usize::from(self.size.width) + usize::from(x))
-    }
-
-    /// The cell at a position, if it is known and one column wide.
-    fn narrow(&self, x: u16, y: u16) -> Option<&Cell> {
-        let cell = self.index(x, y).and_then(|index| self.cells.get(index))?;
-        (cell.symbol().width() == 1).then_some(cell)
-    }
-
-    fn set(&mut self, x: u16, y: u16, cell: &Cell) {
-        let Some(index) = self.index(x, y) else { return };
-        self.cells[index].clone_from(cell);
-        // Cells that a wide character covers must not be drawn over.
-        let covered = cell.symbol().width().saturating_sub(1);
-        for hidden in self.cells.iter_mut().skip(index + 1).take(covered) {
-            hidden.set_symbol("");
-        }
-    }
+/// The cell at a position of a screen, if it is one column wide and no wide character before it covers it.
+fn narrow(shown: &Buffer, x: u16, y: u16) -> Option<&Cell> {
+    let width = |x: u16| shown.cell((x, y)).map(|cell| cell.symbol().width());
+    let covered = x.checked_sub(1).and_then(width).is_some_and(|width| width > 1);
+    shown.cell((x, y)).filter(|_| !covered && width(x) == Some(1))
 }
 
 /// The strokes of a frame.
@@ -92,7 +64,7 @@ const SHORT_MOVE: usize = 3;
 
 impl StrokeSheet {
     /// Adds a cell to the last stroke if possible, else begins a new stroke with it.
-    fn put(&mut self, x: u16, y: u16, cell: &Cell, shown: &Shown) {
+    fn put(&mut self, x: u16, y: u16, cell: &Cell, shown: &Buffer) {
         if !self.bridge(x, y, cell, shown) {
             let end = self.text.len();
             self.strokes.push(Stroke {
@@ -109,13 +81,13 @@ impl StrokeSheet {
 
     /// Extends the last stroke up to a cell, over the unchanged cells between; `false` if that is impossible or
     /// too long.
-    fn bridge(&mut self, x: u16, y: u16, cell: &Cell, shown: &Shown) -> bool {
+    fn bridge(&mut self, x: u16, y: u16, cell: &Cell, shown: &Buffer) -> bool {
         let Some(last) = self.strokes.last() else { return false };
         let end = last.start.x + last.width;
         if last.start.y != y || end > x || usize::from(x - end) > SHORT_MOVE || !last.takes(cell) {
             return false;
         }
-        let between: Option<Vec<&Cell>> = (end..x).map(|x| shown.narrow(x, y)).collect();
+        let between: Option<Vec<&Cell>> = (end..x).map(|x| narrow(shown, x, y)).collect();
         let Some(between) = between else { return false };
         let cost: usize = between.iter().map(|cell| cell.symbol().len()).sum();
         let mut trial = last.clone();
@@ -243,22 +215,14 @@ impl Stroke {
     }
 }
 
-/// The shorter of two texts that draw these cells, row by row or pen by pen, and the state in which it leaves
-/// pen and cursor. The cells must be in the order of rows and columns.
-pub fn draw<'a>(
-    cells: impl Iterator<Item = (u16, u16, &'a Cell)>,
-    shown: &mut Shown,
-    hand: TerminalState,
-) -> (String, TerminalState) {
+/// The shorter of two texts that draw what differs between two screens, row by row or pen by pen, and the state in
+/// which it leaves pen and cursor.
+pub fn draw(shown: &Buffer, picture: &Buffer, hand: TerminalState) -> (String, TerminalState) {
     let mut sheet = StrokeSheet::default();
-    let cells: Vec<_> = cells.collect();
-    for (x, y, cell) in &cells {
-        sheet.put(*x, *y, cell, shown);
+    for (x, y, cell) in shown.diff_iter(picture) {
+        sheet.put(x, y, cell, shown);
     }
-    for (x, y, cell) in cells {
-        shown.set(x, y, cell);
-    }
-    let size = shown.size;
+    let size = picture.area.as_size();
     let by_rows = sheet.draw(&sheet.strokes.iter().collect::<Vec<_>>(), hand, size);
     let by_pens = sheet.draw(&pen_by_pen(&sheet.strokes), hand, size);
     if by_pens.0.len() < by_rows.0.len() { by_pens } else { by_rows }
@@ -328,7 +292,6 @@ fn steps(count: u16, single: &str, letter: char) -> String {
 
 #[cfg(test)]
 mod tests {
-    use ratatui::buffer::Buffer;
     use ratatui::layout::Rect;
     use ratatui::style::{Color, Style};
 
@@ -338,7 +301,6 @@ mod tests {
 
     /// A drawing board: the present and the wanted content of the terminal.
     struct Board {
-        shown: Shown,
         hand: TerminalState,
         before: Buffer,
         after: Buffer,
@@ -349,7 +311,6 @@ mod tests {
             let blank = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
             let cursor = Some(Cursor { at: Position::ORIGIN, certain: true });
             Board {
-                shown: Shown::blank(SIZE),
                 hand: TerminalState { pen: Some(Pen::PLAIN), cursor },
                 before: blank.clone(),
                 after: blank,
@@ -361,8 +322,7 @@ mod tests {
         }
 
         fn draw(&mut self) -> String {
-            let changed = self.before.diff(&self.after);
-            let (text, hand) = draw(changed.into_iter(), &mut self.shown, self.hand);
+            let (text, hand) = draw(&self.before, &self.after, self.hand);
             self.hand = hand;
             self.before = self.after.clone();
             text

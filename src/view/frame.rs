@@ -1,8 +1,7 @@
 //! The whole screen: layout, panes, and what lies over them; and from a cell of it to what stands there, for the mouse.
 
-use ratatui::Frame;
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use super::layout::{Layout, SMALLEST, layout};
@@ -16,12 +15,14 @@ use crate::picture::{self, Picture, Role};
 use crate::scene::View;
 use crate::session::{Overlay, Pane, PointerTarget, Session, settings::Glyphs};
 
-/// Draws a session. Nothing is decided or computed here except what a visible cell shows.
-pub fn draw(frame: &mut Frame, session: &Session, look: &Look) {
-    render(frame.area(), session, look, frame.buffer_mut());
+/// The screen of a session at this size. Nothing is decided or computed here except what a visible cell shows.
+pub fn picture(size: Size, session: &Session, look: &Look) -> Buffer {
+    let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, size)));
+    render(buffer.area, session, look, &mut buffer);
+    buffer
 }
 
-/// [`draw`] without a terminal.
+/// Draws a session into a part of a screen.
 pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let screen = &mut Surface { look, buffer };
     match layout(area, session) {

@@ -1,6 +1,6 @@
 //! The screen: a session, drawn.
 //!
-//! [`frame::draw`] is the only way in. It divides the screen ([`layout`]); [`paint`] draws the
+//! [`frame::picture`] is the only way in. It divides the screen ([`layout`]); [`paint`] draws the
 //! [`crate::picture`] of each plot into its part with the help of [`plot`] and [`pane`]. How things look is
 //! decided in [`look`] alone.
 
@@ -31,6 +31,6 @@ pub mod status;
 pub mod trade_plot;
 mod verdict;
 
-pub use frame::{draw, panels, place};
+pub use frame::{panels, picture, place};
 pub use look::Look;
 pub use pane::Surface;

@@ -3,16 +3,16 @@
 use std::cell::RefCell;
 use std::io::{self, Write};
 use std::rc::Rc;
+use std::time::Instant;
 
 use hopfscope::flow::Limits;
 use hopfscope::question::{NoAnswer, answer};
 use hopfscope::scene::{Scene, find, library};
 use hopfscope::session::settings::{Colors, Glyphs};
 use hopfscope::session::{Msg, Session, Size, settings, settle, update};
-use hopfscope::terminal::painter::Painter;
+use hopfscope::terminal::Screen;
 use hopfscope::view;
 use hopfscope::view::Look;
-use ratatui::Terminal;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
@@ -34,7 +34,7 @@ impl Write for Line {
 /// A session on a screen, with its requests answered at once.
 struct Explorer {
     session: Session,
-    terminal: Terminal<Painter<Line>>,
+    screen: Screen<Line>,
     line: Line,
     look: Look,
 }
@@ -45,7 +45,7 @@ impl Explorer {
         let size = ratatui::layout::Size { width, height };
         Explorer {
             session: Session::new(scene.clone(), Size { width, height }),
-            terminal: Terminal::new(Painter::new(line.clone(), size)).unwrap(),
+            screen: Screen::new(line.clone(), size),
             line,
             look: Look::new(settings::DisplaySettings {
                 glyphs: Glyphs::Braille,
@@ -63,7 +63,8 @@ impl Explorer {
         });
         update(&mut self.session, Msg::Elapsed { seconds: 0.0 });
         *self.line.0.borrow_mut() = 0;
-        self.terminal.draw(|frame| view::draw(frame, &self.session, &self.look)).unwrap();
+        let picture = view::picture(self.screen.size(), &self.session, &self.look);
+        self.screen.draw(Instant::now(), picture).unwrap();
         *self.line.0.borrow()
     }
 

@@ -8,13 +8,71 @@ use std::path::Path;
 
 use ratatui::layout::Size;
 
-use super::play::{Pause, Playing};
-use super::{Application, EffectOutcome, Files, Pump};
+use super::{Application, Files, Pump};
 use crate::runtime::application::{Event, LoopEnd, ReplayResult};
 use crate::session::read::waiting::forgets;
-use crate::session::replay::{Action, Script, ScriptError};
+use crate::session::replay::{Action, Player, Script, ScriptError};
 use crate::session::{Code, Effect, Key, Msg, Notice};
 use crate::view;
+
+/// Why a replay is paused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pause {
+    Not,
+    /// A caption waits to be read.
+    Caption,
+    /// The user asked for it.
+    Wished,
+}
+
+/// A file that is being played.
+#[derive(Debug)]
+pub(super) struct Playing {
+    player: Player,
+    /// The whole script, to start over.
+    script: Script,
+    /// Number of captions to skip on the way to the wanted one.
+    passed: usize,
+    /// Whether keys had their usual effect since the present caption was shown.
+    tried: bool,
+    pause: Pause,
+    /// Why the first file that it asked for was not written.
+    unwritten: Option<String>,
+}
+
+impl Playing {
+    pub(super) fn new(script: Script) -> Self {
+        Playing {
+            player: Player::new(script.clone()),
+            script,
+            passed: 0,
+            tried: false,
+            pause: Pause::Not,
+            unwritten: None,
+        }
+    }
+
+    /// Goes back to the previous caption: plays everything again up to there.
+    fn go_back(&mut self) {
+        if let Some(passed) = self.player.said().checked_sub(2) {
+            self.play_again(passed);
+        }
+    }
+
+    /// Continues to the next caption. If the user has tried keys, plays everything again up to here to undo
+    /// them.
+    fn go_on(&mut self) {
+        if self.tried {
+            self.play_again(self.player.said());
+        }
+        self.pause = Pause::Not;
+    }
+
+    fn play_again(&mut self, passed: usize) {
+        self.player = Player::new(self.script.clone());
+        (self.passed, self.pause, self.tried) = (passed, Pause::Not, false);
+    }
+}
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
 const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
@@ -85,27 +143,29 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Begins a replay; one that is already being played continues afterwards.
-    pub(super) fn begin(&mut self, script: Script) -> io::Result<EffectOutcome> {
+    pub(super) fn begin(&mut self, script: Script) -> io::Result<Option<LoopEnd>> {
         self.options.recorder.forget(self.application.asked());
         let Some(playing) = &mut self.playing else {
             self.playing = Some(Playing::new(script));
-            return Ok(EffectOutcome::Done);
+            return Ok(None);
         };
-        let Err(unmet) = playing.player.interject(script) else { return Ok(EffectOutcome::Done) };
-        Ok(self.fail(unmet)?.map_or(EffectOutcome::Done, EffectOutcome::Stop))
+        match playing.player.interject(script) {
+            Ok(()) => Ok(None),
+            Err(unmet) => self.fail(unmet),
+        }
     }
 
-    /// The outcome of an effect that is not carried out while a file is played: one that writes a file if the played one
-    /// may not do so, and without a terminal one that needs it; `None` for one that is.
-    pub(super) fn withheld(&mut self, effect: &Effect) -> Option<EffectOutcome> {
-        let playing = self.playing.as_mut()?;
+    /// Why an effect is not carried out while a file is played: one that writes a file if the played one may not do so, and
+    /// without a terminal one that needs it, of which nothing is said; `None` for one that is.
+    pub(super) fn withheld(&self, effect: &Effect) -> Option<String> {
+        self.playing.as_ref()?;
         let forbidden = effect.writes().filter(|_| !self.options.files.may_play_write);
-        let text = match (forbidden.map(Path::display), effect) {
+        match (forbidden.map(Path::display), effect) {
             (Some(path), _) => {
-                format!("{path} not written: a keystroke file writes only with --allow-write")
+                Some(format!("{path} not written: a keystroke file writes only with --allow-write"))
             }
-            _ if !self.unattended => return None,
-            (_, Effect::Record { .. }) => "a replay records nothing".to_owned(),
+            _ if !self.unattended => None,
+            (_, Effect::Record { .. }) => Some("a replay records nothing".to_owned()),
             (
                 _,
                 Effect::Suspend
@@ -114,14 +174,9 @@ impl<M: Application, W: Write> Pump<M, W> {
                 | Effect::CopyScreen
                 | Effect::Mouse(_)
                 | Effect::PutAside(_),
-            ) => return Some(EffectOutcome::Done),
-            _ => return None,
-        };
-        playing.unwritten.get_or_insert(text.clone());
-        let notice = Notice { error: true, text };
-        let is_figure = matches!(effect, Effect::Figure { .. });
-        let told = if is_figure { Msg::Written(notice) } else { Msg::Told(notice) };
-        Some(EffectOutcome::Told(told))
+            ) => Some(String::new()),
+            _ => None,
+        }
     }
 
     /// Notes that a file which a replay asked for was not written.
@@ -161,7 +216,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                         playing.pause = Pause::Caption;
                     }
                     if let Msg::Resize { width, height } = msg {
-                        self.screen.repaint(Size { width, height })?;
+                        self.screen.repaint(Size { width, height });
                     }
                     self.record(msg)
                 }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use crossbeam_channel::{Sender, unbounded};
-use ratatui::Frame;
+use ratatui::layout::{Position, Rect};
+use ratatui::widgets::Widget;
 
 use super::*;
 use crate::flow::Reason;
@@ -69,8 +70,10 @@ impl Application for Counter {
         }))
     }
 
-    fn draw(&self, frame: &mut Frame) {
-        frame.render_widget(format!("{} {}", self.count, self.notice), frame.area());
+    fn picture(&self, size: Size) -> Buffer {
+        let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, size)));
+        format!("{} {}", self.count, self.notice).render(buffer.area, &mut buffer);
+        buffer
     }
 }
 
@@ -111,7 +114,7 @@ fn bench_with(options: Options) -> Bench {
     let (write, written) = unbounded();
     let (events, received) = unbounded();
     let channel = (events.clone(), received);
-    let screen = Screen::new(Wire(write), size()).unwrap();
+    let screen = Screen::new(Wire(write), size());
     let job = |_: &Request, _: &crate::flow::Limits, _: &Tell| Err(Reason::OutOfRange);
     let pump = Pump::new(Counter::default(), screen, Arc::new(job), channel, options, size);
     Bench { pump, events, written }
