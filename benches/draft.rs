@@ -71,7 +71,7 @@ impl Application for Watched {
         wants
     }
 
-    fn picture(&self, size: Size) -> Buffer {
+    fn picture(&self, size: ratatui::layout::Size) -> Buffer {
         let session = self.explorer.session();
         let missing = |request: &Request| {
             request.topic() != Topic::Reference

@@ -74,13 +74,11 @@ impl ReplayCommand {
 
 /// A terminal with all capabilities, so that a replay looks the same wherever it runs.
 fn anywhere() -> Environment {
-    Environment {
-        term: Some("xterm-256color".to_owned()),
-        lang: Some("C.UTF-8".to_owned()),
-        input_is_terminal: true,
-        output_is_terminal: true,
-        ..Environment::default()
-    }
+    Environment::of(|name| match name {
+        "TERM" => Some("xterm-256color".to_owned()),
+        "LANG" => Some("C.UTF-8".to_owned()),
+        _ => None,
+    })
 }
 
 /// A keystroke file, parsed completely before anything runs.

@@ -15,6 +15,11 @@ pub fn draw(picture: &mut Picture, session: &Session) {
     // Lines have names of their own.
     picture.axes("part of the largest work", "");
     picture.window.y = Span::new(middle(lines.len()), 0.0).unwrap_or(Span::known(-1.0, 0.0));
+    picture.reading = picture.cursor.map(|cursor| {
+        let near = |(line, _): &(usize, &LedgerLine)| (middle(*line) - cursor.y).abs() <= 0.5;
+        let found = lines.iter().enumerate().find(near);
+        found.map_or_else(String::new, |(_, entry)| reading(entry))
+    });
     picture.upright(LineStyle::guide(), 0.0);
     for (line, entry) in lines.iter().enumerate() {
         let from = Point { x: 0.0, y: middle(line) };
@@ -32,7 +37,7 @@ pub fn draw(picture: &mut Picture, session: &Session) {
 }
 
 /// The height in the middle of a line.
-pub fn middle(line: usize) -> f64 {
+fn middle(line: usize) -> f64 {
     -(real(line)) - 0.5
 }
 

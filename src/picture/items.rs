@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::fmt;
 
-use super::{Dash, Mark, Role, Scale, ScanMap, units::said};
+use super::{Dash, Mark, Role, Scale, ScanMap, Ticks, units::said};
 use crate::model::{Knob, Parameters};
 use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::{hypot, sin_cos};
@@ -161,6 +161,8 @@ pub struct Picture<'a> {
     pub y: Text,
     /// What the numbers along both axes stand for.
     pub scales: [Scale; 2],
+    /// The ticks of the vertical axis, where they are not round numbers.
+    pub upward: Option<Ticks>,
     /// The part of the world on show.
     pub window: Window,
     /// The parameters of each variant on show; one set where there are no variants.
@@ -279,6 +281,7 @@ impl<'a> Picture<'a> {
             x,
             y,
             scales: [Scale::Even; 2],
+            upward: None,
             window,
             variants: Vec::new(),
             varied: Vec::new(),

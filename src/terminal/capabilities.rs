@@ -1,27 +1,28 @@
 //! What the terminal can do, as far as the environment tells.
 //!
-//! Nothing here reads the environment: [`Environment`] holds the relevant values, so that every decision is a
-//! function of them and can be tested.
+//! Only [`Environment::of_process`] reads the environment, so that every decision is a function of its variables and can
+//! be tested.
 
 use crate::session::settings::{Colors, DisplaySettings, Glyphs, Theme};
 
-/// The environment variables that describe the terminal; an empty one counts as unset.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// The terminal, as far as it is known.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Environment {
-    /// Type of the terminal.
-    pub term: Option<String>,
-    /// Set by terminals with 24-bit colours.
-    pub colorterm: Option<String>,
-    /// Set by users who want no colours.
-    pub no_color: Option<String>,
-    /// Set inside of tmux.
-    pub tmux: Option<String>,
-    /// Locale for all categories; overrides the two below.
-    pub lc_all: Option<String>,
-    /// Locale for characters; overrides the one below.
-    pub lc_ctype: Option<String>,
-    /// Default locale.
-    pub lang: Option<String>,
+    /// Type of the terminal; empty if unknown.
+    term: String,
+    /// The default glyphs: braille where the locale or tmux says UTF-8, else ASCII.
+    ///
+    /// tmux counts because it draws UTF-8 itself, whatever locale a login over SSH left behind. The Linux
+    /// console supports UTF-8, but its fonts have no braille: it gets blocks.
+    pub glyphs: Glyphs,
+    /// The default colours: none where the user or the terminal wants none, else 16.
+    ///
+    /// Only sixteen even where the terminal has more, because these follow the user's own palette and cost the
+    /// fewest bytes; `--color 256` and `--color true` ask for more. The field `fine` is for what sixteen colours cannot
+    /// show.
+    pub colors: Colors,
+    /// The finest colours that the terminal claims to have; `Auto` if it claims none beyond sixteen.
+    fine: Colors,
     /// Whether standard input is a terminal.
     pub input_is_terminal: bool,
     /// Whether standard output is a terminal.
@@ -30,7 +31,14 @@ pub struct Environment {
     pub is_light: Option<bool>,
 }
 
+impl Default for Environment {
+    fn default() -> Self {
+        Environment::of(|_| None)
+    }
+}
+
 impl Environment {
+    /// An empty variable counts as unset.
     pub fn of_process() -> Environment {
         use std::io::IsTerminal;
         Environment {
@@ -41,15 +49,27 @@ impl Environment {
     }
 
     /// That of terminals on both sides and these variables.
-    fn of(value: impl Fn(&str) -> Option<String>) -> Environment {
+    pub fn of(value: impl Fn(&str) -> Option<String>) -> Environment {
+        let term = value("TERM").unwrap_or_default();
+        // The first overrides the others.
+        let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(&value);
+        let plain = |locale: String| locale.to_ascii_lowercase().replace('-', "");
+        let unicode = locale.is_some_and(|locale| plain(locale).contains("utf8"));
+        let monochrome = MONOCHROME.iter().any(|name| term.starts_with(name));
+        let colourless = monochrome || value("NO_COLOR").is_some();
         Environment {
-            term: value("TERM"),
-            colorterm: value("COLORTERM"),
-            no_color: value("NO_COLOR"),
-            tmux: value("TMUX"),
-            lc_all: value("LC_ALL"),
-            lc_ctype: value("LC_CTYPE"),
-            lang: value("LANG"),
+            glyphs: match (unicode || value("TMUX").is_some(), term == "linux") {
+                (true, false) => Glyphs::Braille,
+                (true, true) => Glyphs::Block,
+                (false, _) => Glyphs::Ascii,
+            },
+            colors: if colourless { Colors::Never } else { Colors::Sixteen },
+            fine: match value("COLORTERM").as_deref() {
+                Some("truecolor" | "24bit") => Colors::True,
+                _ if term.contains("256color") => Colors::Indexed,
+                _ => Colors::Auto,
+            },
+            term,
             input_is_terminal: true,
             output_is_terminal: true,
             is_light: None,
@@ -62,7 +82,7 @@ impl Environment {
             "standard input is not a terminal"
         } else if !self.output_is_terminal {
             "standard output is not a terminal"
-        } else if self.term.as_deref() == Some("dumb") {
+        } else if self.term == "dumb" {
             "TERM=dumb is a terminal without cursor movement"
         } else {
             return Ok(());
@@ -76,11 +96,11 @@ impl Environment {
     /// The user's wishes, with every `Auto` replaced by what suits this terminal.
     pub fn fit(&self, wish: DisplaySettings) -> DisplaySettings {
         let glyphs = match wish.glyphs {
-            Glyphs::Auto => self.glyphs(),
+            Glyphs::Auto => self.glyphs,
             wanted => wanted,
         };
         let (colors, fine) = match wish.colors {
-            Colors::Auto => (self.colors(), self.fine()),
+            Colors::Auto => (self.colors, self.fine),
             wanted => (wanted, wanted),
         };
         let theme = match (wish.theme, self.is_light) {
@@ -94,49 +114,9 @@ impl Environment {
     /// Whether to ask the terminal for the colour of its background: the wishes depend on it, it is unknown,
     /// and the terminal is of a type that ignores sequences it does not understand.
     pub fn asks_for_background(&self, wish: DisplaySettings) -> bool {
-        let passes = self.term.as_deref().is_some_and(|term| term != "linux");
+        let passes = !["", "linux"].contains(&self.term.as_str());
         let coloured = self.fit(wish).colors != Colors::Never;
         wish.theme == Theme::Auto && self.is_light.is_none() && passes && coloured
-    }
-
-    /// The default glyphs: braille where the locale or tmux says UTF-8, else ASCII.
-    ///
-    /// tmux counts because it draws UTF-8 itself, whatever locale a login over SSH left behind. The Linux
-    /// console supports UTF-8, but its fonts have no braille: it gets blocks.
-    pub fn glyphs(&self) -> Glyphs {
-        let locale = [&self.lc_all, &self.lc_ctype, &self.lang].into_iter().flatten().next();
-        let plain = |locale: &String| locale.to_ascii_lowercase().replace('-', "");
-        let unicode = locale.is_some_and(|locale| plain(locale).contains("utf8"));
-        let console = self.term.as_deref() == Some("linux");
-        match (unicode || self.tmux.is_some(), console) {
-            (true, false) => Glyphs::Braille,
-            (true, true) => Glyphs::Block,
-            (false, _) => Glyphs::Ascii,
-        }
-    }
-
-    /// The default colours: none where the user or the terminal wants none, else 16.
-    ///
-    /// Only sixteen even where the terminal has more, because these follow the user's own palette and cost the
-    /// fewest bytes; `--color 256` and `--color true` ask for more. [`Environment::fine`] is for what sixteen
-    /// colours cannot show.
-    pub fn colors(&self) -> Colors {
-        let term = self.term.as_deref().unwrap_or_default();
-        if self.no_color.is_some() || MONOCHROME.iter().any(|name| term.starts_with(name)) {
-            Colors::Never
-        } else {
-            Colors::Sixteen
-        }
-    }
-
-    /// The finest colours that the terminal claims to have; `Auto` if it claims none beyond sixteen.
-    fn fine(&self) -> Colors {
-        let term = self.term.as_deref().unwrap_or_default();
-        match self.colorterm.as_deref() {
-            Some("truecolor" | "24bit") => Colors::True,
-            _ if term.contains("256color") => Colors::Indexed,
-            _ => Colors::Auto,
-        }
     }
 }
 
@@ -167,7 +147,7 @@ mod tests {
             (&[("LANG", "C.UTF-8"), ("TERM", "linux")], Glyphs::Block),
         ];
         for (variables, glyphs) in cases {
-            assert_eq!(environment(variables).glyphs(), glyphs, "{variables:?}");
+            assert_eq!(environment(variables).glyphs, glyphs, "{variables:?}");
         }
     }
 
@@ -181,7 +161,7 @@ mod tests {
             (&[("TERM", "vt220")], Colors::Never),
         ];
         for (variables, colors) in cases {
-            assert_eq!(environment(variables).colors(), colors, "{variables:?}");
+            assert_eq!(environment(variables).colors, colors, "{variables:?}");
         }
     }
 

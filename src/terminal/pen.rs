@@ -5,6 +5,8 @@ use std::fmt::Write;
 use ratatui::buffer::Cell;
 use ratatui::style::{Color, Modifier};
 
+use crate::view::look::number;
+
 /// The attributes of cells that are drawn, each with the codes that switch it on and off.
 ///
 /// One code switches off both bold and dim; `difference` then switches the other on again.
@@ -99,33 +101,14 @@ impl Pen {
 
 /// Appends the parameters of a colour; `base` is 30 for the foreground and 40 for the background.
 pub(super) fn push_colour(parameters: &mut Vec<u16>, colour: Color, base: u16) {
-    let indexed = match colour {
-        Color::Reset => return parameters.push(base + 9),
-        Color::Rgb(red, green, blue) => {
-            return parameters.extend([base + 8, 2, red.into(), green.into(), blue.into()]);
+    match (colour, number(colour).map(u16::from)) {
+        (Color::Rgb(red, green, blue), _) => {
+            parameters.extend([base + 8, 2, red.into(), green.into(), blue.into()]);
         }
-        Color::Indexed(index) => index,
-        Color::Black => 0,
-        Color::Red => 1,
-        Color::Green => 2,
-        Color::Yellow => 3,
-        Color::Blue => 4,
-        Color::Magenta => 5,
-        Color::Cyan => 6,
-        Color::Gray => 7,
-        Color::DarkGray => 8,
-        Color::LightRed => 9,
-        Color::LightGreen => 10,
-        Color::LightYellow => 11,
-        Color::LightBlue => 12,
-        Color::LightMagenta => 13,
-        Color::LightCyan => 14,
-        Color::White => 15,
-    };
-    match u16::from(indexed) {
-        dark @ 0..8 => parameters.push(base + dark),
-        bright @ 8..16 => parameters.push(base + 60 + bright - 8),
-        other => parameters.extend([base + 8, 5, other]),
+        (_, None) => parameters.push(base + 9),
+        (_, Some(dark @ 0..8)) => parameters.push(base + dark),
+        (_, Some(bright @ 8..16)) => parameters.push(base + 60 + bright - 8),
+        (_, Some(other)) => parameters.extend([base + 8, 5, other]),
     }
 }
 

@@ -31,16 +31,6 @@ pub struct DotPen {
 /// A point in dots from the top left corner.
 type DotPoint = (f64, f64);
 
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum CellContent {
-    #[default]
-    Empty,
-    Texture(char, Role),
-    Guide(u8, Role),
-    Ink(u8, Role),
-    Symbol(char, Role),
-}
-
 /// What a cell shows, as far as a text that would stand there is concerned; each hides less than the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Covering {
@@ -53,18 +43,29 @@ pub enum Covering {
     Outside,
 }
 
+/// A cell: dots, where it has no symbol.
+#[derive(Clone, Copy, Debug)]
+struct DotCell {
+    covering: Covering,
+    role: Role,
+    dots: u8,
+    symbol: Option<char>,
+}
+
 #[derive(Clone, Debug)]
 pub struct Dots {
     area: Rect,
     glyphs: Glyphs,
-    cells: Vec<CellContent>,
+    cells: Vec<DotCell>,
 }
 
 impl Dots {
     /// An empty raster over `area`.
     pub fn new(area: Rect, glyphs: Glyphs) -> Self {
         let cells = usize::from(area.width) * usize::from(area.height);
-        Dots { area, glyphs, cells: vec![CellContent::Empty; cells] }
+        let empty =
+            DotCell { covering: Covering::Texture, role: Role::Text, dots: 0, symbol: None };
+        Dots { area, glyphs, cells: vec![empty; cells] }
     }
 
     pub fn size(&self) -> DotPoint {
@@ -150,67 +151,58 @@ impl Dots {
         let bit = if on { bit } else { 0 };
         let cell = (x.div_euclid(across), y.div_euclid(down));
         let (Ok(column), Ok(row)) = (u16::try_from(cell.0), u16::try_from(cell.1)) else { return };
-        let Some(content) = self.at(column, row) else { return };
+        let Some(cell) = self.at(column, row) else { return };
         let guide = matches!(dash, Dash::DashDot | Dash::Dotted | Dash::Sparse);
-        *content = match *content {
-            CellContent::Symbol(..) => return,
-            CellContent::Ink(..) if guide => return,
-            CellContent::Ink(bits, own) if bits != 0 && (!on || dash == Dash::Thick) => {
-                CellContent::Ink(bits | bit, own)
-            }
-            CellContent::Ink(bits, _) => CellContent::Ink(bits | bit, role),
-            CellContent::Guide(bits, _) if guide && on => CellContent::Guide(bits | bit, role),
-            CellContent::Empty | CellContent::Texture(..) if guide && on => {
-                CellContent::Guide(bit, role)
-            }
-            _ if guide => return,
-            _ => CellContent::Ink(bit, role),
-        };
+        let covering = if guide { Covering::Guide } else { Covering::Curve };
+        if cell.covering > covering || (guide && !on) {
+            return;
+        }
+        let before = if cell.covering == covering { cell.dots } else { 0 };
+        let keeps_role = before != 0 && !guide && (!on || dash == Dash::Thick);
+        let role = if keeps_role { cell.role } else { role };
+        *cell = DotCell { covering, role, dots: before | bit, symbol: None };
     }
 
     /// Puts texture into a cell, if nothing else is there.
     pub fn texture(&mut self, column: u16, row: u16, symbol: char, role: Role) {
-        if let Some(content @ (CellContent::Empty | CellContent::Texture(..))) =
-            self.at(column, row)
-        {
-            *content = CellContent::Texture(symbol, role);
+        if self.covering(column, row) == Covering::Texture {
+            self.put(column, row, Covering::Texture, symbol, role);
         }
     }
 
     /// Puts a symbol into a cell, over everything else.
     pub fn symbol(&mut self, column: u16, row: u16, symbol: char, role: Role) {
-        if let Some(content) = self.at(column, row) {
-            *content = CellContent::Symbol(symbol, role);
+        self.put(column, row, Covering::Symbol, symbol, role);
+    }
+
+    fn put(&mut self, column: u16, row: u16, covering: Covering, symbol: char, role: Role) {
+        if let Some(cell) = self.at(column, row) {
+            *cell = DotCell { covering, role, dots: 0, symbol: Some(symbol) };
         }
     }
 
     pub fn covering(&self, column: u16, row: u16) -> Covering {
-        let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
-        match self.cells.get(index).filter(|_| column < self.area.width) {
-            Some(CellContent::Empty | CellContent::Texture(..)) => Covering::Texture,
-            Some(CellContent::Guide(..)) => Covering::Guide,
-            Some(CellContent::Ink(..)) => Covering::Curve,
-            Some(CellContent::Symbol(..)) => Covering::Symbol,
-            None => Covering::Outside,
-        }
+        let cell = self.index(column, row).and_then(|index| self.cells.get(index));
+        cell.map_or(Covering::Outside, |cell| cell.covering)
     }
 
-    fn at(&mut self, column: u16, row: u16) -> Option<&mut CellContent> {
-        let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
-        if column < self.area.width { self.cells.get_mut(index) } else { None }
+    fn index(&self, column: u16, row: u16) -> Option<usize> {
+        let width = self.area.width;
+        (column < width).then(|| usize::from(row) * usize::from(width) + usize::from(column))
+    }
+
+    fn at(&mut self, column: u16, row: u16) -> Option<&mut DotCell> {
+        self.index(column, row).and_then(|index| self.cells.get_mut(index))
     }
 
     /// Writes the raster into the buffer; empty cells leave what is there.
     pub fn paint(&self, Surface { look, buffer }: &mut Surface) {
         for (position, content) in self.area.positions().zip(&self.cells) {
-            let (symbol, role) = match *content {
-                CellContent::Empty | CellContent::Ink(0, _) => continue,
-                CellContent::Texture(symbol, role) | CellContent::Symbol(symbol, role) => {
-                    (symbol, role)
-                }
-                CellContent::Guide(bits, role) | CellContent::Ink(bits, role) => {
-                    (self.glyphs.draw(bits, look.letter(role)), role)
-                }
+            let DotCell { role, dots, symbol, .. } = *content;
+            let symbol = match (symbol, dots) {
+                (None, 0) => continue,
+                (None, dots) => self.glyphs.draw(dots, look.letter(role)),
+                (Some(symbol), _) => symbol,
             };
             if let Some(cell) = buffer.cell_mut(position) {
                 cell.set_char(symbol).set_style(look.style(role));

@@ -10,7 +10,7 @@ use super::Surface;
 use super::pane::{self, Heading};
 use super::plot::{Canvas, rows};
 use crate::numerics::count::real;
-use crate::picture::energy_ledger::{middle, reading};
+use crate::picture::energy_ledger::reading;
 use crate::picture::{CycleStyle, Dash, Mark, Picture, Role, Tick, Ticks, cycle_style};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::ledger::{LedgerLine, Owner};
@@ -20,22 +20,24 @@ const DIGITS: usize = 4;
 
 const ERROR_DIGITS: usize = 2;
 
+/// Gives each line of the ledger in `area` one or two whole rows, and its source to the axis.
+pub fn seat(area: Rect, picture: &mut Picture, lines: &[LedgerLine]) {
+    let seats = Seats::of(area, lines, picture.window);
+    picture.upward = Some(seats.marks());
+    picture.window = seats.window;
+}
+
+/// Draws a ledger whose lines have their seats.
 pub fn draw(
     area: Rect,
     mut picture: Picture,
-    mut heading: Heading,
+    heading: &Heading,
     lines: &[LedgerLine],
     screen: &mut Surface,
 ) {
     let seats = Seats::of(area, lines, picture.window);
-    picture.window = seats.window;
     picture.title = View::EnergyLedger.spec().title.into();
-    heading.reading = picture.cursor.map(|cursor| {
-        let near = |(line, _): &(usize, &LedgerLine)| (middle(*line) - cursor.y).abs() <= 0.5;
-        let found = lines.iter().enumerate().find(near);
-        found.map_or_else(String::new, |(_, entry)| reading(entry))
-    });
-    let mut plot = Canvas::new(area, &picture, Some(seats.marks()), &heading, screen);
+    let mut plot = Canvas::new(area, &picture, heading, screen);
     plot.upright(0.0, Role::Axis, Dash::Solid);
     let symbols = screen.look.symbols();
     for y in seats.left_out {
@@ -71,9 +73,9 @@ pub fn draw(
 }
 
 /// Where the lines of a ledger stand.
-pub struct Seats<'a> {
+struct Seats<'a> {
     /// About the window that was asked for, with one or two whole rows of the screen for each line.
-    pub window: Window,
+    window: Window,
     /// The lines that are seen, each with the height of the middle of its first row.
     seen: Vec<(f64, &'a LedgerLine)>,
     /// The heights of the rows, at the top and at the bottom, that say that lines are left out there.
@@ -81,7 +83,7 @@ pub struct Seats<'a> {
 }
 
 impl<'a> Seats<'a> {
-    pub fn of(area: Rect, lines: &'a [LedgerLine], window: Window) -> Self {
+    fn of(area: Rect, lines: &'a [LedgerLine], window: Window) -> Self {
         let rows = f64::from(rows(area).max(1));
         let y = whole_lines(window.y, rows);
         let half = 0.5 * y.width() / rows;
@@ -96,7 +98,7 @@ impl<'a> Seats<'a> {
     }
 
     /// The sources at the axis.
-    pub fn marks(&self) -> Ticks {
+    fn marks(&self) -> Ticks {
         let mark = |(seat, entry): &(f64, &LedgerLine)| {
             let label = match entry {
                 LedgerLine::Work { source, .. } => *source,

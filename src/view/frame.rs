@@ -64,6 +64,9 @@ fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
 fn framed(area: Rect, session: &Session, index: usize) -> Picture<'_> {
     let mut picture = picture::of(session, index);
     picture.window = shown(area, session, index, picture.scales);
+    if session.plots[index].view == View::EnergyLedger {
+        energy_ledger::seat(area, &mut picture, &session.ledger());
+    }
     picture
 }
 
@@ -73,22 +76,23 @@ fn plot(area: Rect, session: &Session, index: usize, picture: Picture, screen: &
         View::Scan => session.scanned.is_some(),
         _ => picture.draws(),
     };
-    let heading = Heading::of(session, Pane::Plot(index));
+    let mut heading = Heading::of(session, Pane::Plot(index));
     if let Some(text) = session.nothing(index).filter(|_| !draws) {
         screen.title(area, &picture.title, "", &heading);
         let text = keys::sentence(&text, &session.keymap, screen.look);
         return nothing(area, text, screen);
     }
+    heading.reading.clone_from(&picture.reading);
     match (session.plots[index].view, &session.scanned) {
         // Its lines are whole rows of the screen.
         (View::EnergyLedger, _) => {
-            energy_ledger::draw(area, picture, heading, &session.ledger(), screen);
+            energy_ledger::draw(area, picture, &heading, &session.ledger(), screen);
         }
         // Its shades fill cells, and its table is text.
         (View::Scan, Some(scanned)) => {
-            scan::draw(area, picture, heading, scanned, screen);
+            scan::draw(area, picture, &heading, scanned, screen);
         }
-        _ => paint(area, &picture, heading, screen),
+        _ => paint(area, &picture, &heading, screen),
     }
 }
 
@@ -135,16 +139,8 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerT
     }
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
     let area = parts.plots[index];
-    let scales = picture::scales(session, index);
-    let window = shown(area, session, index, scales);
-    let point = match session.plots[index].view {
-        View::EnergyLedger => {
-            let lines = session.ledger();
-            let seats = energy_ledger::Seats::of(area, &lines, window);
-            point_at(area, seats.window, scales, Some(seats.marks()), cell)
-        }
-        View::Scan => point_at(scan::body(area), window, scales, None, cell),
-        _ => point_at(area, window, scales, None, cell),
-    };
+    let picture = framed(area, session, index);
+    let area = if session.plots[index].view == View::Scan { scan::body(area) } else { area };
+    let point = point_at(area, &picture, cell);
     point.map(|point| PointerTarget::Plot(index, point))
 }

@@ -187,14 +187,11 @@ fn parsed(words: &str) -> Result<(Style, Option<Rgb>), &str> {
     for word in words.split_whitespace() {
         match word {
             "default" => {}
-            "bold" => style = style.add_modifier(Modifier::BOLD),
-            "dim" => style = style.add_modifier(Modifier::DIM),
-            "italic" => style = style.add_modifier(Modifier::ITALIC),
-            "underlined" => style = style.add_modifier(Modifier::UNDERLINED),
-            "reversed" => style = style.add_modifier(Modifier::REVERSED),
-            colour => match Color::from_str(colour).map_err(|_| colour)? {
-                Color::Rgb(red, green, blue) => fine = Some((red, green, blue)),
-                basic => style = style.fg(basic),
+            word => match (Modifier::from_name(&word.to_uppercase()), Color::from_str(word)) {
+                (Some(attribute), _) => style = style.add_modifier(attribute),
+                (None, Ok(Color::Rgb(red, green, blue))) => fine = Some((red, green, blue)),
+                (None, Ok(basic)) => style = style.fg(basic),
+                (None, Err(_)) => return Err(word),
             },
         }
     }
@@ -242,6 +239,34 @@ fn nearest((red, green, blue): Rgb) -> u8 {
         part(red, other.0) + part(green, other.1) + part(blue, other.2)
     };
     (FIXED..=u8::MAX).min_by_key(distance).unwrap_or(FIXED)
+}
+
+/// The terminal's own palette, in the order of its numbers.
+const PALETTE: [Color; 16] = [
+    Color::Black,
+    Color::Red,
+    Color::Green,
+    Color::Yellow,
+    Color::Blue,
+    Color::Magenta,
+    Color::Cyan,
+    Color::Gray,
+    Color::DarkGray,
+    Color::LightRed,
+    Color::LightGreen,
+    Color::LightYellow,
+    Color::LightBlue,
+    Color::LightMagenta,
+    Color::LightCyan,
+    Color::White,
+];
+
+/// The number by which a terminal knows a colour, if it has one.
+pub fn number(color: Color) -> Option<u8> {
+    match color {
+        Color::Indexed(index) => Some(index),
+        named => (0..).zip(PALETTE).find(|(_, own)| *own == named).map(|(index, _)| index),
+    }
 }
 
 /// The first of xterm's fixed colours.

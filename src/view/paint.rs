@@ -15,11 +15,10 @@ const LABELLED: u16 = 30;
 /// Columns between marks that are left out where they would touch.
 const APART: usize = 4;
 
-pub fn paint(area: Rect, picture: &Picture, mut heading: Heading, screen: &mut Surface) {
+pub fn paint(area: Rect, picture: &Picture, heading: &Heading, screen: &mut Surface) {
     let look = screen.look;
     let Picture { window, cursor, items, .. } = picture;
-    heading.reading.clone_from(&picture.reading);
-    let mut plot = Canvas::new(area, picture, None, &heading, screen);
+    let mut plot = Canvas::new(area, picture, heading, screen);
     if let Some(map) = &picture.map {
         scan_map::draw(&plot, map, screen);
     }

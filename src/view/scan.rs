@@ -34,14 +34,14 @@ pub fn body(area: Rect) -> Rect {
 pub fn draw(
     area: Rect,
     picture: Picture,
-    heading: Heading,
+    heading: &Heading,
     scanned: &ScanOnShow,
     screen: &mut Surface,
 ) {
     let look = screen.look;
     let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
     if scanned.table {
-        screen.title(area, &title, "", &heading);
+        screen.title(area, &title, "", heading);
         return table(pane::below(area, 1), scanned, screen);
     }
     let width = usize::from(area.width);

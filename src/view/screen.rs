@@ -9,7 +9,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
 
-use super::look::{FIXED, fixed};
+use super::look::{FIXED, fixed, number};
 use super::signs::MINUS;
 use crate::numerics::count::real;
 use crate::words::printable::xml;
@@ -241,32 +241,14 @@ fn strokes(char: char) -> Option<[bool; 4]> {
 /// A colour as `#rrggbb`, or `None` where it is left to the terminal.
 fn hex(color: Color) -> Option<String> {
     /// The sixteen colours of the terminal's palette, as in most terminals today.
-    const PALETTE: [(Color, &str); 16] = [
-        (Color::Black, "#000000"),
-        (Color::Red, "#cd3131"),
-        (Color::Green, "#0dbc79"),
-        (Color::Yellow, "#e5e510"),
-        (Color::Blue, "#2472c8"),
-        (Color::Magenta, "#bc3fbc"),
-        (Color::Cyan, "#11a8cd"),
-        (Color::Gray, "#e5e5e5"),
-        (Color::DarkGray, "#666666"),
-        (Color::LightRed, "#f14c4c"),
-        (Color::LightGreen, "#23d18b"),
-        (Color::LightYellow, "#f5f543"),
-        (Color::LightBlue, "#3b8eea"),
-        (Color::LightMagenta, "#d670d6"),
-        (Color::LightCyan, "#29b8db"),
-        (Color::White, "#ffffff"),
+    const PALETTE: [&str; 16] = [
+        "#000000", "#cd3131", "#0dbc79", "#e5e510", "#2472c8", "#bc3fbc", "#11a8cd", "#e5e5e5",
+        "#666666", "#f14c4c", "#23d18b", "#f5f543", "#3b8eea", "#d670d6", "#29b8db", "#ffffff",
     ];
-    let (red, green, blue) = match color {
-        Color::Rgb(red, green, blue) => (red, green, blue),
-        Color::Indexed(index @ FIXED..) => fixed(index),
-        Color::Indexed(index) => return Some(PALETTE[usize::from(index)].1.to_owned()),
-        named => {
-            let own = PALETTE.iter().find(|(color, _)| *color == named);
-            return own.map(|(_, number)| (*number).to_owned());
-        }
+    let (red, green, blue) = match (color, number(color)) {
+        (Color::Rgb(red, green, blue), _) => (red, green, blue),
+        (_, Some(index @ FIXED..)) => fixed(index),
+        (_, index) => return index.map(|index| PALETTE[usize::from(index)].to_owned()),
     };
     Some(format!("#{red:02x}{green:02x}{blue:02x}"))
 }

@@ -51,7 +51,7 @@ pub fn in_letters(trade: &Trade) -> String {
     let heading = Heading::default();
     let picture = Picture::new("trade", "log10(time/ms)", "log10(error)", Window { x, y });
     let screen = &mut Surface { look: &look, buffer: &mut buffer };
-    let mut plot = Canvas::new(AREA, &picture, None, &heading, screen);
+    let mut plot = Canvas::new(AREA, &picture, &heading, screen);
     for (point, letter) in points.into_iter().rev() {
         plot.mark(point, letter, Role::Text);
     }

@@ -166,10 +166,7 @@ proptest! {
                 let (width, height) = dots.size();
                 let y = y / 40.0 * height;
                 dots.stroke([(0.0, y), (width, y)], DotPen { role: Role::Stable, dash });
-                dots.cells.iter().map(|cell| match cell {
-                    CellContent::Ink(bits, _) => *bits,
-                    _ => 0,
-                }).collect::<Vec<u8>>()
+                dots.cells.iter().map(|cell| cell.dots).collect::<Vec<u8>>()
             };
             let (thin, thick) = (bits(Dash::Solid), bits(Dash::Thick));
             prop_assert!(thin.iter().zip(&thick).all(|(thin, thick)| thin & thick == *thin), "{:?} {:?}", thin, thick);

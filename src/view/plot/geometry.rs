@@ -8,7 +8,7 @@
 
 use ratatui::layout::{Position, Rect};
 
-use crate::picture::{Scale, Tick, Ticks};
+use crate::picture::{Picture, Scale, Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::Session;
 use crate::view::pane;
@@ -92,17 +92,11 @@ pub fn rows(area: Rect) -> u16 {
     if roomy { height - 2 } else { height }
 }
 
-/// The point of a plot in `area` that a cell stands for, to the digits that cells tell apart; `None`
-/// for the cells outside of its axes. `upward` are the marks of its vertical axis if those are not round
-/// numbers.
-pub fn point_at(
-    area: Rect,
-    window: Window,
-    scales: [Scale; 2],
-    upward: Option<Ticks>,
-    cell: Position,
-) -> Option<Point> {
-    let Geometry { inner, .. } = Geometry::of(area, window, scales, upward);
+/// The point of a picture in `area` that a cell stands for, to the digits that cells tell apart; `None`
+/// for the cells outside of its axes.
+pub fn point_at(area: Rect, picture: &Picture, cell: Position) -> Option<Point> {
+    let Picture { window, scales, upward, .. } = picture;
+    let Geometry { inner, .. } = Geometry::of(area, *window, *scales, upward.clone());
     if !inner.contains(cell) {
         return None;
     }

@@ -34,22 +34,20 @@ pub struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    /// Writes the title and the axes of a picture into `area`, and gives the raster between them. Without `marks` the
-    /// vertical axis has round numbers.
+    /// Writes the title and the axes of a picture into `area`, and gives the raster between them.
     pub fn new(
         area: Rect,
         picture: &Picture,
-        marks: Option<Ticks>,
         heading: &pane::Heading,
         screen: &mut Surface<'a>,
     ) -> Self {
         let look = screen.look;
-        let (window, scales, has_marks) = (picture.window, picture.scales, marks.is_some());
+        let (window, scales) = (picture.window, picture.scales);
         let Geometry { inner, roomy, rightward, mut upward } =
-            Geometry::of(area, window, scales, marks);
+            Geometry::of(area, window, scales, picture.upward.clone());
         let x = rightward.named(scales[0].title(&picture.x));
         let axes = if picture.y.is_empty() {
-            if !has_marks {
+            if picture.upward.is_none() {
                 // Heights without meaning have no scale.
                 upward.ticks.clear();
             }
