@@ -16,7 +16,7 @@ fn look(glyphs: Glyphs) -> Look {
 fn canvas<'a>(size: (u16, u16), window: Window, screen: &mut Surface<'a>) -> Canvas<'a> {
     let picture = Picture::new("", "", "y", window);
     let area = Rect::new(0, 0, size.0, size.1);
-    Canvas::new(area, &picture, None, &pane::Heading::default(), screen)
+    Canvas::new(area, &picture, &pane::Heading::default(), screen)
 }
 
 /// The rows in which something stands.
