@@ -16,8 +16,7 @@ use crate::flow::{
 };
 use crate::model::Model;
 use crate::model::model::FINEST;
-use crate::numerics::scalar::Scalar;
-use crate::numerics::twofold::Twofold;
+use crate::numerics::{Scalar, Twofold};
 
 /// Maximum number of evaluations in twice the working precision: about a second.
 const MOST: u64 = 1_000_000;

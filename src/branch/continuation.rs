@@ -15,8 +15,7 @@ pub use spread::CurvePlace;
 
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
-use crate::numerics::elementary::{hypot, ln};
-use crate::numerics::root::try_bisect;
+use crate::numerics::{hypot, ln, try_bisect};
 use crate::portrait::closing::equation::{Equation, Route};
 use crate::portrait::closing::pair::Closing;
 

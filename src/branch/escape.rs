@@ -20,8 +20,7 @@ use std::f64::consts::PI;
 
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::Parameters;
-use crate::numerics::elementary::ln;
-use crate::numerics::root::{PlaceTolerance, illinois};
+use crate::numerics::{PlaceTolerance, illinois, ln};
 use crate::portrait::closing::balance::weighed_closing;
 use crate::portrait::closing::equation::{Equation, Route};
 

@@ -8,8 +8,7 @@ use super::special::FoldPoint;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters};
-use crate::numerics::elementary::{exp, ln};
-use crate::numerics::root::try_maximum;
+use crate::numerics::{exp, ln, try_maximum};
 use crate::portrait::Cycle;
 use crate::portrait::closing::equation::{Route, first_side};
 

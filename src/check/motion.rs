@@ -18,9 +18,7 @@
     reason = "a comparison with what is not a number fails, and its negation is the safe side"
 )]
 
-use crate::numerics::Interval;
-use crate::numerics::elementary::{pow, powi};
-use crate::numerics::root::bisect;
+use crate::numerics::{Interval, bisect, pow, powi};
 
 /// The field of a half plane.
 #[derive(Clone, Copy, Debug)]

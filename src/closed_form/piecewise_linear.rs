@@ -14,8 +14,7 @@ use serde::Serialize;
 
 use super::linear::Linear;
 use crate::model::State;
-use crate::numerics::count::real;
-use crate::numerics::elementary::{atan2, exp, exp_m1, ln, ln_1p, sin_cos};
+use crate::numerics::{atan2, exp, exp_m1, ln, ln_1p, real, sin_cos};
 
 /// The unstable cycle that borders the basin of attraction of the sticking set.
 ///

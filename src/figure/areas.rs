@@ -5,8 +5,7 @@
 //! lines, the strip is a row of trapezoids between these places, else it is halved. Trapezoids above each
 //! other become one polygon.
 
-use crate::numerics::elementary::{atan2, sin_cos};
-use crate::numerics::root::bisect;
+use crate::numerics::{atan2, bisect, sin_cos};
 use crate::picture::{Fill, Texture};
 use crate::scene::{Point, Window};
 

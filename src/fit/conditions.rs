@@ -6,8 +6,7 @@ use super::{
     Data, Dropped, Estimate, FEWEST, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R, RUN,
     Record, Rival, Runs, Unfit, Unknowns, interrupted, longest_run, peaks, samples,
 };
-use crate::numerics::count::real;
-use crate::numerics::random::Random;
+use crate::numerics::{Random, real};
 
 /// A condition on which an answer rests.
 #[derive(Clone, Debug, PartialEq, Serialize)]

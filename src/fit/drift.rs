@@ -7,8 +7,7 @@ use super::{
     BEND, Beginning, Covariance, Extreme, NAMES, Optimum, Runs, SLOPE, Task, UNKNOWNS, Unfit,
     Unknowns, autocorrelations, drift, interrupted, middle_of, moved, robust, scattered,
 };
-use crate::numerics::count::real;
-use crate::numerics::elementary::powi;
+use crate::numerics::{powi, real};
 
 /// A drift that a fit leaves over.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

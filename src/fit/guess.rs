@@ -7,8 +7,7 @@ use super::{
     dominant_frequency, least_squares, median, range, rate, regressions, robust_deviation,
     smoothed, turning_points, without_jumps,
 };
-use crate::numerics::count::real;
-use crate::numerics::elementary::{ln, sin_cos};
+use crate::numerics::{ln, real, sin_cos};
 
 /// A way in which a record may begin, with guesses of the unknowns.
 #[derive(Clone, Debug, PartialEq)]

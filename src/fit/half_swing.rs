@@ -6,9 +6,7 @@
 //! recurrence.
 
 use crate::model::HalfPlane;
-use crate::numerics::count::real;
-use crate::numerics::elementary::pow;
-use crate::numerics::root::{Bracket, PlaceTolerance, newton};
+use crate::numerics::{Bracket, PlaceTolerance, newton, pow, real};
 
 /// Number of solutions of the variational equation: across the flow, and by D, D2 (of this frame) and D3.
 pub const WAYS: usize = 4;

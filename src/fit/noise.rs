@@ -5,8 +5,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numerics::count::real;
-use crate::numerics::elementary::{exp, powi};
+use crate::numerics::{exp, powi, real};
 
 /// Number of standard deviations beyond which a residual does not belong to the motion. Chance exceeds it 7 times
 /// in a million.

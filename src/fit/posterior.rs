@@ -14,8 +14,7 @@ use super::{
     scattered,
 };
 use crate::flow::{Limits, Reason};
-use crate::numerics::count::real;
-use crate::numerics::elementary::{exp, ln, pow};
+use crate::numerics::{exp, ln, pow, real};
 
 /// Unknowns drawn, all of equal weight.
 pub struct Drawn {

@@ -3,8 +3,7 @@
 
 use serde::Serialize;
 
-use crate::numerics::count::{real, truncated};
-use crate::numerics::elementary::{cos, ln, pow, powi, sin};
+use crate::numerics::{cos, ln, pow, powi, real, sin, truncated};
 
 /// Correlation of the residuals.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

@@ -6,8 +6,7 @@ use super::{
     interrupted, parameters, placed, through_the_valley,
 };
 use crate::model::State;
-use crate::numerics::count::real;
-use crate::numerics::elementary::pow;
+use crate::numerics::{pow, real};
 
 /// The fractions of a record to which the horizon grows.
 const HORIZONS: [f64; 4] = [0.2, 0.35, 0.6, 0.85];

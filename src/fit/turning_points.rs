@@ -15,8 +15,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::{D, D2, D3, OFFSET, R, UNKNOWNS, Unknowns, least_squares, median, robust_deviation};
 use crate::model::Parameters;
-use crate::numerics::count::real;
-use crate::numerics::elementary::{atan2, hypot, powi, sin_cos};
+use crate::numerics::{atan2, hypot, powi, real, sin_cos};
 
 /// A turning point read from a record.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,8 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{IMPOSSIBLE, Optimum, Task, Unknowns, mean_square, scattered};
-use crate::numerics::count::real;
-use crate::numerics::elementary::powi;
+use crate::numerics::{powi, real};
 
 /// The covariance of the free unknowns about a minimum.
 #[derive(Clone, Debug)]

@@ -19,8 +19,7 @@
 use super::motion::Cost;
 use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper};
 use crate::model::{HalfPlane, Parameters, Reason, Side};
-use crate::numerics::elementary::tanh;
-use crate::numerics::scaling::times_power;
+use crate::numerics::{tanh, times_power};
 
 /// The field of the whole phase plane with friction as a function of the velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,8 +10,7 @@ use super::motion::Cost;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::{ErrorEstimate, Scheme};
 use crate::model::{HalfPlane, Reason};
-use crate::numerics::root::{Bracket, PlaceTolerance, newton};
-use crate::numerics::scaling::{rough_exp2, rough_log2};
+use crate::numerics::{Bracket, PlaceTolerance, newton, rough_exp2, rough_log2};
 
 /// Relative change of the length of the last step below which it counts as settled. This takes about four
 /// attempts; one more would change the length by the square of this.

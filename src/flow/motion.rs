@@ -4,8 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::method::Method;
 use crate::model::{ContactState, Knob, Ledger, Parameters, Reason, State};
-use crate::numerics::polynomial::Hermite;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::{Hermite, Scalar};
 
 /// An initial value problem.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -11,10 +11,7 @@ use super::swing::{Swing, swing};
 use crate::model::parameters::energy;
 use crate::model::parameters::rests;
 use crate::model::{HalfPlane, Ledger, Reason, Side, State};
-use crate::numerics::count::real;
-use crate::numerics::scalar::Scalar;
-use crate::numerics::scaling::times_power;
-use crate::numerics::sum::Sum;
+use crate::numerics::{Scalar, Sum, real, times_power};
 
 /// Half swings of a motion whose ends are kept: what is written of these takes some hundred megabytes.
 const MOST_CROSSINGS: usize = 2_000_000;

@@ -4,9 +4,8 @@ use std::fmt::Debug;
 
 use super::motion::Cost;
 use crate::model::{HalfPlane, Reason};
-use crate::numerics::count::real;
 use crate::numerics::quadrature::GAUSS;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::{Scalar, real};
 
 /// A point `(x, v)` in the frame of a half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -24,9 +24,7 @@ use super::motion::Cost;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
 use crate::model::{HalfPlane, Reason};
-use crate::numerics::count::real;
-use crate::numerics::elementary::pow;
-use crate::numerics::scaling::{rough_exp2, rough_log2};
+use crate::numerics::{pow, real, rough_exp2, rough_log2};
 
 /// The scheme for each tolerance: the first whose bound is not above it.
 static SCHEMES: [(f64, &LazyLock<Collocation>); 3] = [(5e-4, &THREE), (1e-8, &FIVE), (0.0, &SEVEN)];

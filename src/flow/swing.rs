@@ -8,10 +8,7 @@ use std::ops::ControlFlow;
 use super::limits::Limits;
 use super::step::{PlaneField, Step, StepPoint, Stepper};
 use crate::model::{HalfPlane, Reason};
-use crate::numerics::elementary::ln_1p;
-use crate::numerics::scalar::Scalar;
-use crate::numerics::scaling::exponent;
-use crate::numerics::sum::Sum;
+use crate::numerics::{Scalar, Sum, exponent, ln_1p};
 
 /// Size, as a power of two, at which the unit is chosen anew.
 const FAR: i32 = 300;

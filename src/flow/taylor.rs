@@ -11,13 +11,12 @@
 use super::motion::Cost;
 use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
 use crate::model::{HalfPlane, Reason};
-use crate::numerics::count::real;
 use crate::numerics::polynomial::{
     value_and_slope_in_two as value_and_slope, value_in_two as value,
 };
-use crate::numerics::root::{Bracket, PlaceTolerance, newton};
-use crate::numerics::scalar::Scalar;
-use crate::numerics::scaling::{exponent, rough_exp2, rough_log2, times_power};
+use crate::numerics::{
+    Bracket, PlaceTolerance, Scalar, exponent, newton, real, rough_exp2, rough_log2, times_power,
+};
 
 /// Highest order.
 const MOST: usize = 32;

@@ -10,8 +10,7 @@
 //! and ends at `(X, 0)`; the next clearance is `X - 2 r`.
 
 use super::parameters::{Parameters, State};
-use crate::numerics::scalar::Scalar;
-use crate::numerics::scaling::times_power;
+use crate::numerics::{Scalar, times_power};
 
 /// A side of the switching line `v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,7 @@
 //! minutes, hours and kilograms-force. It may contain `^` and parentheses; a blank, `*` or `·` means a product. `N/m s`, which can be
 //! read in two ways, is refused. A number without a unit is in SI units.
 
-use crate::numerics::Interval;
-use crate::numerics::elementary::powi;
+use crate::numerics::{Interval, powi};
 
 /// Exponents of kilogram, metre and second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

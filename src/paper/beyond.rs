@@ -8,8 +8,7 @@ use super::{Check, Evidence, always, belt, tends, worst};
 use crate::branch::escape::escape_point;
 use crate::flow::{Outcome, Reason};
 use crate::model::{Parameters, State};
-use crate::numerics::Interval;
-use crate::numerics::elementary::exp;
+use crate::numerics::{Interval, exp};
 use crate::portrait::Portrait;
 use crate::proof::motion::ProvedFate;
 

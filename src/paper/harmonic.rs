@@ -10,9 +10,8 @@ use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::closed_form::harmonics::HarmonicCycle;
 use crate::flow::Reason;
 use crate::model::Parameters;
-use crate::numerics::Interval;
-use crate::numerics::elementary::{powi, sin};
 use crate::numerics::interval::PI as PI_BOUNDS;
+use crate::numerics::{Interval, powi, sin};
 
 pub const CHECKS: &[Check] = &[
     worst("Fourier series", |it| {

@@ -8,8 +8,7 @@ use super::measure::{Case, at_rest};
 use super::{Check, Evidence, always, worst};
 use crate::flow::Reason;
 use crate::model::{Parameters, State};
-use crate::numerics::Interval;
-use crate::numerics::elementary::{atan, atan2, exp, sin, sin_cos};
+use crate::numerics::{Interval, atan, atan2, exp, sin, sin_cos};
 use crate::portrait::Border;
 
 pub const CHECKS: &[Check] = &[

@@ -6,8 +6,7 @@ use std::fmt;
 
 use super::{Dash, Mark, Role, Scale, ScanMap, Ticks, units::said};
 use crate::model::{Knob, Parameters};
-use crate::numerics::count::{real, truncated};
-use crate::numerics::elementary::{hypot, sin_cos};
+use crate::numerics::{hypot, real, sin_cos, truncated};
 use crate::scene::{Point, Window};
 use crate::session::VariantTag;
 

@@ -12,8 +12,7 @@
     reason = "powers of ten and counts of ticks are small, whatever the axis"
 )]
 
-use crate::numerics::decimal::{StepSize, decade, decimal};
-use crate::numerics::elementary::{log10, pow};
+use crate::numerics::{StepSize, decade, decimal, log10, pow};
 use crate::scene::Span;
 
 /// A tick: where it stands and what it says.

@@ -6,8 +6,7 @@ use super::basin::orbit::Orbit;
 use crate::flow::Reason;
 use crate::flow::machine::curve::MachineCurve;
 use crate::model::{Parameters, State};
-use crate::numerics::elementary::hypot;
-use crate::numerics::root::maximum;
+use crate::numerics::{hypot, maximum};
 
 /// What borders the basin of rest.
 #[derive(Clone, Copy, Debug, PartialEq)]

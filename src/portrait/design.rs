@@ -9,8 +9,7 @@ use serde::Serialize;
 
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Body, Parameters, Source, Tolerances};
-use crate::numerics::elementary::{exp, ln};
-use crate::numerics::root::{PlaceTolerance, illinois};
+use crate::numerics::{PlaceTolerance, exp, illinois, ln};
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Border, Margin, Portrait};
 

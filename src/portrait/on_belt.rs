@@ -2,8 +2,7 @@
 
 use crate::flow::Trajectory;
 use crate::model::{HalfPlane, Parameters, Side, State};
-use crate::numerics::polynomial::Hermite;
-use crate::numerics::root::{TO_ROUNDING, bisect};
+use crate::numerics::{Hermite, TO_ROUNDING, bisect};
 
 /// Time and displacement where a motion first reaches a velocity; `None` where it does not.
 ///

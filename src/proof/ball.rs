@@ -3,8 +3,7 @@
 use super::field::{FieldBox, scaled};
 use super::series::MotionSeries;
 use super::step::{INFLATE, Norm, StepEnd, StepField};
-use crate::numerics::Interval;
-use crate::numerics::scaling::exponent;
+use crate::numerics::{Interval, exponent};
 
 /// Steps after which a swing is abandoned: a smooth one takes ten, a stiff one any number.
 pub const MOST_STEPS: u32 = 250;

@@ -19,8 +19,7 @@ use super::funnel::Funnel;
 use super::map::{MapDirection, ProvedMap};
 use super::swing::{Passage, swing};
 use crate::model::{Knob, Side};
-use crate::numerics::Interval;
-use crate::numerics::elementary::powi;
+use crate::numerics::{Interval, powi};
 
 /// A fold of limit cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]

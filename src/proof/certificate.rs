@@ -7,8 +7,7 @@ use super::cycles::{Proof, ProvedCycle, Theorem};
 use super::map::{MapDirection, ProvedMap};
 use crate::check::map::Map;
 use crate::check::{Bounds, Certificate, CertificateStep, StepKind};
-use crate::numerics::Interval;
-use crate::numerics::elementary::cbrt;
+use crate::numerics::{Interval, cbrt};
 
 /// Makes the certificate of a proof.
 ///

@@ -12,8 +12,7 @@ use super::field::FieldBox;
 use super::funnel::Funnel;
 use super::map::{Bound, MapDirection, ProvedMap};
 use super::swing::swing_below;
-use crate::numerics::Interval;
-use crate::numerics::elementary::pow;
+use crate::numerics::{Interval, pow};
 
 /// Relative width below which a gap is not halved any more.
 const NARROWEST: f64 = 1e-13;

@@ -6,8 +6,7 @@ use super::count::{Count, SearchEnd, inner_end, outer_end};
 use super::enclose::{Enclosure, affine_cycle, enclose};
 use super::field::{ParameterBox, scaled};
 use super::map::ProvedMap;
-use crate::numerics::Interval;
-use crate::numerics::scaling::exponent;
+use crate::numerics::{Interval, exponent};
 
 /// Why there are no cycles, or only one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

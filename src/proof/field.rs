@@ -2,8 +2,7 @@
 
 pub use crate::model::ParameterBox;
 use crate::model::{Knob, Side};
-use crate::numerics::Interval;
-use crate::numerics::scaling::times_power;
+use crate::numerics::{Interval, times_power};
 
 impl ParameterBox {
     /// The same parameters with lengths in units of `2^k`.

@@ -9,9 +9,7 @@
 use super::ball::StartBox;
 use super::field::{FieldBox, scaled};
 use super::swing::{Passage, ProvedSwing, swing};
-use crate::numerics::Interval;
-use crate::numerics::elementary::cbrt;
-use crate::numerics::scaling::exponent;
+use crate::numerics::{Interval, cbrt, exponent};
 
 /// The beginning of motions, until all of them are faster than the speed of the funnel.
 #[derive(Clone, Copy, Debug)]

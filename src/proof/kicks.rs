@@ -11,8 +11,7 @@ use super::cycles::{Proof, ProvedCycle, Theorem};
 use super::field::ParameterBox;
 use super::map::{MapDirection, ProvedMap};
 use super::swing::{Passage, swing};
-use crate::numerics::Interval;
-use crate::numerics::elementary::powi;
+use crate::numerics::{Interval, powi};
 
 /// What provably borders the basin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,7 @@ use super::ball::{Ball, MOST_STEPS, StartBox, never_returns};
 use super::field::{FieldBox, ParameterBox, scaled};
 use super::map::{MapDirection, ProvedMap};
 use super::swing::{Passage, ProvedSwing, swing};
-use crate::numerics::Interval;
-use crate::numerics::elementary::cbrt;
+use crate::numerics::{Interval, cbrt};
 
 /// An arrival at `v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,8 +4,7 @@
 use super::cycles::stabilities;
 use super::field::ParameterBox;
 use crate::model::Knob;
-use crate::numerics::Interval;
-use crate::numerics::elementary::powi;
+use crate::numerics::{Interval, powi};
 
 /// Part of a range, with what is proved for all values in it.
 #[derive(Clone, Debug, PartialEq)]

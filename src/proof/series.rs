@@ -5,9 +5,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::numerics::count::reciprocals;
 use crate::numerics::polynomial::value_and_slope_in_two;
-use crate::numerics::scaling::{rough_exp2, rough_log2};
+use crate::numerics::{reciprocals, rough_exp2, rough_log2};
 
 /// Degree of the polynomials.
 pub const ORDER: usize = 28;

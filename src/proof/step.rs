@@ -15,8 +15,7 @@
 
 use super::field::FieldBox;
 use super::series::{INVERSE, LENGTH, MotionSeries, ORDER};
-use crate::numerics::Interval;
-use crate::numerics::elementary::ln;
+use crate::numerics::{Interval, ln};
 
 /// The unit roundoff of doubles, `2^-53`.
 pub const UNIT: f64 = f64::EPSILON / 2.0;

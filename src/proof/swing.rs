@@ -5,9 +5,7 @@ use std::convert::Infallible;
 use super::ball::{Ahead, Ball, MOST_STEPS, StartBox, never_returns};
 use super::field::{FieldBox, scaled};
 use super::step::{INFLATE, StepEnd, UNIT};
-use crate::numerics::Interval;
-use crate::numerics::elementary::powi;
-use crate::numerics::root::{Bracket, PlaceTolerance, illinois, newton};
+use crate::numerics::{Bracket, Interval, PlaceTolerance, illinois, newton, powi};
 
 /// A half swing that arrives at `v = 0`; each interval holds the values of all starts and fields.
 #[derive(Clone, Copy, Debug, PartialEq)]

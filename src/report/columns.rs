@@ -10,8 +10,7 @@ use serde_json::{Map, Value};
 
 use super::json::{self, Document};
 use super::table::Table;
-use crate::numerics::Interval;
-use crate::numerics::elementary::{log10, pow, powi};
+use crate::numerics::{Interval, log10, pow, powi};
 use crate::words::{significant, with_unit};
 
 /// What the numbers of a column measure, and how text shows them; files have all their digits, in SI units.

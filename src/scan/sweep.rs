@@ -4,8 +4,7 @@ use std::fmt;
 
 use crate::model::unit::measured;
 use crate::model::{Group, Knob};
-use crate::numerics::count::real;
-use crate::numerics::elementary::{log10, pow};
+use crate::numerics::{log10, pow, real};
 
 /// How the values of a [`Sweep`] are spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,6 @@
 //! Numbers as text: with a few significant digits, with a prefix and a unit, or exactly, within a given width.
 
-use crate::numerics::count::{real, truncated};
-use crate::numerics::elementary::log10;
+use crate::numerics::{log10, real, truncated};
 use crate::scan::measure::Value;
 
 /// Writes `value` with at most `digits` significant digits, without trailing zeros.

@@ -8,9 +8,7 @@ use crate::branch::regime::Regime;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters};
-use crate::numerics::count::real;
-use crate::numerics::elementary::{exp, hypot, ln, powi};
-use crate::numerics::root::{PlaceTolerance, illinois};
+use crate::numerics::{PlaceTolerance, exp, hypot, illinois, ln, powi, real};
 use crate::portrait::basin::cycle::cycles;
 
 /// Maximum number of halvings between two lines, to come close to a boundary.

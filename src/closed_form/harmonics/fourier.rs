@@ -14,9 +14,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use crate::numerics::count::real;
-use crate::numerics::elementary::{powi, sin_cos};
-use crate::numerics::root::{Bracket, PlaceTolerance, newton};
+use crate::numerics::{Bracket, PlaceTolerance, newton, powi, real, sin_cos};
 
 /// A real trigonometric polynomial.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -20,8 +20,7 @@ use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
 
 use super::fourier::{Fourier, SignChange, sign_changes};
 use crate::model::{Parameters, Reason};
-use crate::numerics::count::real;
-use crate::numerics::elementary::sin_cos;
+use crate::numerics::{real, sin_cos};
 
 /// An approximate cycle: its frequency and its displacement over one turn of the angle.
 #[derive(Clone, Debug, PartialEq)]

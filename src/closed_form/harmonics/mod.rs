@@ -27,8 +27,7 @@ use self::fourier::{Fourier, sign_changes};
 use self::galerkin::{Ansatz, BalanceResidual, Basis, solve};
 use super::harmonic::Harmonic;
 use crate::model::{Parameters, Reason, State};
-use crate::numerics::count::real;
-use crate::numerics::scaling::{exponent, times_power};
+use crate::numerics::{exponent, real, times_power};
 
 /// Maximum number of harmonics: the linear algebra costs as their cube.
 pub const MOST: usize = 255;

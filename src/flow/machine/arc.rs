@@ -11,9 +11,8 @@ use crate::flow::Cost;
 use crate::model::force::ForceBranch;
 use crate::model::model::FINEST;
 use crate::model::{ContactState, Model, Phase, Reason};
-use crate::numerics::elementary::ln;
 use crate::numerics::polynomial::{derivative, value, value_and_slope};
-use crate::numerics::root::{Bracket, PlaceTolerance, newton};
+use crate::numerics::{Bracket, PlaceTolerance, ln, newton};
 
 /// The end of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]

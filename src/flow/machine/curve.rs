@@ -2,11 +2,9 @@
 //! its energy comes from and goes, the belt's work against the damper's and the guide's.
 
 use crate::model::{ContactState, Ledger, Model, Phase, State, Work};
-use crate::numerics::count::reciprocals;
-use crate::numerics::elementary::powi;
 use crate::numerics::polynomial::{value, value_and_slope};
 use crate::numerics::quadrature::gauss;
-use crate::numerics::root::{Bracket, PlaceTolerance, newton};
+use crate::numerics::{Bracket, PlaceTolerance, newton, powi, reciprocals};
 
 /// Order of the series; near the one that costs least at full precision.
 pub const ORDER: usize = 20;

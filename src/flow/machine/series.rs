@@ -7,10 +7,9 @@
 use super::curve::{INVERSE, MachineCurve, MachineStep, ORDER, TERMS, Terms};
 use crate::model::ContactState;
 use crate::model::force::{Fall, ForceBranch, ForcePiece, shift};
-use crate::numerics::count::real;
-use crate::numerics::elementary::{exp2, log2, pow};
 use crate::numerics::polynomial::{integral, value, value_and_slope};
 use crate::numerics::quadrature::gauss;
+use crate::numerics::{exp2, log2, pow, real};
 
 /// The series of one step, and what it takes to compute them.
 #[derive(Clone, Debug)]

@@ -7,9 +7,7 @@
 
 use std::sync::LazyLock;
 
-use crate::numerics::count::real;
-use crate::numerics::scalar::Scalar;
-use crate::numerics::twofold::Twofold;
+use crate::numerics::{Scalar, Twofold, real};
 
 /// A collocation scheme.
 #[derive(Debug)]

@@ -6,9 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::elementary::{exp, pow, powi};
 use crate::numerics::polynomial::derivatives;
-use crate::numerics::spline::SmoothingSpline;
+use crate::numerics::{SmoothingSpline, exp, pow, powi};
 
 pub use crate::numerics::polynomial::Derivatives;
 

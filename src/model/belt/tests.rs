@@ -5,8 +5,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::model::unit::Dimension;
 use crate::model::{Group, HalfPlane, Knob, Reason, Side};
-use crate::numerics::elementary::{exp, log10, powi};
-use crate::numerics::spline::SmoothingSpline;
+use crate::numerics::{SmoothingSpline, exp, log10, powi};
 
 /// Value and derivatives by central differences of `mu` with Richardson's extrapolation: they know
 /// nothing of the formulas.

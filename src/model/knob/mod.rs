@@ -11,9 +11,7 @@ use super::belt::friction::Belt;
 use super::modal::Modal;
 use super::parameters::{Parameters, State};
 use super::unit::{Measured, WithTolerance, measured, toleranced};
-use crate::numerics::Interval;
-use crate::numerics::decimal::{brief, shortest};
-use crate::numerics::similar::most_similar;
+use crate::numerics::{Interval, brief, most_similar, shortest};
 use table::Access;
 pub use table::{Group, KNOBS, Knob, KnobSpec};
 

@@ -12,8 +12,7 @@ use crate::flow::exact::Exact;
 use crate::flow::step::{Powers, Stepper};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
-use crate::numerics::root::{Bracket, PlaceTolerance, newton};
-use crate::numerics::scaling::times_power;
+use crate::numerics::{Bracket, PlaceTolerance, newton, times_power};
 use crate::portrait::closing::half_map::{Direction, HalfMap, HalfSwing, Length, linear_below};
 
 /// Integration tolerance of an arc.

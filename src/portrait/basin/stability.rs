@@ -9,9 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use serde::Serialize;
 
 use super::StartWindow;
-use crate::numerics::elementary::{asin, cos, powi, sin};
-use crate::numerics::quadrature::{Integral, integrate};
-use crate::numerics::root::{TO_ROUNDING, bisect};
+use crate::numerics::{Integral, TO_ROUNDING, asin, bisect, cos, integrate, powi, sin};
 use crate::portrait::border::Edge;
 
 /// A fraction, and a bound on its error.

@@ -15,8 +15,7 @@ use super::weak::{has_cycle, is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::Reason;
 use crate::model::Parameters;
-use crate::numerics::elementary::ln;
-use crate::numerics::twofold::Twofold;
+use crate::numerics::{Twofold, ln};
 
 /// Tolerance of the integration steps of the search and the polish: rounding.
 pub const STEP: f64 = 1e-16;

@@ -16,9 +16,8 @@ use super::roundoff::UNIT;
 use crate::flow::step::Stepper;
 use crate::flow::{Limits, Reason};
 use crate::model::HalfPlane;
-use crate::numerics::elementary::{exp, ln_1p};
 use crate::numerics::quadrature::{GAUSS, gauss};
-use crate::numerics::scaling::{exponent, times_power};
+use crate::numerics::{exp, exponent, ln_1p, times_power};
 
 /// A residual weighed as energy, and a bound on its error.
 pub type Weighed = (f64, f64);

@@ -18,8 +18,7 @@ use crate::flow::step::{Step, StepPoint, Stepper};
 use crate::flow::swing::{blow_up, swing};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::HalfPlane;
-use crate::numerics::elementary::{atan2, exp, hypot, ln, ln_1p, sin_cos};
-use crate::numerics::scaling::times_power;
+use crate::numerics::{atan2, exp, hypot, ln, ln_1p, sin_cos, times_power};
 
 /// Below this fraction of its natural scale, in units of the tolerance of a step, the damping is linear to far
 /// below that tolerance.

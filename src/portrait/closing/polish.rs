@@ -11,9 +11,8 @@ use super::pair::Closing;
 use super::precise::{FINER, PreciseEquation};
 use super::search::{Bracket, Node};
 use crate::flow::Reason;
-use crate::numerics::elementary::exp_m1;
-use crate::numerics::root::{self, try_newton};
-use crate::numerics::twofold::Twofold;
+use crate::numerics::root;
+use crate::numerics::{Twofold, exp_m1, try_newton};
 
 /// Slope of the residual below which it is weighed as energy.
 const FLAT: f64 = 0.3;

@@ -11,8 +11,7 @@ use crate::flow::precise::{Grain, half_swing};
 use crate::flow::trajectory::Cost;
 use crate::flow::{Limits, Reason};
 use crate::model::HalfPlane;
-use crate::numerics::elementary::ln_1p;
-use crate::numerics::twofold::Twofold;
+use crate::numerics::{Twofold, ln_1p};
 
 /// Rounding and truncation here, as a fraction of those of a double, with a few digits to spare.
 pub const FINER: f64 = 1e-12;

@@ -11,8 +11,7 @@
 
 use crate::flow::step::{Field, Step, StepPoint};
 use crate::model::HalfPlane;
-use crate::numerics::elementary::{exp, ln};
-use crate::numerics::scaling::{exponent, times_power};
+use crate::numerics::{exp, exponent, ln, times_power};
 
 /// Rounding of one step relative to its terms: some operations each, of which the largest term decides.
 pub const UNIT: f64 = 6.0 * f64::EPSILON;

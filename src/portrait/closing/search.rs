@@ -11,8 +11,7 @@
 //! Guarantee: every interval between the roots found is excluded by monotonicity, or by a cubic whose error was
 //! measured. Assumption: the function varies on scales not below the finest interval; those at which it does are told.
 
-use crate::numerics::polynomial::Hermite;
-use crate::numerics::root::{PlaceTolerance, illinois};
+use crate::numerics::{Hermite, PlaceTolerance, illinois};
 
 /// Relative width to which an extremum is sought: rounding.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;

@@ -17,8 +17,7 @@ use super::border::{Border, Edge};
 use super::portrait::Portrait;
 use crate::flow::Reason;
 use crate::model::unit::quantity;
-use crate::numerics::elementary::{erfc, exp};
-use crate::numerics::quadrature::Integral;
+use crate::numerics::{Integral, erfc, exp};
 
 /// How a random number is spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

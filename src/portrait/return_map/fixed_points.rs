@@ -5,9 +5,8 @@ use super::machine_return::{Image, MachineReturn};
 use crate::flow::machine::curve::MachineCurve;
 use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Model, Phase};
-use crate::numerics::elementary::{exp, ln, pow};
-use crate::numerics::root::{self, PlaceTolerance, bisect, try_newton};
-use crate::numerics::scaling::{exponent, times_power};
+use crate::numerics::root;
+use crate::numerics::{PlaceTolerance, bisect, exp, exponent, ln, pow, times_power, try_newton};
 use crate::portrait::closing::search::{Bracket, Node, Search};
 use crate::portrait::{Cycle, Ride};
 

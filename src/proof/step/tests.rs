@@ -3,8 +3,7 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::*;
-use crate::numerics::elementary::{exp, sin_cos};
-use crate::numerics::twofold::Twofold;
+use crate::numerics::{Twofold, exp, sin_cos};
 use crate::proof::series::SeriesScalar;
 
 /// A magnitude, and its possible error in units of roundoff.

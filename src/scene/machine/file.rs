@@ -18,8 +18,7 @@ use crate::model::unit::quantity;
 use crate::model::{
     Belt, Body, Group, Knob, KnobSpec, MachineProblem, Modal, Source, Tolerances, unknown,
 };
-use crate::numerics::decimal::shortest;
-use crate::numerics::spline::SmoothingSpline;
+use crate::numerics::{SmoothingSpline, shortest};
 use crate::scene::misread::{Complaint, Misread};
 
 /// Maximum number of points of a table.

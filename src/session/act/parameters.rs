@@ -3,8 +3,7 @@
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::model::unit::measured;
 use crate::model::{Knob, KnobSpec};
-use crate::numerics::decimal::shortest;
-use crate::numerics::elementary::log10;
+use crate::numerics::{log10, shortest};
 use crate::scene::{Setting, View};
 use crate::session::act::{inform, warn_of_units};
 use crate::session::read::completion::typed;

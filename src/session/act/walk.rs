@@ -1,8 +1,7 @@
 //! Walking along the branch: a point is held, moved, and used as the start of the motion.
 
 use crate::model::State;
-use crate::numerics::decimal::shortest;
-use crate::numerics::elementary::hypot;
+use crate::numerics::{hypot, shortest};
 use crate::scene::{Axes, Layer, Topic};
 use crate::session::act::parameters::change;
 use crate::session::act::{inform, inform_of_keys, with_keys};

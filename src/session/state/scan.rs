@@ -4,8 +4,7 @@
 
 use std::sync::Arc;
 
-use crate::numerics::count::real;
-use crate::numerics::elementary::log10;
+use crate::numerics::{log10, real};
 use crate::scan::grid::{Scan, ScanRow};
 use crate::scan::measure::Value;
 use crate::scan::sweep::{Spacing, Sweep};
