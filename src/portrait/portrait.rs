@@ -4,9 +4,11 @@
 //! motions go one way, to the next cycle on that side. One evaluation in each gap therefore settles the fate of
 //! all starts; a start itself is followed only to its next right turning point.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 
-use super::return_map::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
+use super::return_map::gaps::{Divide, Gap, gaps, jumps, ways};
 use super::{Border, Cycle, Edge, Margin, Reach, RestMargin};
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
@@ -101,7 +103,7 @@ impl Portrait {
             let place =
                 marks.iter().position(|(_, mark)| matches!(mark, Divide::Cycle(i) if *i == index));
             let attracts = |place: usize| {
-                ways[place] == Tendency::Outward && ways[place + 1] == Tendency::Inward
+                ways[place] == Ok(Ordering::Greater) && ways[place + 1] == Ok(Ordering::Less)
             };
             let stable = image.sticks_from.is_some() || place.is_some_and(attracts);
             cycles.push(flow.describe(*x, image, stable)?);

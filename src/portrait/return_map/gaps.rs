@@ -1,6 +1,8 @@
 //! The gaps between the right turning points at which the return map changes, and the fate of the motions in
 //! each gap.
 
+use std::cmp::Ordering;
+
 use crate::flow::{Fate, Flow, Reason};
 use crate::model::Model;
 use crate::portrait::return_map::fixed_points::NOTHING;
@@ -37,16 +39,9 @@ pub(crate) fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
     found
 }
 
-/// The direction of motions in a gap.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Tendency {
-    Outward,
-    Inward,
-    /// They are periodic.
-    Nowhere,
-    /// They leave the known range.
-    Lost(Reason),
-}
+/// The direction of motions in a gap: outward if they grow, and neither way if they are periodic; or why they leave
+/// the known range.
+pub(crate) type Tendency = Result<Ordering, Reason>;
 
 /// The direction of motions in each gap.
 pub(crate) fn ways(
@@ -59,7 +54,7 @@ pub(crate) fn ways(
     let mut low = held;
     for mark in marks.iter().map(Some).chain([None]) {
         if let Some((x, Divide::Capture)) = mark {
-            ways.push(Tendency::Inward);
+            ways.push(Ok(Ordering::Less));
             low = *x;
             continue;
         }
@@ -67,26 +62,19 @@ pub(crate) fn ways(
         let high = high.unwrap_or(if end > low { end } else { 2.0 * low });
         let x = low + 0.5 * (high - low);
         ways.push(match flow.returned(x) {
-            Ok(MachineReturn::Turns(image)) => way(image.x, x),
-            Ok(MachineReturn::Rests(_)) | Err(Reason::Settles) => Tendency::Inward,
-            Err(Reason::Escapes) => Tendency::Outward,
-            Err(stop @ Reason::BeyondLaw { .. }) => Tendency::Lost(stop),
+            Ok(MachineReturn::Turns(image)) => {
+                let change = (image.x - x) / x;
+                let stays = change.abs() < NOTHING;
+                Ok(if stays { Ordering::Equal } else { change.total_cmp(&0.0) })
+            }
+            Ok(MachineReturn::Rests(_)) | Err(Reason::Settles) => Ok(Ordering::Less),
+            Err(Reason::Escapes) => Ok(Ordering::Greater),
+            Err(stop @ Reason::BeyondLaw { .. }) => Err(stop),
             Err(reason) => return Err(reason),
         });
         low = high;
     }
     Ok(ways)
-}
-
-fn way(image: f64, x: f64) -> Tendency {
-    let change = (image - x) / x;
-    if change.abs() < NOTHING {
-        Tendency::Nowhere
-    } else if change > 0.0 {
-        Tendency::Outward
-    } else {
-        Tendency::Inward
-    }
 }
 
 /// The fate of each gap.
@@ -95,11 +83,11 @@ pub(crate) fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Reas
         let mut here = gap;
         loop {
             let (mark, next) = match ways[here] {
-                Tendency::Lost(stop) => return Fate::Unknown(stop),
-                Tendency::Nowhere => return Fate::Neutral,
-                Tendency::Outward => (marks.get(here), here + 1),
-                Tendency::Inward if here == 0 => return Fate::Rest,
-                Tendency::Inward => (marks.get(here - 1), here - 1),
+                Err(stop) => return Fate::Unknown(stop),
+                Ok(Ordering::Equal) => return Fate::Neutral,
+                Ok(Ordering::Greater) => (marks.get(here), here + 1),
+                Ok(Ordering::Less) if here == 0 => return Fate::Rest,
+                Ok(Ordering::Less) => (marks.get(here - 1), here - 1),
             };
             match mark {
                 None => return stop.map_or(Fate::Escapes, Fate::Unknown),

@@ -7,7 +7,7 @@
 use crate::flow::machine::arc::ArcEnd;
 use crate::flow::machine::curve::{MachineCurve, MachineStep};
 use crate::flow::machine::series::PhaseSeries;
-use crate::flow::machine::turn::Turn;
+use crate::flow::machine::turn::{Turn, WayToTurn};
 use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Lines, Phase};
 use crate::numerics::elementary::ln;
@@ -40,42 +40,59 @@ impl Flow<'_> {
     /// The next right turning point after the one at `x`, outside of what the guide holds. Fails with
     /// [`Reason`] if the motion does not turn; a motion that settles at an equilibrium counts as coming to rest.
     pub fn returned(&mut self, x: f64) -> Result<MachineReturn, Reason> {
-        let mut divergence = 0.0;
-        let mut add = |series: &PhaseSeries| divergence += series.divergence();
-        let left = match self.turn(ContactState::Slips(Phase::Below), (x, 0.0), &mut add) {
-            Ok(Turn { x, rests: true, .. }) => return Ok(MachineReturn::Rests(x)),
-            Ok(turn) => turn,
-            Err(Reason::Settles) => return Ok(MachineReturn::Rests(self.model.guide)),
-            Err(stop) => return Err(stop),
+        let (guide, mut divergence) = (self.model.guide, 0.0);
+        let mut turn = |phase, x, equilibrium| {
+            let add = &mut |series: &PhaseSeries| divergence += series.divergence();
+            match self.turn(ContactState::Slips(phase), (x, 0.0), add) {
+                Err(Reason::Settles) => Ok(Turn { x: equilibrium, rests: true, way: WayToTurn::default() }),
+                turn => turn,
+            }
         };
-        match self.turn(ContactState::Slips(Phase::Between), (left.x, 0.0), &mut add) {
-            Ok(Turn { x, rests: true, .. }) => Ok(MachineReturn::Rests(x)),
-            Ok(Turn { x, way, .. }) => Ok(MachineReturn::Turns(Image {
-                x,
-                left: left.x,
-                log_slope: left.way.log_ratio + way.log_ratio + divergence,
-                sticks_from: way.sticks_from,
-                overtakes_from: way.overtakes_from,
-            })),
-            Err(Reason::Settles) => Ok(MachineReturn::Rests(-self.model.guide)),
-            Err(stop) => Err(stop),
+        let left = turn(Phase::Below, x, guide)?;
+        if left.rests {
+            return Ok(MachineReturn::Rests(left.x));
+        }
+        let Turn { x, rests, way } = turn(Phase::Between, left.x, -guide)?;
+        if rests {
+            return Ok(MachineReturn::Rests(x));
+        }
+        Ok(MachineReturn::Turns(Image {
+            x,
+            left: left.x,
+            log_slope: left.way.log_ratio + way.log_ratio + divergence,
+            sticks_from: way.sticks_from,
+            overtakes_from: way.overtakes_from,
+        }))
+    }
+
+    /// An arc below the belt's line that may settle: it then ends at the equilibrium of its phase, where nothing
+    /// accelerates it. Fails with [`Reason`] as [`Flow::arc`].
+    fn settling_arc(
+        &mut self,
+        phase: Phase,
+        start: (f64, f64),
+        backward: bool,
+        watch: &mut impl FnMut(&PhaseSeries),
+    ) -> Result<ArcEnd, Reason> {
+        let guide = self.model.guide;
+        let x = if phase == Phase::Below { guide } else { -guide };
+        match self.arc(phase, start, backward, watch) {
+            Err(Reason::Settles) => Ok(ArcEnd { x, on_belt: false, accelerations: (0.0, 1.0) }),
+            end => end,
         }
     }
 
-    /// The right turning point before the left one at `left`, with the logarithm of (acceleration before the
-    /// arc's end / after its start); `None` if no motion comes from one. Fails with [`Reason`] where the
-    /// friction law ends or the steps run out.
+    /// The arc from the right turning point before the left one at `left`, followed back to it; `None` if no motion
+    /// comes from one. Fails with [`Reason`] where the friction law ends or the steps run out.
     pub(crate) fn right_before(
         &mut self,
         left: f64,
         watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<Option<(f64, f64)>, Reason> {
+    ) -> Result<Option<ArcEnd>, Reason> {
         let left = left.min(-self.model.guide_static);
-        match self.arc(Phase::Below, (left, 0.0), true, watch) {
-            Ok(end) => Ok(Some((end.x, end.log_ratio()))),
+        match self.settling_arc(Phase::Below, (left, 0.0), true, watch) {
             Err(Reason::Escapes) => Ok(None),
-            Err(Reason::Settles) => Ok(Some((self.model.guide, f64::NEG_INFINITY))),
-            Err(stop) => Err(stop),
+            end => end.map(Some),
         }
     }
 
@@ -85,19 +102,17 @@ impl Flow<'_> {
     pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Reason> {
         let mut divergence = 0.0;
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
-        let (left, entered) = match self.arc(Phase::Between, (x, 0.0), true, &mut add) {
+        let end = match self.settling_arc(Phase::Between, (x, 0.0), true, &mut add) {
             Ok(end) if end.on_belt => return Ok(None),
-            Ok(end) => (end.x, end.log_ratio()),
-            Err(Reason::Settles) => (-self.model.guide, f64::NEG_INFINITY),
             // Backward in time, damping adds energy: however far away it comes from, a motion turns before `x`.
             Err(Reason::Escapes) => return Ok(None),
-            Err(stop) => return Err(stop),
+            end => end?,
         };
-        let before = self.right_before(left, &mut add)?;
-        Ok(before.map(|(x, ratio)| Image {
-            x,
-            left,
-            log_slope: divergence - entered - ratio,
+        let before = self.right_before(end.x, &mut add)?;
+        Ok(before.map(|before| Image {
+            x: before.x,
+            left: end.x,
+            log_slope: divergence - end.log_ratio() - before.log_ratio(),
             sticks_from: None,
             overtakes_from: None,
         }))
@@ -112,11 +127,7 @@ impl Flow<'_> {
         y: f64,
         watch: &mut impl FnMut(&PhaseSeries),
     ) -> Result<f64, Reason> {
-        match self.arc(Phase::Between, (x, y), true, watch) {
-            Ok(end) => Ok(end.x),
-            Err(Reason::Settles) => Ok(-self.model.guide),
-            Err(stop) => Err(stop),
-        }
+        Ok(self.settling_arc(Phase::Between, (x, y), true, watch)?.x)
     }
 }
 
@@ -175,40 +186,42 @@ impl Flow<'_> {
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
         let left = self.left_before(lines.fold, speed, &mut add)?;
         // If overdamped, it comes to rest without another turn.
-        let after = match self.arc(Phase::Between, (lines.fold, speed), false, &mut add) {
-            Ok(end) => end.x,
-            Err(Reason::Settles) => -guide,
-            Err(stop) => return Err(stop),
-        };
+        let start = (lines.fold, speed);
+        let after = self.settling_arc(Phase::Between, start, false, &mut add)?.x;
         let left = left.min(-self.model.guide_static);
         let before = match self.right_before(left, &mut add) {
             Err(Reason::BeyondLaw { .. }) => None,
             before => before?,
         };
-        let (right, ratio) = before.map_or((None, 0.0), |(right, ratio)| (Some(right), ratio));
+        let ratio = before.map_or(0.0, |before| before.log_ratio());
         let between = (left + guide) / (after + guide);
         let log_slope =
             if after > -guide { divergence - ratio + ln(between.abs()) } else { f64::NEG_INFINITY };
-        Ok(Grazing { left, right, image: after, log_slope })
+        Ok(Grazing { left, right: before.map(|before| before.x), image: after, log_slope })
     }
 
     /// The right turning point beyond which motions overtake the belt instead of riding on it.
     fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, Reason> {
         let speed = self.model.speed;
         // The last motion that comes down on the band is followed back to where it rose above the line.
-        let back = |stop| match stop {
-            Reason::Escapes | Reason::Settles | Reason::BeyondLaw { .. } => Ok(None),
-            _ => Err(stop),
+        let rose = self.arc(Phase::Above, (lines.release, speed), true, &mut |_| {});
+        let Some(rose) = if_any(rose)? else { return Ok(None) };
+        let falls_short = rose.x >= lines.low;
+        let left = if falls_short {
+            low_left
+        } else {
+            self.left_before(rose.x, speed, &mut |_| {})?
         };
-        let rose = match self.arc(Phase::Above, (lines.release, speed), true, &mut |_| {}) {
-            Ok(end) => end.x,
-            Err(stop) => return back(stop),
-        };
-        let left =
-            if rose >= lines.low { low_left } else { self.left_before(rose, speed, &mut |_| {})? };
-        let found =
-            self.right_before(left, &mut |_| {}).or_else(|stop| back(stop).map(|_| None))?;
-        Ok(found.map(|(right, _)| right))
+        let right = if_any(self.right_before(left, &mut |_| {}))?.flatten();
+        Ok(right.map(|right| right.x))
+    }
+}
+
+/// Where a motion comes from; `None` if it comes from nowhere that the law knows.
+fn if_any<T>(found: Result<T, Reason>) -> Result<Option<T>, Reason> {
+    match found {
+        Err(Reason::Escapes | Reason::Settles | Reason::BeyondLaw { .. }) => Ok(None),
+        found => found.map(Some),
     }
 }
 
@@ -226,10 +239,8 @@ impl Flow<'_> {
         let speed = self.model.speed;
         let Some(marks) = landmarks else { return Err(Reason::Steps) };
         // Where static friction holds what the orbit comes from, its way to the line is not on the border.
-        match self.arc(Phase::Between, (x, 0.0), true, &mut |_| {}) {
-            Ok(ArcEnd { on_belt: true, .. }) => {}
-            Ok(_) | Err(Reason::Settles) => return self.capture_border(x, landmarks),
-            Err(stop) => return Err(stop),
+        if !self.settling_arc(Phase::Between, (x, 0.0), true, &mut |_| {})?.on_belt {
+            return self.capture_border(x, landmarks);
         }
         let mut curve = MachineCurve::default();
         let corner =
@@ -252,25 +263,16 @@ impl Flow<'_> {
         x: f64,
         landmarks: Option<&Landmarks>,
     ) -> Result<(MachineCurve, f64), Reason> {
-        let (guide, speed) = (self.model.guide, self.model.speed);
         let mut curve = MachineCurve::default();
-        let rise = self.arc(Phase::Between, (x, 0.0), true, &mut curve.keeper());
-        let mut left = match rise {
-            Err(Reason::Settles) => -guide,
-            end => {
-                let end = end?;
-                let lines = landmarks.map(|marks| marks.lines).filter(|_| end.on_belt);
-                lines.map_or(Ok(end.x), |lines| {
-                    curve.steps.push(MachineStep::ride(lines.fold, end.x, speed));
-                    self.left_before(lines.fold, speed, &mut curve.keeper())
-                })?
-            }
-        };
-        left = left.min(-self.model.guide_static);
-        let fall = self.arc(Phase::Below, (left, 0.0), true, &mut curve.keeper());
-        match fall {
-            Ok(_) | Err(Reason::Settles) => Ok((curve, left)),
-            Err(stop) => Err(stop),
+        let end = self.settling_arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;
+        let mut left = end.x;
+        if let Some(Landmarks { lines, .. }) = landmarks.filter(|_| end.on_belt) {
+            let speed = self.model.speed;
+            curve.steps.push(MachineStep::ride(lines.fold, end.x, speed));
+            left = self.left_before(lines.fold, speed, &mut curve.keeper())?;
         }
+        left = left.min(-self.model.guide_static);
+        self.settling_arc(Phase::Below, (left, 0.0), true, &mut curve.keeper())?;
+        Ok((curve, left))
     }
 }
