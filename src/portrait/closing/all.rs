@@ -9,7 +9,7 @@ use super::equation::{Equation, Route};
 use super::half_map::Length;
 use super::pair::Closing;
 use super::polish::{VAGUE, is_exact, polish};
-use super::precise::{FINER, PreciseEquation};
+use super::precise::FINER;
 use super::search::{Bracket, Node, Search};
 use super::weak::{has_cycle, is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
@@ -131,13 +131,9 @@ fn resolved(equation: &mut Equation, u: f64) -> Result<Node, Reason> {
         (difference, noise) = (weighed, bound);
     }
     if !decided(difference, noise) && FINER * closing.noise < noise {
-        let mut precise = PreciseEquation::new(equation);
-        let start = Twofold::of(closing.first.value);
-        let found = precise.at(Route::Mixed, start);
-        equation.charge(precise.cost());
-        match found {
-            Ok(found) => difference = found.map_or(difference, |found| found.value),
-            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+        match equation.precisely_at(Route::Mixed, Twofold::of(closing.first.value)) {
+            Ok(found) => difference = found.residual,
+            Err(Some(Reason::Interrupted)) => return Err(Reason::Interrupted),
             // Too stiff, or out of range: doubles have to do.
             Err(_) => {}
         }

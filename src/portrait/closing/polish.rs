@@ -4,15 +4,15 @@
 //! ([`super::balance`]) where the multiplier is close to 1, and in twice the working precision
 //! ([`super::precise`]) where doubles leave too few digits.
 
-use super::balance::weighed_closing;
+use super::balance::{Weighed, weighed_closing};
 use super::equation::{Equation, Route};
 use super::half_map::Length;
 use super::pair::Closing;
-use super::precise::{FINER, PreciseEquation};
+use super::precise::{FINER, PreciseClosing};
 use super::search::{Bracket, Node};
 use crate::flow::Reason;
 use crate::numerics::root;
-use crate::numerics::{Twofold, exp_m1, try_newton};
+use crate::numerics::{PlaceTolerance, Twofold, exp_m1, try_newton};
 
 /// Slope of the residual below which it is weighed as energy.
 const FLAT: f64 = 0.3;
@@ -38,14 +38,11 @@ pub fn polish(equation: &mut Equation, bracket: Bracket) -> Result<Closing, Reas
     polish_from(equation, start, bracket, SHARP)
 }
 
-/// A place to begin with, and whether the residual is so flat there that it is weighed as energy.
-type Guess = (f64, bool);
-
 /// The same by Newton's method from `start`, to more digits only where doubles leave a larger relative error than
 /// `sharp`.
 fn polish_from(
     equation: &mut Equation,
-    start: Guess,
+    start: f64,
     bracket: Bracket,
     sharp: f64,
 ) -> Result<Closing, Reason> {
@@ -69,31 +66,34 @@ pub fn polish_near(
     const WIDTHS: (f64, f64) = (0.05, 0.5);
     let width = if log_multiplier.abs() < 1.0 { WIDTHS.0 } else { WIDTHS.1 };
     let sign = log_multiplier.signum();
-    let end = |sign: f64, side: f64| Node::new(u + side * width, sign * side * width, 0.0, sign);
+    let end = |side| Node::new(u + side * width, sign * side * width, 0.0, log_multiplier);
     equation.want_fastest(true);
-    let bracket = (end(sign, -1.0), end(sign, 1.0));
-    let start = (u, log_multiplier.abs() < FLAT);
-    let closing = polish_from(equation, start, bracket, sharp)?;
+    let closing = polish_from(equation, u, (end(-1.0), end(1.0)), sharp)?;
     let moved = (closing.node.at - u).abs();
     Ok(Some(closing)
         .filter(|it| it.uncertainty <= VAGUE && moved < 0.9 * width && it.duration.is_finite()))
 }
 
 /// Newton's method on the contracting route, inside the bracket.
-fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<Closing, Reason> {
+fn newton(equation: &mut Equation, start: f64, bracket: Bracket) -> Result<Closing, Reason> {
     /// How far off coarse steps may put a cliff of the residual, such as the edge of an escape, and its slope.
     const SLACK: f64 = 1e-6;
     const STEEP: f64 = 1e3;
     /// No change ends the method by itself: what ends it depends on noise.
     const NEVER: f64 = -1.0;
-    let rising = bracket.1.value() > bracket.0.value();
-    let (mut low, mut high) = (bracket.0.at, bracket.1.at);
-    if (bracket.1.value() - bracket.0.value()).abs() > STEEP * (high - low) {
-        (low, high) = (low - SLACK, high + SLACK);
+    let mut ends = as_ends(&bracket);
+    if (bracket.1.value() - bracket.0.value()).abs() > STEEP * (ends.high - ends.low) {
+        (ends.low, ends.high) = (ends.low - SLACK, ends.high + SLACK);
     }
-    let ends = root::Bracket { low, high, rising };
-    let mut steps = Steps::new(equation, beyond_the_end(&bracket), start.1);
-    let found = try_newton(ends, start.0, root::PlaceTolerance::Absolute(NEVER), |u| steps.at(u));
+    let mut steps = Steps {
+        equation,
+        route: beyond_the_end(&bracket),
+        weigh: bracket.0.slope.abs().min(bracket.1.slope.abs()) < FLAT,
+        change: f64::INFINITY,
+        stalls: 0,
+        settled: None,
+    };
+    let found = try_newton(ends, start, PlaceTolerance::Absolute(NEVER), |u| steps.at(u));
     let Steps { settled, change, .. } = steps;
     let lost = Reason::NoConvergence { sought: "a limit cycle", change };
     match found {
@@ -120,17 +120,12 @@ struct Steps<'a, 'l> {
     settled: Option<Closing>,
 }
 
-impl<'a, 'l> Steps<'a, 'l> {
-    fn new(equation: &'a mut Equation<'l>, route: Route, weigh: bool) -> Self {
-        Steps { equation, route, weigh, change: f64::INFINITY, stalls: 0, settled: None }
-    }
-
+impl Steps<'_, '_> {
     /// The residual and its slope at `u`; an error without a reason once the closing there is settled.
     fn at(&mut self, u: f64) -> Result<(f64, f64), Option<Reason>> {
         let (mut closing, mut energy) = self.closing(u).map_err(Some)?;
-        let ends = closing.duration.is_finite();
         let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;
-        self.weigh = flat && ends;
+        self.weigh = flat && closing.duration.is_finite();
         if self.weigh && energy.is_none() {
             let weighed = weighed_closing(self.equation, u).map_err(Some)?;
             energy = weighed.map(|(_, energy)| energy);
@@ -164,38 +159,31 @@ impl<'a, 'l> Steps<'a, 'l> {
     }
 
     /// The closing at `u` along the route that contracts, and what it is weighed as.
-    fn closing(&mut self, u: f64) -> Result<(Closing, Option<(f64, f64)>), Reason> {
-        let mut switched = false;
-        loop {
-            let route = self.route;
-            let weighed = if self.weigh && route == Route::Mixed {
-                weighed_closing(self.equation, u)?
-            } else {
-                None
-            };
-            let (closing, energy) = match weighed {
-                Some((closing, energy)) => (closing, Some(energy)),
-                None => (self.equation.at(route, u)?, None),
-            };
-            // Where two routes contract alike each may say that the other is better: move on regardless.
-            if switched {
-                return Ok((closing, energy));
-            }
-            let finite = closing.node.value().is_finite();
-            self.route = if finite {
-                Route::steadiest(closing.growth)
-            } else if route != Route::Mixed {
-                Route::Mixed
-            } else if closing.node.rise == f64::INFINITY {
-                // Beyond the domain of one swing a route that runs it the other way has a value.
-                Route::Backward
-            } else {
-                Route::Forward
-            };
-            if self.route == route || (!finite && route != Route::Mixed) {
-                return Ok((closing, energy));
-            }
-            switched = true;
+    fn closing(&mut self, u: f64) -> Result<(Closing, Option<Weighed>), Reason> {
+        let found = self.along_route(u)?;
+        let (route, node) = (self.route, found.0.node);
+        let finite = node.value().is_finite();
+        self.route = if finite {
+            Route::steadiest(found.0.growth)
+        } else if route != Route::Mixed {
+            Route::Mixed
+        } else if node.rise == f64::INFINITY {
+            // Beyond the domain of one swing a route that runs it the other way has a value.
+            Route::Backward
+        } else {
+            Route::Forward
+        };
+        // Where two routes contract alike each may say that the other is better: only one of them is tried.
+        let again = self.route != route && (finite || route == Route::Mixed);
+        if again { self.along_route(u) } else { Ok(found) }
+    }
+
+    /// The closing at `u` along the route at hand, weighed if it is to be.
+    fn along_route(&mut self, u: f64) -> Result<(Closing, Option<Weighed>), Reason> {
+        let weighs = self.weigh && self.route == Route::Mixed;
+        match if weighs { weighed_closing(self.equation, u)? } else { None } {
+            Some((closing, energy)) => Ok((closing, Some(energy))),
+            None => Ok((self.equation.at(self.route, u)?, None)),
         }
     }
 }
@@ -241,57 +229,50 @@ fn sharpen(
     const STEPS: usize = 20;
     const SETTLED: f64 = 1e-17;
     let route = Route::steadiest(rough.growth);
-    let rising = bracket.1.value() > bracket.0.value();
-    let mut precise = PreciseEquation::new(equation);
-    let seen = equation.at(route, rough.node.at)?;
-    let mut slope = seen.node.slope;
+    let mut slope = equation.at(route, rough.node.at)?.node.slope;
     // The unknown is the start of the rough closing times e^s.
     let start = Twofold::of(Length::from_log(rough.node.at).value);
-    // Its ends were decided by doubles, which may have been too few.
+    // The ends of the bracket were decided by doubles, which may have been too few.
     let slack = 2.0 * rough.uncertainty.min(1.0);
-    let (low, high) =
-        ((bracket.0.at - rough.node.at).min(-slack), (bracket.1.at - rough.node.at).max(slack));
-    let mut ends = root::Bracket { low, high, rising };
-    let (mut s, mut before, mut found) = (0.0_f64, None::<(f64, f64)>, None);
-    for _ in 0..STEPS {
+    let mut ends = as_ends(&bracket);
+    ends.low = (ends.low - rough.node.at).min(-slack);
+    ends.high = (ends.high - rough.node.at).max(slack);
+    let mut seen: Vec<(f64, Twofold, PreciseClosing)> = Vec::new();
+    let found = try_newton(ends, 0.0, PlaceTolerance::Absolute(SETTLED), |s| {
+        if seen.len() == STEPS {
+            return Err(None);
+        }
         let here = start + start.times(exp_m1(s));
-        let residual = match precise.at(route, here) {
-            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
-            Ok(Some(residual)) => residual,
-            Ok(None) | Err(_) => break,
-        };
-        if let Some((there, value)) = before.filter(|(there, _)| *there != s) {
-            slope = (residual.value - value) / (s - there);
+        let closing = equation.precisely_at(route, here)?;
+        if let Some((before, _, last)) = seen.last() {
+            slope = (closing.residual - last.residual) / (s - before);
         }
-        before = Some((s, residual.value));
-        ends.narrow(s, residual.value);
-        let newton = s - residual.value / slope;
-        let change = (newton - s).abs();
-        if change <= SETTLED || residual.value == 0.0 || ends.high - ends.low <= SETTLED {
-            found = Some((here, residual, change));
-            break;
-        }
-        s = ends.inside(newton);
+        seen.push((s, here, closing));
+        Ok((closing.residual, slope))
+    });
+    let interrupted = matches!(found, Err(Some(Reason::Interrupted)));
+    if interrupted {
+        return Err(Reason::Interrupted);
     }
-    equation.charge(precise.cost());
-    let Some((first, residual, change)) = found else { return Ok(None) };
+    let Some((_, first, found)) = seen.pop().filter(|_| found.is_ok()) else { return Ok(None) };
+    let change = (found.residual / slope).abs();
     let closing = equation.from(route, Length::new(first.value()))?;
     let uncertainty = change + FINER * closing.noise / slope.abs();
     let passed = FINER * closing.errors[1][0].length;
-    let numbers = (first.value(), residual.second, residual.duration);
+    let numbers = (first.value(), found.second, found.duration);
     Ok(Some(closing.sharpened(numbers, [uncertainty, passed])))
 }
 
 /// A place near the root in a bracket, by Newton's method with integration steps that are coarser than those of the
 /// equation and cost half as much.
-fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<Guess, Reason> {
+fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<f64, Reason> {
     /// Tolerance of the coarse steps, how many of them, and the change of the unknown that is theirs.
     const COARSE: f64 = 1e-8;
     const STEPS: usize = 3;
     const SETTLED: f64 = 1e-4;
-    let (mut u, mut flat) = (secant(bracket), false);
+    let mut u = secant(bracket);
     if !is_exact(equation) {
-        return Ok((u, flat));
+        return Ok(u);
     }
     let (mut coarse, route) = (equation.again(COARSE), beyond_the_end(bracket));
     for _ in 0..STEPS {
@@ -302,13 +283,17 @@ fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<Guess, Reason
             break;
         }
         u += change;
-        flat = node.slope.abs() < FLAT;
         if change.abs() <= SETTLED {
             break;
         }
     }
     equation.charge(coarse.cost());
-    Ok((u, flat))
+    Ok(u)
+}
+
+/// The places of a bracket.
+fn as_ends((low, high): &Bracket) -> root::Bracket {
+    root::Bracket { low: low.at, high: high.at, rising: high.value() > low.value() }
 }
 
 /// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.
