@@ -45,6 +45,15 @@ impl Route {
         }
     }
 
+    /// The directions of the first and of the second swing.
+    fn directions(self) -> [Direction; 2] {
+        match self {
+            Route::Mixed => [Direction::Forward, Direction::Backward],
+            Route::Forward => [Direction::Forward; 2],
+            Route::Backward => [Direction::Backward; 2],
+        }
+    }
+
     /// The route that contracts at a cycle of this multiplier.
     pub fn contracting(log_multiplier: f64) -> Self {
         /// Within this of 0 all routes converge alike.
@@ -67,8 +76,8 @@ pub struct Equation<'a> {
     pub(crate) limits: Limits<'a>,
     /// The side of the first swing.
     pub side: Side,
-    pub(crate) forward: [HalfMap; 2],
-    backward: [HalfMap; 2],
+    /// Those run forward and those run backward, each that of the first swing first.
+    maps: [[HalfMap; 2]; 2],
     charged: Cost,
 }
 
@@ -110,15 +119,14 @@ impl<'a> Equation<'a> {
             parameters: *parameters,
             limits: *limits,
             side,
-            forward: fields.map(&map),
-            backward: fields.map(|field| map(field.reversed())),
+            maps: [fields.map(&map), fields.map(|field| map(field.reversed()))],
             charged: Cost::default(),
         }
     }
 
     /// The same equation, each integration step within another relative tolerance.
     pub fn again(&self, tolerance: f64) -> Self {
-        let fields = [&self.forward[0], &self.forward[1]].map(|map| *map.field());
+        let fields = [0, 1].map(|index| *self.maps[0][index].field());
         let map = |field| HalfMap::new(field, tolerance);
         Self::on_fields(&self.parameters, self.side, fields, &self.limits, map)
     }
@@ -127,33 +135,30 @@ impl<'a> Equation<'a> {
     pub fn is_of_one_motion(&self) -> bool {
         let sides = [self.side, self.side.opposite()];
         let own = sides.map(|side| HalfPlane::new(&self.parameters, side));
-        own.iter().zip(&self.forward).all(|(own, map)| own == map.field())
+        own.iter().zip(&self.maps[0]).all(|(own, map)| own == map.field())
     }
 
     /// Whether to find the largest speeds.
     pub fn want_fastest(&mut self, wanted: bool) {
-        for map in self.forward.iter_mut().chain(&mut self.backward) {
+        for map in self.maps.iter_mut().flatten() {
             map.fastest = wanted;
         }
     }
 
     /// The map of the first swing, or of the second one, in a direction.
     pub(crate) fn map(&mut self, index: usize, direction: Direction) -> &mut HalfMap {
-        match direction {
-            Direction::Forward => &mut self.forward[index],
-            Direction::Backward => &mut self.backward[index],
-        }
+        &mut self.maps[usize::from(direction == Direction::Backward)][index]
     }
 
     /// Relative error of an integration step.
     pub fn tolerance(&self) -> f64 {
-        self.forward[0].tolerance()
+        self.maps[0][0].tolerance()
     }
 
     /// What all swings so far cost.
     pub fn cost(&self) -> Cost {
         let mut cost = self.charged;
-        for map in self.forward.iter().chain(&self.backward) {
+        for map in self.maps.iter().flatten() {
             cost += map.cost();
         }
         cost
@@ -166,7 +171,7 @@ impl<'a> Equation<'a> {
 
     /// How many half swings were computed so far.
     pub fn swings(&self) -> u64 {
-        self.forward.iter().chain(&self.backward).map(|map| map.swings).sum()
+        self.maps.iter().flatten().map(|map| map.swings).sum()
     }
 
     /// A swing of one of the maps. From nowhere, and from beyond all lengths, it leads to the same again.
@@ -201,13 +206,12 @@ impl<'a> Equation<'a> {
     /// other still bounds what lies further in or out.
     pub fn from(&mut self, route: Route, start: Length) -> Result<Closing, Reason> {
         use Direction::{Backward, Forward};
-        let here = Place::start(start);
+        let (here, gap) = (Place::start(start), 2.0 * self.parameters.r);
         match route {
             Route::Mixed => {
                 // The second swing first: with D3 > 0 it is the one that escapes, and quickly, where the first
                 // one would be stiff.
-                let target = start.plus(2.0 * self.parameters.r);
-                let second = self.swing(1, Backward, target)?;
+                let second = self.swing(1, Backward, start.plus(gap))?;
                 let first = if second.end == Length::INFINITE {
                     self.reach(start)?
                 } else {
@@ -216,67 +220,59 @@ impl<'a> Equation<'a> {
                 Ok(self.pair(start, first, second))
             }
             Route::Forward => {
-                let (first, between) = self.stage(0, Forward, here)?;
-                let (second, back) = self.stage(1, Forward, between)?;
-                Ok(self.closing(start, [back, here], [here.rounded(), between], &[first, second]))
+                let (first, end) = here.through(self.swing(0, Forward, start)?);
+                let between = end.minus(gap);
+                let (second, end) = between.through(self.swing(1, Forward, between.length)?);
+                let (ends, clearances) = ([end.minus(gap), here], [here.rounded(), between]);
+                Ok(self.closing(route, ends, clearances, [first, second]))
             }
             Route::Backward => {
-                let (second, between) = self.stage(1, Backward, here)?;
-                let (first, back) = self.stage(0, Backward, between)?;
-                Ok(self.closing(start, [here, back], [back, between], &[first, second]))
+                let target = here.plus(gap);
+                let (second, between) = target.through(self.swing(1, Backward, target.length)?);
+                let target = between.plus(gap);
+                let (first, back) = target.through(self.swing(0, Backward, target.length)?);
+                Ok(self.closing(route, [here, back], [back, between], [first, second]))
             }
         }
     }
 
     /// The pair of a first swing, run forward from `start`, and a second one, run backward.
     pub(crate) fn pair(&self, start: Length, first: HalfSwing, second: HalfSwing) -> Closing {
-        let gap = 2.0 * self.parameters.r;
-        let here = Place::start(start);
-        let first = Stage::new(first, Direction::Forward, here);
-        let second = Stage::new(second, Direction::Backward, here.plus(gap));
-        let ends = [first.end, second.end.plus(gap)];
-        self.closing(start, ends, [here.rounded(), second.end], &[first, second])
-    }
-
-    /// One swing from a clearance, and the next clearance in this direction.
-    fn stage(
-        &mut self,
-        index: usize,
-        direction: Direction,
-        from: Place,
-    ) -> Result<(Stage, Place), Reason> {
-        let gap = 2.0 * self.parameters.r;
-        let backward = direction == Direction::Backward;
-        let from = if backward { from.plus(gap) } else { from };
-        let swing = self.swing(index, direction, from.length)?;
-        let stage = Stage::new(swing, direction, from);
-        Ok((stage, if backward { stage.end } else { stage.end.minus(gap) }))
+        let (here, gap) = (Place::start(start), 2.0 * self.parameters.r);
+        let (first, end) = here.through(first);
+        let (second, between) = here.plus(gap).through(second);
+        let ends = [end, between.plus(gap)];
+        self.closing(Route::Mixed, ends, [here.rounded(), between], [first, second])
     }
 
     /// The closing of two swings that start with these clearances; `rise` and `fall` are equal where it closes.
     fn closing(
         &self,
-        start: Length,
+        route: Route,
         [rise, fall]: [Place; 2],
         clearances: [Place; 2],
-        stages: &[Stage; 2],
+        swings: [HalfSwing; 2],
     ) -> Closing {
         let gap = 2.0 * self.parameters.r;
+        let start = if route == Route::Backward { rise } else { clearances[0] };
         let slope = exp(rise.log_gain) - exp(fall.log_gain);
-        let node = Node::new(start.log, rise.length.log, fall.length.log, slope);
+        let node = Node::new(start.length.log, rise.length.log, fall.length.log, slope);
         let noise = [rise, fall].map(|end| end.error + rounding(end.length));
         let noise = noise[0] + noise[1];
-        let next = [clearances[1], clearances[0]];
-        let growth = [0, 1].map(|index| stages[index].growth(share(next[index].length, gap)));
+        // What a swing, run forward, makes of a relative error of its clearance.
+        let growth = [0, 1].map(|index| {
+            let sense = route.directions()[index].sense();
+            let next = share(clearances[1 - index].length, gap);
+            sense * swings[index].log_elasticity - ln(next)
+        });
         let errors = [0, 1].map(|index| {
-            let [own, gain] = stages[index].errors;
+            let [own, gain] = swings[index].errors;
             let Place { error, log_gain, .. } = clearances[index];
             [Errors { length: error, ..own }, Errors { length: exp(log_gain), ..gain }]
         });
         let uncertainty = (node.value().abs() + noise) / node.slope.abs();
         let lengths = clearances.map(|clearance| clearance.length);
-        let found = Closing::new(node, lengths, [0, 1].map(|index| stages[index].swing));
-        Closing { growth, noise, uncertainty, errors, ..found }
+        Closing { growth, noise, uncertainty, errors, ..Closing::new(node, lengths, swings) }
     }
 
     /// The first swing from `start`, or a bound on where it ends: the largest number where that is not known at
@@ -284,7 +280,7 @@ impl<'a> Equation<'a> {
     fn reach(&mut self, start: Length) -> Result<HalfSwing, Reason> {
         /// Evaluations that this is worth.
         const LITTLE: u64 = 1_000;
-        let (map, limits) = (&mut self.forward[0], self.limits);
+        let (map, limits) = (&mut self.maps[0][0], self.limits);
         let evaluations = limits.evaluations.min(map.cost().evaluations + map.swings + LITTLE);
         match map.swing(start, &Limits { evaluations, interrupted: limits.interrupted }) {
             Ok(swing) if swing.arrives() => Ok(swing),
@@ -314,6 +310,16 @@ impl Place {
         Place { error: rounding(self.length), ..self }
     }
 
+    /// A swing from here with its errors at exactly this first clearance, and those that a relative error 1 of that
+    /// makes; and its end.
+    fn through(self, swing: HalfSwing) -> (HalfSwing, Place) {
+        let [own, gain] = swing.errors;
+        let own = own.plus(gain, self.error);
+        let errors = [own, Errors::default().plus(gain, exp(self.log_gain))];
+        let log_gain = self.log_gain + swing.log_elasticity;
+        (HalfSwing { errors, ..swing }, Place { length: swing.end, log_gain, error: own.length })
+    }
+
     fn plus(self, gap: f64) -> Self {
         let share = share(self.length, gap);
         let error = share * self.error + f64::EPSILON;
@@ -328,36 +334,6 @@ impl Place {
         // A difference of two lengths keeps their absolute errors.
         let error = (self.error + f64::EPSILON) / share;
         Place { length, log_gain: self.log_gain - ln(share), error }
-    }
-}
-
-/// A swing on the way.
-#[derive(Clone, Copy)]
-struct Stage {
-    swing: HalfSwing,
-    direction: Direction,
-    end: Place,
-    /// Its errors at exactly this first clearance, and those that a relative error 1 of it makes.
-    errors: [Errors; 2],
-}
-
-impl Stage {
-    fn new(swing: HalfSwing, direction: Direction, from: Place) -> Self {
-        let [own, gain] = swing.errors;
-        let own = own.plus(gain, from.error);
-        let gain = Errors::default().plus(gain, exp(from.log_gain));
-        let log_gain = from.log_gain + swing.log_elasticity;
-        let end = Place { length: swing.end, log_gain, error: own.length };
-        Stage { swing, direction, end, errors: [own, gain] }
-    }
-
-    /// Logarithm of what it makes, run forward, of a relative error of its clearance; `share` is that of the gap in
-    /// the clearance after it.
-    fn growth(&self, share: f64) -> f64 {
-        match self.direction {
-            Direction::Forward => self.swing.log_elasticity - ln(share),
-            Direction::Backward => -(self.swing.log_elasticity + ln(share)),
-        }
     }
 }
 
@@ -379,13 +355,17 @@ impl Equation<'_> {
     /// Every second swing, however close to the sticking set it starts, ends beyond the one that creeps out
     /// from its rim, and the next first swing starts there.
     pub fn rim(&mut self) -> Result<Option<f64>, Reason> {
-        let rim = self.rim_start();
-        let mut ends = [0.0; 2];
-        for (index, end) in ends.iter_mut().enumerate() {
-            *end = self.swing(index, Direction::Forward, rim)?.end.value;
-        }
+        let ends = self.ends_from_rim()?;
         let comes_back = ends.iter().all(|end| end.is_finite());
         Ok(comes_back.then(|| ln((ends[1] - 2.0 * self.parameters.r).max(0.0))))
+    }
+
+    /// Where the first and the second swing end that leave the end of the sticking set.
+    fn ends_from_rim(&mut self) -> Result<[f64; 2], Reason> {
+        let rim = self.rim_start();
+        let first = self.swing(0, Direction::Forward, rim)?;
+        let second = self.swing(1, Direction::Forward, rim)?;
+        Ok([first, second].map(|swing| swing.end.value))
     }
 
     /// The way of motions that leave the end of the sticking set, a node that repels (`D < -1`), on the side on which
@@ -393,25 +373,19 @@ impl Equation<'_> {
     pub fn way_from_rim(&mut self) -> Result<WayFromRim, Reason> {
         let Parameters { r, .. } = self.parameters;
         let gap = 2.0 * r;
-        let rim = self.rim_start();
+        let ends = self.ends_from_rim()?;
         let mut best = WayFromRim { excess: f64::NEG_INFINITY, q_max: r };
-        for (side, index) in [(self.side, 0), (self.side.opposite(), 1)] {
-            let (mut start, mut excess) = (rim, f64::INFINITY);
-            let mut turning = 0.0;
-            for map in [index, 1 - index] {
-                let end = self.swing(map, Direction::Forward, start)?.end.value;
-                excess = excess.min(ln(end / gap));
-                if map == index {
-                    turning = end - gap;
-                }
-                if excess <= 0.0 || end.is_infinite() {
-                    break;
-                }
-                start = Length::new(end - gap);
+        for (index, side) in [self.side, self.side.opposite()].into_iter().enumerate() {
+            let end = ends[index];
+            let mut excess = ln(end / gap);
+            if end > gap && end.is_finite() {
+                let start = Length::new(end - gap);
+                let next = self.swing(1 - index, Direction::Forward, start)?.end.value;
+                excess = excess.min(ln(next / gap));
             }
             if excess > best.excess {
                 // Above `v = 0` the first swing ends on the right, below it starts there.
-                let q_max = if side == Side::Upper { r + turning.max(0.0) } else { r };
+                let q_max = if side == Side::Upper { end.max(gap) - r } else { r };
                 best = WayFromRim { excess, q_max };
             }
         }

@@ -85,18 +85,19 @@ impl Equation<'_> {
 
     /// The next turning point of a motion that starts with this clearance.
     fn next(&mut self, clearance: f64) -> Result<Option<f64>, Reason> {
-        let (r, side) = (self.parameters.r, self.side);
-        if clearance <= 0.0 {
-            return Ok(Some(-side.sign() * r));
+        let r = self.parameters.r;
+        let (mut place, mut passed) = (-self.side.sign() * r, clearance);
+        for (index, side) in [self.side, self.side.opposite()].into_iter().enumerate() {
+            if passed <= 0.0 {
+                break;
+            }
+            let start = Length::new(passed);
+            let Some(end) = self.arrival(index, Direction::Forward, start)? else {
+                return Ok(None);
+            };
+            (place, passed) = (side.displacement(end, r), end - 2.0 * r);
         }
-        let Some(first) = self.arrival(0, Direction::Forward, Length::new(clearance))? else {
-            return Ok(None);
-        };
-        let Some(passed) = Some(first - 2.0 * r).filter(|passed| *passed > 0.0) else {
-            return Ok(Some(side.displacement(first, r)));
-        };
-        let second = self.arrival(1, Direction::Forward, Length::new(passed))?;
-        Ok(second.map(|second| side.opposite().displacement(second, r)))
+        Ok(Some(place))
     }
 
     /// Distances from zero of the turning points that are captured on an end of the sticking set: by the
