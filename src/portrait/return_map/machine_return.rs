@@ -44,7 +44,9 @@ impl Flow<'_> {
         let mut turn = |phase, x, equilibrium| {
             let add = &mut |series: &PhaseSeries| divergence += series.divergence();
             match self.turn(ContactState::Slips(phase), (x, 0.0), add) {
-                Err(Reason::Settles) => Ok(Turn { x: equilibrium, rests: true, way: WayToTurn::default() }),
+                Err(Reason::Settles) => {
+                    Ok(Turn { x: equilibrium, rests: true, way: WayToTurn::default() })
+                }
                 turn => turn,
             }
         };
@@ -207,11 +209,8 @@ impl Flow<'_> {
         let rose = self.arc(Phase::Above, (lines.release, speed), true, &mut |_| {});
         let Some(rose) = if_any(rose)? else { return Ok(None) };
         let falls_short = rose.x >= lines.low;
-        let left = if falls_short {
-            low_left
-        } else {
-            self.left_before(rose.x, speed, &mut |_| {})?
-        };
+        let left =
+            if falls_short { low_left } else { self.left_before(rose.x, speed, &mut |_| {})? };
         let right = if_any(self.right_before(left, &mut |_| {}))?.flatten();
         Ok(right.map(|right| right.x))
     }
