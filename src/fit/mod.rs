@@ -1,8 +1,8 @@
 //! Fitting the oscillator to a recorded motion: estimates of all its numbers, with honest errors.
 //!
 //! [`record`] reads the files of instruments. [`mod@guess`] makes a first guess from the [`mod@turning_points`], by the
-//! decrements of averaging. [`motion`] follows a motion with its exact derivatives, half swing by half swing
-//! ([`half_swing`]); [`observation`] compares it with the record. [`task`] says what is estimated,
+//! decrements of averaging. [`motion`] follows a motion with its exact derivatives, half swing by half swing;
+//! [`observation`] compares it with the record. [`task`] says what is estimated,
 //! [`levenberg_marquardt`] minimizes the loss, and [`search`] finds the right [`valley`] for it. [`mod@samples`]
 //! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for
 //! correlated noise ([`uncertainty`], [`residuals`]); intervals where the loss is not quadratic ([`profile`]); numbers
@@ -40,7 +40,6 @@ mod drift;
 mod estimate;
 mod fitted;
 mod guess;
-mod half_swing;
 mod levenberg_marquardt;
 mod margin;
 mod motion;
@@ -101,7 +100,6 @@ pub(crate) use {
     drift::{LeftDrift, drift_of_swings, without_drift},
     estimate::judged,
     guess::{Beginning, Guess, guess, period_of},
-    half_swing::{Jet, Stretch, WAYS},
     motion::{FittedTurn, Gradient, MotionLost, follow},
     noise::{
         IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,

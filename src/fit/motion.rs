@@ -5,10 +5,26 @@
 //! `dX` and `dT` of the half swing, `dx = 2 dr - dX` and `dtau` grows by `dT = -dv/f`. This equals the result of a
 //! saltation matrix at `v = 0`, and it is never singular: a moving mass always stops with `f = -X < 0`.
 //! Inside a half swing a later start only delays the motion: `dq` contains `-v dtau`.
+//!
+//! Along with the motion `x' = v, v' = f(x, v)` in the frame of its half plane ([`HalfPlane`]), four solutions of the
+//! variational equation `y' = w, w' = -y + (df/dv) w + g` are computed: a homogeneous one that starts across the flow, and
+//! those for D, D2 and D3 with `g = -2 v, -v^2, -v^3`. Their Taylor coefficients follow from those of the motion.
 
-use super::{Jet, Signal, Stretch, WAYS};
+use super::Signal;
+use crate::flow::step::{StepPoint, Stepper};
+use crate::flow::taylor::Taylor;
 use crate::model::{HalfPlane, Parameters, Side, State};
+use crate::numerics::count::real;
 use crate::numerics::elementary::hypot;
+
+/// Order of the Taylor series.
+const ORDER: usize = 18;
+
+/// Largest truncation error of a step, relative to the state.
+const TOLERANCE: f64 = 1e-13;
+
+/// Solutions of the variational equation: across the flow, and by D, D2 (in the frame of the half plane) and D3.
+type Ways = [f64; 4];
 
 /// Number of the quantities on which a motion depends: D, D2, D3, r, q0, v0.
 pub const NUMBERS: usize = 6;
@@ -107,6 +123,7 @@ pub fn follow(
     mut see: impl FnMut(usize, MotionPoint),
 ) -> Result<FollowedMotion, MotionLost> {
     let mut followed = FollowedMotion::default();
+    let mut stepper = Taylor::with_order(TOLERANCE, ORDER);
     let mut next = 0;
     let mut swing = FittedSwing::first(parameters, start);
     let mut rest = MotionPoint::resting(start.q, [0.0, 0.0, 0.0, 0.0, 1.0, 0.0], way.signal);
@@ -119,7 +136,7 @@ pub fn follow(
         if next >= times.len() || followed.turns.len() >= way.turns {
             return Ok(followed);
         }
-        let Some(turn) = moving.follow(times, &mut next, way, &mut see)? else {
+        let Some(turn) = moving.follow(&mut stepper, times, &mut next, way, &mut see)? else {
             return Ok(followed);
         };
         followed.turns.push(turn);
@@ -127,6 +144,16 @@ pub fn follow(
         swing = moving.after(parameters, &turn);
     }
     Err(MotionLost)
+}
+
+/// A point of a half swing with its derivatives.
+#[derive(Clone, Copy, Debug)]
+struct Jet {
+    at: StepPoint,
+    /// Derivatives of the position.
+    y: Ways,
+    /// Derivatives of the velocity.
+    w: Ways,
 }
 
 /// A half swing: its start, with the derivatives of the start.
@@ -149,7 +176,7 @@ impl FittedSwing {
         let side = Side::entered_from(start, parameters.r)?;
         let mut swing = Self::new(parameters, side, start.q);
         // A velocity of -0 would stand for a motion that has just arrived.
-        let Jet { x, v, y, w } = &mut swing.start;
+        let Jet { at: StepPoint { x, v }, y, w } = &mut swing.start;
         *v = start.v.abs();
         let force = swing.field.acceleration(*x, *v);
         let norm = hypot(*v, force);
@@ -170,14 +197,14 @@ impl FittedSwing {
         swing.across = turn.q_by.map(|by| side.sign() * by);
         swing.across[R] += 1.0;
         (swing.tau, swing.tau_by) = (turn.tau, turn.tau_by);
-        (swing.start.x < 0.0).then_some(swing)
+        (swing.start.at.x < 0.0).then_some(swing)
     }
 
     /// The half swing from a displacement at time 0, without velocity.
     fn new(parameters: &Parameters, side: Side, q: f64) -> Self {
         let Parameters { r, .. } = *parameters;
-        let mut start = Jet { x: side.position(q, r), ..Jet::default() };
-        start.y[0] = 1.0;
+        let at = StepPoint { x: side.position(q, r), v: 0.0 };
+        let start = Jet { at, y: [1.0, 0.0, 0.0, 0.0], w: Ways::default() };
         let [across, tau_by] = [[0.0; NUMBERS]; 2];
         let field = HalfPlane::new(parameters, side);
         FittedSwing { side, r, field, start, tau: 0.0, across, tau_by }
@@ -185,7 +212,7 @@ impl FittedSwing {
 
     /// The derivatives with respect to all numbers from the solutions of the variational equation.
     #[inline]
-    fn combined(&self, ways: &[f64; WAYS]) -> Gradient {
+    fn combined(&self, ways: &Ways) -> Gradient {
         let [across, d, d2, d3] = *ways;
         let mut by = self.across.map(|share| share * across);
         by[0] += d;
@@ -198,42 +225,49 @@ impl FittedSwing {
     /// before the last time.
     fn follow(
         &self,
+        stepper: &mut Taylor,
         times: &[f64],
         next: &mut usize,
         way: Way,
         see: &mut impl FnMut(usize, MotionPoint),
     ) -> Result<Option<FittedTurn>, MotionLost> {
         let Way { with_derivatives, reach, signal, .. } = way;
-        let mut stretch =
-            Stretch::new(self.field, self.start, with_derivatives).ok_or(MotionLost)?;
-        let mut from = self.tau;
+        let (mut start, mut from) = (self.start, self.tau);
+        let mut derivatives = Derivatives::default();
+        stepper.begin(&self.field);
         for _ in 0..STEPS {
-            let until = from + stretch.duration;
+            let step = stepper.advance(start.at, f64::INFINITY, true).map_err(|_| MotionLost)?;
+            if with_derivatives {
+                derivatives.expand(&self.field, &start, stepper.velocity());
+            }
+            let until = from + step.duration;
             while let Some(&time) = times.get(*next)
                 && time <= until
             {
-                let jet = if with_derivatives && !signal.is_displacement() {
-                    stretch.jet(time - from)
-                } else {
-                    stretch.at(time - from)
-                };
+                let (t, mut jet) = (time - from, start);
+                jet.at = stepper.at(t);
+                if with_derivatives {
+                    jet.y = derivatives.of_position(t);
+                    if !signal.is_displacement() {
+                        jet.w = derivatives.of_velocity(t);
+                    }
+                }
                 see(*next, self.point(&jet, way));
                 *next += 1;
             }
             if *next >= times.len() {
                 return Ok(None);
             }
-            let end = if with_derivatives {
-                stretch.jet(stretch.duration)
-            } else {
-                stretch.at(stretch.duration)
-            };
-            if stretch.arrives {
-                return Ok(Some(self.turn(until, &end)));
+            start.at = step.end;
+            if with_derivatives {
+                start.y = derivatives.of_position(step.duration);
+                start.w = derivatives.of_velocity(step.duration);
+            }
+            if step.crossed {
+                return Ok(Some(self.turn(until, &start)));
             }
             // A motion that escapes, or whose steps no longer advance the time, never ends.
-            let stays = end.x.abs().max(end.v) <= reach && until > from;
-            if !(stays && stretch.advance(end)) {
+            if !(start.at.size() <= reach && until > from) {
                 return Err(MotionLost);
             }
             from = until;
@@ -243,7 +277,7 @@ impl FittedSwing {
 
     /// A point of the motion. The derivatives of the acceleration follow from the equation of motion.
     fn point(&self, jet: &Jet, way: Way) -> MotionPoint {
-        let (sign, Jet { x, v, .. }) = (self.side.sign(), *jet);
+        let (sign, StepPoint { x, v }) = (self.side.sign(), jet.at);
         let force = self.field.acceleration(x, v);
         let slope = self.field.divergence(v);
         let (signal, rate) = match way.signal {
@@ -279,12 +313,64 @@ impl FittedSwing {
 
     fn turn(&self, tau: f64, end: &Jet) -> FittedTurn {
         let sign = self.side.sign();
-        let force = self.field.acceleration(end.x, 0.0);
+        let force = self.field.acceleration(end.at.x, 0.0);
         let (moved, sped) = (self.combined(&end.y), self.combined(&end.w));
         let mut q_by = moved.map(|by| sign * by);
         q_by[R] -= sign;
         let tau_by = std::array::from_fn(|p| self.tau_by[p] - sped[p] / force);
-        FittedTurn { tau, q: self.side.displacement(end.x, self.r), tau_by, q_by }
+        FittedTurn { tau, q: self.side.displacement(end.at.x, self.r), tau_by, q_by }
+    }
+}
+
+/// The derivatives along one step.
+#[derive(Default)]
+struct Derivatives {
+    /// The Taylor coefficients of those of the position, in powers of a unit of time.
+    terms: [Ways; ORDER + 1],
+    unit: f64,
+}
+
+impl Derivatives {
+    /// Those along the step from `start`, from the coefficients of its velocity in powers of a unit of time.
+    fn expand(&mut self, field: &HalfPlane, start: &Jet, (v, unit): (&[f64], f64)) {
+        let HalfPlane { d, d2, d3 } = *field;
+        let terms = &mut self.terms;
+        let mut square = [0.0; ORDER];
+        let mut slope = [0.0; ORDER];
+        let mut w = [Ways::default(); ORDER + 1];
+        (terms[0], w[0], self.unit) = (start.y, start.w, unit);
+        for k in 0..ORDER {
+            square[k] = (0..=k).map(|i| v[i] * v[k - i]).sum();
+            let cube: f64 = (0..=k).map(|i| square[i] * v[k - i]).sum();
+            let linear = if k == 0 { -2.0 * d } else { 0.0 };
+            slope[k] = linear - 2.0 * d2 * v[k] - 3.0 * d3 * square[k];
+            let mut sum = [0.0, -2.0 * v[k], -square[k], -cube];
+            for i in 0..=k {
+                for (sum, w) in sum.iter_mut().zip(&w[k - i]) {
+                    *sum += slope[i] * w;
+                }
+            }
+            let part = unit / real(k + 1);
+            w[k + 1] = std::array::from_fn(|way| part * (sum[way] - terms[k][way]));
+            terms[k + 1] = w[k].map(|w| part * w);
+        }
+    }
+
+    /// The derivatives of the position `t` after the start of the step.
+    fn of_position(&self, t: f64) -> Ways {
+        let t = t / self.unit;
+        let terms = self.terms.iter().rev();
+        terms.fold(Ways::default(), |sum, term| std::array::from_fn(|i| sum[i] * t + term[i]))
+    }
+
+    /// Those of the velocity.
+    fn of_velocity(&self, t: f64) -> Ways {
+        let t = t / self.unit;
+        let terms = self.terms.iter().enumerate().skip(1).rev();
+        let sum = terms.fold(Ways::default(), |sum, (order, term)| {
+            std::array::from_fn(|i| sum[i] * t + real(order) * term[i])
+        });
+        sum.map(|w| w / self.unit)
     }
 }
 

@@ -207,6 +207,11 @@ impl Taylor {
         let t = times_power(self.duration, -self.time_exponent);
         value(&self.square_integral[..=self.order], t)
     }
+
+    /// The coefficients of the velocity along the last step, in powers of the time over a unit; and that unit.
+    pub fn velocity(&self) -> (&[f64], f64) {
+        (&self.v[..=self.order], times_power(1.0, self.time_exponent))
+    }
 }
 
 /// The coefficients from the second on, laid out for sums of products whose indices add up to k.
