@@ -4,9 +4,7 @@
 //! of ten thousand samples and of a short record; and a step of a held number until all others have followed.
 
 use divan::{Bencher, black_box};
-use hopfscope::fit::{
-    Data, Question, R, Record, Runs, Signal, StartKind, Unknowns, Way, estimate, following,
-};
+use hopfscope::fit::{Question, R, Record, Runs, StartKind, Unknowns, Way, estimate, following};
 use hopfscope::numerics::random::Random;
 
 fn main() {
@@ -20,11 +18,11 @@ const RINGING: (Unknowns, StartKind, f64) =
     ([31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5, 0.0, 0.0], StartKind::Moving, 30.0);
 
 /// A record of zeros.
-fn zeros((_, _, seconds): (Unknowns, StartKind, f64), samples: u32) -> Data {
+fn zeros((_, _, seconds): (Unknowns, StartKind, f64), samples: u32) -> Record {
     let at = |index: u32| seconds * f64::from(index) / f64::from(samples);
     let t: Vec<f64> = (0..samples).map(at).collect();
     let x = vec![0.0; t.len()];
-    Data { t, x, signal: Signal::Displacement, peaks: None }
+    Record { t, x, ..Record::default() }
 }
 
 /// How a motion is followed.
@@ -37,7 +35,7 @@ fn record(motion: (Unknowns, StartKind, f64), samples: u32) -> Record {
     let mut chance = Random::new(1);
     let seen = data.compare(motion.1, &motion.0, way(false)).expect("the motion stays");
     let x = seen.residuals.iter().map(|it| 0.01 * chance.normal() - it.value).collect();
-    Record { t: Some(data.t.clone()), x, ..Record::default() }
+    Record { t: data.t, x, ..Record::default() }
 }
 
 #[divan::bench(args = [("decay", DECAY), ("ringing", RINGING)])]

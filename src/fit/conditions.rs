@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{
-    Data, Dropped, Estimate, FEWEST, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R, RUN,
-    Record, Rival, Runs, Unfit, Unknowns, interrupted, longest_run, peaks, samples,
+    Dropped, Estimate, FEWEST, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R, RUN, Record,
+    Rival, Runs, Unfit, Unknowns, interrupted, longest_run, peaks, samples,
 };
 use crate::numerics::{Random, real};
 
@@ -46,7 +46,7 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
         _ => "correlated as filtered noise is",
     };
     let ratio = estimate.covariance.deviation / estimate.noise.deviation;
-    let run = longest_run(estimate.dropped_data().map(|why| why == Some(Dropped::Outlier)));
+    let run = longest_run(estimate.left_out.iter().map(|why| *why == Some(Dropped::Outlier)));
     let freedom = estimate
         .wanted()
         .map(|row| estimate.covariance.independent(row.place))
@@ -161,9 +161,8 @@ fn simulated(estimate: &Estimate) -> Record {
             };
             measured.iter().enumerate().map(value).collect::<Vec<f64>>()
         };
-    let Data { t, x, signal, peaks } = &estimate.data;
+    let Record { t, x, peaks, .. } = &estimate.data;
     let displacements = fitted(x, 0, 1.0, &mut noise);
     let times = peaks.map_or(t.clone(), |ratio| fitted(t, x.len(), ratio, &mut noise));
-    let t = Some(times).filter(|times| !times.is_empty());
-    Record { t, x: displacements, signal: *signal, ..Record::default() }
+    Record { t: times, x: displacements, ..estimate.data.clone() }
 }

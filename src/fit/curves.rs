@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::{
-    Data, Dropped, Estimate, Margins, OFFSET, OMEGA0, Q0, Way, autocorrelations, averaged, follow,
-    parameters, rate,
+    Dropped, Estimate, Margins, OFFSET, OMEGA0, Q0, Record, Way, autocorrelations, averaged,
+    follow, parameters, rate,
 };
 use crate::model::{Parameters, State};
 use crate::numerics::count::{real, truncated};
@@ -209,13 +209,13 @@ impl Sampled {
     pub fn of(estimate: &Estimate) -> Option<Self> {
         /// A step longer than the average one by this factor is a gap.
         const GAP: f64 = 6.0;
-        let Data { t, x, .. } = &estimate.data;
+        let Record { t, x, .. } = &estimate.data;
         if estimate.data.has_peaks() {
             return None;
         }
         let every = t.len().div_ceil(POINTS);
         let mut points: Vec<[f64; 3]> = Vec::new();
-        for (index, why) in estimate.dropped_data().enumerate().step_by(every) {
+        for (index, why) in estimate.left_out.iter().enumerate().step_by(every) {
             let gap = GAP * real(every) / rate(t);
             if points.last().is_some_and(|[last, ..]| t[index] - last > gap) {
                 points.push([f64::NAN; 3]);

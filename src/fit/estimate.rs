@@ -3,35 +3,11 @@
 use serde::Serialize;
 
 use super::{
-    BEND, Choice, Covariance, Data, Extreme, FittedDrift, HIDDEN, Left, LeftDrift, NAMES, NameSpec,
-    Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, Signal, StartKind,
-    Task, UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, left_over, whiteness,
+    BEND, Choice, Covariance, Dropped, Extreme, FittedDrift, HIDDEN, Left, LeftDrift, NAMES,
+    NameSpec, Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, Signal,
+    StartKind, Task, UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, left_over, whiteness,
 };
 use crate::model::State;
-
-/// Why a sample does not count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dropped {
-    /// It cannot belong to the motion.
-    Outlier,
-    /// It is flattened at full scale, or next to such samples.
-    Saturated,
-    /// The mass had not yet been struck.
-    Before,
-    /// The mass had been excited again.
-    After,
-    /// It lies next to a jump of an acceleration.
-    Jump,
-    /// At rest, it only repeats the rounding error of others.
-    Alike,
-}
-
-impl Dropped {
-    /// Whether it is no part of what was fitted.
-    pub fn is_outside(self) -> bool {
-        matches!(self, Dropped::Saturated | Dropped::Before | Dropped::After)
-    }
-}
 
 /// A minimum that competes with the best one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -51,7 +27,7 @@ pub struct Estimate {
     /// Which numbers were asked for.
     pub choice: Choice,
     /// The measured data.
-    pub data: Data,
+    pub data: Record,
     /// How the motion begins.
     pub start: StartKind,
     /// The unknowns.
@@ -64,8 +40,9 @@ pub struct Estimate {
     pub intervals: [ProfileInterval; UNKNOWNS],
     /// Measured minus computed, for each measured number; those of times of peaks in units of displacement.
     pub residuals: Vec<f64>,
-    /// Which residuals count.
-    pub used: Vec<bool>,
+    /// For each residual why it does not count. The residuals are those of the record without what lies outside the motion
+    /// or the scale.
+    pub left_out: Vec<Option<Dropped>>,
     /// Half swings within the record.
     pub half_swings: usize,
     /// Whether the motion comes to rest within the record.
@@ -97,15 +74,10 @@ impl Estimate {
         self.dropped.iter().filter(|it| **it == Some(why)).count()
     }
 
-    /// For each sample or peak of the data why it does not count; the data are the record without what lies outside the
-    /// motion or the scale.
-    pub fn dropped_data(&self) -> impl Iterator<Item = Option<Dropped>> + '_ {
-        self.dropped.iter().copied().filter(|why| !why.is_some_and(Dropped::is_outside))
-    }
-
     /// The residuals that count.
     pub fn kept_residuals(&self) -> impl Iterator<Item = f64> + '_ {
-        self.residuals.iter().zip(&self.used).filter(|(_, used)| **used).map(|(it, _)| *it)
+        let all = self.residuals.iter().zip(&self.left_out);
+        all.filter(|(_, why)| why.is_none()).map(|(it, _)| *it)
     }
 
     /// The drift of the zero, if one is fitted.
@@ -222,14 +194,14 @@ fn assessed(
         covariance,
         intervals,
         residuals: best.seen.residuals.iter().map(|it| it.value).collect(),
-        used: task.used.to_vec(),
+        left_out: task.dropped.to_vec(),
         half_swings: best.seen.turns.len(),
         rests: best.seen.rests,
         rivals: found.iter().map(rival).collect(),
         whiteness,
         extremes: Vec::new(),
         noise: Noise::default(),
-        dropped: vec![None; data.x.len()],
+        dropped: task.dropped.iter().copied().take(data.x.len()).collect(),
         motions: (runs.with_derivatives, runs.plain),
         reach: task.reach,
         left_drift,
@@ -306,7 +278,7 @@ pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<LeftOut> {
         return Vec::new();
     }
     let counts = estimate.dropped.iter().map(Option::is_none);
-    stretches(record.t.iter().flatten().copied().zip(counts))
+    stretches(record.t.iter().copied().zip(counts))
 }
 
 /// Stretches of the times of samples that do not count.

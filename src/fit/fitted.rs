@@ -11,10 +11,12 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use super::{
-    Curves, D, D2, D3, Estimate, Inertia, Margins, NAMES, NameSpec, OFFSET, OMEGA0, R, Record,
-    averaged, length_in_metres, parameters,
+    Curves, D, D2, D3, Dropped, Estimate, Inertia, LAST, MarginQuestion, Margins, NAMES, NameSpec,
+    OFFSET, OMEGA0, Q0, R, Record, Signal, StartKind, averaged, length_in_metres, parameters,
 };
+use crate::flow::Problem;
 use crate::model::belt::Units;
+use crate::model::{Knob, State};
 use crate::numerics::elementary::powi;
 
 /// The whole result of a fit.
@@ -30,8 +32,40 @@ pub struct Fitted {
     pub margins: Margins,
     /// The curves in its pictures.
     pub curves: Curves,
+    /// All points of the record; none in a list of peaks without times.
+    pub points: Vec<RecordPoint>,
+    /// Increase of chi-squared caused by the numbers held after the fit.
+    pub rise: f64,
+    /// Whether the distribution of the margin takes these numbers into account.
+    pub drawn: bool,
     /// Wall-clock seconds.
     pub seconds: f64,
+}
+
+/// A point of the record in the units of the oscillator: time in `1/omega0`, lengths in the record's unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RecordPoint {
+    /// Time since the release, or since the first sample.
+    pub tau: f64,
+    /// Displacement from the offset, as measured; of a velocity from the fit, of an acceleration NaN.
+    pub q: f64,
+    /// Velocity divided by omega0, from the fit, and 0 if the fit does not know it; as measured if it was, of an
+    /// acceleration NaN.
+    pub v: f64,
+    /// Why it does not count in the fit; `None` if it does.
+    pub dropped: Option<Dropped>,
+}
+
+impl RecordPoint {
+    /// What was measured, if a time series can show it.
+    #[must_use]
+    pub fn shown(&self, signal: Signal) -> Option<f64> {
+        match signal {
+            Signal::Displacement => Some(self.q),
+            Signal::Velocity => Some(self.v),
+            Signal::Acceleration => None,
+        }
+    }
 }
 
 impl Fitted {
@@ -39,7 +73,18 @@ impl Fitted {
     #[must_use]
     pub fn new(name: String, record: Record, estimate: Estimate, margins: Margins) -> Self {
         let curves = Curves::of(&estimate, &margins);
-        Fitted { name, record, estimate, margins, curves, seconds: 0.0 }
+        let points = points(&record, &estimate);
+        let (rise, drawn, seconds) = (0.0, true, 0.0);
+        Fitted { name, record, estimate, margins, curves, points, rise, drawn, seconds }
+    }
+
+    /// The question about its margin with these half widths and a disturbance in the unit of r.
+    #[must_use]
+    pub fn disturbed(&self, disturbance: f64, half_widths: [f64; 4]) -> MarginQuestion {
+        // In N where there is a mass.
+        let force = self.units().map(|units| units.force).filter(|force| force.is_finite());
+        let disturbance = disturbance * force.unwrap_or(1.0);
+        MarginQuestion { disturbance, half_widths, ..self.margins.question }
     }
 
     /// Mass or stiffness, if known, and the unit of the displacements in m.
@@ -94,6 +139,60 @@ impl Fitted {
         let length = row.unit(self.unit());
         if row.place == OFFSET { self.record.signal.unit(&length) } else { length }
     }
+
+    /// The fitted motion; the method and whatever else the fit does not determine are those of `before`.
+    #[must_use]
+    pub fn problem(&self, before: Problem) -> Problem {
+        let p = &self.estimate.p;
+        let last = self.points.iter().rfind(|point| point.dropped.is_none());
+        let last = last.map_or(before.until, |point| point.tau);
+        Problem {
+            parameters: parameters(p),
+            initial: self.estimate.start.beginning(p, &[]).1,
+            until: if last > 0.0 { last } else { before.until },
+            ..before
+        }
+    }
+
+    /// Whether a number is held, by hand or by the choice with which the record was opened.
+    #[must_use]
+    pub fn holds(&self, symbol: Knob) -> bool {
+        place(symbol).is_some_and(|place| !self.estimate.free[place])
+    }
+
+    /// Standard error of a number; `None` where it was not estimated.
+    #[must_use]
+    pub fn error(&self, symbol: Knob) -> Option<f64> {
+        let place = if symbol == Knob::V0 && self.estimate.start == StartKind::Moving {
+            LAST
+        } else {
+            place(symbol)?
+        };
+        self.estimate.free[place].then(|| self.estimate.covariance.error(place))
+    }
+}
+
+/// The measured points, relative to the fitted motion.
+fn points(record: &Record, estimate: &Estimate) -> Vec<RecordPoint> {
+    let p = &estimate.p;
+    let (origin, _) = estimate.start.beginning(p, &estimate.data.t);
+    let mut states = estimate.data.states(estimate.start, p, estimate.reach).into_iter();
+    let all = record.t.iter().zip(&record.x).zip(&estimate.dropped);
+    all.map(|((&t, &x), &dropped)| {
+        let is_outside = dropped.is_some_and(Dropped::is_outside);
+        let fitted = if is_outside { None } else { states.next() };
+        let unseen = State { q: f64::NAN, v: f64::NAN };
+        let fitted = fitted.unwrap_or(State { q: 0.0, v: 0.0 });
+        let State { q, v } = estimate.measured(t, x, fitted).unwrap_or(unseen);
+        RecordPoint { tau: p[OMEGA0] * (t - origin), q, v, dropped }
+    })
+    .collect()
+}
+
+/// Index of a parameter of the oscillator among the unknowns of the fit.
+fn place(symbol: Knob) -> Option<usize> {
+    let named = NAMES.iter().find(|row| row.knob == symbol).map(|row| row.place);
+    named.or((symbol == Knob::Q0).then_some(Q0))
 }
 
 /// An estimated number in SI units.

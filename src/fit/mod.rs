@@ -60,25 +60,25 @@ mod uncertainty;
 mod valley;
 
 pub use estimate::Estimate;
-pub use fitted::Fitted;
+pub use fitted::{Fitted, RecordPoint};
 pub use margin::{DRAWS, MarginQuestion, Margins, margins};
 pub use observation::parameters;
 pub use question::{Inertia, LossName, Question, Unfit};
-pub use record::{BadRecord, Column, Reading, Record, parse};
+pub use record::{BadRecord, Reading, Record, parse};
 pub use signal::{LENGTHS, Signal, length_in_metres};
 
 #[doc(hidden)]
 pub use {
     conditions::{Condition, conditions},
-    estimate::{Dropped, Rival},
+    estimate::Rival,
     motion::Way,
     observation::{
-        BEND, D, D2, D3, Data, LAST, OFFSET, OMEGA0, Q0, R, Residual, SLOPE, StartKind, UNKNOWNS,
+        BEND, D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, Residual, SLOPE, StartKind, UNKNOWNS,
         Unknowns,
     },
     question::{Choice, NAMES, NameSpec, named},
     refit::following,
-    task::{Runs, Task},
+    task::{Dropped, Runs, Task},
 };
 
 pub(crate) use {

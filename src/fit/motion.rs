@@ -14,8 +14,7 @@ use super::Signal;
 use crate::flow::step::{StepPoint, Stepper};
 use crate::flow::taylor::Taylor;
 use crate::model::{HalfPlane, Parameters, Side, State};
-use crate::numerics::count::real;
-use crate::numerics::elementary::hypot;
+use crate::numerics::{hypot, real};
 
 /// Order of the Taylor series.
 const ORDER: usize = 18;

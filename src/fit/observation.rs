@@ -6,7 +6,7 @@
 //! offset is that of the signal. It may drift along a parabola, whose two numbers are held at zero unless the
 //! record shows a drift. Turning points, with or without times, are the same motion observed only where `v = 0`.
 
-use super::{FittedTurn, Gradient, MotionLost, Signal, Way, follow, rate};
+use super::{FittedTurn, Gradient, MotionLost, Record, Way, follow, rate};
 use crate::model::{Parameters, State};
 use crate::numerics::count::real;
 
@@ -59,20 +59,7 @@ impl StartKind {
     }
 }
 
-/// What was measured: a signal at ascending times, or successive turning points.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Data {
-    /// Times in s; empty for turning points without times.
-    pub t: Vec<f64>,
-    /// The signal, or the displacements of the turning points.
-    pub x: Vec<f64>,
-    /// What the signal is.
-    pub signal: Signal,
-    /// Of turning points the ratio of the errors of the times to those of the displacements, in s per unit of length.
-    pub peaks: Option<f64>,
-}
-
-impl Data {
+impl Record {
     /// Number of residuals: of samples, or of displacements and times of peaks.
     #[must_use]
     pub fn residuals(&self) -> usize {
@@ -147,7 +134,7 @@ pub type Bound = (f64, Unknowns);
 
 impl Seen {
     /// The distances of the last turning points from the rims that bound the region.
-    pub fn clearances(&self, p: &Unknowns, data: &Data, start: StartKind) -> Vec<Bound> {
+    pub fn clearances(&self, p: &Unknowns, data: &Record, start: StartKind) -> Vec<Bound> {
         // What follows the last of a list of peaks is not seen, so that it may lie on either side of the rim.
         let unseen = usize::from(self.region.is_none() && data.has_peaks());
         let last = self.turns.iter().rev().skip(unseen);
@@ -172,7 +159,7 @@ pub fn parameters(p: &Unknowns) -> Parameters {
     Parameters { d: p[D], d2: p[D2], d3: p[D3], r: p[R] }
 }
 
-impl Data {
+impl Record {
     /// Compares them with the model of a motion that begins in this way.
     ///
     /// # Errors
@@ -211,7 +198,7 @@ impl Data {
     }
 
     fn samples(&self, begin: StartKind, p: &Unknowns, way: Way) -> Result<Seen, MotionLost> {
-        let Data { t, x, .. } = self;
+        let Record { t, x, .. } = self;
         let (held, start, times) = self.begun(begin, p);
         let order = way.signal.order();
         let scale = way.signal.scale(p[OMEGA0]);
@@ -248,7 +235,7 @@ fn unknowns(by: &Gradient) -> Unknowns {
 }
 
 /// Compares turning points; residuals of times are divided by `ratio`.
-fn peaks(p: &Unknowns, data: &Data, ratio: f64, way: Way) -> Result<Seen, MotionLost> {
+fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Seen, MotionLost> {
     /// Upper bound of the duration of a half swing, in a motion that keeps oscillating.
     const SLOWEST: f64 = 50.0;
     let x = &data.x;

@@ -12,22 +12,13 @@ use super::{
     separator,
 };
 
-/// A column of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Column {
-    /// By its number, counted from 1.
-    Number(usize),
-    /// By the name in the header.
-    Name(String),
-}
-
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
-    /// The column of times; `None` to find it by its name or position.
-    pub time: Option<Column>,
-    /// The column of displacements; `None` to find it by its name or position.
-    pub displacement: Option<Column>,
+    /// The column of times, by its number, counted from 1, or its name; `None` to find it by its name or position.
+    pub time: Option<String>,
+    /// That of displacements.
+    pub displacement: Option<String>,
     /// Whether rows are successive turning points, with or without times.
     pub peaks: bool,
     /// What was measured; `None` to tell it by the unit.
@@ -36,16 +27,22 @@ pub struct Reading {
     pub unit: Option<String>,
 }
 
-/// The content of a file.
+/// What was measured: a signal at ascending times, or successive turning points.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// Times in s; `None` for a list of peaks without times.
-    pub t: Option<Vec<f64>>,
-    /// The signal, in the unit of length and s; displacements in the unit of the file.
+    /// Times in s; empty for turning points without times.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub t: Vec<f64>,
+    /// The signal, in the unit of length and s, or the displacements of the turning points; displacements in the unit of
+    /// the file.
     pub x: Vec<f64>,
-    /// What was measured.
+    /// What the signal is.
     #[serde(default, skip_serializing_if = "Signal::is_displacement")]
     pub signal: Signal,
+    /// Of turning points that are fitted the ratio of the errors of the times to those of the displacements, in s per
+    /// unit of length.
+    #[serde(skip)]
+    pub peaks: Option<f64>,
     /// Unit of length, if the file names one.
     pub unit: Option<String>,
     /// Number of rows without a usable number.
@@ -143,7 +140,7 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
         rows.dedup();
         record.repeated = before - rows.len();
         let begin = rows.first().filter(|_| stamps).map_or(0.0, |row| row.0);
-        record.t = Some(rows.iter().map(|row| row.0 - begin).collect());
+        record.t = rows.iter().map(|row| row.0 - begin).collect();
     }
     record.x = rows.iter().map(|row| row.1).collect();
     Ok(record)
@@ -211,13 +208,11 @@ impl<'a> RecordTable<'a> {
     /// The columns of times and displacements that are read, counted from 0.
     fn columns(&self, reading: &Reading) -> Result<(Option<usize>, usize), String> {
         let (header, width) = (&self.header, self.rows[0].1.len());
-        let place = |column: &Column| match column {
-            Column::Number(number) if (1..=width).contains(number) => Ok(number - 1),
-            Column::Number(number) => {
-                Err(format!("there is no column {number}; there are {width}"))
-            }
-            Column::Name(name) => header.named(name).ok_or_else(|| {
-                format!("there is no column {name:?}; there are {}", header.names().join(", "))
+        let place = |column: &String| match column.parse() {
+            Ok(number) if (1..=width).contains(&number) => Ok(number - 1),
+            Ok(number) => Err(format!("there is no column {number}; there are {width}")),
+            Err(_) => header.named(column).ok_or_else(|| {
+                format!("there is no column {column:?}; there are {}", header.names().join(", "))
             }),
         };
         let mut time = reading.time.as_ref().map(place).transpose()?;
@@ -265,7 +260,7 @@ mod tests {
     }
 
     fn pairs(record: &Record) -> Vec<(f64, f64)> {
-        record.t.iter().flatten().copied().zip(record.x.iter().copied()).collect()
+        record.t.iter().copied().zip(record.x.iter().copied()).collect()
     }
 
     #[test]
@@ -307,19 +302,16 @@ mod tests {
     #[test]
     fn columns_can_be_named_or_numbered() {
         let text = "a,b,c\n0,5,1\n1,6,2\n";
-        let choose = |time, displacement| {
-            let reading = Reading {
-                time: Some(time),
-                displacement: Some(displacement),
-                ..Reading::default()
-            };
+        let choose = |time: &str, displacement: &str| {
+            let [time, displacement] = [time, displacement].map(|it| Some(it.to_owned()));
+            let reading = Reading { time, displacement, ..Reading::default() };
             parse(text.as_bytes(), &reading)
         };
-        let record = choose(Column::Number(1), Column::Number(3)).unwrap();
+        let record = choose("1", "3").unwrap();
         assert_eq!(pairs(&record), [(0.0, 1.0), (1.0, 2.0)]);
-        let record = choose(Column::Name("a".into()), Column::Name("b".into())).unwrap();
+        let record = choose("a", "b").unwrap();
         assert_eq!(pairs(&record), [(0.0, 5.0), (1.0, 6.0)]);
-        let refused = choose(Column::Number(1), Column::Number(4)).unwrap_err().to_string();
+        let refused = choose("1", "4").unwrap_err().to_string();
         assert_eq!(refused, "line 2: there is no column 4; there are 3");
     }
 
@@ -335,7 +327,11 @@ mod tests {
             ("0.5 8\n0.75 -6\n", Some(vec![0.5, 0.75])),
         ] {
             let record = parse(text.as_bytes(), &reading).unwrap();
-            assert_eq!((record.t, record.x), (times, vec![8.0, -6.0]), "{text}");
+            assert_eq!(
+                (record.t, record.x),
+                (times.unwrap_or_default(), vec![8.0, -6.0]),
+                "{text}"
+            );
         }
     }
 
@@ -343,7 +339,7 @@ mod tests {
     fn a_separator_within_quotation_marks_belongs_to_its_cell() {
         let text = "\"time, ms\",\"displacement, mm\"\n\"0\",\"1.5\"\n\"10\",\"1.2\"\n";
         let record = read(text).unwrap();
-        assert_eq!((record.t, record.x), (Some(vec![0.0, 0.01]), vec![1.5, 1.2]));
+        assert_eq!((record.t, record.x), (vec![0.0, 0.01], vec![1.5, 1.2]));
         assert_eq!(record.unit.as_deref(), Some("mm"));
     }
 

@@ -12,7 +12,8 @@ impl Estimate {
     /// What was estimated, with these unknowns held. The loss is that of the samples that count.
     pub fn task(&self, held: &[usize]) -> Task<'_> {
         let task = Task::new(&self.data, self.start, self.free, self.reach);
-        held.iter().fold(Task { used: &self.used, ..task }, |task, place| task.holding(*place))
+        held.iter()
+            .fold(Task { dropped: &self.left_out, ..task }, |task, place| task.holding(*place))
     }
 
     /// The loss that corresponds to one unit of chi-squared. It is larger for correlated noise, with which larger

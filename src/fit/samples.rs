@@ -8,17 +8,17 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::{
-    BEND, Beginning, Data, Dropped, Estimate, Extreme, Guess, IMPOSSIBLE, LAST, Loss, LossName,
-    Noise, OFFSET, OMEGA0, Optimum, Q0, Question, R, Record, Runs, SLOPE, Signal, StartKind, Task,
-    Unfit, dominant_frequency, drift_of_swings, guess, judged, mean_square, period_of, placed,
-    rate, ratio_of_kinds, reach, regressions, released_before, robust_deviation, within_scale,
+    BEND, Beginning, Dropped, Estimate, Extreme, Guess, IMPOSSIBLE, LAST, Loss, LossName, Noise,
+    OFFSET, OMEGA0, Optimum, Q0, Question, R, Record, Runs, SLOPE, Signal, StartKind, Task, Unfit,
+    dominant_frequency, drift_of_swings, guess, judged, mean_square, period_of, placed, rate,
+    ratio_of_kinds, reach, regressions, released_before, robust_deviation, within_scale,
     without_drift,
 };
 use crate::numerics::count::{real, truncated};
 
 /// Fits a record of samples. Fails with [`Unfit`].
 pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
-    let all = record.t.as_deref().unwrap_or_default();
+    let all = &record.t;
     let frequency = dominant_frequency(all, &record.x);
     let per_period = frequency.map_or(f64::INFINITY, |frequency| rate(all) / frequency);
     let within = within_scale(&record.x, &Noise::of(&record.x, per_period));
@@ -56,7 +56,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         guessed([0.0; 2]).ok_or(Unfit::NoSwings)?;
     let part = |range: Range<usize>, runs: &mut Runs| {
         let (t, x) = (t[range.clone()].to_vec(), x[range.clone()].to_vec());
-        let part = Record { t: Some(t), x, signal, ..Record::default() };
+        let part = Record { t, x, signal, ..Record::default() };
         let found = samples(&part, question, runs).ok();
         found.filter(|it| !it.whiteness.systematic).map(|it| of_part(it, range, &within))
     };
@@ -73,7 +73,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     }
     let loss = loss_of(question.loss, &noise);
     let reach = reach(&swinging);
-    let data = Data { t: t.clone(), x: x.clone(), signal, peaks: None };
+    let data = Record { t: t.clone(), x: x.clone(), signal, ..Record::default() };
     let task = Task::new(&data, beginnings[0].start, free, reach);
     let mut task = Task { loss, noise: noise.deviation, ..task };
     let mut found = task.search(&beginnings, runs)?;
@@ -94,20 +94,17 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     {
         return Ok(found);
     }
-    let smooth = smooth(&task, &mut found, runs)?;
-    let mut used = smooth.clone();
-    let mut alike = vec![false; x.len()];
+    let mut dropped = without_jumps_of_signal(&task, &mut found, runs)?;
     if question.loss == LossName::Auto {
         task.loss = Loss::LINEAR;
-        used = refined(&task, &smooth, loss.is_robust(), &mut found, runs)?;
+        drop_outliers(&task, &mut dropped, loss.is_robust(), &mut found, runs)?;
         // If no motion fits, it is not known where the mass rests.
-        if (Task { used: &used, ..task }).comes_near(&found[0]) {
-            alike = alike_at_rest(&task, &noise, &mut used, &mut found, runs)?;
+        if (Task { dropped: &dropped, ..task }).comes_near(&found[0]) {
+            drop_alike_at_rest(&task, &noise, &mut dropped, &mut found, runs)?;
         }
     }
-    let mut estimate = judged(&Task { used: &used, ..task }, &found, runs)?;
-    estimate.dropped = dropped(&smooth, &alike, &used);
-    estimate = of_part(estimate, 0..x.len(), &within);
+    let estimate = judged(&Task { dropped: &dropped, ..task }, &found, runs)?;
+    let mut estimate = of_part(estimate, 0..x.len(), &within);
     let scale = (signal.as_displacement(estimate.p[OMEGA0]) / factor).abs();
     for extreme in &mut extremes {
         extreme.x *= scale;
@@ -115,17 +112,6 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     (estimate.choice, estimate.extremes, estimate.noise) =
         (question.choice.clone(), extremes, noise);
     Ok(estimate)
-}
-
-/// Why each sample does not count: next to a jump, at rest as its neighbours, or impossible.
-fn dropped(smooth: &[bool], alike: &[bool], used: &[bool]) -> Vec<Option<Dropped>> {
-    let why = |((smooth, alike), used): ((&bool, &bool), &bool)| match (smooth, alike, used) {
-        (false, ..) => Some(Dropped::Jump),
-        (_, true, _) => Some(Dropped::Alike),
-        (.., false) => Some(Dropped::Outlier),
-        _ => None,
-    };
-    smooth.iter().zip(alike).zip(used).map(why).collect()
 }
 
 /// The answer for a range of the samples within the scale as one for the whole record.
@@ -148,21 +134,24 @@ fn loss_of(name: LossName, noise: &Noise) -> Loss {
     Loss { name, scale: 3.0 * noise.deviation }
 }
 
-/// Which samples are far from every jump of the signal: all, unless it is an acceleration. The minima are then
-/// sought again with these samples. Fails with [`Unfit`] when interrupted, or if the motion is lost.
-fn smooth(task: &Task, found: &mut Vec<Optimum>, runs: &mut Runs) -> Result<Vec<bool>, Unfit> {
+/// The samples without those next to jumps of the signal, which only an acceleration has. The minima are then sought
+/// again with these samples. Fails with [`Unfit`] when interrupted, or if the motion is lost.
+fn without_jumps_of_signal(
+    task: &Task,
+    found: &mut Vec<Optimum>,
+    runs: &mut Runs,
+) -> Result<Vec<Option<Dropped>>, Unfit> {
     /// The jumps move as the fit improves.
     const ROUNDS: usize = 2;
-    let mut smooth = vec![true; task.data.residuals()];
-    let Data { t, signal, .. } = task.data;
-    if *signal != Signal::Acceleration {
-        return Ok(smooth);
+    let mut dropped = vec![None; task.data.residuals()];
+    let Record { t, signal, .. } = task.data;
+    if *signal == Signal::Acceleration {
+        for _ in 0..ROUNDS {
+            dropped = beside(&jumps(&found[0], t), t, found[0].p[OMEGA0]);
+            Task { dropped: &dropped, ..*task }.renew(found, runs)?;
+        }
     }
-    for _ in 0..ROUNDS {
-        smooth = away_from(&jumps(&found[0], t), t, found[0].p[OMEGA0]);
-        Task { used: &smooth, ..*task }.renew(found, runs)?;
-    }
-    Ok(smooth)
+    Ok(dropped)
 }
 
 /// The times of the jumps of a motion.
@@ -173,45 +162,47 @@ fn jumps(best: &Optimum, t: &[f64]) -> Vec<f64> {
     release.into_iter().chain(turns).collect()
 }
 
-/// Whether each sample is further from the jumps than half a step, and than the phase of a record is uncertain by.
-fn away_from(jumps: &[f64], t: &[f64], omega0: f64) -> Vec<bool> {
+/// Drops the samples closer to a jump than half a step, or than the phase of a record is uncertain by.
+fn beside(jumps: &[f64], t: &[f64], omega0: f64) -> Vec<Option<Dropped>> {
     /// In radians of the phase.
     const UNCERTAIN: f64 = 0.03;
     let near = f64::max(0.5 / rate(t), UNCERTAIN / omega0);
-    let mut away = vec![true; t.len()];
+    let mut dropped = vec![None; t.len()];
     for jump in jumps {
         let range = [jump - near, jump + near].map(|end| t.partition_point(|t| *t <= end));
-        away[range[0]..range[1]].fill(false);
+        dropped[range[0]..range[1]].fill(Some(Dropped::Jump));
     }
-    away
+    dropped
 }
 
-/// Leaves out readings of a mass at rest that only repeat the rounding error of others, and fits again. Returns
-/// which these are.
-fn alike_at_rest(
+/// Leaves out readings of a mass at rest that only repeat the rounding error of others, and fits again.
+fn drop_alike_at_rest(
     task: &Task,
     noise: &Noise,
-    used: &mut [bool],
+    dropped: &mut Vec<Option<Dropped>>,
     found: &mut Vec<Optimum>,
     runs: &mut Runs,
-) -> Result<Vec<bool>, Unfit> {
+) -> Result<(), Unfit> {
     /// Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
     const ROUNDS: usize = 2;
-    let possible = used.to_vec();
-    let mut alike = vec![false; used.len()];
+    let before = dropped.clone();
+    let mut alike = vec![false; dropped.len()];
     for _ in 0..ROUNDS {
-        let values = Task { used, ..*task }.values(&found[0].seen);
+        let values = Task { dropped, ..*task }.values(&found[0].seen);
         let now = all_but_some(task, &found[0], noise.readings_at_rest(mean_square(&values)));
         if now == alike {
             break;
         }
         alike = now;
-        for ((used, possible), alike) in used.iter_mut().zip(&possible).zip(&alike) {
-            *used = *possible && !alike;
-        }
-        Task { used, ..*task }.renew(found, runs)?;
+        let why = |(before, alike): (&Option<Dropped>, &bool)| match before {
+            Some(Dropped::Jump) => *before,
+            _ if *alike => Some(Dropped::Alike),
+            _ => *before,
+        };
+        *dropped = before.iter().zip(&alike).map(why).collect();
+        Task { dropped, ..*task }.renew(found, runs)?;
     }
-    Ok(alike)
+    Ok(())
 }
 
 /// Selects the samples held and those at rest except for `enough` (at least two) of each, evenly spread.
@@ -238,35 +229,37 @@ fn all_but_some(task: &Task, best: &Optimum, enough: f64) -> Vec<bool> {
 }
 
 /// Leaves out samples that cannot belong to the motion and fits again, until nothing changes.
-fn refined(
+fn drop_outliers(
     task: &Task,
-    smooth: &[bool],
+    dropped: &mut Vec<Option<Dropped>>,
     robust: bool,
     found: &mut [Optimum],
     runs: &mut Runs,
-) -> Result<Vec<bool>, Unfit> {
+) -> Result<(), Unfit> {
     /// A model that leaves out more than this fraction of the record does not describe it.
     const MOST: f64 = 0.15;
     const ROUNDS: usize = 4;
-    let mut used = smooth.to_vec();
+    let before = dropped.clone();
     // If the search used a robust loss, even an unchanged selection is fitted again.
     let mut settled = !robust;
     for _ in 0..ROUNDS {
         let values: Vec<f64> = found[0].seen.residuals.iter().map(|it| it.value).collect();
         let limit = limit_of(&values);
-        let possible =
-            values.iter().zip(smooth).map(|(value, smooth)| *smooth && value.abs() <= limit);
-        let possible: Vec<bool> = possible.collect();
-        let left_out = possible.iter().zip(smooth).filter(|(used, smooth)| **smooth && !**used);
-        let share = real(left_out.count()) / real(used.len());
-        let now = if share > MOST { smooth.to_vec() } else { possible };
-        if settled && now == used {
+        let why = |(before, value): (&Option<Dropped>, &f64)| {
+            before.or((value.abs() > limit).then_some(Dropped::Outlier))
+        };
+        let mut now: Vec<_> = before.iter().zip(&values).map(why).collect();
+        let outliers = now.iter().filter(|why| **why == Some(Dropped::Outlier)).count();
+        if real(outliers) > MOST * real(now.len()) {
+            now.clone_from(&before);
+        }
+        if settled && now == *dropped {
             break;
         }
-        (used, settled) = (now, true);
-        Task { used: &used, ..*task }.polish(found, runs)?;
+        (*dropped, settled) = (now, true);
+        Task { dropped, ..*task }.polish(found, runs)?;
     }
-    Ok(used)
+    Ok(())
 }
 
 /// The size beyond which a residual does not belong to the motion: a multiple of the standard deviation of the
@@ -287,13 +280,12 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
     const ROUNDS: usize = 8;
     let x = &record.x;
     let mut held = question.choice.unknowns();
-    if record.t.is_none() {
+    if record.t.is_empty() {
         (held[OMEGA0], held[LAST]) = (Some(1.0), Some(0.0));
     }
     let free = held.map(|held| held.is_none());
     let unknowns = free.iter().filter(|free| **free).count();
-    let t = record.t.clone();
-    let measured = x.len() * if t.is_some() { 2 } else { 1 };
+    let measured = x.len() + record.t.len();
     let seen_in_x = unknowns - usize::from(free[OMEGA0]) - usize::from(free[LAST]);
     if x.len() < 3 || x.len() <= seen_in_x {
         return Err(Unfit::TooFew { measured: x.len(), unknowns: seen_in_x });
@@ -304,7 +296,7 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
         let peak = x.windows(3).position(turned).unwrap_or(0) + 1;
         return Err(Unfit::NotAlternating { peak });
     }
-    let time = |index: usize| t.as_ref().map_or(0.0, |t| t[index]);
+    let time = |index: usize| record.t.get(index).copied().unwrap_or(0.0);
     let extremes: Vec<Extreme> =
         x.iter().enumerate().map(|(index, &x)| Extreme { t: time(index), x }).collect();
     let omega0 = period_of(&extremes).map_or(1.0, |period| std::f64::consts::TAU / period);
@@ -324,19 +316,14 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
     if measured <= unknowns {
         return Err(Unfit::TooFew { measured, unknowns });
     }
-    let of = |ratio: f64| Data {
-        t: t.clone().unwrap_or_default(),
-        x: x.clone(),
-        signal: Signal::Displacement,
-        peaks: Some(ratio),
-    };
+    let of = |ratio: f64| Record { peaks: Some(ratio), ..record.clone() };
     let reach = reach(x);
     let mut data = of(ratio);
     let mut found = Task::new(&data, StartKind::Release, free, reach).search(&starts, runs)?;
     for _ in 0..ROUNDS {
         let task = Task::new(&data, StartKind::Release, free, reach);
         let next = ratio * ratio_of_kinds(&task, &found[0], x.len());
-        if t.is_none() || !next.is_finite() || (next / ratio - 1.0).abs() < 0.01 {
+        if record.t.is_empty() || !next.is_finite() || (next / ratio - 1.0).abs() < 0.01 {
             break;
         }
         ratio = next;
@@ -344,8 +331,8 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
         Task::new(&data, StartKind::Release, free, reach).polish(&mut found, runs)?;
     }
     let task = Task::new(&data, StartKind::Release, free, reach);
-    let used = vec![true; data.residuals()];
-    let mut estimate = judged(&Task { used: &used, ..task }, &found, runs)?;
+    let dropped = vec![None; data.residuals()];
+    let mut estimate = judged(&Task { dropped: &dropped, ..task }, &found, runs)?;
     (estimate.choice, estimate.extremes) = (question.choice.clone(), extremes);
     Ok(estimate)
 }

@@ -1,8 +1,8 @@
 //! The search for the best minimum from first guesses, with several starts and growing horizons.
 
 use super::{
-    Beginning, D2, D3, Data, Extreme, Guess, LAST, Loss, LossName, Noise, OFFSET, OMEGA0, Optimum,
-    Q0, R, Runs, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE, Way, by_cost, follow, guess,
+    Beginning, D2, D3, Extreme, Guess, LAST, Loss, LossName, Noise, OFFSET, OMEGA0, Optimum, Q0, R,
+    Record, Runs, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE, Way, by_cost, follow, guess,
     interrupted, parameters, placed, through_the_valley,
 };
 use crate::model::State;
@@ -236,7 +236,7 @@ pub fn released_before(
     const PART: usize = 4;
     /// Number of swings between the release and the fitted motion, at most.
     const SWINGS: usize = 60;
-    let Data { t, x, signal, .. } = task.data;
+    let Record { t, x, signal, .. } = task.data;
     if !signal.is_displacement() {
         return Ok(None);
     }
@@ -250,7 +250,7 @@ pub fn released_before(
     for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
         *guess = placed(held, *guess);
     }
-    let data = Data { t: times.to_vec(), x: later.to_vec(), ..*task.data };
+    let data = Record { t: times.to_vec(), x: later.to_vec(), ..task.data.clone() };
     let part = Task { data: &data, ..*task };
     let Some(found) = interrupted(part.search(&beginnings, runs))? else { return Ok(None) };
     let optimum = &found[0];

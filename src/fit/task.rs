@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    BEND, Data, IMPOSSIBLE, Loss, OMEGA0, Region, Residual, SLOPE, Seen, StartKind, UNKNOWNS,
+    BEND, IMPOSSIBLE, Loss, OMEGA0, Record, Region, Residual, SLOPE, Seen, StartKind, UNKNOWNS,
     Unfit, Unknowns, Way, robust_deviation, whiteness,
 };
 use crate::numerics::count::real;
@@ -61,11 +61,35 @@ impl Optimum {
     }
 }
 
+/// Why a sample does not count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dropped {
+    /// It cannot belong to the motion.
+    Outlier,
+    /// It is flattened at full scale, or next to such samples.
+    Saturated,
+    /// The mass had not yet been struck.
+    Before,
+    /// The mass had been excited again.
+    After,
+    /// It lies next to a jump of an acceleration.
+    Jump,
+    /// At rest, it only repeats the rounding error of others.
+    Alike,
+}
+
+impl Dropped {
+    /// Whether it is no part of what was fitted.
+    pub fn is_outside(self) -> bool {
+        matches!(self, Dropped::Saturated | Dropped::Before | Dropped::After)
+    }
+}
+
 /// What is estimated from a record, and how residuals are weighted.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
     /// What was measured.
-    pub data: &'a Data,
+    pub data: &'a Record,
     /// How the motion begins.
     pub start: StartKind,
     /// Displacement beyond which a motion counts as escaped.
@@ -74,8 +98,8 @@ pub struct Task<'a> {
     pub free: [bool; UNKNOWNS],
     /// How residuals are weighted.
     pub loss: Loss,
-    /// Which residuals count; all of them if empty.
-    pub used: &'a [bool],
+    /// Why residuals do not count; `None` for those that do, and empty if all do.
+    pub dropped: &'a [Option<Dropped>],
     /// Standard deviation of the noise, if it is known beforehand; else 0.
     pub noise: f64,
     /// Only this many residuals, from the first on, count.
@@ -127,9 +151,9 @@ pub fn moved(p: &Unknowns, part: f64, step: &Unknowns) -> Unknowns {
 
 impl<'a> Task<'a> {
     /// All unknowns and residuals of a record, of which nothing else is known.
-    pub fn new(data: &'a Data, start: StartKind, free: [bool; UNKNOWNS], reach: f64) -> Self {
-        let (loss, used, noise) = (Loss::LINEAR, &[][..], 0.0);
-        Task { data, start, reach, free, loss, used, noise, horizon: usize::MAX, within: None }
+    pub fn new(data: &'a Record, start: StartKind, free: [bool; UNKNOWNS], reach: f64) -> Self {
+        let (loss, dropped, noise) = (Loss::LINEAR, &[][..], 0.0);
+        Task { data, start, reach, free, loss, dropped, noise, horizon: usize::MAX, within: None }
     }
 
     /// The same for a motion that begins in this way.
@@ -155,7 +179,7 @@ impl<'a> Task<'a> {
     }
 
     fn counts(&self, index: usize) -> bool {
-        index < self.horizon && self.used.get(index).copied().unwrap_or(true)
+        index < self.horizon && self.dropped.get(index).is_none_or(Option::is_none)
     }
 
     /// The residuals that count.

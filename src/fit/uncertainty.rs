@@ -157,7 +157,7 @@ fn widening(task: &Task, optimum: &Optimum, variance: f64) -> f64 {
     /// Largest share of the residuals that may be lost in this way.
     const MOST: f64 = 0.3;
     let limit = IMPOSSIBLE * variance.sqrt();
-    let out = optimum.seen.residuals.iter().zip(task.used).filter(|(_, used)| !**used);
+    let out = optimum.seen.residuals.iter().zip(task.dropped).filter(|(_, why)| why.is_some());
     let near = out.filter(|(it, _)| (limit..2.0 * limit).contains(&it.value.abs())).count();
     let share = real(near) / real(optimum.seen.residuals.len());
     1.0 / (1.0 - (AT_LIMIT * share).min(MOST))

@@ -36,10 +36,10 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     picture.window = around(&picture)?;
     let record = &fitted.record;
     // What lies before and after the motion is seen, too.
-    if let Some(times) = Span::covering(record.t.iter().flatten().copied()) {
+    if let Some(times) = Span::covering(record.t.iter().copied()) {
         picture.window.x = times.scaled(times.center(), 1.06);
     }
-    let all = record.t.iter().flatten().zip(&record.x).zip(&fitted.estimate.dropped);
+    let all = record.t.iter().zip(&record.x).zip(&fitted.estimate.dropped);
     mark_dropped(&mut picture, all.filter_map(|((t, x), why)| Some((at(*t, *x), (*why)?))));
     Some(picture)
 }
@@ -54,7 +54,7 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     band(&mut picture, [seen.points.first()?[0], seen.points.last()?[0]], 2.0 * deviation);
     picture.window = around(&picture)?;
     let all = fitted.estimate.data.t.iter().zip(&fitted.estimate.residuals);
-    let apart = all.zip(fitted.estimate.dropped_data()).filter_map(|((t, e), why)| {
+    let apart = all.zip(&fitted.estimate.left_out).filter_map(|((t, e), why)| {
         let why = why.filter(|it| matches!(it, Dropped::Outlier | Dropped::Jump))?;
         Some((at(*t, *e), why))
     });

@@ -10,12 +10,11 @@ use super::{
     kicks,
 };
 use crate::closed_form::lyapunov;
-use crate::fit::Signal;
+use crate::fit::{Fitted, Signal};
 use crate::flow::{Outcome, Problem, Trajectory};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
 use crate::portrait::{Border, Cycle, Cycles, Ride};
-use crate::question::ShownFit;
 use crate::question::zones::Extent;
 use crate::scene::{Finding, Layer, Point, Topic};
 use crate::session::{Session, ShownMotion, VariantTag};
@@ -112,8 +111,8 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
 
 /// What was measured; the velocities are those of the fit, or if they were measured the displacements. Of an
 /// acceleration nothing is seen here.
-fn record(picture: &mut Picture, fitted: &ShownFit) {
-    if fitted.fit.record.signal == Signal::Acceleration {
+fn record(picture: &mut Picture, fitted: &Fitted) {
+    if fitted.record.signal == Signal::Acceleration {
         return;
     }
     let counted = fitted.points.iter().filter(|point| point.dropped.is_none());

@@ -89,7 +89,7 @@ fn physical(picture: &Picture, text: &'static str) -> &'static str {
 /// What was measured. An acceleration is none of the quantities on show.
 fn record(picture: &mut Picture, session: &Session) {
     let Some(fitted) = session.fitted() else { return };
-    let signal = fitted.fit.record.signal;
+    let signal = fitted.record.signal;
     let (layer, name) = match signal {
         Signal::Displacement => (Layer::Position, "record"),
         Signal::Velocity => (Layer::Velocity, "record of v"),

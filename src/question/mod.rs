@@ -14,5 +14,5 @@ pub mod zones;
 
 pub use answer::{Answered, Finding, NoAnswer};
 pub use answer::{Fineness, Resources, Rows, answer, answer_by, answer_for};
-pub use fit::{Fit, Opened, Recording, ShownFit};
+pub use fit::{Fit, Opened, Recording};
 pub use request::{Request, TOPICS, Topic};

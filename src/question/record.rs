@@ -4,8 +4,8 @@
 use clap::{Arg, Args, Command};
 
 use crate::fit::{
-    BadRecord, Choice, Column, Inertia, LENGTHS, LossName, NAMES, NameSpec, Question, Reading,
-    Record, Signal, assigned, length_in_metres, listed, named, parse, quantity,
+    BadRecord, Choice, Inertia, LENGTHS, LossName, NAMES, NameSpec, Question, Reading, Record,
+    Signal, assigned, length_in_metres, listed, named, parse, quantity,
 };
 use crate::model::Knob;
 use crate::words::usage;
@@ -15,13 +15,14 @@ use crate::words::usage;
 pub struct RecordOptions {
     /// Columns of times and displacements, by number from 1 or by name
     #[arg(long, value_name = "t=1,x=2", value_parser = columns)]
-    columns: Option<(Option<Column>, Option<Column>)>,
+    columns: Option<(Option<String>, Option<String>)>,
     /// Rows are successive turning points, with or without times
     #[arg(long)]
     peaks: bool,
     /// Quantities to estimate: omega0, offset, D, D2, D3, r; damping and friction not listed are held (at 0 unless set)
-    #[arg(long, value_name = "NAMES", value_parser = names)]
-    free: Option<FreeNumbers>,
+    // The full path keeps the parser of options from taking each of them as a value of its own.
+    #[arg(long, value_name = "NAMES", value_parser = listed)]
+    free: Option<std::vec::Vec<&'static NameSpec>>,
     /// Holds a quantity at a value, such as D3=0; repeatable
     #[arg(long, value_name = "NAME=VALUE", value_parser = assigned, allow_hyphen_values = true)]
     set: Vec<(&'static NameSpec, f64)>,
@@ -42,26 +43,17 @@ pub struct RecordOptions {
     unit: Option<String>,
 }
 
-/// Numbers to estimate.
-#[derive(Clone, Debug)]
-struct FreeNumbers(Vec<&'static NameSpec>);
-
-fn names(text: &str) -> Result<FreeNumbers, String> {
-    listed(text).map(FreeNumbers)
-}
-
 /// `t=1,x=3`, `x=2`, `t=time,x=position`, or without the letters `1,3`.
-fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
+fn columns(text: &str) -> Result<(Option<String>, Option<String>), String> {
     let mut chosen = (None, None);
     for (index, part) in text.split(',').enumerate() {
         let key = ["t", "x"].get(index).copied().unwrap_or_default();
         let bare = text.contains(',') && !text.contains('=');
         let (key, value) = part.split_once('=').or(bare.then_some((key, part))).unwrap_or_default();
-        let column = match value.trim().parse() {
-            Ok(0) => return Err(format!("{part:?}: columns are counted from 1")),
-            Ok(number) => Column::Number(number),
-            Err(_) => Column::Name(value.trim().to_owned()),
-        };
+        let column = value.trim().to_owned();
+        if column.parse() == Ok(0_usize) {
+            return Err(format!("{part:?}: columns are counted from 1"));
+        }
         match key.trim() {
             "t" => chosen.0 = Some(column),
             "x" => chosen.1 = Some(column),
@@ -161,8 +153,7 @@ impl RecordOptions {
 
     /// What is estimated; a number that is also held is not.
     pub fn question(&self) -> Question {
-        let free = self.free.as_ref().map(|names| names.0.clone());
-        let choice = Choice { free, held: self.set.clone() };
+        let choice = Choice { free: self.free.clone(), held: self.set.clone() };
         Question { choice, loss: self.loss, peaks: self.peaks }
     }
 
@@ -181,7 +172,7 @@ impl RecordOptions {
         let Some(inertia) = mass.or(self.stiffness.map(Inertia::Stiffness)) else {
             return Ok(None);
         };
-        if record.t.is_none() {
+        if record.t.is_empty() {
             return Err(
                 "without times there is no frequency: leave out --mass and --stiffness".to_owned()
             );

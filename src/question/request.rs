@@ -6,9 +6,10 @@ use std::sync::Arc;
 use serde::Serialize;
 use strum::{EnumDiscriminants, IntoStaticStr, VariantArray};
 
-use super::fit::{Fit, Recording, Unsure};
+use super::fit::{Fit, Recording};
 use super::zones::UncertainSubject;
 use crate::branch::chart::Plane;
+use crate::fit::MarginQuestion;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Method, Problem};
 use crate::model::{Belt, Knob, Parameters};
@@ -49,7 +50,7 @@ pub enum Request {
         held: [Option<f64>; 4],
         /// What is to be survived if the distribution of the margin is drawn as well, which takes longer than a
         /// frame.
-        drawn: Option<Unsure>,
+        drawn: Option<MarginQuestion>,
     },
     /// A motion, with points for drawing and its energy ledger.
     #[strum_discriminants(strum(serialize = "motion"))]

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
-    Combination, Condition, Data, Dropped, EstimatedNumber, Fitted, LAST, LeftOut, MarginSpread,
-    Margins, NAMES, NameSpec, OMEGA0, Q0, StartKind, combinations, left_out, rows,
+    Combination, Condition, Dropped, EstimatedNumber, Fitted, LAST, LeftOut, MarginSpread, Margins,
+    NAMES, NameSpec, OMEGA0, Q0, Record, StartKind, combinations, left_out, rows,
 };
 use crate::portrait::Kicks;
 use crate::words::fit::{left_out as counts, remarks, sentences, signed};
@@ -265,7 +265,7 @@ fn margins(fitted: &Fitted) -> Table {
 /// What was measured, and how the motion goes.
 fn subject(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
-    let Data { t, x, .. } = &estimate.data;
+    let Record { t, x, .. } = &estimate.data;
     let what = if estimate.data.has_peaks() {
         let times = if t.is_empty() { "without" } else { "with" };
         format!("{} peaks {times} times", x.len())

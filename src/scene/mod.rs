@@ -13,7 +13,7 @@ pub mod scene;
 pub mod views;
 pub mod window;
 
-pub use crate::question::{Answered, Finding, Fit, Recording, Request, ShownFit, TOPICS, Topic};
+pub use crate::question::{Answered, Finding, Fit, Recording, Request, TOPICS, Topic};
 pub use library::{find, library, plain};
 pub use machine::{Machine, ScaledMachine, Setting};
 pub use misread::Misread;

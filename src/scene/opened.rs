@@ -45,7 +45,7 @@ impl Recording {
         let reduced =
             format!("lengths are in {} and times in 1/omega0", unit.unwrap_or("the file's unit"));
         let units = match unit.and_then(length_in_metres) {
-            Some(_) if self.record.t.is_some() => {
+            Some(_) if !self.record.t.is_empty() => {
                 format!("axes are in units of length and seconds; with units off {reduced}")
             }
             _ => reduced,

@@ -1,9 +1,8 @@
 //! What a fitted record says in the pane: numbers with their errors, in physical units where these are known.
 
 use super::{Look, pane};
-use crate::fit::{OMEGA0, named, rows};
+use crate::fit::{Fitted, OMEGA0, named, rows};
 use crate::model::Knob;
-use crate::scene::ShownFit;
 use crate::session::{Row, Session};
 use crate::words::fit::signed;
 use crate::words::number::in_unit;
@@ -16,7 +15,7 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
     let told = match error {
         Some(error) => {
             let bare = format!("{sign}{}", significant(error, 2));
-            vec![in_unit(&bare, &unit(symbol, found.fit.unit())), bare]
+            vec![in_unit(&bare, &unit(symbol, found.unit())), bare]
         }
         None if found.holds(symbol) => vec!["held".to_owned()],
         None => return Vec::new(),
@@ -26,13 +25,13 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
         format!("{} {}", with_unit(value, 4, unit), error.as_deref().unwrap_or("held"))
     };
     let place = named(symbol.spec().name).map(|row| row.place);
-    let mut physical = rows(&found.fit).into_iter();
+    let mut physical = rows(found).into_iter();
     let physical = physical.find(|row| row.unknown.is_some() && row.unknown == place);
     let physical = if let Some(row) = physical {
         let error = error.map(|_| row.standard_error);
         Some(format!("{} {}", row.name, with_error(row.value, error, row.unit)))
     } else {
-        let scale = found.fit.units().and_then(|units| match symbol {
+        let scale = found.units().and_then(|units| match symbol {
             Knob::R | Knob::Q0 => Some((units.displacement, "m")),
             Knob::V0 => Some((units.velocity, "m/s")),
             _ => None,
@@ -55,8 +54,8 @@ fn unit(symbol: Knob, length: &str) -> String {
 /// Where the smallest shift from rest that is not survived lies with 95 %, with numbers held how much worse the fit is,
 /// and the frequency of a record.
 pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
-    let Some(ShownFit { fit, rise, drawn, .. }) = session.fitted() else { return Vec::new() };
-    let estimate = &fit.estimate;
+    let Some(fit) = session.fitted() else { return Vec::new() };
+    let Fitted { estimate, rise, drawn, .. } = fit;
     let hertz = |value: f64| value / std::f64::consts::TAU;
     let error = hertz(estimate.covariance.error(OMEGA0));
     let frequency = with_unit(hertz(estimate.p[OMEGA0]), 4, "Hz");
@@ -87,7 +86,7 @@ pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
 /// What the record allows to be signed, in a line of this width if that is possible; a test that fails comes first.
 /// `None` until it is known for what is held and unsure.
 pub fn statement(session: &Session, width: usize) -> Option<String> {
-    Some(shortened(&signed(&session.drawn()?.fit).text, width))
+    Some(shortened(&signed(session.drawn()?).text, width))
 }
 
 /// How a statement begins whose conditions fail.

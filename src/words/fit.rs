@@ -222,7 +222,7 @@ pub fn signed(fitted: &Fitted) -> Statement {
     let reach = reach.map(|reach| reach / fitted.estimate.amplitudes().1);
     let mut statement = Statement {
         impulse: margins.certain(|omega0, it| Some(it.from_rest.impulse? * scales(omega0).1)),
-        velocity: (!has_mass && fitted.record.t.is_some())
+        velocity: (!has_mass && !fitted.record.t.is_empty())
             .then(|| margins.certain(velocity))
             .flatten(),
         displacement: margins

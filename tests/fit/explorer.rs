@@ -61,7 +61,7 @@ fn marked(trial: &Trial, plot: usize) -> Vec<(String, usize)> {
 #[test]
 fn what_a_fit_leaves_out_is_marked_by_what_it_is_and_is_no_part_of_the_record_on_show() {
     let mut trial = opened(changed(|index, x| if index % 97 == 60 { x + 1.5 } else { x }), "");
-    let outliers = trial.session.fitted().unwrap().fit.estimate.count(Dropped::Outlier);
+    let outliers = trial.session.fitted().unwrap().estimate.count(Dropped::Outlier);
     assert!(outliers > 2, "{outliers}");
     assert_eq!(marked(&trial, 1), [("outliers, left out".to_owned(), outliers)]);
     let measured = |trial: &Trial| {
@@ -81,7 +81,7 @@ fn what_a_fit_leaves_out_is_marked_by_what_it_is_and_is_no_part_of_the_record_on
     assert_eq!(marked(&trial, index), [("outliers, left out".to_owned(), outliers)]);
 
     let trial = opened(changed(|_, x| x.clamp(-2.0, 2.0)), "");
-    let saturated = trial.session.fitted().unwrap().fit.estimate.count(Dropped::Saturated);
+    let saturated = trial.session.fitted().unwrap().estimate.count(Dropped::Saturated);
     assert!(saturated > 10, "{saturated}");
     assert_eq!(marked(&trial, 1), [("saturated, left out".to_owned(), saturated)]);
     assert_eq!(measured(&trial), all - saturated);
@@ -89,7 +89,7 @@ fn what_a_fit_leaves_out_is_marked_by_what_it_is_and_is_no_part_of_the_record_on
 
 #[test]
 fn a_wrong_turning_point_does_not_flatten_the_decrements() {
-    let extent = |trial: &Trial| trial.session.fitted().unwrap().fit.curves.damping.extent;
+    let extent = |trial: &Trial| trial.session.fitted().unwrap().curves.damping.extent;
     let [right, wrong] = [1.0, 8.0].map(|factor| {
         opened(changed(|index, x| if (217..224).contains(&index) { factor * x } else { x }), "")
     });
@@ -108,10 +108,10 @@ fn a_wrong_turning_point_does_not_flatten_the_decrements() {
 #[test]
 fn the_statement_is_drawn_for_the_disturbance_of_the_session_and_only_where_it_is_told() {
     let mut trial = fitted();
-    let best = trial.session.drawn().unwrap().fit.margins.question;
+    let best = trial.session.drawn().unwrap().margins.question;
     assert_eq!((best.confidence, best.disturbance), (0.95, 0.0));
     trial.press(":set<space>w=0.005<space>N<enter>");
-    let asked = trial.session.drawn().unwrap().fit.margins.question;
+    let asked = trial.session.drawn().unwrap().margins.question;
     assert!((asked.disturbance - 0.005).abs() < 1e-12, "{asked:?}");
     assert_eq!(asked.half_widths, [0.0; 4]);
     // Neither the second status line nor the distribution is on show.
@@ -160,7 +160,7 @@ fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_other
     assert_eq!(margin, "margin from rest, distribution");
     // Once its draws are there, the distribution is that with r held: more friction, less damping.
     let told = trial.session.fitted().unwrap();
-    assert!(told.drawn && told.fit.margins.draws.iter().all(|draw| draw.r == 0.06));
+    assert!(told.drawn && told.margins.draws.iter().all(|draw| draw.r == 0.06));
     assert!(held.d < best.parameters.d, "more friction leaves less damping: {held:?}");
     trial.press("u");
     assert_eq!(trial.session.problem, best);
@@ -263,7 +263,7 @@ fn a_record_of_velocities_is_shown_as_velocities_and_kept_as_such() {
 #[test]
 fn the_jumps_of_an_acceleration_are_marked_as_such_among_its_residuals() {
     let trial = &mut opened(decay_of(Signal::Acceleration), "signal=acceleration unit=mm/s^2");
-    let jumps = trial.session.fitted().unwrap().fit.estimate.count(Dropped::Jump);
+    let jumps = trial.session.fitted().unwrap().estimate.count(Dropped::Jump);
     assert!(jumps > 10, "{jumps}");
     // The accelerations themselves are none of the quantities over time.
     assert_eq!(marked(trial, 1), []);

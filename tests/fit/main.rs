@@ -17,8 +17,8 @@ mod strange;
 use std::fs;
 
 use hopfscope::fit::{
-    Choice, Data, Estimate, NAMES, NameSpec, Question, Record, Residual, Signal, StartKind,
-    UNKNOWNS, Way, estimate, named,
+    Choice, Estimate, NAMES, NameSpec, Question, Record, Residual, Signal, StartKind, UNKNOWNS,
+    Way, estimate, named,
 };
 use hopfscope::numerics::elementary::powi;
 use hopfscope::numerics::random::Random;
@@ -143,7 +143,12 @@ impl Simulated {
 
     fn record(&self, seed: u64) -> Record {
         let t = self.times();
-        let data = Data { x: vec![0.0; t.len()], t: t.clone(), signal: self.signal, peaks: None };
+        let data = Record {
+            x: vec![0.0; t.len()],
+            t: t.clone(),
+            signal: self.signal,
+            ..Record::default()
+        };
         let way = Way { reach: 1e9, ..Way::default() };
         let motion = data.compare(self.start, &without_drift(&self.p), way).unwrap().residuals;
         let mut chance = Random::new(seed);
@@ -154,7 +159,7 @@ impl Simulated {
             self.noise * error - seen.value
         };
         let x = motion.iter().map(noisy).collect();
-        Record { t: Some(t), x, signal: self.signal, ..Record::default() }
+        Record { t, x, signal: self.signal, ..Record::default() }
     }
 
     fn fitted(&self, seed: u64) -> Estimate {
@@ -365,7 +370,7 @@ fn a_fit_is_the_same_in_any_unit() {
 fn peaks_continue_at_rest_so_that_intervals_do_not_end_there() {
     // The last two readings belong to a motion that has nearly died away.
     let decay = [1.0, 0.3, 0.012, 0.004, 0.0004, 0.1, 8.0, 0.0];
-    let data = Data { t: vec![], x: vec![0.0; 24], signal: Signal::Displacement, peaks: Some(1.0) };
+    let data = Record { x: vec![0.0; 24], peaks: Some(1.0), ..Record::default() };
     let way = Way { reach: 1e9, ..Way::default() };
     let stronger = |r: f64| {
         let mut p = decay;
@@ -385,7 +390,7 @@ fn peaks_continue_at_rest_so_that_intervals_do_not_end_there() {
 fn a_record_that_is_not_a_decay_gets_the_same_answer_every_time() {
     let t: Vec<f64> = (0..210_u8).map(|i| 0.01 * f64::from(i)).collect();
     let x = (0..210_u8).map(|i| 0.01 * f64::from(i % 7)).collect();
-    let record = Record { t: Some(t), x, ..Record::default() };
+    let record = Record { t, x, ..Record::default() };
     let fit = || estimate(&record, &Question::default(), &|| false);
     let first = format!("{fit:?}", fit = fit());
     assert!((0..3).all(|_| format!("{fit:?}", fit = fit()) == first));

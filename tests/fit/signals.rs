@@ -68,7 +68,7 @@ fn a_drift_of_the_zero_is_seen_and_fitted_and_the_answer_rests_on_it() {
 fn answered(header: &str, record: &Record, scale: f64, options: &[&str]) -> (Value, i32) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("record.csv").display().to_string();
-    let rows = record.t.as_ref().unwrap().iter().zip(&record.x);
+    let rows = record.t.iter().zip(&record.x);
     let rows: Vec<String> = rows.map(|(t, x)| format!("{t},{}", x / scale)).collect();
     fs::write(&file, format!("{header}\n{}", rows.join("\n"))).unwrap();
     let mut words = vec!["fit", &file, "--draws", "40", "--format", "json"];
@@ -115,7 +115,7 @@ fn the_gradient_of_every_signal_is_that_of_differences() {
             let mut p = without_drift(&DECAY);
             (p[LAST], p[SLOPE], p[SLOPE + 1]) = (0.3, 0.7, -0.4);
             let t: Vec<f64> = (0..200_u8).map(|i| 0.013 + 0.02 * f64::from(i)).collect();
-            let data = Data { x: vec![0.0; t.len()], t, signal, peaks: None };
+            let data = Record { x: vec![0.0; t.len()], t, signal, ..Record::default() };
             let compared = |p: &_, with_derivatives| {
                 let way = Way { with_derivatives, reach: 1e9, ..Way::default() };
                 data.compare(start, p, way).unwrap().residuals
@@ -159,7 +159,7 @@ fn a_blow_on_a_mass_at_rest_is_cut_off_where_nothing_else_explains_the_record() 
         let x: Vec<f64> = still.chain(motion.x).collect();
         let t =
             (0..u32::try_from(x.len()).unwrap()).map(|index| 0.005 * f64::from(index)).collect();
-        let record = Record { t: Some(t), x, signal, ..Record::default() };
+        let record = Record { t, x, signal, ..Record::default() };
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
         let before = found.count(Dropped::Before);
         assert!(before >= 100 && found.start == StartKind::Moving, "{before}");
@@ -228,7 +228,7 @@ fn the_sentence_that_may_be_signed_says_the_same_of_every_signal_and_of_a_fitted
         assert!(heavy["statement"]["text"].as_str().unwrap().contains(" mN s is survived"));
     }
     let mut drifting = GROWTH.record(8);
-    let rows = drifting.t.as_ref().unwrap().iter().zip(&mut drifting.x);
+    let rows = drifting.t.iter().zip(&mut drifting.x);
     rows.for_each(|(t, x)| *x += 0.02 * t);
     let (told, code) = answered("t [s],x [mm]", &drifting, 1.0, &[]);
     check(&told, code, "mm");

@@ -177,7 +177,7 @@ pub fn simulated(kind: &str, seed: u64) -> Simulation {
         }
     };
     let x: Vec<f64> = seen.into_iter().enumerate().map(read).collect();
-    let record = Record { t: Some(t), x, signal, ..Record::default() };
+    let record = Record { t, x, signal, ..Record::default() };
     let a = a / unit;
     let truth = [omega0, offset, law[0], law[1], law[2], law[3]];
     Simulation { truth, amplitude: a, record, peaks: false }
@@ -292,7 +292,8 @@ fn listed(
     let x = turns.iter().map(|turn| offset + turn[1] + noise * chance.0.normal()).collect();
     let late = 3.0 * noise / (a * omega0);
     let t = turns.iter().map(|turn| turn[0] / omega0 + late * chance.0.normal()).collect();
-    let record = Record { t: (kind != "untimed").then_some(t), x, ..Record::default() };
+    let record =
+        Record { t: if kind == "untimed" { Vec::new() } else { t }, x, ..Record::default() };
     let truth = [omega0, offset, law[0], law[1], law[2], law[3]];
     Simulation { truth, amplitude: a, record, peaks: true }
 }

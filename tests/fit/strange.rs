@@ -23,7 +23,7 @@ fn a_mass_that_is_struck_where_it_rests_is_fitted_from_the_stroke_on() {
         let before = (0..100).map(|_| struck.p[1] + struck.noise * chance.normal());
         let x: Vec<f64> = before.chain(moving.x).collect();
         let t = (0..1100_u32).map(|index| 0.004 * f64::from(index)).collect();
-        let record = Record { t: Some(t), x, ..Record::default() };
+        let record = Record { t, x, ..Record::default() };
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
         let before = found.count(Dropped::Before);
         assert!((100..106).contains(&before), "{before}");
@@ -57,7 +57,7 @@ fn a_mass_that_is_excited_again_is_fitted_up_to_then() {
         let x: Vec<f64> = first.x[..until].iter().copied().chain(again).collect();
         let t =
             (0..u32::try_from(x.len()).unwrap()).map(|index| 0.004 * f64::from(index)).collect();
-        let record = Record { t: Some(t), x, ..Record::default() };
+        let record = Record { t, x, ..Record::default() };
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
         let after = found.count(Dropped::After);
         assert!((1000..1060).contains(&after), "{seed}: {after}");
@@ -74,7 +74,7 @@ fn a_record_of_another_system_is_reported_as_such_at_little_cost() {
         let x = t
             .iter()
             .map(|&t| 3.0 * size(t) * cos(10.0 * t + phase(t)) + drift(t) + 0.02 * chance.normal());
-        Record { x: x.collect(), t: Some(t), ..Record::default() }
+        Record { x: x.collect(), t, ..Record::default() }
     };
     for (what, record) in [
         ("frequency", oscillation(|t| 1.5 * sin(0.8 * t), |_| 1.0, |_| 0.0)),

@@ -52,7 +52,7 @@ impl Session {
         };
         let problem = found.problem(self.scene.problem);
         let errors = Knob::MOTION.into_iter().filter_map(|knob| Some((knob, found.error(knob)?)));
-        let said = sentences(&found.fit);
+        let said = sentences(found);
         let scene = Arc::make_mut(&mut self.scene);
         // A step below one standard error would mean nothing.
         scene.steps.extend(errors.filter(|(_, error)| *error > 0.0));
@@ -65,7 +65,7 @@ impl Session {
         for plot in &mut self.plots {
             plot.framing = Framing::Fitting;
         }
-        let doubtful = found.fit.estimate.whiteness.systematic;
+        let doubtful = found.estimate.whiteness.systematic;
         match said.into_iter().find(|text| !doubtful || text.starts_with("the residuals")) {
             Some(text) if doubtful => refuse(self, text),
             Some(text) => inform(self, text),

@@ -6,15 +6,15 @@ use crate::accuracy::reference::{Deviation, NoComparison, Reference};
 use crate::accuracy::trade::Trade;
 use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
+use crate::fit::Fitted;
 use crate::flow::Trajectory;
 use crate::model::belt::Units;
 use crate::model::{Knob, State};
 use crate::paper::ClaimResult;
 use crate::portrait::{Cycles, ReturnMap};
 use crate::proof::Proof;
-use crate::question::fit::Unsure;
 use crate::question::zones::CertainZones;
-use crate::question::{Fit, NoAnswer, ShownFit};
+use crate::question::{Fit, NoAnswer};
 use crate::scene::{Axes, Finding, Request, Topic};
 use crate::session::{AnswerState, Session, Uncertainty};
 
@@ -89,7 +89,7 @@ impl Session {
 
 impl Session {
     /// The fit of the record on show with the held numbers; until it is there, the most similar one.
-    pub fn fitted(&self) -> Option<&ShownFit> {
+    pub fn fitted(&self) -> Option<&Fitted> {
         // With the distribution of the margin once that is there.
         let held = self.refit(true).filter(|drawn| drawn.is_fresh()).or_else(|| self.refit(false));
         let held = match held.and_then(AnswerState::answer) {
@@ -100,12 +100,12 @@ impl Session {
     }
 
     /// The fit only if the distribution of its margin is that for the held numbers and for what is unsure.
-    pub fn drawn(&self) -> Option<&ShownFit> {
+    pub fn drawn(&self) -> Option<&Fitted> {
         self.fitted().filter(|_| self.refit(true).is_none_or(AnswerState::is_fresh))
     }
 
     /// The fit only if it is up to date with the held numbers.
-    pub(crate) fn followed(&self) -> Option<&ShownFit> {
+    pub(crate) fn followed(&self) -> Option<&Fitted> {
         self.fitted().filter(|_| self.refit(false).is_none_or(AnswerState::is_fresh))
     }
 
@@ -131,7 +131,8 @@ impl Session {
         let asks = held.iter().any(Option::is_some) || (drawn && !self.doubt.is_certain());
         let fit = self.fit_of_all().filter(|_| asks)?.clone();
         let Uncertainty { half_widths, disturbance, .. } = self.doubt;
-        let drawn = drawn.then_some(Unsure { disturbance, half_widths });
+        let asked = fit.found().ok().filter(|_| drawn);
+        let drawn = asked.map(|found| found.disturbed(disturbance, half_widths));
         Some(Request::Refit { fit, held, drawn })
     }
 
@@ -145,7 +146,7 @@ impl Session {
     pub fn units(&self) -> Option<Units> {
         match self.running() {
             Some(running) => Some(running.reduced.units),
-            None => self.fitted()?.fit.units(),
+            None => self.fitted()?.units(),
         }
     }
 

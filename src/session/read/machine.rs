@@ -102,7 +102,7 @@ impl Session {
     /// The unit of r and w, in newtons. Fails with one line if there is no machine and no record with a known
     /// mass.
     pub(crate) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
-        let fitted = self.fitted().and_then(|fitted| fitted.fit.units());
+        let fitted = self.fitted().and_then(|fitted| fitted.units());
         if let Some(units) = fitted {
             let known = Some(units.force).filter(|force| force.is_finite());
             return known.ok_or_else(|| {

@@ -2,12 +2,11 @@
 
 use crate::accuracy::trade::TradePoint;
 use crate::closed_form::lyapunov;
-use crate::fit::{Dropped, Signal};
+use crate::fit::{Dropped, RecordPoint, Signal};
 use crate::flow::{Outcome, Trajectory};
 use crate::model::parameters::energy;
 use crate::model::{Knob, State};
 use crate::numerics::{hypot, real, truncated};
-use crate::question::fit::RecordPoint;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window};
 use crate::session::{Framing, ScanOnShow, Session};
@@ -54,12 +53,12 @@ pub(crate) fn fitted(session: &Session, index: usize) -> Option<Window> {
         View::EnergyRate => energy_rate(session),
         View::Eigenvalues => eigenvalues(session),
         View::Speeds => speeds(session, index),
-        View::Damping => Window::of(session.fitted()?.fit.curves.damping.extent),
+        View::Damping => Window::of(session.fitted()?.curves.damping.extent),
         View::Residuals => {
-            let fit = &session.fitted()?.fit;
+            let fit = session.fitted()?;
             Window::of(fit.curves.residual_extent(fit.estimate.covariance.deviation)?)
         }
-        View::Spread => Window::of(session.fitted()?.fit.curves.spread_extent),
+        View::Spread => Window::of(session.fitted()?.curves.spread_extent),
         View::Scan => session.scanned.as_ref().map(ScanOnShow::window),
         #[allow(
             unreachable_patterns,
@@ -220,7 +219,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     };
     let end = motions.iter().map(|(_, motion)| end(motion)).fold(0.0, f64::max);
     let record = session.fitted().filter(|_| shown(Layer::Record));
-    let signal = record.map_or(Signal::default(), |fitted| fitted.fit.record.signal);
+    let signal = record.map_or(Signal::default(), |fitted| fitted.record.signal);
     let record: &[RecordPoint] = record.map_or(&[], |fitted| &fitted.points);
     let swinging = values.iter().fold(r, |far, value| far.max(value.abs()));
     // Outliers far away are shown at the edge.
