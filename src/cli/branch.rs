@@ -14,7 +14,7 @@ use crate::model::{Belt, Knob};
 use crate::proof::ParameterBox;
 use crate::proof::bifurcation::{enclose_escape, enclose_fold};
 use crate::proof::range::{change_near, range};
-use crate::report::certified::BorderProof;
+use crate::report::proof::BorderProof;
 use crate::report::{About, branch as report};
 use crate::scan::sweep::{Spacing, Sweep};
 

@@ -10,7 +10,7 @@ use crate::model::{Knob, MachineProblem, Model, State};
 use crate::numerics::Interval;
 use crate::proof::ParameterBox;
 use crate::proof::motion::follow as enclosed;
-use crate::report::{About, motion, trade};
+use crate::report::{About, motion};
 use crate::view::trade_plot::in_letters;
 
 /// Which motion, how far, and how the answer is printed.
@@ -134,6 +134,6 @@ impl TradeCommand {
             row.error().map(|_| asked.follow(&row.problem, false))
         });
         found.rows.iter_mut().zip(seconds).for_each(|(row, seconds)| row.seconds = seconds);
-        output.print(trade::trade(&asked.about, &found, || in_letters(&found)))
+        output.print(motion::trade(&asked.about, &found, || in_letters(&found)))
     }
 }

@@ -2,9 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::known::{Certain, Known};
 use super::measure::{BoundedCycle, Case, at_rest, missing};
-use super::{Check, Evidence, always, belt, tends, worst};
+use super::{Certain, Check, Evidence, Known, always, model, tends, worst};
 use crate::branch::escape::escape_point;
 use crate::flow::{Outcome, Reason};
 use crate::model::{Parameters, State};
@@ -12,8 +11,8 @@ use crate::numerics::{Interval, exp};
 use crate::portrait::Portrait;
 use crate::proof::motion::ProvedFate;
 
-pub const CHECKS: &[Check] = &[
-    worst("contact with the belt", belt::contact),
+pub(super) const CHECKS: &[Check] = &[
+    worst("contact with the belt", model::contact),
     worst("multiplier", |it| {
         Evidence::worst(it.cycles()?.value.into_iter().map(|cycle| {
             let Parameters { d, d3, r, .. } = **it;

@@ -3,10 +3,9 @@
 
 use std::f64::consts::PI;
 
-use super::amplitudes::found_fold;
-use super::known::{Certain, Known};
+use super::harmonic::found_fold;
 use super::measure::{Case, at_rest, missing, oscillator};
-use super::{Check, Evidence, always, tends, worst};
+use super::{Certain, Check, Evidence, Known, always, tends, worst};
 use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::flow::Reason;
 use crate::model::Parameters;
@@ -14,7 +13,7 @@ use crate::numerics::elementary::{ln, log2};
 use crate::portrait::Border;
 use crate::portrait::basin::cycle::cycles;
 
-pub const CHECKS: &[Check] = &[
+pub(super) const CHECKS: &[Check] = &[
     worst("exponent of the mean", |it| {
         let at = |d: f64| {
             let it = it.of(oscillator(d, 0.2, 0.0, 0.01));

@@ -5,7 +5,7 @@
 
 use std::ops::Deref;
 
-use super::known::{Certain, Known};
+use super::verdict::{Certain, Known};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
 use crate::model::{Knob, Parameters, Side, State};

@@ -6,25 +6,19 @@
 //! an [`Evidence`], numbers and nothing else, and from the numbers the [`Verdict`] by one rule for all claims
 //! ([`Evidence::verdict`]). Where a proof encloses what was computed, a [`Certainty`] says what is certain.
 
-mod amplitudes;
-pub(crate) mod belt;
 mod beyond;
 mod bifurcation;
 mod equilibria;
 mod harmonic;
-mod known;
-mod linear;
 mod measure;
-mod model;
+pub(crate) mod model;
 mod verdict;
 
-pub use known::{Certainty, POOR, Sense};
-pub use verdict::{Evidence, Verdict};
+pub use verdict::{Certain, Certainty, Evidence, Known, POOR, Sense, Verdict};
 
 use std::sync::LazyLock;
 
 use crate::flow::{Limits, Reason};
-use known::{Certain, Known};
 use measure::Case;
 
 /// A sentence or an equation of the paper that numbers can decide.
@@ -116,15 +110,8 @@ impl ClaimResult {
 }
 
 /// The tests of claims, section by section.
-const SECTIONS: [&[Check]; 7] = [
-    model::CHECKS,
-    equilibria::CHECKS,
-    linear::CHECKS,
-    harmonic::CHECKS,
-    amplitudes::CHECKS,
-    bifurcation::CHECKS,
-    beyond::CHECKS,
-];
+const SECTIONS: [&[Check]; 5] =
+    [model::CHECKS, equilibria::CHECKS, harmonic::CHECKS, bifurcation::CHECKS, beyond::CHECKS];
 
 static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| {
     const TABLE: &str = include_str!("../../assets/claims.txt");

@@ -1,10 +1,10 @@
 //! The cycles as a number varies and the special points, and these along a second number.
 
 use super::answer::PLACES;
-use super::certified::{
+use super::cycle_numbers::{cycle_fields, machine_cycles, number_columns};
+use super::proof::{
     BorderProof, border_columns, decided, piece_columns, range_changes, range_pieces,
 };
-use super::cycle_numbers::{cycle_fields, machine_cycles, number_columns};
 use super::table::digits;
 use super::{About, Answer, Columns, Quantity};
 use crate::branch::fold::{Boundary, BoundaryPoint};

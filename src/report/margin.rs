@@ -1,6 +1,6 @@
 //! How large a kick is survived: margins, nominal and guaranteed, the basin over a window of starts, and random kicks.
 
-use super::certified::kick_columns;
+use super::proof::kick_columns;
 use super::{About, Answer, Columns, Document, Quantity, cycles};
 use crate::portrait::basin::{Counts, StartWindow};
 use crate::portrait::guarantee::Uncertain;

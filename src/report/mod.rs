@@ -5,7 +5,6 @@
 
 pub mod answer;
 pub mod branch;
-pub mod certified;
 pub mod claims;
 pub mod columns;
 mod cycle_numbers;
@@ -21,7 +20,6 @@ pub mod proof;
 pub mod scan;
 pub mod scenes;
 pub mod table;
-pub mod trade;
 
 pub use answer::{About, Answer, Format};
 pub use columns::{Columns, Quantity};

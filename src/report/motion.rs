@@ -1,14 +1,21 @@
-//! One motion: its turning points, how it ends, and where its energy goes.
+//! One motion: its turning points, how it ends, where its energy goes; and what its accuracy costs, one row for each method
+//! and accuracy.
 
-use super::certified::{PointBounds, followed, point_columns};
+use super::proof::{PointBounds, followed, point_columns};
 use super::table::digits;
-use super::{About, Answer, Columns, Document, Quantity};
-use crate::flow::{Crossing, Leg, Outcome, Problem, Sample, Trajectory};
-use crate::model::{ContactState, Ledger, State, Work};
+use super::{About, Answer, Columns, Document, Quantity, Table};
+use crate::accuracy::reference::{Reference, ReferenceSource};
+use crate::accuracy::trade::{Trade, TradePoint};
+use crate::flow::{
+    Crossing, Leg, METHODS, Method, MethodSpec, Outcome, Problem, Sample, Trajectory,
+};
+use crate::model::{ContactState, Knob, Ledger, State, Work};
 use crate::numerics::Interval;
+use crate::numerics::elementary::{log10, pow};
 use crate::proof::motion::ProvedMotion;
 use crate::words::motion::{Writing, sentence};
-use crate::words::number::exact;
+use crate::words::number::{count, exact};
+use crate::words::{counted, duration, significant};
 
 /// A point of a motion: its start, every arrival at `v = 0`, or its end.
 #[derive(Clone)]
@@ -111,7 +118,7 @@ fn points(motion: &Trajectory, certified: Option<&ProvedMotion>, machine: bool) 
 }
 
 /// The start of a motion.
-pub(super) fn from(problem: &Problem) -> String {
+fn from(problem: &Problem) -> String {
     let State { q, v } = problem.initial;
     format!("; from q = {}, v = {}", exact(q, 24), exact(v, 24))
 }
@@ -139,4 +146,200 @@ pub(super) fn energy(ledger: &Ledger, machine: bool) -> Document {
         all.with(source, if takes { -amount } else { *amount })
     });
     works.with("residual", if machine { ledger.imbalance() } else { ledger.residual })
+}
+
+/// Tolerance, step and epsilon of a row; `None` for those that do not set the accuracy of its method.
+fn dials(row: &TradePoint) -> [Option<f64>; 3] {
+    let problem = &row.problem;
+    let dial = problem.method.spec().dial;
+    let number = |wanted: Knob| (dial == Some(wanted)).then(|| problem.get(wanted));
+    let [tolerance, step, epsilon] = [Knob::Tolerance, Knob::Step, Knob::Epsilon].map(number);
+    [tolerance.or(epsilon.map(|_| problem.tolerance)), step, epsilon]
+}
+
+/// What the accuracy of a row is set to.
+fn setting(row: &TradePoint) -> Option<String> {
+    let [tolerance, step, epsilon] = dials(row);
+    step.or(epsilon).or(tolerance).map(|setting| format!("{setting:e}"))
+}
+
+/// The columns of files for what the accuracy of a method is set to.
+fn dial_columns<'a>() -> Columns<'a, &'a TradePoint> {
+    let names = ["tolerance", "step", "epsilon"].into_iter().enumerate();
+    names.fold(Columns::default(), |columns, (index, name)| {
+        columns.file(name, move |row: &&TradePoint| dials(row)[index])
+    })
+}
+
+/// Why a row has no error.
+fn reason(row: &&TradePoint) -> Option<String> {
+    row.deviation.err().map(|reason| reason.to_string())
+}
+
+/// The columns of rows, most of which are empty for one without an error. The best choices by their time are marked with
+/// `*`, the method in use with `<`.
+fn columns_of_trade(trade: &Trade) -> Columns<'_, &TradePoint> {
+    let by_time = |row: &&TradePoint| trade.is_best(row, |row| row.seconds);
+    let by_evaluations = |row: &&TradePoint| trade.is_best(row, TradePoint::evaluations);
+    let marks = move |row: &&TradePoint| {
+        let best = if by_time(row) { "*" } else { "" };
+        let own = if trade.is_own(row) { "<" } else { "" };
+        format!("{best}{own}")
+    };
+    let known = |row: &&TradePoint| row.deviation.ok();
+    Columns::default()
+        .word("method", |row: &&TradePoint| row.problem.method)
+        .text("set to", |row| setting(row).unwrap_or("-".to_owned()))
+        .file("used", move |row| known(row).map(|_| row.method))
+        .and(dial_columns())
+        .number("error", Quantity::pure(2), |row| row.error())
+        .word("evaluations", |row| row.cost.evaluations)
+        .number("seconds", Quantity::of("s", 2), move |row| known(row).map(|_| row.seconds))
+        .titled("time")
+        .file("steps", move |row| known(row).map(|_| row.cost.steps))
+        .file("rejected", move |row| known(row).map(|_| row.cost.rejected))
+        .field("outcome", |row| row.outcome)
+        .word("turns", move |row| known(row).map(|_| row.turns))
+        .file("time_error", move |row| known(row).map(|it| it.time))
+        .file("agrees", move |row| known(row).map(|it| it.agrees))
+        .file("front", move |row| known(row).map(|_| by_time(row)))
+        .file("front_by_evaluations", move |row| known(row).map(|_| by_evaluations(row)))
+        .file("own", move |row| known(row).map(|_| trade.is_own(row)))
+        .text("ends", |row| row.outcome.word().to_owned())
+        .text("at", |row| {
+            let outcome = row.outcome;
+            significant(outcome.state().map_or(outcome.tau(), |(q, _)| q), 6)
+        })
+        .text("", marks)
+}
+
+/// The source of the reference and its accuracy, in a sentence.
+fn reference(trade: &Trade) -> String {
+    let reference = &trade.reference;
+    let (first, second) = match reference.source {
+        ReferenceSource::TwicePrecision => (
+            "Taylor series of order 32 in twice the working precision",
+            "another of order 28 with other steps",
+        ),
+        ReferenceSource::ClosedForm => ("closed form", "taylor at 1e-13"),
+        ReferenceSource::Implicit => ("stiff at 1e-14", "auto at 1e-13"),
+        ReferenceSource::Machine => {
+            return "Taylor series whose last terms are below rounding".to_owned();
+        }
+    };
+    let differs = if reference.error.is_finite() {
+        format!("differs by {}", significant(reference.error, 1))
+    } else {
+        "ends otherwise: no error is certain".to_owned()
+    };
+    let closed = trade.rows.iter().find(|row| row.problem.method == Method::Exact);
+    let closed = closed.filter(|_| reference.source == ReferenceSource::TwicePrecision);
+    let closed = closed.and_then(TradePoint::error).map_or_else(String::new, |error| {
+        format!(", the closed form in doubles by {}", significant(error, 1))
+    });
+    format!("{first}; {second} {differs}{closed}")
+}
+
+/// The trade-off with a plot of it below the text: one line for each method and accuracy; those without an error come last.
+pub fn trade<'a>(about: &About, trade: &'a Trade, plot: impl FnOnce() -> String) -> Answer<'a> {
+    let Trade { problem, reference: known, rows } = trade;
+    let until = format!("{}; until tau = {}", from(problem), significant(problem.until, 6));
+    let has_error = |row: &&TradePoint| row.deviation.is_ok();
+    let (answered, unanswered): (Vec<_>, Vec<_>) = rows.iter().partition(has_error);
+    let is_in_use = answered.iter().any(|row| trade.is_own(row));
+    let in_use = if is_in_use { "; <: the method in use" } else { "" };
+    let given_up = unanswered.iter().map(|row| {
+        let setting = setting(row).map_or_else(String::new, |setting| format!(" at {setting}"));
+        format!("{}{setting}: {}", row.problem.method, reason(row).unwrap_or_default())
+    });
+    let given_up: Vec<_> = given_up.collect();
+    let without_error = Columns::default()
+        .file("method", |row: &&TradePoint| row.problem.method)
+        .and(dial_columns())
+        .file("reason", reason)
+        .file("evaluations", |row| row.cost.evaluations);
+    let answer = if about.is_machine() { about.answer() } else { about.answer_to(&until) };
+    let all = [answered.clone(), unanswered.clone()].concat();
+    let answer = answer
+        .with("initial", problem.initial)
+        .with("until", problem.until)
+        .with("reference", reference(trade))
+        .with("reference_error", known.error)
+        .with("scale", known.scale)
+        .with("turns", known.turns.len())
+        .objects("rows", columns_of_trade(trade), answered.clone())
+        .objects("unanswered", without_error, unanswered)
+        .csv(columns_of_trade(trade).file("reason", reason), all)
+        .lines([end_of(known), format!("reference: {}", reference(trade))])
+        .captioned("", move || columns_of_trade(trade).table(answered).unbroken())
+        .lines(given_up)
+        .lines([format!("*: nothing else is better for less time{in_use}")])
+        .lines(["\n".to_owned() + &plot()])
+        .captioned("", || price(trade));
+    let seconds = rows.iter().map(|row| row.seconds).sum();
+    if about.is_machine() { answer.cost(known.cost, seconds) } else { answer }
+}
+
+/// How the motion ends, in a sentence.
+fn end_of(reference: &Reference) -> String {
+    let swings = counted(reference.turns.len(), "half swing");
+    match reference.end {
+        Outcome::Captured { q, .. } => {
+            format!("rests at q = {} after {swings}", significant(q.high, 12))
+        }
+        Outcome::Moving { q, v, .. } => {
+            let [q, v] = [q, v].map(|number| significant(number.high, 12));
+            format!("moving still after {swings}: q = {q}, v = {v}")
+        }
+        Outcome::Escaped { tau } | Outcome::GaveUp { tau, .. } => {
+            format!("escapes at tau = {} after {swings}", significant(tau.high, 12))
+        }
+    }
+}
+
+/// The errors whose cost [`price`] shows.
+const LEVELS: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
+
+/// The cost of accuracy: for each method the cheapest row within each error, and the factor for one more digit.
+fn price(trade: &Trade) -> Table {
+    type MethodRows<'a> = (&'a MethodSpec, Vec<&'a TradePoint>);
+    let of = |spec: &'static MethodSpec| {
+        let rows = trade.rows.iter().filter(|row| row.error().is_some());
+        (spec, rows.filter(|row| row.problem.method == spec.method).collect::<Vec<_>>())
+    };
+    let methods: Vec<MethodRows> = METHODS.iter().map(of).filter(|it| !it.1.is_empty()).collect();
+    let cheapest = |rows: &[&TradePoint], level: f64| {
+        let good = rows.iter().filter(|row| row.error().is_some_and(|error| error <= level));
+        let least = good.min_by_key(|row| row.cost.evaluations)?;
+        Some(format!("{} ({})", count(least.cost.evaluations), duration(least.seconds)))
+    };
+    let right = |rows: &[&TradePoint]| match rows.iter().filter(|row| row.agrees()).count() {
+        0 => "never".to_owned(),
+        all if all == rows.len() => "always".to_owned(),
+        some => format!("{some} of {}", rows.len()),
+    };
+    let columns =
+        Columns::default().text("cost of an error", |(spec, _): &MethodRows| spec.name.to_owned());
+    let columns = LEVELS.into_iter().fold(columns, |columns, error| {
+        columns.text(&format!("{error:e}"), move |(_, rows)| {
+            cheapest(rows, error).unwrap_or("-".to_owned())
+        })
+    });
+    columns
+        .text("a digit more", |(_, rows)| {
+            growth(rows).map_or_else(|| "-".to_owned(), |factor| format!("x{factor:.2}"))
+        })
+        .text("ends right", move |(_, rows)| right(rows))
+        .table(methods)
+}
+
+/// The factor by which one more digit multiplies the evaluations, from the least to the most accurate row; `None`
+/// if these are less than one digit apart.
+fn growth(rows: &[&TradePoint]) -> Option<f64> {
+    let cost = |row: &&TradePoint| Some((row.error()?, row.evaluations()));
+    let known = || rows.iter().filter_map(cost).filter(|(error, cost)| *error > 0.0 && *cost > 0.0);
+    let (worst, least) = known().max_by(|one, other| one.0.total_cmp(&other.0))?;
+    let (best, most) = known().min_by(|one, other| one.0.total_cmp(&other.0))?;
+    let digits = log10(worst / best);
+    (digits >= 1.0).then(|| pow(most / least, 1.0 / digits))
 }

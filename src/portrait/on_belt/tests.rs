@@ -4,7 +4,7 @@ use crate::flow::{Detail, Limits, Problem};
 use crate::model::Belt;
 use crate::model::belt::{FrictionLaw, ReducedBelt, TaylorError, Units};
 use crate::numerics::elementary::{asin, pow, powi, tanh};
-use crate::paper::belt::machine as paper;
+use crate::paper::model::machine as paper;
 use crate::portrait::basin::cycle::cycles_drawn;
 
 fn belt() -> Belt {
