@@ -45,10 +45,10 @@ impl Count {
         loop {
             let before = high.0 - low.0;
             if low.1 != high.1 || low.1 == Sign::Above {
-                low.0 = from_below(map, low);
+                low.0 = narrowed(map, low, Bound::Lower);
             }
             if low.0 <= high.0 && (low.1 != high.1 || low.1 == Sign::Below) {
-                high.0 = from_above(map, high);
+                high.0 = narrowed(map, high, Bound::Upper);
             }
             if low.0 > high.0 {
                 return;
@@ -115,22 +115,14 @@ impl Count {
     }
 }
 
-/// The new lower edge of a gap.
-fn from_below(map: &mut ProvedMap, (at, sign): GapEnd) -> f64 {
-    let direction = match sign {
-        Sign::Above => MapDirection::Forward,
-        Sign::Below => MapDirection::Backward,
+/// A new edge of a gap, the lower or the upper one, in place of this one.
+fn narrowed(map: &mut ProvedMap, (at, sign): GapEnd, which: Bound) -> f64 {
+    let direction = match (which, sign) {
+        (Bound::Lower, Sign::Above) | (Bound::Upper, Sign::Below) => MapDirection::Forward,
+        (Bound::Lower, Sign::Below) | (Bound::Upper, Sign::Above) => MapDirection::Backward,
     };
-    map.image_bound(direction, at, Bound::Lower).max(at)
-}
-
-/// The new upper edge of a gap.
-fn from_above(map: &mut ProvedMap, (at, sign): GapEnd) -> f64 {
-    let direction = match sign {
-        Sign::Above => MapDirection::Backward,
-        Sign::Below => MapDirection::Forward,
-    };
-    map.image_bound(direction, at, Bound::Upper).min(at)
+    let image = map.image_bound(direction, at, which);
+    if which == Bound::Lower { image.max(at) } else { image.min(at) }
 }
 
 /// A point inside a gap where the sign is certain.

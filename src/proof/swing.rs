@@ -1,6 +1,7 @@
 //! The certified half swing: from `(x, v)`, `v >= 0`, to the next `v = 0`, or the proof that there is none.
 
 use std::convert::Infallible;
+use std::ops::ControlFlow;
 
 use super::ball::{Ahead, Ball, MOST_STEPS, StartBox, never_returns};
 use super::field::{FieldBox, scaled};
@@ -92,6 +93,7 @@ fn run(field: &FieldBox, start: &StartBox, ceiling: f64, wants_fastest: bool) ->
         return Passage::Never;
     }
     let mut run = SwingRun {
+        start: x,
         ball,
         time: 0.0,
         time_error: 0.0,
@@ -100,20 +102,13 @@ fn run(field: &FieldBox, start: &StartBox, ceiling: f64, wants_fastest: bool) ->
         wants_fastest,
         fastest: None,
         ceiling: ceiling.upper(),
+        steps: 0,
     };
-    for steps in 1..=MOST_STEPS {
+    while run.steps < MOST_STEPS {
         match run.advance() {
-            Some(Arrival::Later) => {}
-            Some(Arrival::Now { end, lag }) => {
-                let swing = run.finish(x, (end, Interval::point(0.0)), lag, steps);
-                return swing.map_or(Passage::Unknown, Passage::Arrives);
-            }
-            Some(Arrival::Above(end, speed)) => {
-                let swing = run.finish(x, (end, speed), 0.0, steps);
-                return swing.map_or(Passage::Unknown, Passage::Exceeds);
-            }
-            Some(Arrival::Never) => return Passage::Never,
-            None => return Passage::Unknown,
+            Some(ControlFlow::Continue(())) => {}
+            Some(ControlFlow::Break(passage)) => return passage,
+            None => break,
         }
     }
     Passage::Unknown
@@ -121,6 +116,8 @@ fn run(field: &FieldBox, start: &StartBox, ceiling: f64, wants_fastest: bool) ->
 
 /// A half swing in progress.
 struct SwingRun {
+    /// Position at its start.
+    start: Interval,
     ball: Ball,
     time: f64,
     time_error: f64,
@@ -131,23 +128,14 @@ struct SwingRun {
     fastest: Option<Interval>,
     /// Velocity above which the computation stops.
     ceiling: f64,
-}
-
-enum Arrival {
-    Later,
-    Now {
-        /// Position of the arrival.
-        end: Interval,
-        /// Largest time between the arrival and the end of the last step.
-        lag: f64,
-    },
-    /// Faster than the ceiling, at this position and velocity.
-    Above(Interval, Interval),
-    Never,
+    /// Steps taken.
+    steps: u32,
 }
 
 impl SwingRun {
-    fn advance(&mut self) -> Option<Arrival> {
+    /// Takes a step, which may end the swing; `None` where nothing is certain about it.
+    fn advance(&mut self) -> Option<ControlFlow<Passage>> {
+        self.steps += 1;
         let ball = &mut self.ball;
         let (mut ahead, mut last) = (ball.prepare(f64::INFINITY)?, false);
         if !(ahead.1.1 > 4.0 * ball.norm.stretch * ball.radius) {
@@ -166,18 +154,18 @@ impl SwingRun {
         let ball = &self.ball;
         let (off, field) = (ball.off(), ball.local.field);
         if last {
-            return self.arrive(off);
+            return self.arrive(off).map(|swing| ControlFlow::Break(Passage::Arrives(swing)));
         }
         // The sign of v at the end of a step must be certain.
         if !(ball.v > off) {
             return None;
         }
         if ball.v - off > self.ceiling && (!self.wants_fastest || self.fastest.is_some()) {
-            let (x, v) = ball.state();
-            return Some(Arrival::Above(x, v));
+            let faster = self.finish(ball.state(), 0.0);
+            return faster.map(|swing| ControlFlow::Break(Passage::Exceeds(swing)));
         }
         let escapes = never_returns(&field, (ball.x + off).next_up(), (ball.v - off).next_down());
-        Some(if escapes { Arrival::Never } else { Arrival::Later })
+        Some(if escapes { ControlFlow::Break(Passage::Never) } else { ControlFlow::Continue(()) })
     }
 
     /// The arrival at `v = 0` near the end of the last step (lemma 6).
@@ -185,7 +173,7 @@ impl SwingRun {
     /// There `abs(v) <= most`, and as long as this holds, v falls at a rate of at least
     /// `x - most (abs(a) + ..)`. The time of arrival is therefore within `most/rate`, and the position within
     /// `most` times that.
-    fn arrive(&self, off: f64) -> Option<Arrival> {
+    fn arrive(&self, off: f64) -> Option<ProvedSwing> {
         let most = (self.ball.v.abs() + off) * INFLATE;
         let x = Interval::around(self.ball.x, off);
         let field = self.ball.local.field;
@@ -201,7 +189,7 @@ impl SwingRun {
         let end =
             Interval::new(x.lower(), (Interval::point(x.upper()) + Interval::point(along)).upper());
         let end = if end.lower() > 0.0 { end } else { return None };
-        Some(Arrival::Now { end, lag })
+        self.finish((end, Interval::point(0.0)), lag)
     }
 
     /// Notes the largest velocity if it is reached within this step; `None` where its bounds are not certain enough.
@@ -238,20 +226,14 @@ impl SwingRun {
         self.fastest.map(|_| ())
     }
 
-    /// The swing from the position `start` to its end, in the units of the question.
-    fn finish(
-        &self,
-        start: Interval,
-        (end, velocity): (Interval, Interval),
-        lag: f64,
-        steps: u32,
-    ) -> Option<ProvedSwing> {
+    /// The swing to its end, which is at most `lag` away from that of the last step, in the units of the question.
+    fn finish(&self, (end, velocity): (Interval, Interval), lag: f64) -> Option<ProvedSwing> {
         let (ball, FieldBox { a, b, c }) = (&self.ball, self.ball.local.field);
         let duration = Interval::around(self.time, (self.time_error + lag) * INFLATE);
         // Beyond the end of the step v stays below its bound there, whose square times the lag bounds the integral.
         let beyond = lag * powi(ball.v.abs() + ball.off(), 2);
         let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);
-        let divergence = -(a * duration + (b * (end - start)).twice() + c * square * 3.0);
+        let divergence = -(a * duration + (b * (end - self.start)).twice() + c * square * 3.0);
         let known = duration.is_finite() && divergence.is_finite() && duration.lower() > 0.0;
         let length = |it| scaled(it, ball.unit);
         known.then(|| ProvedSwing {
@@ -262,7 +244,7 @@ impl SwingRun {
             square,
             unit: ball.unit,
             fastest: self.fastest.map(length),
-            steps,
+            steps: self.steps,
         })
     }
 }
