@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::measure::{BoundedCycle, Case, at_rest, missing};
+use super::measure::{BoundedCycle, ClaimCase, at_rest, missing};
 use super::{Certain, Check, Evidence, Known, always, model, tends, worst};
 use crate::branch::escape::escape_point;
 use crate::flow::{Outcome, Reason};
@@ -68,7 +68,7 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 /// Whether a motion from rest at `q` is at rest there, or further out, one turn later.
-fn returns_to(it: &Case, q: f64) -> Result<Certain<bool>, Reason> {
+fn returns_to(it: &ClaimCase, q: f64) -> Result<Certain<bool>, Reason> {
     let motion = it.motion(at_rest(q), 60.0)?;
     let value = motion.crossings.get(1).is_some_and(|crossing| crossing.q >= q);
     let bounds = it.enclosed(at_rest(q), 60.0);
@@ -81,7 +81,7 @@ fn returns_to(it: &Case, q: f64) -> Result<Certain<bool>, Reason> {
 }
 
 /// The slope of the return map of `v = 0, q > r` at a cycle: central differences of integrated motions.
-fn return_slope(it: &Case, cycle: &BoundedCycle) -> Result<Known, Reason> {
+fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Known, Reason> {
     let q = cycle.q_max;
     let turn = |q: f64| {
         let [left, _] = it.half_swing(at_rest(q))?;
@@ -112,12 +112,12 @@ fn enclosed_integral(d2: f64, q: Interval, v: Interval) -> Interval {
 }
 
 /// `D_c`.
-fn end_of_cycle(it: &Case) -> Result<f64, Reason> {
+fn end_of_cycle(it: &ClaimCase) -> Result<f64, Reason> {
     escape_point(it, &it.limits)?.0.ok_or(missing("the end of the cycle"))
 }
 
 /// The oscillator at a part of `D_c`.
-fn beside_the_end<'a>(it: &Case<'a>) -> Result<Case<'a>, Reason> {
+fn beside_the_end<'a>(it: &ClaimCase<'a>) -> Result<ClaimCase<'a>, Reason> {
     let d = it.more * end_of_cycle(it)?;
     Ok(it.of(Parameters { d, ..**it }))
 }

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use super::harmonic::found_fold;
-use super::measure::{Case, at_rest, missing, oscillator};
+use super::measure::{ClaimCase, at_rest, missing, oscillator};
 use super::{Certain, Check, Evidence, Known, always, tends, worst};
 use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::flow::Reason;
@@ -93,12 +93,12 @@ fn asymptotes(parameters: &Parameters) -> [f64; 2] {
 }
 
 /// The extent of the largest cycle without friction.
-fn smooth(it: &Case) -> Result<f64, Reason> {
+fn smooth(it: &ClaimCase) -> Result<f64, Reason> {
     Ok(it.of(Parameters { r: 0.0, ..**it }).largest()?.q_max)
 }
 
 /// Exponents with which the energy change and its parts grow when the amplitude is doubled.
-fn exponents(it: &Case) -> Result<[Known; 3], Reason> {
+fn exponents(it: &ClaimCase) -> Result<[Known; 3], Reason> {
     let works = |q: f64| it.energy_change(at_rest(q), 2.0 * PI);
     let (one, two) = (works(1.0)?, works(2.0)?);
     Ok(std::array::from_fn(|index| {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use super::measure::{Case, at_rest, oscillator};
+use super::measure::{ClaimCase, at_rest, oscillator};
 use super::{Certain, Check, Evidence, Known, always, tends, worst};
 use crate::closed_form::lyapunov::{self, Disk};
 use crate::flow::{Outcome, Reason};
@@ -128,7 +128,7 @@ fn linear(it: &Parameters) -> Parameters {
 /// How many places on `v = 0` satisfy a condition on the two limits of `v'`, as printed and corrected,
 /// against the number that a motion crosses (or does not).
 fn crossings(
-    it: &Case,
+    it: &ClaimCase,
     condition: fn(f64, f64) -> (bool, bool),
     crosses: bool,
 ) -> Result<Evidence, Reason> {
@@ -157,7 +157,7 @@ fn crossings(
 }
 
 /// Where a half swing above `v = 0` ends, if the motion is linear in `q - shift r`.
-fn shifted(it: &Case, shift: f64) -> Result<Evidence, Reason> {
+fn shifted(it: &ClaimCase, shift: f64) -> Result<Evidence, Reason> {
     let [end, _] = it.half_swing(at_rest(it.more))?;
     let growth = exp(-PI * it.d / (1.0 - it.d * it.d).sqrt());
     let around = |centre: f64| centre - (it.more - centre) * growth;
@@ -166,7 +166,7 @@ fn shifted(it: &Case, shift: f64) -> Result<Evidence, Reason> {
 }
 
 /// Change of the energy along a motion by (19), with friction's part multiplied by `sign`.
-fn energy(it: &Case, sign: f64) -> Result<Evidence, Reason> {
+fn energy(it: &ClaimCase, sign: f64) -> Result<Evidence, Reason> {
     let [change, linear, friction] = it.energy_change(at_rest(it.more), 20.0)?;
     let by_rate = |sign: f64| linear.value + sign * friction.value;
     let error = change.error + linear.error + friction.error;
@@ -180,7 +180,7 @@ fn circle(parameters: &Parameters) -> f64 {
 }
 
 /// Distance of the border of the basin from the origin.
-fn least_kick(it: &Case) -> Result<Known, Reason> {
+fn least_kick(it: &ClaimCase) -> Result<Known, Reason> {
     /// Points on each step of the border, and the relative error of a distance between them.
     const POINTS: (u16, f64) = (200, 1e-5);
     let basin = Portrait::of_oscillator(it, 10.0, &it.limits)?;
@@ -240,7 +240,7 @@ impl LinearSwing {
 }
 
 /// Both coordinates of (31) against the motion that starts at the turning point of the cycle.
-fn on_the_curve(it: &Case) -> Result<Evidence, Reason> {
+fn on_the_curve(it: &ClaimCase) -> Result<Evidence, Reason> {
     const ANGLE: f64 = 2.0;
     let swing = LinearSwing::of(it);
     let start = at_rest(swing.curve(0.0).q);

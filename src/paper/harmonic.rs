@@ -3,7 +3,7 @@
 
 use std::f64::consts::{E, PI, TAU};
 
-use super::measure::{Case, at_rest, missing, oscillator};
+use super::measure::{ClaimCase, at_rest, missing, oscillator};
 use super::{Certain, Check, Evidence, Known, always, tends, worst};
 use crate::accuracy::harmonic_error::harmonic_balance;
 use crate::branch::fold::fold;
@@ -147,7 +147,7 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 /// The amplitude by a number of harmonics.
-fn by_harmonics(it: &Case, number: usize) -> Result<f64, Reason> {
+fn by_harmonics(it: &ClaimCase, number: usize) -> Result<f64, Reason> {
     let found = harmonic_balance(it, number, 0, &it.limits)?;
     let cycle = found.balanced.first().and_then(|balanced| balanced.cycle.as_ref().ok());
     cycle.map(HarmonicCycle::amplitude).ok_or(missing("a cycle of some harmonics"))
@@ -161,7 +161,7 @@ fn largest_amplitude(parameters: &Parameters) -> Result<f64, Reason> {
 
 /// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent, over all dampings.
 fn harmonic_against_extents(
-    it: &Case,
+    it: &ClaimCase,
     holds: fn(f64, f64, f64) -> bool,
 ) -> Result<Evidence, Reason> {
     Evidence::always((1..20).map(|number| {
@@ -198,7 +198,7 @@ fn real_roots(parameters: &Parameters) -> usize {
 }
 
 /// Whether there are so many cycles.
-fn count_is(it: &Case, expected: usize) -> Result<Certain<bool>, Reason> {
+fn count_is(it: &ClaimCase, expected: usize) -> Result<Certain<bool>, Reason> {
     // The search has nothing to go by where the motion is linear and no swing ends.
     let found = if it.omega().is_none() && it.is_piecewise_linear() {
         it.beside_proof(cycles(it, &it.limits)?.cycles)
@@ -213,12 +213,12 @@ fn printed_fold(d3: f64, r: f64) -> f64 {
 }
 
 /// The fold of the cycles.
-pub(crate) fn found_fold(it: &Case) -> Result<FoldPoint, Reason> {
+pub(crate) fn found_fold(it: &ClaimCase) -> Result<FoldPoint, Reason> {
     fold(it, &it.limits)?.0.ok_or(missing("the fold"))
 }
 
 /// (48) against the fold of the cycles.
-fn fold_against(it: &Case) -> Result<Evidence, Reason> {
+fn fold_against(it: &ClaimCase) -> Result<Evidence, Reason> {
     let found = found_fold(it)?;
     Ok(Evidence::near(printed_fold(it.d3, it.r), it.last_cycle(found.d, 1e-12)))
 }
@@ -234,7 +234,7 @@ fn large(parameters: &Parameters) -> f64 {
 }
 
 /// `A_n`, and the solution of (42) that approaches it as abs(D) grows to 1: the smallest for n = 1, the largest for n = 2.
-fn asymptote(it: &Case) -> Result<(f64, Known), Reason> {
+fn asymptote(it: &ClaimCase) -> Result<(f64, Known), Reason> {
     let found = amplitudes(it);
     let (formula, root) =
         if it.more == 1.0 { (small(it), found.first()) } else { (large(it), found.last()) };

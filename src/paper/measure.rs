@@ -90,7 +90,7 @@ pub fn missing(sought: &'static str) -> Reason {
 ///
 /// Its questions are answered within its limits, or fail with the [`Reason`] why there is no answer.
 #[derive(Clone)]
-pub struct Case<'a> {
+pub struct ClaimCase<'a> {
     /// Where this is, in the words of the table of claims.
     pub place: String,
     parameters: Parameters,
@@ -100,7 +100,7 @@ pub struct Case<'a> {
     pub limits: Limits<'a>,
 }
 
-impl Deref for Case<'_> {
+impl Deref for ClaimCase<'_> {
     type Target = Parameters;
 
     fn deref(&self) -> &Parameters {
@@ -108,12 +108,12 @@ impl Deref for Case<'_> {
     }
 }
 
-impl<'a> Case<'a> {
+impl<'a> ClaimCase<'a> {
     /// The cases of a line of the table, such as `D = -0.9 -0.3, r = 0.1, from q = 1`: one for each combination of its
     /// values, the last of which vary fastest. Parameters that it does not name are 0.
     pub fn all(line: &str, limits: &Limits<'a>) -> Vec<Self> {
         let (place, parameters) = (String::new(), oscillator(0.0, 0.0, 0.0, 0.0));
-        let nowhere = Case { place, parameters, more: 0.0, limits: *limits };
+        let nowhere = ClaimCase { place, parameters, more: 0.0, limits: *limits };
         line.split(", ").fold(vec![nowhere], |cases, part| {
             cases.iter().flat_map(|case| case.with(part)).collect()
         })
@@ -138,17 +138,17 @@ impl<'a> Case<'a> {
                 Some(knob) => (self.parameters.with(knob, value), self.more),
                 None => (self.parameters, value),
             };
-            Case { place, parameters, more, limits: self.limits }
+            ClaimCase { place, parameters, more, limits: self.limits }
         };
         match numbers {
-            [] => vec![Case { place: said(part), ..self.clone() }],
+            [] => vec![ClaimCase { place: said(part), ..self.clone() }],
             _ => numbers.iter().map(case).collect(),
         }
     }
 
     /// The same questions to another oscillator.
     pub fn of(&self, parameters: Parameters) -> Self {
-        Case { parameters, ..self.clone() }
+        ClaimCase { parameters, ..self.clone() }
     }
 
     /// A motion from `initial` until `until` by a method and to a tolerance.

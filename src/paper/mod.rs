@@ -19,7 +19,7 @@ pub use verdict::{Certain, Certainty, Evidence, Known, POOR, Sense, Verdict};
 use std::sync::LazyLock;
 
 use crate::flow::{Limits, Reason};
-use measure::Case;
+use measure::ClaimCase;
 
 /// A sentence or an equation of the paper that numbers can decide.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ pub struct Claim {
     pub basis: &'static str,
     /// A scene that shows it.
     pub scene: Option<&'static str>,
-    /// Where it is tested, a line for the cases of each [`Case::all`].
+    /// Where it is tested, a line for the cases of each [`ClaimCase::all`].
     cases: Vec<&'static str>,
     test: &'static Test,
 }
@@ -44,15 +44,15 @@ pub struct Claim {
 #[derive(Debug)]
 enum Test {
     /// By numbers, of which those of the worst case decide.
-    Worst(fn(&Case) -> Result<Evidence, Reason>),
+    Worst(fn(&ClaimCase) -> Result<Evidence, Reason>),
     /// By whether it holds in each case.
-    Always(fn(&Case) -> Result<Certain<bool>, Reason>),
+    Always(fn(&ClaimCase) -> Result<Certain<bool>, Reason>),
     /// By a formula and what it approaches, in one case and in the next one, which is nearer to the limit.
-    Tends(fn(&Case) -> Result<(f64, Known), Reason>),
+    Tends(fn(&ClaimCase) -> Result<(f64, Known), Reason>),
 }
 
 impl Test {
-    fn run(&self, cases: &[Case]) -> Result<Evidence, Reason> {
+    fn run(&self, cases: &[ClaimCase]) -> Result<Evidence, Reason> {
         match self {
             Test::Worst(compare) => Evidence::worst(cases.iter().map(|case| {
                 let evidence = compare(case)?;
@@ -73,15 +73,21 @@ impl Test {
 /// How a claim is tested, by the name that the table has for it.
 type Check = (&'static str, Test);
 
-const fn worst(name: &'static str, compare: fn(&Case) -> Result<Evidence, Reason>) -> Check {
+const fn worst(name: &'static str, compare: fn(&ClaimCase) -> Result<Evidence, Reason>) -> Check {
     (name, Test::Worst(compare))
 }
 
-const fn always(name: &'static str, holds: fn(&Case) -> Result<Certain<bool>, Reason>) -> Check {
+const fn always(
+    name: &'static str,
+    holds: fn(&ClaimCase) -> Result<Certain<bool>, Reason>,
+) -> Check {
     (name, Test::Always(holds))
 }
 
-const fn tends(name: &'static str, compare: fn(&Case) -> Result<(f64, Known), Reason>) -> Check {
+const fn tends(
+    name: &'static str,
+    compare: fn(&ClaimCase) -> Result<(f64, Known), Reason>,
+) -> Check {
     (name, Test::Tends(compare))
 }
 
@@ -150,7 +156,7 @@ pub fn examine_all(limits: &Limits) -> Result<Vec<ClaimResult>, Reason> {
 /// answer.
 pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult, Reason> {
     let lines = if claim.cases.is_empty() { &[""] } else { claim.cases.as_slice() };
-    let cases: Vec<_> = lines.iter().flat_map(|line| Case::all(line, limits)).collect();
+    let cases: Vec<_> = lines.iter().flat_map(|line| ClaimCase::all(line, limits)).collect();
     match claim.test.run(&cases) {
         Err(Reason::Interrupted) => Err(Reason::Interrupted),
         Ok(evidence) if claim.section == UNSAID => {
@@ -177,14 +183,14 @@ mod tests {
     #[test]
     fn a_line_of_cases_has_one_for_each_combination_of_its_values() {
         let line = "from q = 1 2, D = 0.5 0.9 D_F, r = 0.1 1, at rest";
-        let all = Case::all(line, &Limits::PATIENT);
+        let all = ClaimCase::all(line, &Limits::PATIENT);
         assert_eq!(all.len(), 8);
         assert_eq!(all[3].place, "from q = 1, D = 0.9 D_F, r = 1, at rest");
         assert_eq!((all[3].d, all[3].r, all[3].more), (0.0, 1.0, 0.9));
         // A limit is approached in pairs.
         let limits = claims().filter(|claim| matches!(claim.test, Test::Tends(_)));
         for claim in limits {
-            let cases = claim.cases.iter().flat_map(|line| Case::all(line, &Limits::PATIENT));
+            let cases = claim.cases.iter().flat_map(|line| ClaimCase::all(line, &Limits::PATIENT));
             assert!([2, 4].contains(&cases.count()), "{claim:?}");
         }
     }

@@ -4,7 +4,7 @@
 //! That the mass stays slower, the paper assumes; nothing in the equation keeps a motion to it. It is tested on the belt
 //! that comes with the program: friction that falls exponentially with the relative velocity.
 
-use super::measure::{Case, at_rest};
+use super::measure::{ClaimCase, at_rest};
 use super::{Certain, Check, Evidence, Known, always, worst};
 use crate::closed_form::harmonic::amplitudes;
 use crate::closed_form::linear::Linear;
@@ -66,7 +66,7 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 /// Rate and frequency of small motions.
-fn growth(it: &Case) -> Result<[Known; 2], Reason> {
+fn growth(it: &ClaimCase) -> Result<[Known; 2], Reason> {
     let [end, duration] = it.half_swing(at_rest(-1.0))?;
     let relative = end.error / end.value + duration.error / duration.value;
     let growth = ln(end.value) / duration.value;
@@ -200,7 +200,7 @@ fn at(speed: f64) -> Result<ReducedBelt, Reason> {
 
 /// Whether the vibrations at a speed of the belt stay below it: the stable cycle, and a motion that
 /// comes to it from just outside of the unstable one. Fails with the [`Reason`] why a cycle was not found.
-pub fn stays_slower(case: &Case) -> Result<Certain<bool>, Reason> {
+pub fn stays_slower(case: &ClaimCase) -> Result<Certain<bool>, Reason> {
     let ReducedBelt { parameters, sticking_velocity, .. } = at(case.more)?;
     let case = case.of(parameters);
     let below = case.largest()?.v_max < sticking_velocity;
@@ -213,7 +213,7 @@ pub fn stays_slower(case: &Case) -> Result<Certain<bool>, Reason> {
 
 /// The speed of the belt at which the stable cycle just reaches it, by one harmonic and computed. Fails with the
 /// [`Reason`] why a cycle was not found.
-pub fn contact(case: &Case) -> Result<Evidence, Reason> {
+pub fn contact(case: &ClaimCase) -> Result<Evidence, Reason> {
     let harmonic = root(|speed| {
         let ReducedBelt { parameters, sticking_velocity, .. } = at(speed)?;
         let found = amplitudes(&parameters).into_iter().rfind(|answer| answer.stable);
