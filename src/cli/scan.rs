@@ -105,12 +105,14 @@ enum HeaderWhen {
 }
 
 fn measures_help() -> String {
-    format!("What to measure; repeatable: {}", MEASURES.map(|row| row.name).join(", "))
+    let names: Vec<_> = MEASURES.iter().map(|row| row.name).collect();
+    format!("What to measure; repeatable: {}", names.join(", "))
 }
 
 /// The same with the meaning of each measure, in the form in which clap lists possible values.
 fn measures_list() -> String {
-    let rows = MEASURES.map(|row| format!("- {}: {}", row.name, row.meaning));
+    let rows = MEASURES.iter().map(|row| format!("- {}: {}", row.name, row.meaning));
+    let rows: Vec<_> = rows.collect();
     format!("What to measure; repeatable:\n{}", rows.join("\n"))
 }
 

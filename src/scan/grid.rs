@@ -123,7 +123,7 @@ impl Scan {
 
     /// The columns that are measured, in their order.
     pub fn measured(&self) -> Vec<&'static str> {
-        self.measures.iter().flat_map(|measure| measure.spec().columns).copied().collect()
+        self.measures.iter().flat_map(|measure| &measure.spec().columns).copied().collect()
     }
 
     /// All that the row of point number `index` depends on, by name.

@@ -1,6 +1,7 @@
 //! The table of measures, the computations that they need, and the cells that they fill.
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 use crate::flow::Problem;
 use crate::model::{Group, Knob, MachineProblem, Model, ParameterBox, Parameters};
@@ -10,7 +11,7 @@ use crate::portrait::design::Kick;
 use crate::portrait::kicks::RandomKick;
 
 /// One row of [`MEASURES`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct MeasureSpec {
     /// Which measure.
     pub measure: Measure,
@@ -19,9 +20,7 @@ pub struct MeasureSpec {
     /// What it means, in a few words.
     pub meaning: &'static str,
     /// The columns that it fills.
-    pub columns: &'static [&'static str],
-    /// The measure with which it is computed; itself where that is for its own sake.
-    pub with: Measure,
+    pub columns: Vec<&'static str>,
 }
 
 /// Cycles that have columns of their own; no parameters with more are known, and `cycles` counts all.
@@ -31,99 +30,92 @@ pub(crate) const CYCLES: usize = 2;
 /// too.
 pub const OF_THE_PAPER: [Measure; 3] = [Measure::Fold, Measure::Escape, Measure::Proved];
 
-/// Makes [`Measure`] and [`MEASURES`] from one list, in the order in which measures are listed: name, the measure with
-/// which it is computed (itself where that is for its own sake), columns, meaning.
-macro_rules! measures {
-    ($($(#[$doc:meta])* $measure:ident: $name:literal, $with:ident, [$($column:literal),*], $meaning:literal;)*) => {
-        /// A property of the oscillator, or of one motion of it, at given parameters.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        pub enum Measure {
-            $($(#[$doc])* $measure,)*
-        }
-
-        /// Every measure, in the order in which they are listed.
-        pub const MEASURES: [MeasureSpec; [$($name),*].len()] = [$(MeasureSpec {
-            measure: Measure::$measure,
-            name: $name,
-            meaning: $meaning,
-            columns: &[$($column),*],
-            with: Measure::$with,
-        }),*];
-    };
-}
-
-measures! {
+/// A property of the oscillator, or of one motion of it, at given parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Measure {
     /// How the motion ends.
-    Outcome: "outcome", Outcome, ["outcome", "outcome_tau", "half_swings"],
-        "how the motion from (q0, v0) ends, when, after how many half swings";
+    Outcome,
     /// Where and when the motion comes to rest.
-    Rest: "rest", Outcome, ["rest_q", "rest_tau"],
-        "where and when the motion from (q0, v0) comes to rest";
+    Rest,
     /// Amplitudes of the limit cycles.
-    Cycles: "cycles", Cycles,
-        ["cycles", "q_min_1", "q_max_1", "v_min_1", "v_max_1", "q_min_2", "q_max_2", "v_min_2",
-        "v_max_2"],
-        "how many limit cycles there are, and their extremes, smallest cycle first";
+    Cycles,
     /// Periods and Floquet multipliers of the limit cycles.
-    Multipliers: "multipliers", Cycles,
-        ["period_1", "multiplier_1", "log_multiplier_1", "period_2", "multiplier_2",
-        "log_multiplier_2"],
-        "period, Floquet multiplier and its logarithm of each limit cycle";
+    Multipliers,
     /// The kicks that the sticking set survives.
-    Margin: "margin", Margin, ["displacement", "impulse"],
-        "smallest displacement at rest, and smallest impulse at q = 0, not captured";
+    Margin,
     /// The kicks that are survived wherever the mass rests.
-    FromRest: "from-rest", Margin, ["from_rest_displacement", "from_rest_impulse"],
-        "smallest change of position, and smallest impulse, not captured, from the worst rest position";
+    FromRest,
     /// The fraction of a window that is captured.
-    Stability: "stability", Margin, ["captured_part", "captured_error"],
-        "basin stability: the fraction of the window that is captured, and its error";
+    Stability,
     /// The area of the basin.
-    Area: "area", Margin, ["area"],
-        "area of the basin, where it is finite";
+    Area,
     /// The fold of limit cycles in D.
-    Fold: "fold", Fold, ["D_F", "D_F_q_max"],
-        "the fold D_F (or grazing, below D = -1), above which no cycle is left, and the amplitude there";
+    Fold,
     /// The escape point in D.
-    Escape: "escape", Escape, ["D_c"],
-        "the escape point D_c, where the cycle goes to infinity";
+    Escape,
     /// The kicks that are survived for certain.
-    Guaranteed: "guaranteed", Guaranteed, ["guaranteed_displacement", "guaranteed_impulse"],
-        "margin that holds for every disturbance and all parameters within their half widths";
+    Guaranteed,
     /// The fraction of random kicks that is lost.
-    Lost: "lost", Margin, ["lost_part", "lost_error"],
-        "the fraction of random kicks that is not captured, and its error";
+    Lost,
     /// How round the basin is.
-    Integrity: "integrity", Margin, ["circle_radius", "integrity"],
-        "radius of the largest circle about the origin within the basin, and the part of the basin that it fills \
-         (integrity factor)";
+    Integrity,
     /// How long the starts of a window take to come to rest.
-    Settling: "settling", Settling, ["settling_max", "settling_mean"],
-        "largest and mean time to rest of 32 x 32 starts of the window, if all are at rest in the end";
+    Settling,
     /// The fraction of a window that is at rest in time.
-    FiniteTime: "finite-time", Settling, ["rested_part", "rested_error"],
-        "finite-time basin stability: the fraction of 32 x 32 starts of the window at rest in the end, and its \
-         error as a fraction of the window";
+    FiniteTime,
     /// How many kicks in a row are survived.
-    Repeated: "repeated", Repeated, ["kicks_mean", "kicks_lost", "kicks_error"],
-        "mean number of random kicks, each from where the last one came to rest, until one is lost; the part that \
-         is lost after many; the relative error of both";
+    Repeated,
     /// Whether the number of cycles is proved, and bounds of their amplitudes.
-    Proved: "proved", Proved,
-        ["proved", "q_max_1_lower", "q_max_1_upper", "q_max_2_lower", "q_max_2_upper"],
-        "whether it is proved that there are these cycles and no others, and bounds of their amplitudes";
+    Proved,
     /// What borders the basin.
-    Border: "border", Margin, ["border"],
-        "what borders the basin: cycle, separatrix or none; of a machine also grazing or no-basin";
+    Border,
     /// The friction that a margin needs.
-    Design: "design", Design, ["friction_needed"],
-        "the least friction, r or R, that keeps the margin of --design; 0 if any does";
+    Design,
 }
+
+/// The measures as the lines of `assets/measures.txt` describe them, in the same order.
+pub static MEASURES: LazyLock<Vec<MeasureSpec>> = LazyLock::new(|| {
+    let lines = include_str!("../../../assets/measures.txt").lines();
+    let parts = lines.map(|line| line.split(" | ").collect::<Vec<_>>());
+    let described = parts.filter_map(|parts| <[&str; 3]>::try_from(parts).ok());
+    let row = |(measure, [name, columns, meaning]): (_, [&'static str; 3])| MeasureSpec {
+        measure,
+        name,
+        meaning,
+        columns: columns.split(' ').collect(),
+    };
+    Measure::ALL.into_iter().zip(described).map(row).collect()
+});
 
 impl Measure {
+    /// Every measure, in the order in which they are listed.
+    #[rustfmt::skip]
+    const ALL: [Self; 19] = [
+        Self::Outcome, Self::Rest, Self::Cycles, Self::Multipliers, Self::Margin,
+        Self::FromRest, Self::Stability, Self::Area, Self::Fold, Self::Escape,
+        Self::Guaranteed, Self::Lost, Self::Integrity, Self::Settling, Self::FiniteTime,
+        Self::Repeated, Self::Proved, Self::Border, Self::Design,
+    ];
+
     /// The row of [`MEASURES`] that describes this measure.
     pub fn spec(self) -> &'static MeasureSpec {
         &MEASURES[self as usize]
+    }
+
+    /// The measure with which it is computed; itself where that is for its own sake.
+    pub fn with(self) -> Self {
+        match self {
+            Measure::Rest => Measure::Outcome,
+            Measure::Multipliers => Measure::Cycles,
+            Measure::FiniteTime => Measure::Settling,
+            Measure::FromRest
+            | Measure::Stability
+            | Measure::Area
+            | Measure::Lost
+            | Measure::Integrity
+            | Measure::Border => Measure::Margin,
+            measure => measure,
+        }
     }
 
     /// Whether it is measured over a window of starts.
@@ -138,7 +130,7 @@ impl Measure {
 
     /// Whether its computation depends on a number.
     pub fn depends_on(self, knob: Knob) -> bool {
-        let with = self.spec().with;
+        let with = self.with();
         match knob {
             Knob::Q0 | Knob::V0 | Knob::X | Knob::V => with == Measure::Outcome,
             Knob::Duration => matches!(with, Measure::Outcome | Measure::Settling),
@@ -152,15 +144,15 @@ impl Measure {
     /// The measure with this name. Fails with one line that says which there are.
     pub fn named(name: &str) -> Result<Self, String> {
         MEASURES.iter().find(|row| row.name == name).map(|row| row.measure).ok_or_else(|| {
-            let names = MEASURES.map(|row| row.name).join(", ");
-            format!("there is no measure {name:?}; there are {names}")
+            let names: Vec<_> = MEASURES.iter().map(|row| row.name).collect();
+            format!("there is no measure {name:?}; there are {}", names.join(", "))
         })
     }
 }
 
 /// What is computed for these measures: those with which each of them is.
 pub fn computed(measures: &[Measure]) -> BTreeSet<Measure> {
-    measures.iter().map(|measure| measure.spec().with).collect()
+    measures.iter().map(|measure| measure.with()).collect()
 }
 
 /// A cell of a row: never a number that does not exist.
@@ -286,10 +278,11 @@ mod tests {
     #[test]
     fn every_measure_stands_at_its_own_row_and_no_two_columns_share_a_name() {
         let mut columns = BTreeSet::new();
-        for row in &MEASURES {
+        assert_eq!(MEASURES.len(), Measure::ALL.len());
+        for row in MEASURES.iter() {
             assert_eq!(row.measure.spec().name, row.name);
             assert_eq!(Measure::named(row.name), Ok(row.measure));
-            for column in row.columns {
+            for column in &row.columns {
                 assert!(columns.insert(column), "{column} twice");
             }
         }

@@ -25,7 +25,7 @@ fn every_measure_fills_its_columns_and_no_number_is_none() {
         problem(-1.5, 0.0, 0.0, 0.2),
     ] {
         // The chain of kicks follows ten thousands of motions; it has its own tests.
-        let rows = MEASURES.iter().filter(|row| row.with != Measure::Repeated);
+        let rows = MEASURES.iter().filter(|row| row.measure != Measure::Repeated);
         let measures: Vec<_> = rows.clone().map(|row| row.measure).collect();
         let conditions = Conditions { wanted: Some((Kick::Displacement, 0.5)), ..WINDOW.into() };
         let found = measure(&problem.into(), &measures, &conditions, &Limits::PATIENT).unwrap();
