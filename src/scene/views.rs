@@ -5,6 +5,8 @@
 //! layer and which question must be answered for it. A layer that is off asks nothing, and several layers may
 //! share an answer.
 
+use std::sync::LazyLock;
+
 use serde::de::IntoDeserializer;
 use serde::de::value::StrDeserializer;
 use serde::{Deserialize, Serialize};
@@ -35,7 +37,8 @@ pub enum View {
 }
 
 /// What there must be for a view to show anything.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Needs {
     /// Nothing but the oscillator, which is always there.
     Oscillator,
@@ -75,70 +78,27 @@ pub struct ViewSpec {
     pub nothing: &'static str,
 }
 
-const fn view(
-    view: View,
-    [name, title, heading]: [&'static str; 3],
-    [x, y]: [Span; 2],
-    meaning: &'static str,
-    needs: Needs,
-    nothing: &'static str,
-) -> ViewSpec {
-    ViewSpec { view, name, title, heading, window: Window { x, y }, meaning, needs, nothing }
+/// Every view, in the order in which they are listed and the keys cycle through them: the lines of `assets/views.txt`.
+pub static VIEWS: LazyLock<Vec<ViewSpec>> = LazyLock::new(|| {
+    include_str!("../../assets/views.txt").lines().filter_map(described).collect()
+});
+
+/// The view that a line of the file describes; `None` for a comment. A test reads every line.
+fn described(line: &'static str) -> Option<ViewSpec> {
+    let parts = <[&str; 7]>::try_from(line.split(" | ").collect::<Vec<_>>()).ok()?;
+    let [name, title, heading, needs, window, meaning, nothing] = parts;
+    let ends: Vec<f64> = window.split(' ').filter_map(|end| end.parse().ok()).collect();
+    let [left, right, low, high] = ends[..] else { return None };
+    let window = Window { x: Span::known(left, right), y: Span::known(low, high) };
+    let (view, needs) = (named(name)?, named(needs)?);
+    Some(ViewSpec { view, name, title, heading, window, meaning, needs, nothing })
 }
 
-const fn span(from: f64, to: f64) -> Span {
-    Span::known(from, to)
+/// What has this name in files.
+fn named<'de, T: Deserialize<'de>>(name: &'de str) -> Option<T> {
+    let name: StrDeserializer<'de, serde::de::value::Error> = name.into_deserializer();
+    T::deserialize(name).ok()
 }
-
-/// Every view, in the order in which they are listed and the keys cycle through them.
-#[rustfmt::skip]
-pub const VIEWS: [ViewSpec; 15] = [
-    view(View::Phase, ["phase", "phase plane", "Phase plane"], [span(-2.0, 2.0), span(-2.0, 2.0)],
-        "velocity over position: where motions go and where they rest", Needs::Oscillator,
-        "no motion, cycle or rest in this window: {fit-window} fits it"),
-    view(View::Diagram, ["diagram", "bifurcation", "Bifurcation diagram"], [span(-0.9, 0.1), span(0.0, 2.0)],
-        "a property of the limit cycles over a parameter", Needs::Oscillator,
-        "no cycle or rest in this window: {fit-window} fits it, {next-abscissa} takes another parameter"),
-    view(View::TimeSeries, ["time-series", "time series", "Time series"], [span(0.0, 60.0), span(-2.0, 2.0)],
-        "displacement, velocity, friction, energy over time", Needs::Oscillator,
-        "nothing moves in this window: {fit-window} fits it"),
-    view(View::EnergyLedger, ["energy-ledger", "energy", "Energy ledger"], [span(-1.1, 1.1), span(0.0, 10.0)],
-        "what feeds cycles and motion, and what brakes them", Needs::Oscillator,
-        "no work to account for: {start-outside} starts a motion, {layers} shows the works of more"),
-    view(View::ReturnMap, ["return-map", "return map", "Return map"], [span(0.0, 2.0), span(0.0, 2.0)],
-        "the next turning point over a turning point", Needs::Oscillator,
-        "no swing turns in this window: {fit-window} fits it"),
-    view(View::Regimes, ["regimes", "regimes", "Chart of regimes"], [span(-0.9, 0.1), span(-1.0, 1.0)],
-        "what becomes of kicks, over two parameters", Needs::Oscillator,
-        "outside the range of its parameters: {home} leads back"),
-    view(View::Trade, ["trade", "trade", "Trade of error for cost"], [span(1.0, 6.0), span(-17.0, 1.0)],
-        "error over cost: what accuracy costs, by every method", Needs::Oscillator,
-        "no method has an error that could be measured here: {start-outside} starts another motion"),
-    view(View::Belt, ["belt", "mass on belt", "Mass on its belt"], [span(-2.0, 2.0), span(0.0, 1.0)],
-        "the machine, moving with the motion", Needs::Oscillator,
-        "the machine lies outside this window: {fit-window} fits it"),
-    view(View::EnergyRate, ["energy-rate", "energy rate", "Rate of the energy"], [span(-2.0, 2.0), span(-2.0, 2.0)],
-        "V' over velocity: what damping feeds and friction takes", Needs::Oscillator,
-        "V' lies outside this window: {fit-window} fits it"),
-    view(View::Eigenvalues, ["eigenvalues", "eigenvalues", "Eigenvalues"], [span(-1.5, 1.5), span(-1.5, 1.5)],
-        "of the rest without friction, in the complex plane", Needs::Oscillator,
-        "the eigenvalues lie outside this window: {fit-window} fits it"),
-    view(View::Speeds, ["speeds", "belt speeds", "Cycles over the belt's speed"], [span(0.01, 1.0), span(0.0, 1.0)],
-        "cycles of the machine over the speed of its belt", Needs::Machine,
-        "no cycle or rest at these speeds: {home} leads back"),
-    view(View::Damping, ["damping", "damping", "Damping over amplitude"], [span(0.0, 1.0), span(-1.0, 1.0)],
-        "loss of amplitude of a recorded motion, and its zeros", Needs::Record,
-        "no decrement in this window: {fit-window} fits it"),
-    view(View::Residuals, ["residuals", "residuals", "Residuals of a fit"], [span(0.0, 1.0), span(-1.0, 1.0)],
-        "what was measured less what was fitted, over time", Needs::Record,
-        "peaks alone leave no residuals: they need a record of all samples"),
-    view(View::Spread, ["margin", "margin", "Distribution of the margin"], [span(0.0, 1.0), span(0.0, 1.0)],
-        "how sure the margin is that a record leaves", Needs::Record,
-        "no draw leaves a margin: by all of them every kick is survived"),
-    view(View::Scan, ["scan", "scan", "Scan"], [span(0.0, 1.0), span(0.0, 1.0)],
-        "what was measured at each point of a line or grid", Needs::Scan,
-        "no point lies in this window: {fit-window} fits it"),
-];
 
 impl View {
     /// The row of [`VIEWS`] that describes this view.
@@ -244,8 +204,7 @@ impl Layer {
 
     /// The layer with this present or former name.
     pub fn named(name: &str) -> Option<Self> {
-        let name: StrDeserializer<'_, serde::de::value::Error> = name.into_deserializer();
-        Layer::deserialize(name).ok()
+        self::named(name)
     }
 }
 
@@ -270,7 +229,7 @@ mod tests {
 
     #[test]
     fn every_layer_has_a_letter_of_its_own_in_its_view() {
-        for row in &VIEWS {
+        for row in VIEWS.iter() {
             let letters: Vec<char> = letters(row.view).map(|(letter, _)| letter).collect();
             let own: std::collections::BTreeSet<_> = letters.iter().collect();
             let layers = LAYERS.iter().filter(|layer| layer.view == row.view).count();
@@ -281,7 +240,9 @@ mod tests {
 
     #[test]
     fn every_view_stands_at_its_own_row_under_the_name_of_scene_files() {
-        for row in &VIEWS {
+        let lines = include_str!("../../assets/views.txt").lines();
+        assert_eq!(VIEWS.len(), lines.filter(|line| line.contains(" | ")).count());
+        for row in VIEWS.iter() {
             assert_eq!(row.view.spec().name, row.name);
             assert_eq!(serde_json::to_value(row.view).unwrap(), row.name);
         }

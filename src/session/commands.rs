@@ -212,7 +212,7 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     (":scene", Line(|_, _| completion::all(library::names()), values::scene)),
     (":belt", Line(|_, _| completion::all(machines().iter().map(|it| &it.name)), values::belt)),
     (":machine", Line(completion::nothing, |s, rest| files::ask(s, rest, Purpose::Machine))),
-    (":view", Line(|_, _| completion::all(VIEWS.map(|row| row.name)), values::view)),
+    (":view", Line(|_, _| completion::all(VIEWS.iter().map(|row| row.name)), values::view)),
     (":layer", Line(completion::layers, values::layer)),
     (":window", Line(completion::window, values::window)),
     (":axes", Line(completion::axes, values::axes)),

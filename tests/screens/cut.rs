@@ -222,7 +222,7 @@ fn no_word_on_any_screen_is_cut_without_a_sign() {
             cut.extend(cut_words(&scene.name, keys));
         }
     }
-    for view in VIEWS {
+    for view in VIEWS.iter() {
         cut.extend(cut_words("supercritical", &alone(view.name)));
     }
     for keys in ["?", "s", "v", "V", "$", "%", "% <enter>", "% <enter> z t", "}", ":", "<enter>"] {
@@ -271,7 +271,7 @@ fn no_number_on_any_screen_is_cut() {
             cut.extend(cut_numbers(&scene.name, keys));
         }
     }
-    for view in VIEWS {
+    for view in VIEWS.iter() {
         for scene in ["supercritical", "belt-speed", "fig16b"] {
             cut.extend(cut_numbers(scene, &format!("{} <right>", alone(view.name))));
         }

@@ -108,7 +108,7 @@ fn every_view_draws_something_or_says_what_it_needs() {
     ];
     let mut said = std::collections::BTreeSet::new();
     for (kind, session) in kinds {
-        for row in &VIEWS {
+        for row in VIEWS.iter() {
             for with_layers in [true, false] {
                 let mut session = session.clone();
                 session.size = Size { width: 80, height: 24 };
