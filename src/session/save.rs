@@ -112,13 +112,13 @@ pub fn text(session: &Session) -> Result<String, String> {
         present: without_plots(snapshot(session)),
         plots: session.plots.clone(),
         marks: of_marks(session, |setup| Some(setup.problem)),
-        belts: of_marks(session, |setup| setup.setting),
+        belts: of_marks(session, |setup| setup.setting.clone()),
         beside: of_marks(session, |setup| {
             Some(setup.others.clone()).filter(|beside| !beside.is_empty())
         }),
         doubts: of_marks(session, |setup| Some(setup.doubt).filter(|doubt| !doubt.is_none())),
         left: left.as_ref().map(|setup| setup.problem),
-        left_belt: left.as_ref().and_then(|setup| setup.setting),
+        left_belt: left.as_ref().and_then(|setup| setup.setting.clone()),
         left_doubt: left.as_ref().map(|setup| setup.doubt).unwrap_or_default(),
         left_beside: left.map(|setup| setup.others).unwrap_or_default(),
         registers: IgnoredAny,
@@ -177,7 +177,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     for (name, problem) in file.marks {
         let beside = file.beside.get(&name).cloned().unwrap_or_default();
         let doubt = file.doubts.get(&name).copied().unwrap_or_default();
-        let bookmark = mark(problem, beside, file.belts.get(&name).copied(), doubt)?;
+        let bookmark = mark(problem, beside, file.belts.get(&name).cloned(), doubt)?;
         marks.places.insert(name, bookmark);
     }
     if let Some(left) = file.left {

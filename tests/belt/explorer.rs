@@ -119,7 +119,7 @@ fn at(speed: f64) -> ReducedBelt {
 /// Checks that the session shows the machine at this speed, with all its numbers.
 fn runs_at(trial: &Trial, speed: f64) {
     let session = &trial.session;
-    assert_eq!(session.setting.and_then(|it| it.get(Knob::BeltSpeed)), Some(speed));
+    assert_eq!(session.setting.as_ref().and_then(|it| it.get(Knob::BeltSpeed)), Some(speed));
     assert_eq!(session.problem.parameters, at(speed).parameters);
     assert_eq!(session.is_on_the_belt(), Some(true));
     let running = session.running().unwrap();
@@ -158,7 +158,7 @@ fn a_number_changed_by_hand_leaves_the_belt_and_a_step_of_the_belt_comes_back() 
     trial.press("<right>");
     assert_eq!(trial.session.is_on_the_belt(), Some(false));
     assert_eq!(
-        trial.session.setting.and_then(|it| it.get(Knob::BeltSpeed)),
+        trial.session.setting.as_ref().and_then(|it| it.get(Knob::BeltSpeed)),
         Some(0.3),
         "the units stay those of this speed"
     );
@@ -371,7 +371,7 @@ fn a_session_of_an_earlier_version_opens_with_its_whole_history() {
     save::open(&mut trial.session, include_str!("../data/earlier-session.toml")).unwrap();
     let (d2, speed) = (
         trial.session.value(Knob::D2),
-        trial.session.setting.unwrap().get(Knob::BeltSpeed).unwrap(),
+        trial.session.setting.clone().unwrap().get(Knob::BeltSpeed).unwrap(),
     );
     assert_eq!((d2, speed), (0.050_526_149_830_783_7, 1.2));
     trial.press("uuuuuu");

@@ -38,19 +38,6 @@ impl Group {
     pub fn knobs(self) -> impl Iterator<Item = Knob> + Clone {
         KNOBS.iter().filter(move |row| row.group == self).map(|row| row.knob)
     }
-
-    /// How many numbers it has.
-    #[must_use]
-    pub const fn count(self) -> usize {
-        let (mut row, mut count) = (0, 0);
-        while row < KNOBS.len() {
-            if KNOBS[row].group as u8 == self as u8 {
-                count += 1;
-            }
-            row += 1;
-        }
-        count
-    }
 }
 
 /// How a number is read from what has it, and where it is written.
@@ -331,10 +318,7 @@ impl Knob {
     /// The four numbers of equation (4).
     pub const PARAMETERS: [Self; 4] = [Knob::D, Knob::D2, Knob::D3, Knob::R];
 
-    /// How many numbers a mass on a belt and its friction law can have.
-    pub const OF_MACHINES: usize = Group::Machine.count() + Group::Law.count();
-
-    /// Those numbers, in the order of the table.
+    /// The numbers that a mass on a belt and its friction law can have, in the order of the table.
     pub fn of_machines() -> impl Iterator<Item = Self> + Clone {
         Group::Machine.knobs().chain(Group::Law.knobs())
     }

@@ -8,11 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::{Machine, ScaledMachine};
 use crate::model::{Group, Knob, Model, OutOfRange};
 
-/// The speed of a belt and the other numbers of a machine that were changed, in SI units and in the order of the table;
-/// `None` where the file's value holds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// The speed of a belt and the other numbers of a machine that were changed, in SI units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
-pub struct Setting([Option<f64>; Knob::OF_MACHINES]);
+pub struct Setting(BTreeMap<Knob, f64>);
 
 /// A setting as it is saved: a speed alone, or all changed numbers by name.
 #[derive(Serialize, Deserialize)]
@@ -24,11 +23,12 @@ enum Written {
 
 impl From<Setting> for Written {
     fn from(setting: Setting) -> Self {
-        let set: Vec<(Knob, f64)> = setting.numbers().collect();
-        match set[..] {
-            [(Knob::BeltSpeed, speed)] => Written::Speed(speed),
+        let numbers = setting.0;
+        match numbers.get(&Knob::BeltSpeed) {
+            Some(speed) if numbers.len() == 1 => Written::Speed(*speed),
             _ => {
-                Written::Numbers(set.into_iter().map(|(knob, it)| (knob.to_string(), it)).collect())
+                let named = numbers.into_iter().map(|(knob, value)| (knob.to_string(), value));
+                Written::Numbers(named.collect())
             }
         }
     }
@@ -54,36 +54,31 @@ impl TryFrom<Written> for Setting {
 impl Setting {
     /// The setting with this belt speed and all other numbers from the file.
     pub fn of_speed(speed: f64) -> Self {
-        Setting([None; Knob::OF_MACHINES]).with(Knob::BeltSpeed, speed)
+        Setting(BTreeMap::from([(Knob::BeltSpeed, speed)]))
     }
 
     /// A number that is set; `None` where the file's value holds.
     pub fn get(&self, knob: Knob) -> Option<f64> {
-        self.0[place(knob)]
+        self.0.get(&knob).copied()
     }
 
     /// This setting with another value of one number.
     pub fn with(mut self, knob: Knob, value: f64) -> Self {
-        self.0[place(knob)] = Some(value);
+        self.0.insert(knob, value);
         self
-    }
-
-    /// The numbers that are set.
-    fn numbers(&self) -> impl Iterator<Item = (Knob, f64)> {
-        Knob::of_machines().filter_map(|knob| Some((knob, self.get(knob)?)))
     }
 
     /// Checks all numbers against their ranges. Fails with the first one that is outside.
     pub fn checked(&self) -> Result<(), OutOfRange> {
-        self.numbers().try_for_each(|(knob, value)| knob.check(value).map(drop))
+        self.0.iter().try_for_each(|(knob, value)| knob.check(*value).map(drop))
     }
 
     /// A machine with these numbers. The static friction of its guide, where it is not set, is raised to the sliding
     /// friction where it would be less. Fails with one line if the machine lacks a number, or is none with it.
     pub fn on(&self, machine: &Machine) -> Result<ScaledMachine, String> {
         let mut set = machine.clone();
-        for (knob, value) in self.numbers() {
-            knob.set_in_belt(&mut set.belt, value)?;
+        for (knob, value) in &self.0 {
+            knob.set_in_belt(&mut set.belt, *value)?;
         }
         if self.get(Knob::StaticGuide).is_none() {
             let moving = set.belt.friction;
@@ -92,9 +87,4 @@ impl Setting {
         Model::new(&set.belt).map_err(|refused| refused.to_string())?;
         ScaledMachine::new(set).map_err(|refused| refused.to_string())
     }
-}
-
-/// The place of a number among all.
-fn place(knob: Knob) -> usize {
-    Knob::of_machines().take_while(|other| *other != knob).count()
 }

@@ -195,9 +195,10 @@ impl Session {
         let Setup { problem, others, setting, doubt } = setup;
         let scaled = self.scene.machine.clone();
         let built = |setting: Setting| {
-            Some((setting, Box::new(setting.on(&scaled.as_ref()?.machine).ok()?)))
+            let machine = setting.on(&scaled.as_ref()?.machine).ok()?;
+            Some((setting, Box::new(machine)))
         };
-        let set = setting.and_then(built).or_else(|| self.setting.and_then(built));
+        let set = setting.and_then(built).or_else(|| self.setting.take().and_then(built));
         let own = || {
             let scaled = scaled.clone()?;
             Some((Setting::of_speed(scaled.machine.belt.belt_speed), scaled))

@@ -137,7 +137,8 @@ impl Session {
 
     fn rebuilt(&self, setup: &Setup, knob: Knob, value: f64) -> Result<Setup, String> {
         let from = self.machine_of(setup)?;
-        let setting = setup.setting.unwrap_or(Setting::of_speed(from.machine.belt.belt_speed));
+        let own = || Setting::of_speed(from.machine.belt.belt_speed);
+        let setting = setup.setting.clone().unwrap_or_else(own);
         let mut setup = Setup { setting: Some(setting.with(knob, value)), ..setup.clone() };
         let to = self.machine_of(&setup)?;
         let Setup { problem, others, doubt, .. } = &mut setup;

@@ -226,8 +226,9 @@ impl Session {
 
     /// The present setup: the motions on show, the setting of the machine, and what is not known exactly.
     pub fn setup(&self) -> Setup {
-        let Session { problem, setting, doubt, .. } = *self;
-        Setup { problem, others: self.others.clone(), setting, doubt }
+        let Session { problem, others, setting, doubt, .. } = self;
+        let (others, setting) = (others.clone(), setting.clone());
+        Setup { problem: *problem, others, setting, doubt: *doubt }
     }
 
     /// Whether there is such a number: one of a machine or its friction law is that of the scene's machine.
@@ -244,7 +245,7 @@ impl Session {
             row if !self.has(row) => false,
             Row::Number(_) if self.unfolded => true,
             Row::Number(knob) if row.is_of_machine() => {
-                self.setting.is_some_and(|it| it.get(knob).is_some())
+                self.setting.as_ref().is_some_and(|it| it.get(knob).is_some())
             }
             Row::Number(Knob::Disturbance) => {
                 self.scene.recording.is_some()

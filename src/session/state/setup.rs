@@ -47,7 +47,7 @@ impl Setup {
     pub fn get(&self, knob: Knob) -> Option<f64> {
         match knob {
             Knob::Disturbance => Some(self.doubt.disturbance),
-            _ if knob.is_of_machine() => self.setting?.get(knob),
+            _ if knob.is_of_machine() => self.setting.as_ref()?.get(knob),
             _ => Some(self.problem.get(knob)),
         }
     }

@@ -17,7 +17,7 @@ fn at(speed: f64) -> ReducedBelt {
 /// Checks that the session shows the machine at this speed, with all its numbers.
 fn runs_at(trial: &Trial, speed: f64) {
     let session = &trial.session;
-    assert_eq!(session.setting.and_then(|it| it.get(Knob::BeltSpeed)), Some(speed));
+    assert_eq!(session.setting.as_ref().and_then(|it| it.get(Knob::BeltSpeed)), Some(speed));
     assert_eq!(session.problem.parameters, at(speed).parameters);
     assert_eq!(session.is_on_the_belt(), Some(true));
     let running = session.running().unwrap();
@@ -39,7 +39,7 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
     runs_at(&trial, 0.35);
     // A scene without a machine has no belt; back in one with a machine there is a belt again.
     trial.press(":scene<space>plain<enter>");
-    assert_eq!((trial.session.setting, trial.session.running()), (None, None));
+    assert_eq!((&trial.session.setting, trial.session.running()), (&None, None));
     trial.press("'a");
     assert_eq!(trial.session.setting, None, "the numbers come along, not the belt");
     assert_eq!(trial.session.problem.parameters, at(0.32).parameters);
@@ -48,7 +48,7 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
     // Sessions saved before this number existed show the machine at its own speed.
     let older = text.replacen("belt = 0.35\n", "", 1);
     save::open(&mut other, &older).unwrap();
-    assert_eq!(other.setting.and_then(|it| it.get(Knob::BeltSpeed)), Some(0.3));
+    assert_eq!(other.setting.as_ref().and_then(|it| it.get(Knob::BeltSpeed)), Some(0.3));
     for wrong in ["-1.0", "0.0", "nan"] {
         let broken = text.replacen("belt = 0.35", &format!("belt = {wrong}"), 1);
         let why = save::open(&mut other, &broken).unwrap_err();
