@@ -16,8 +16,8 @@ use crate::scene::library::{PLAIN, names};
 use crate::scene::machine::NO_BELT;
 use crate::scene::{Scene, find, plain};
 use crate::session::config::Config;
-use crate::session::opening::opening;
 use crate::session::replay::{Instruction, Recorder, Script};
+use crate::session::save::opening;
 use crate::session::{Kept, Key, Msg, Notice, Session, Size, save};
 use crate::terminal::Environment;
 

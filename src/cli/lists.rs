@@ -19,7 +19,7 @@ use crate::report::scenes::{QuestionCost, SceneCost, StepCost, costs, scenes};
 use crate::report::{Answer, Columns, Format, claims};
 use crate::runtime::standard::tell;
 use crate::scene::{Scene, library};
-use crate::session::state::context::{ContextSpec, contexts};
+use crate::session::state::keymap::{ContextSpec, contexts};
 use crate::session::{self, Msg, Row, Session, Size, commands, update};
 
 /// Lists the scenes

@@ -175,7 +175,7 @@ mod tests {
     use super::*;
     use crate::scene::find;
     use crate::scene::library::PLAIN;
-    use crate::session::replay::parse;
+    use crate::session::replay::script::parse;
 
     /// Plays a file on the plain scene.
     fn played(file: &str) -> ReplayResult<Explorer> {

@@ -15,8 +15,8 @@ use crate::session::act::{
 };
 use crate::session::read::completion;
 use crate::session::settings::{Colors, Glyphs, Theme, choices};
-use crate::session::state::context::contexts;
 use crate::session::state::keymap::CommandAction::{self, Act, Choose, Line, Toggle, Try};
+use crate::session::state::keymap::contexts;
 use crate::session::{
     Command, Context, Effect, Input, Key, Keymap, Letter as Ask, Pending, Purpose, Session, Size,
 };

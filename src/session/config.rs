@@ -19,7 +19,7 @@ use crate::scene::library::names;
 use crate::scene::misread::Complaint;
 use crate::scene::{Misread, misread};
 use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, choices};
-use crate::session::state::context::contexts;
+use crate::session::state::keymap::contexts;
 use crate::session::state::keymap::full_name;
 use crate::session::{Command, Context, Key, Keymap};
 use crate::words;

@@ -6,7 +6,7 @@
 //! - [`state`] is plain data, with [`state::session::Session`] on top;
 //! - [`read`] answers questions about the state and changes nothing;
 //! - [`act`] changes the state, one family of commands per file;
-//! - [`save`] and [`opening`] convert a session to text and back;
+//! - [`save`] converts a session to text and back;
 //! - `commands` is the table of everything that can be run by name, with the functions that do it, and [`config`]
 //!   applies a settings file to the keys;
 //! - `update` takes a message in.
@@ -17,7 +17,6 @@ pub mod config;
 pub mod effect;
 pub mod key;
 pub mod message;
-pub mod opening;
 pub mod read;
 pub mod replay;
 pub mod save;
@@ -37,16 +36,14 @@ pub use read::plots::{ShownMotion, VariantTag};
 pub use read::{fate, ledger, motion, wants};
 pub use replay::script::{Instruction, Script, ScriptStep};
 pub use state::answers::{AnswerState, Answers};
-pub use state::context::Context;
 pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snapshot};
-pub use state::keymap::{Candidates, Command, CommandAction, Keymap, NextCommand};
+pub use state::keymap::{Candidates, Command, CommandAction, Context, Keymap, NextCommand};
 pub use state::overlay::{Completion, Input, List, Listed, Overlay, Prompt, SessionCaption};
-pub use state::plot::{Framing, Pane, Plot};
-pub use state::rows::{Row, StepSizes};
 pub use state::scan::{ScanOnShow, ScanProgress};
 pub use state::session::{
-    BranchStop, Kept, Letter, Pace, Pending, Playback, Price, Recomputation, Session, Size, Waiting,
+    BranchStop, Framing, Kept, Letter, Pace, Pane, Pending, Playback, Plot, Price, Recomputation,
+    Session, Size, Waiting,
 };
-pub use state::setup::{MOST_MOTIONS, Setup, Uncertainty};
+pub use state::setup::{MOST_MOTIONS, Row, Setup, StepSizes, Uncertainty};
 pub use state::{overlay, scan, settings};
 pub use update::{run_line, settle, update};

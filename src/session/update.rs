@@ -14,9 +14,9 @@ use crate::session::act::{
     refuse, walk, with_keys,
 };
 use crate::session::read::completion::names;
+use crate::session::read::contexts;
 use crate::session::read::contexts::{elsewhere, place};
-use crate::session::read::waiting;
-use crate::session::replay::parse::parse;
+use crate::session::replay::script::parse;
 use crate::session::state::keymap::full_name;
 use crate::session::{
     Code, Command, CommandAction, Context, Done, Effect, Key, Letter, Msg, NextCommand, Overlay,
@@ -28,7 +28,7 @@ use crate::words::printable;
 pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     if is_press(&message) {
         // While a press waits, the only press that arrives here is one that cancels it.
-        if session.waiting.take().is_some() && waiting::forgets(&message) {
+        if session.waiting.take().is_some() && contexts::forgets(&message) {
             inform(session, "the waiting key is dropped");
             return Vec::new();
         }

@@ -16,7 +16,7 @@ use hopfscope::flow::Outcome;
 use hopfscope::numerics::elementary::tanh;
 use hopfscope::runtime::play;
 use hopfscope::scene::{ScaledMachine, Scene};
-use hopfscope::session::replay::parse;
+use hopfscope::session::replay::script::parse;
 use hopfscope::session::{Session, Size};
 use hopfscope::terminal::Environment;
 use program::{json, number, run};

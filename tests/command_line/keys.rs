@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use hopfscope::scene::{VIEWS, plain};
 use hopfscope::session::config::{Config, parse};
-use hopfscope::session::read::waiting::NEEDS;
+use hopfscope::session::read::contexts::NEEDS;
 use hopfscope::session::settings::{Colors, Glyphs, Theme};
-use hopfscope::session::state::context::{ContextSpec, chains, contexts};
+use hopfscope::session::state::keymap::{ContextSpec, chains, contexts};
 use hopfscope::session::{Command, Context, Key, Keymap, Session, Size, commands};
 
 fn key(text: &str) -> Key {

@@ -10,7 +10,7 @@ use ratatui::layout::Size;
 
 use super::{Application, Files, Pump};
 use crate::runtime::application::{Event, LoopEnd, ReplayResult};
-use crate::session::read::waiting::forgets;
+use crate::session::read::contexts::forgets;
 use crate::session::replay::{Action, Player, Script, ScriptError};
 use crate::session::{Code, Effect, Key, Msg, Notice};
 use crate::view;

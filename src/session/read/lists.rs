@@ -8,7 +8,7 @@ use crate::paper::{Claim, ClaimResult, Verdict, claims};
 use crate::scene::library::SceneGroup;
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, LayerSpec, Machine, Scene, VIEWS, View, ViewSpec, library};
-use crate::session::state::context::contexts;
+use crate::session::state::keymap::contexts;
 use crate::session::{Code, Command, Context, Kept, Key, List, Listed, Overlay, Session};
 
 #[derive(Clone, Copy, Debug)]

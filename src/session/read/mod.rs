@@ -9,7 +9,6 @@ pub(crate) mod lists;
 mod machine;
 pub mod motion;
 pub mod plots;
-pub mod waiting;
 pub mod walk;
 pub mod wants;
 pub(crate) mod windows;

@@ -4,12 +4,10 @@
 //! to a session without a terminal or into the running explorer. A [`Recorder`] writes the file of a live
 //! session. The notation of keys is that of [`super::key`].
 
-pub mod parse;
 pub mod player;
 pub mod recorder;
 pub mod script;
 
-pub use parse::parse;
 pub use player::{Action, Player};
 pub use recorder::{HEADER, Recorder, comment, heading, lines, text};
-pub use script::{Instruction, LONGEST, Script, ScriptError, ScriptStep};
+pub use script::{Instruction, LONGEST, Script, ScriptError, ScriptStep, parse};

@@ -143,7 +143,7 @@ impl Player {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::replay::parse;
+    use crate::session::replay::script::parse;
 
     #[test]
     fn a_file_that_plays_itself_comes_to_an_end_at_its_own_step() {

@@ -1,11 +1,13 @@
-//! Keystroke files as data: their steps, the messages that these give to a session, and how they are written.
+//! Keystroke files as data: their steps, the messages that these give to a session, and how they are written and read.
 
 use std::fmt;
 
 use thiserror::Error;
 
+use crate::model::{Group, Knob};
+use crate::numerics::similar::most_similar;
 use crate::scene::Point;
-use crate::session::{Gesture, Key, Msg, Pointed, PointerTarget};
+use crate::session::{Code, Gesture, Key, Msg, Pointed, PointerTarget, key};
 use crate::words::printable;
 
 /// Longest time in a single step, in s.
@@ -200,4 +202,254 @@ fn quoted(text: &str) -> String {
     }
     quoted.push('"');
     quoted
+}
+
+/// Largest width and height that a file may ask for.
+const LARGEST: u16 = 1000;
+
+/// Reads the rest of a directive as a step, or says why it cannot.
+type Reading = fn(&str) -> Result<Instruction, String>;
+
+/// Directives in angle brackets, as opposed to keys: the first word, and how the rest is read.
+const DIRECTIVES: [(&str, Reading); 14] = [
+    ("wait", |rest| alone(rest, "wait", Instruction::Wait)),
+    ("async", |rest| alone(rest, "async", Instruction::Async)),
+    ("elapse", elapse),
+    ("resize", resize),
+    ("expect", |rest| text(rest, "expect").map(Instruction::Expect)),
+    ("paste", |rest| text(rest, "paste").map(|text| Instruction::Give(Msg::Paste(text)))),
+    ("run", |rest| text(rest, "run").map(|line| Instruction::Give(Msg::Run(line)))),
+    ("say", |rest| text(rest, "say").map(|text| Instruction::Give(Msg::Say(text, None)))),
+    ("screen", screen),
+    ("start", start),
+    ("file", file),
+    ("click", |rest| pointed("click", rest)),
+    ("nearer", |rest| pointed("nearer", rest)),
+    ("farther", |rest| pointed("farther", rest)),
+];
+
+/// Reads a whole keystroke file. Fails with [`ScriptError`], which has the place of the first mistake.
+pub fn parse(text: &str) -> Result<Script, ScriptError> {
+    let (mut steps, mut presses) = (Vec::new(), 0);
+    for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+        let mut rest = line;
+        while let Some(first) = rest.chars().next() {
+            let column = line[..line.len() - rest.len()].chars().count() + 1;
+            let length = match first {
+                '#' => break,
+                '<' => length_of_name(rest),
+                _ => first.len_utf8(),
+            };
+            let (token, after) = rest.split_at(length);
+            rest = after;
+            if first.is_ascii_whitespace() {
+                continue;
+            }
+            let line = index + 1;
+            let step = step(token).map_err(|why| ScriptError { line, column, why })?;
+            presses += step.length();
+            if presses > u64::from(MOST) {
+                return Err(ScriptError { line, column, why: too_long() });
+            }
+            steps.push(ScriptStep { line, column, step });
+        }
+    }
+    Ok(Script { steps })
+}
+
+/// Length in bytes up to and including the `>` that ends a name; a `>` in quotes does not count.
+fn length_of_name(text: &str) -> usize {
+    let (mut in_quotes, mut escaped) = (false, false);
+    for (at, char) in text.char_indices().skip(1) {
+        match char {
+            _ if escaped => escaped = false,
+            '\\' if in_quotes => escaped = true,
+            // A quote begins a text only after the word that takes one; `<">` is a key.
+            '"' if in_quotes || text[..at].ends_with(' ') => in_quotes = !in_quotes,
+            '>' if !in_quotes => return at + 1,
+            _ => {}
+        }
+    }
+    text.len()
+}
+
+fn step(token: &str) -> Result<Instruction, String> {
+    if !token.starts_with('<') {
+        let char = token.chars().next().unwrap_or(' ');
+        return Ok(Instruction::Key { key: Key::plain(Code::Char(char)), count: 1 });
+    }
+    let Some(name) = token[1..].strip_suffix('>') else {
+        return Err("\"<\" without \">\" on its line; the character itself is <lt>".to_owned());
+    };
+    let (word, rest) = name.split_once(' ').unwrap_or((name, ""));
+    match DIRECTIVES.iter().find(|(directive, _)| *directive == word) {
+        Some((_, read)) => read(rest.trim()),
+        None => keys(name),
+    }
+}
+
+/// Seconds that pass: at most an hour.
+fn elapse(text: &str) -> Result<Instruction, String> {
+    let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds));
+    seconds
+        .map(|seconds| Instruction::Give(Msg::Elapsed { seconds }))
+        .ok_or_else(|| format!("elapse takes seconds, 0 .. {LONGEST}, such as <elapse 0.25>"))
+}
+
+/// A key with an optional count: `right`, `right*5`, `*`, `**5`.
+fn keys(name: &str) -> Result<Instruction, String> {
+    let counted = name.rsplit_once('*').filter(|(key, count)| {
+        !key.is_empty() && !count.is_empty() && count.bytes().all(|byte| byte.is_ascii_digit())
+    });
+    let (key, count) = match counted {
+        Some((key, digits)) => match digits.parse() {
+            Ok(count @ 1..=MOST) => (key, count),
+            _ => return Err(format!("a key is pressed 1 to {MOST} times, not {digits}")),
+        },
+        None => (name, 1),
+    };
+    match Key::named(key) {
+        Ok(key) => Ok(Instruction::Key { key, count }),
+        Err(unknown) => Err(nearest_directive(key).unwrap_or(unknown)),
+    }
+}
+
+/// A suggestion if a misspelt directive is more likely than a misspelt key.
+fn nearest_directive(name: &str) -> Option<String> {
+    let word = name.split(' ').next().unwrap_or(name);
+    let directives = DIRECTIVES.map(|(directive, _)| directive);
+    let nearest = most_similar(word, directives.into_iter().chain(key::names()))?;
+    let told = || format!("unknown key <{name}>; did you mean <{nearest}>?");
+    directives.contains(&nearest).then(told)
+}
+
+fn alone(rest: &str, word: &str, step: Instruction) -> Result<Instruction, String> {
+    if rest.is_empty() {
+        Ok(step)
+    } else {
+        Err(format!("<{word}> stands alone, not with {rest:?}"))
+    }
+}
+
+/// The place that the mouse points at.
+fn pointed(word: &str, rest: &str) -> Result<Instruction, String> {
+    let words: Vec<&str> = rest.split_whitespace().collect();
+    let finite = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
+    let place = match words[..] {
+        ["row", row] => row.parse().ok().map(PointerTarget::Row),
+        [number, x, y] => {
+            let index = number.parse().ok().and_then(|number: usize| number.checked_sub(1));
+            let point = finite(x).zip(finite(y)).map(|(x, y)| Point { x, y });
+            index.zip(point).map(|(index, point)| PointerTarget::Plot(index, point))
+        }
+        _ => None,
+    };
+    let gesture = GESTURES.iter().find(|row| row.1 == word).map(|row| row.0);
+    let pointed = gesture.zip(place).map(|(gesture, place)| Pointed { gesture, place });
+    pointed.map(|pointed| Instruction::Give(Msg::Pointed(pointed))).ok_or_else(|| {
+        format!("a place of the mouse is \"N X Y\" on plot N, from 1, or \"row N\", not {rest:?}")
+    })
+}
+
+fn resize(rest: &str) -> Result<Instruction, String> {
+    let read = |text: &str| text.parse().ok().filter(|cells| (1..=LARGEST).contains(cells));
+    let size = rest.split_once('x').and_then(|(w, h)| Some((read(w)?, read(h)?)));
+    match size {
+        Some((width, height)) => Ok(Instruction::Give(Msg::Resize { width, height })),
+        None => Err(format!(
+            "<resize {rest}> needs columns and rows from 1 to {LARGEST}, as in <resize 80x24>"
+        )),
+    }
+}
+
+fn screen(name: &str) -> Result<Instruction, String> {
+    let allowed = |char: char| char.is_ascii_alphanumeric() || matches!(char, '-' | '_' | '.');
+    if !name.is_empty() && name.chars().all(allowed) && !name.starts_with('.') {
+        Ok(Instruction::Screen(name.to_owned()))
+    } else {
+        Err(format!("<screen {name}> needs a name of letters, digits, \"-\", \"_\" and \".\""))
+    }
+}
+
+fn start(rest: &str) -> Result<Instruction, String> {
+    let named = |name: &str| Knob::named(name, &[Group::Motion]);
+    let names = rest.split_whitespace().map(named).collect::<Result<_, _>>()?;
+    Ok(Instruction::Give(Msg::Start(names)))
+}
+
+/// A name and a text, both in quotes.
+fn file(rest: &str) -> Result<Instruction, String> {
+    let refused = || "<file> needs a name and a text, as in <file \"a.toml\" \"..\">".to_owned();
+    let (name, rest) = leading(rest, "file").map_err(|_| refused())?;
+    let (text, rest) = leading(rest.trim_start(), "file").map_err(|_| refused())?;
+    if name.is_empty() || !rest.is_empty() {
+        Err(refused())
+    } else {
+        Ok(Instruction::File { name, text })
+    }
+}
+
+/// A text in quotes that is not empty, with nothing after it.
+fn text(rest: &str, word: &str) -> Result<String, String> {
+    match leading(rest, word)? {
+        (text, "") if !text.is_empty() => Ok(text),
+        _ => Err(wants_text(word)),
+    }
+}
+
+fn wants_text(word: &str) -> String {
+    format!("<{word}> needs text in quotes, as in <{word} \"captured\">")
+}
+
+/// The text in quotes at the beginning, with the escapes of [`ESCAPES`] resolved, and the rest.
+fn leading<'a>(rest: &'a str, word: &str) -> Result<(String, &'a str), String> {
+    let refused = || wants_text(word);
+    let mut chars = rest.strip_prefix('"').ok_or_else(refused)?.chars();
+    let mut text = String::new();
+    while let Some(char) = chars.next() {
+        text.push(match char {
+            '\\' => {
+                let letter = chars.next().ok_or_else(refused)?;
+                let escape = ESCAPES.iter().find(|(_, escape)| *escape == letter);
+                let known =
+                    || format!("unknown escape \\{letter}; \\\" \\\\ \\n \\r \\t are known");
+                escape.ok_or_else(known)?.0
+            }
+            '"' => return Ok((text, chars.as_str())),
+            char => char,
+        });
+    }
+    Err(refused())
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn steps(text: &str) -> Vec<Instruction> {
+        let script = parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        script.steps.into_iter().map(|located| located.step).collect()
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_printed_is_read_back(
+            key in crate::session::key::tests::any_key(),
+            count in 1..=MOST,
+            quoted in any::<String>(),
+        ) {
+            for step in [Instruction::Key { key, count }, Instruction::Key { key, count: 1 }] {
+                prop_assert_eq!(steps(&format!("x{step}x"))[1].clone(), step);
+            }
+            let one_line: String = quoted.chars().filter(|char| *char != '\u{feff}').collect();
+            if !one_line.is_empty() {
+                let paste = Instruction::Give(Msg::Paste(one_line.clone()));
+                for step in [Instruction::Expect(one_line), paste] {
+                    prop_assert_eq!(steps(&format!("x{step}x"))[1].clone(), step);
+                }
+            }
+        }
+    }
 }

@@ -1,12 +1,9 @@
 //! The state of a session: plain data.
 
 pub mod answers;
-pub mod context;
 pub mod history;
 pub mod keymap;
 pub mod overlay;
-pub mod plot;
-pub mod rows;
 pub mod scan;
 pub mod session;
 pub mod settings;

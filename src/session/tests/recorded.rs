@@ -13,8 +13,8 @@ use crate::numerics::elementary::powi;
 use crate::scene::machine::library::machines;
 use crate::scene::{ScaledMachine, Scene, library};
 use crate::session::Answers;
-use crate::session::opening::opening;
 use crate::session::replay::{Recorder, text};
+use crate::session::save::opening;
 use crate::session::settings::{Colors, DisplaySettings, Glyphs, Theme};
 use crate::session::{Effect, Msg, Notice, Session, Size, save};
 

@@ -8,7 +8,7 @@ use super::{Trial, answered};
 use crate::flow::Reason;
 use crate::question::NoAnswer;
 use crate::scene::library;
-use crate::session::read::waiting::NEEDS;
+use crate::session::read::contexts::NEEDS;
 use crate::session::replay::{Action, Player, parse};
 use crate::session::{Effect, Msg, update};
 
