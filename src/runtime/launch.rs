@@ -96,16 +96,14 @@ fn conduct<M: Application>(
                 let text = "not stopped: there is no shell that could make it go on".to_owned();
                 pump.tell(Notice { error: true, text })?;
             }
-            LoopEnd::Suspend => {
+            end @ (LoopEnd::Suspend | LoopEnd::Suspended) => {
                 pump.hold();
                 pump.await_terminal();
                 guard.leave();
-                signals::suspend_job()?;
-            }
-            LoopEnd::Suspended => {
-                pump.hold();
-                pump.await_terminal();
-                guard.leave();
+                if end == LoopEnd::Suspend {
+                    signals::suspend_job()?;
+                    continue;
+                }
                 signals::stop()?;
                 expected = true;
                 guard.enter()?;

@@ -9,8 +9,7 @@ use crate::flow::QUALITIES;
 use crate::model::{Knob, KnobSpec};
 use crate::picture::Role;
 use crate::session::{
-    Hint, Input, Keymap, Notice, Overlay, Pending, Prompt, Row, Session,
-    read::completion::described,
+    Hint, Input, Notice, Overlay, Pending, Prompt, Row, Session, read::completion::described,
 };
 
 /// Hints that are never left out, at the right end of the line.
@@ -33,10 +32,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let left = match (&session.overlay, &session.notice) {
         _ if session.waiting.is_some() => waiting(session, look),
         _ if session.pending.is_some() => vec![pending(session.pending, look)],
-        (Some(Overlay::Prompt(prompt)), _) => match prompt.row {
-            Some(row) => entry(row, prompt, session, area.width.into(), look),
-            None => self::prompt(prompt, &session.keymap, area.width.into(), look),
-        },
+        (Some(Overlay::Prompt(prompt)), _) => typed(prompt, session, area.width.into(), look),
         (Some(Overlay::Offer(script)), _) => {
             let text =
                 format!(" pasted {} steps of a keystroke file: press them?", script.steps.len());
@@ -92,22 +88,6 @@ fn pending(pending: Option<Pending>, look: &Look) -> Span<'static> {
     look.span(text, Role::Title)
 }
 
-/// The value being typed, with its caret, and what is allowed or why it was refused.
-fn entry(
-    row: Row,
-    entry: &Prompt,
-    session: &Session,
-    width: usize,
-    look: &Look,
-) -> Vec<Span<'static>> {
-    let remark = match &entry.refused {
-        Some(why) => look.span(format!("  {why}"), Role::Failure),
-        None => look.span(format!("  {}", allowed(row, session)), Role::Quiet),
-    };
-    let lead = look.span(format!(" {} = ", row.name_in(&session.problem)), Role::Title);
-    typed(lead, entry, vec![remark], width, look)
-}
-
 /// What can be typed as the value of a row.
 fn allowed(row: Row, session: &Session) -> String {
     match row {
@@ -130,36 +110,16 @@ fn allowed(row: Row, session: &Session) -> String {
     }
 }
 
-/// The command being typed, with what it can become, what it takes, or why it was refused.
-fn prompt(prompt: &Prompt, keymap: &Keymap, width: usize, look: &Look) -> Vec<Span<'static>> {
-    let quiet = |text: &str| look.span(format!("  {text}"), Role::Quiet);
-    let remark = match (&prompt.refused, &prompt.completion) {
-        (Some(why), _) => vec![look.span(format!("  {why}"), Role::Failure)],
-        (None, Some(completion)) => {
-            let word = |(index, word): (usize, &String)| {
-                let role = if index == completion.at { Role::Key } else { Role::Quiet };
-                [Span::raw(" "), look.span(word.clone(), role)]
-            };
-            let words = completion.words.iter().enumerate().flat_map(word);
-            std::iter::once(Span::raw(" ")).chain(words).collect()
-        }
-        (None, None) => vec![match described(keymap, &prompt.input.text()) {
-            Some((arguments, doc)) => quiet(&format!("{arguments} {doc}")),
-            None => quiet("the name of a command; Tab completes"),
-        }],
+/// A value or a command being typed, with its caret, and what is allowed or what it can become and takes, or why it was
+/// refused. Where there is no room for all, the caret is seen, and the reason of a refusal goes before the text, which its
+/// user knows.
+fn typed(prompt: &Prompt, session: &Session, width: usize, look: &Look) -> Vec<Span<'static>> {
+    let lead = match prompt.row {
+        Some(row) => format!(" {} = ", row.name_in(&session.problem)),
+        None => " :".to_owned(),
     };
-    typed(look.span(" :", Role::Title), prompt, remark, width, look)
-}
-
-/// Text being typed, with its caret, between what leads it and a remark. Where there is no room for all, the caret is
-/// seen, and the reason of a refusal goes before the text, which its user knows.
-fn typed(
-    lead: Span<'static>,
-    prompt: &Prompt,
-    remark: Vec<Span<'static>>,
-    width: usize,
-    look: &Look,
-) -> Vec<Span<'static>> {
+    let lead = look.span(lead, Role::Title);
+    let remark = remark(prompt, session, look);
     let room = width.saturating_sub(lead.width());
     let needed: usize = remark.iter().map(Span::width).sum();
     let for_remark = if prompt.refused.is_some() { needed } else { 0 };
@@ -168,6 +128,27 @@ fn typed(
     // A sign alone would look like the sign that the text goes on.
     let remark = (left >= LEAST || left >= needed).then(|| pane::fitted(remark.into(), left, look));
     std::iter::once(lead).chain(text).chain(remark.unwrap_or_default()).collect()
+}
+
+/// What stands behind a text being typed.
+fn remark(prompt: &Prompt, session: &Session, look: &Look) -> Vec<Span<'static>> {
+    let text = match (&prompt.refused, prompt.row, &prompt.completion) {
+        (Some(why), ..) => return vec![look.span(format!("  {why}"), Role::Failure)],
+        (None, Some(row), _) => allowed(row, session),
+        (None, None, Some(completion)) => {
+            let word = |(index, word): (usize, &String)| {
+                let role = if index == completion.at { Role::Key } else { Role::Quiet };
+                [Span::raw(" "), look.span(word.clone(), role)]
+            };
+            let words = completion.words.iter().enumerate().flat_map(word);
+            return std::iter::once(Span::raw(" ")).chain(words).collect();
+        }
+        (None, None, None) => described(&session.keymap, &prompt.input.text()).map_or_else(
+            || "the name of a command; Tab completes".to_owned(),
+            |(arguments, doc)| format!("{arguments} {doc}"),
+        ),
+    };
+    vec![look.span(format!("  {text}"), Role::Quiet)]
 }
 
 /// The part of a text around its caret that fits into `width` columns, with marks where it is cut. Its words may be cut

@@ -15,16 +15,11 @@ pub(super) const TEXT: u16 = 8;
 #[derive(Default)]
 pub(super) struct ListContent {
     pub title: &'static str,
-    pub rows: Vec<ListLine>,
+    /// The rows, each with the heading of its group, which may be empty.
+    pub rows: Vec<(&'static str, Vec<Span<'static>>)>,
     /// About the selected row, below the list.
     pub about: Vec<Line<'static>>,
     pub below: u16,
-}
-
-pub(super) enum ListLine {
-    /// Groups the rows below it.
-    Heading(&'static str),
-    Row(Vec<Span<'static>>),
 }
 
 impl ListContent {
@@ -33,25 +28,32 @@ impl ListContent {
         ListContent { title, ..ListContent::default() }
     }
 
-    /// Begins a group of rows, unless it has begun already.
-    pub fn group(&mut self, heading: &'static str) {
-        let last = self.rows.iter().rev().find_map(|row| match row {
-            ListLine::Heading(heading) => Some(*heading),
-            ListLine::Row(_) => None,
-        });
-        if last != Some(heading) {
-            self.rows.push(ListLine::Heading(heading));
-        }
+    pub fn row<const N: usize>(&mut self, heading: &'static str, cells: [Span<'static>; N]) {
+        self.rows.push((heading, cells.into()));
     }
 
-    pub fn row<const N: usize>(&mut self, cells: [Span<'static>; N]) {
-        self.rows.push(ListLine::Row(cells.into()));
+    /// The lines of the list, with the headings of groups, and the number of the one that is selected.
+    fn lines(&mut self, selected: usize, look: &Look) -> (Vec<Line<'static>>, usize) {
+        let (mut lines, mut group, mut place) = (Vec::new(), "", 0);
+        for (index, (heading, cells)) in std::mem::take(&mut self.rows).into_iter().enumerate() {
+            if heading != group {
+                lines.push(Line::styled(heading, look.style(Role::Title)));
+                group = heading;
+            }
+            if index == selected {
+                place = lines.len();
+            }
+            lines.push(drawn(cells, index == selected, look));
+        }
+        (lines, place)
     }
 
     /// Draws it into the middle of the screen.
-    pub fn draw(self, area: Rect, list: &List, screen: &mut Surface) {
+    pub fn draw(mut self, area: Rect, list: &List, screen: &mut Surface) {
+        let count = self.rows.len();
+        let (lines, selected) = self.lines(list.selected, screen.look);
         let below = if self.about.is_empty() { 0 } else { self.below + 1 };
-        let rows = u16::try_from(self.rows.len()).unwrap_or(u16::MAX);
+        let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX);
         let wanted = rows.saturating_add(2 + below);
         // No slivers of panes beside the list; the footer stays in sight.
         let width = if area.width < WIDTH + 10 { area.width } else { WIDTH };
@@ -60,24 +62,18 @@ impl ListContent {
         if area.width < 4 || area.height < 4 {
             return;
         }
-        let is_row = |(_, row): &(usize, &ListLine)| matches!(row, ListLine::Row(_));
-        let places = self.rows.iter().enumerate().filter(is_row).map(|(place, _)| place);
-        let count = places.clone().count();
         let remark = match count {
             0 => String::new(),
             _ => format!(" {} of {count} ", (list.selected + 1).min(count)),
         };
-        let selected = places.clone().nth(list.selected).unwrap_or(0);
         let inner = screen.boxed(area, &heading(self.title, list), &remark);
         let about = below.min(inner.height.saturating_sub(4));
         let rows = Rect { height: inner.height - about, ..inner };
         if count == 0 {
             screen.line(rows, 0, screen.look.span("nothing found", Role::Quiet));
         }
-        let first = pane::first_seen(selected, self.rows.len(), rows.height.into());
-        let seen = self.rows.into_iter().enumerate().skip(first);
-        let seen = seen.map(|(place, row)| drawn(row, place == selected, screen.look));
-        screen.lines(rows, seen);
+        let first = pane::first_seen(selected, lines.len(), rows.height.into());
+        screen.lines(rows, lines.into_iter().skip(first));
         if about > 0 {
             let text = Rect { y: rows.bottom() + 1, height: about - 1, ..inner };
             prose::write(text, self.about, screen);
@@ -94,11 +90,7 @@ fn heading(title: &str, list: &List) -> String {
     }
 }
 
-fn drawn(row: ListLine, selected: bool, look: &Look) -> Line<'static> {
-    let spans = match row {
-        ListLine::Heading(text) => return Line::styled(text, look.style(Role::Title)),
-        ListLine::Row(spans) => spans,
-    };
+fn drawn(spans: Vec<Span<'static>>, selected: bool, look: &Look) -> Line<'static> {
     let pointer = if selected { look.symbols().pointer } else { " " };
     let style = |span: Span<'static>| {
         if selected { span.patch_style(look.style(Role::Selected)) } else { span }

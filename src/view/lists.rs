@@ -39,15 +39,13 @@ fn palette(session: &Session, list: &List, look: &Look) -> ListContent {
     let found = session.palette_rows(list);
     let mut content = ListContent { below: 2, ..ListContent::new("everything") };
     for row in &found {
-        if list.search.is_empty() {
-            content.group(session.heading(*row));
-        }
+        let heading = if list.search.is_empty() { session.heading(*row) } else { "" };
         let keys = keys_of(session, *row, look);
         let spaced = keys.join(" ");
         let keys = if spaced.chars().count() > KEYS { keys.concat() } else { spaced };
         let keys = if keys.is_empty() { row.name().to_owned() } else { keys };
         let keys = format!("{keys:<KEYS$} ");
-        content.row([look.span(keys, Role::Key), look.span(row.meaning(), Role::Text)]);
+        content.row(heading, [look.span(keys, Role::Key), look.span(row.meaning(), Role::Text)]);
     }
     if let Some(row) = found.get(list.selected) {
         let name = match row {
@@ -82,15 +80,14 @@ fn scenes(session: &Session, list: &List, look: &Look) -> ListContent {
     let found = session.scene_rows(list);
     let mut content = ListContent { below: TEXT, ..ListContent::new("scenes") };
     for scene in &found {
-        if list.search.is_empty() {
-            content.group(SceneGroup::of(scene).title());
-        }
+        let heading = if list.search.is_empty() { SceneGroup::of(scene).title() } else { "" };
         let figure = scene.also.as_deref().unwrap_or_default();
-        content.row([
+        let cells = [
             look.span(format!("{:<14}", scene.name), Role::Key),
             look.span(format!("{figure:<7}"), Role::Quiet),
             look.span(scene.title.as_str(), Role::Text),
-        ]);
+        ];
+        content.row(heading, cells);
     }
     if let Some(scene) = found.get(list.selected) {
         let quiet = look.style(Role::Quiet);
@@ -107,15 +104,12 @@ fn layers(session: &Session, list: &List, look: &Look) -> ListContent {
     let mut content = ListContent::new("layers");
     let letters: Vec<(char, Layer)> = letters(session.view_in_use()).collect();
     for spec in session.layer_rows(list) {
-        content.group(spec.view.spec().title);
         let letter = letters.iter().find(|(_, layer)| *layer == spec.layer);
         let letter = letter.map_or(' ', |(letter, _)| *letter);
         let on = if session.layers.contains(&spec.layer) { "[x]" } else { "[ ]" };
         let meaning = session.not_drawn(spec.layer).unwrap_or(spec.meaning);
-        content.row([
-            look.span(format!("{letter} {on} {:<16}", spec.name), Role::Key),
-            look.span(meaning, Role::Text),
-        ]);
+        let name = look.span(format!("{letter} {on} {:<16}", spec.name), Role::Key);
+        content.row(spec.view.spec().title, [name, look.span(meaning, Role::Text)]);
     }
     content
 }
@@ -133,7 +127,7 @@ fn views(session: &Session, list: &List, look: &Look) -> ListContent {
             Some(lacks) => (lacks, Role::Quiet),
             None => (spec.meaning.to_owned(), Role::Text),
         };
-        content.row([look.span(title, Role::Key), look.span(text, role)]);
+        content.row("", [look.span(title, Role::Key), look.span(text, role)]);
     }
     content
 }
@@ -142,7 +136,7 @@ fn interrupted(session: &Session, list: &List, look: &Look) -> ListContent {
     let mut content = ListContent::new("interrupted sessions");
     for (_, kept) in session.interrupted_rows(list) {
         let when = format!("{:<12} ", kept.when);
-        content.row([look.span(when, Role::Key), look.span(kept.what.clone(), Role::Text)]);
+        content.row("", [look.span(when, Role::Key), look.span(kept.what.clone(), Role::Text)]);
     }
     content
 }
@@ -153,9 +147,7 @@ fn costs(session: &Session, list: &List, look: &Look) -> ListContent {
     const NAME: usize = 14;
     let mut content = ListContent::new("what the picture costs");
     for row in session.cost_rows(list) {
-        if matches!(row, CostRow::Step(..)) {
-            content.group("a step of");
-        }
+        let heading = if matches!(row, CostRow::Step(..)) { "a step of" } else { "" };
         let (name, text) = match row {
             CostRow::Asked(requirement) => asked(session, &requirement),
             CostRow::Formulas(layers) => ("formulas", format!("nothing for {}", names(&layers))),
@@ -164,7 +156,7 @@ fn costs(session: &Session, list: &List, look: &Look) -> ListContent {
             }
         };
         let name = format!("{name:<NAME$}");
-        content.row([look.span(name, Role::Key), look.span(text, Role::Text)]);
+        content.row(heading, [look.span(name, Role::Key), look.span(text, Role::Text)]);
     }
     content
 }

@@ -78,20 +78,22 @@ impl Surface<'_> {
         // What the cursor reads matters more than the end of the title.
         let right = fitted(right, width, look);
         let room = width.saturating_sub(right.width());
-        let full = |text: &str| pointer.chars().count() + text.chars().count() <= room;
         let (view, held) = title.split_once(", ").unwrap_or((title, title));
         // A number matters more than its error.
         let number = held.split(" +- ").next().unwrap_or(held);
-        let beside = |text: &&str| full(&format!("{text}  {names}"));
-        let beside = [title, held, number, view].into_iter().find(beside);
+        let beside = [title, held, number, view].map(|text| (text, names));
+        let beside = beside.into_iter().filter(|_| !names.is_empty());
+        let alone = [names, title, held].map(|text| (text, ""));
+        let fits = |(text, names): &(&str, &str)| {
+            let gap = if names.is_empty() { 0 } else { 2 };
+            let letters = [pointer, text, names].map(|part| part.chars().count());
+            !text.is_empty() && letters.into_iter().sum::<usize>() + gap <= room
+        };
         // Beside a reading, a title of which only a few letters fit is left out.
         let stump = heading.reading.is_some() && 2 * room < title.chars().count();
-        let otherwise = if stump { "" } else { title };
-        let alone = || [names, title, held].into_iter().find(|text| full(text) && !text.is_empty());
-        let (text, names) = match beside.filter(|_| !names.is_empty()) {
-            Some(text) => (text, format!("  {names}")),
-            None => (alone().unwrap_or(otherwise), String::new()),
-        };
+        let otherwise = (if stump { "" } else { title }, "");
+        let (text, names) = beside.chain(alone).find(fits).unwrap_or(otherwise);
+        let names = if names.is_empty() { String::new() } else { format!("  {names}") };
         let left = vec![look.span(format!("{pointer}{text}"), role), look.span(names, Role::Quiet)];
         let left = fitted(left.into(), room, look);
         self.both_ends(area, 0, left, right);

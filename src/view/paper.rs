@@ -15,16 +15,16 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> ListConten
     let mut content =
         ListContent { below: TEXT, ..ListContent::new("the paper against computation") };
     for (claim, examined) in &found {
-        content.group(heading(claim.section));
         let (verdict, role) = match examined {
             Some(examined) => (claim::verdict(examined), role(examined)),
             None => ("computing".to_owned(), Role::Quiet),
         };
-        content.row([
+        let cells = [
             look.span(format!("{:<14} ", claim.equation), Role::Key),
             look.span(format!("{verdict:<17} "), role),
             look.span(claim.statement, Role::Text),
-        ]);
+        ];
+        content.row(heading(claim.section), cells);
     }
     if let Some((claim, examined)) = found.get(list.selected) {
         content.about = about(claim, *examined, look);

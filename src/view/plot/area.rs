@@ -18,51 +18,44 @@ impl Canvas<'_> {
     ///
     /// The curve may be closed, or open with ends outside the window.
     pub fn shade(&mut self, curve: &[Point], with_origin: bool, role: Role) {
-        let symbol = self.look.symbols().shade;
-        let Rect { width, height, .. } = self.inner;
         let climbed = crossings(curve, |point| point.x, |point| point.y);
-        for row in 0..height {
+        let between = |a: f64, b: f64, value: f64| a.min(b) < value && value < a.max(b);
+        for row in 0..self.inner.height {
             let y = self.world(0, row).y;
             let walls = crossings(curve, |point| point.y - y, |point| point.x);
-            let between = |a: f64, b: f64, value: f64| a.min(b) < value && value < a.max(b);
             let climbs = climbed.iter().filter(|wall| between(0.0, y, **wall)).count();
-            for column in 0..width {
-                let x = self.world(column, row).x;
+            self.shade_row(row, role, |Point { x, .. }| {
                 let walks = walls.iter().filter(|wall| between(0.0, x, **wall)).count();
-                if ((climbs + walks) % 2 == 0) == with_origin {
-                    // The blanks belong to the texture: to write them is shorter than to skip them.
-                    let symbol = if (column + row) % 2 == 0 { symbol } else { ' ' };
-                    self.dots.texture(column, row, symbol, role);
-                }
-            }
+                ((climbs + walks) % 2 == 0) == with_origin
+            });
         }
     }
 
     /// Shades the cells whose middle lies in a part of the world.
     pub fn shade_where(&mut self, role: Role, inside: impl Fn(Point) -> bool) {
-        let symbol = self.look.symbols().shade;
-        for (row, column) in self.cells() {
+        (0..self.inner.height).for_each(|row| self.shade_row(row, role, &inside));
+    }
+
+    fn shade_row(&mut self, row: u16, role: Role, inside: impl Fn(Point) -> bool) {
+        for column in 0..self.inner.width {
             if inside(self.world(column, row)) {
-                let symbol = if (column + row) % 2 == 0 { symbol } else { ' ' };
+                // The blanks belong to the texture: to write them is shorter than to skip them.
+                let shade = self.look.symbols().shade;
+                let symbol = if (column + row) % 2 == 0 { shade } else { ' ' };
                 self.dots.texture(column, row, symbol, role);
             }
         }
     }
 
-    /// Row and column of each cell.
-    fn cells(&self) -> impl Iterator<Item = (u16, u16)> + use<> {
-        let Rect { width, height, .. } = self.inner;
-        (0..height).flat_map(move |row| (0..width).map(move |column| (row, column)))
-    }
-
     /// Puts a texture on the cells of parts of the world; blanks leave what is there.
     pub fn texture_where(&mut self, texture: impl Fn(Point) -> Option<(char, Role)>) {
-        for (row, column) in self.cells() {
+        let Rect { width, height, .. } = self.inner;
+        for row in 0..height {
             // Every other cell of every other line, so that borders and names can be read.
-            if (column + 2 * row) % 4 == 0
-                && let Some((symbol, role)) = texture(self.world(column, row))
-            {
-                self.dots.texture(column, row, symbol, role);
+            for column in (0..width).filter(|column| (column + 2 * row) % 4 == 0) {
+                if let Some((symbol, role)) = texture(self.world(column, row)) {
+                    self.dots.texture(column, row, symbol, role);
+                }
             }
         }
     }
