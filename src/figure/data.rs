@@ -63,7 +63,7 @@ fn rows<'a>(panel: u32, shown: &'a Panel) -> Vec<PointRow<'a>> {
     };
     let plain = PointRow::default();
     for (number, FigureCurve { name, role, style, points, .. }) in (1..).zip(&shown.curves) {
-        let (role, style) = (role.name(), style.name());
+        let (role, style) = (role.name(), (*style).into());
         add(PointRow { kind: "curve", number, name, role, style, ..plain }, points);
     }
     for (number, Area { name, role, edge, .. }) in (1..).zip(&shown.areas) {

@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
-use std::fmt;
 
 use super::{Dash, Mark, Role, Scale, ScanMap, Ticks, units::said};
 use crate::model::{Knob, Parameters};
@@ -176,19 +175,6 @@ pub struct Picture<'a> {
     pub map: Option<ScanMap>,
     /// From back to front.
     pub items: Vec<Item<'a>>,
-}
-
-impl fmt::Debug for Picture<'_> {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            out,
-            "Picture {:?}: {} over {}, {} items",
-            self.title,
-            self.y,
-            self.x,
-            self.items.len()
-        )
-    }
 }
 
 impl Item<'_> {

@@ -102,13 +102,6 @@ pub enum Dash {
     Sparse,
 }
 
-impl Dash {
-    /// The name in files.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-}
-
 /// What a mark says about its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
 #[strum(serialize_all = "kebab-case")]

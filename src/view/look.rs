@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use ratatui::style::{Color, Modifier, Style};
+use ratatui::symbols::border;
 use ratatui::text::Span;
 
 use crate::numerics::count::truncated;
@@ -35,14 +36,12 @@ pub struct Symbols {
     pub dot: &'static str,
     /// A cut text continues.
     pub more: &'static str,
-    pub rule: &'static str,
-    pub upright: &'static str,
     /// Corner of an axis: vertical line, tick on it, corner, horizontal line, tick on it.
     pub axis: [&'static str; 5],
     /// Marks, in the order of [`Mark`].
     marks: [char; 9],
-    /// Corners and sides of a box: top left, top right, bottom left, bottom right.
-    pub corners: [&'static str; 4],
+    /// Sides and corners of a box.
+    pub frame: border::Set<'static>,
     /// Direction of motion, from east counter-clockwise in eighths of a turn.
     pub arrows: [char; 8],
     pub shade: char,
@@ -55,11 +54,9 @@ const RICH: Symbols = Symbols {
     plus_minus: "±",
     dot: "·",
     more: "…",
-    rule: "─",
-    upright: "│",
     axis: ["│", "┤", "└", "─", "┴"],
     marks: ['○', '■', '●', '○', '●', '○', '×', '◆', ':'],
-    corners: ["┌", "┐", "└", "┘"],
+    frame: border::PLAIN,
     arrows: ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'],
     shade: '·',
     cross: ['┼', '─', '│'],
@@ -70,11 +67,18 @@ const LETTERS: Symbols = Symbols {
     plus_minus: "+-",
     dot: "|",
     more: "~",
-    rule: "-",
-    upright: "|",
     axis: ["|", "+", "+", "-", "+"],
     marks: ['S', 'X', '@', 'S', '#', 'o', 'x', '%', ':'],
-    corners: ["+", "+", "+", "+"],
+    frame: border::Set {
+        top_left: "+",
+        top_right: "+",
+        bottom_left: "+",
+        bottom_right: "+",
+        vertical_left: "|",
+        vertical_right: "|",
+        horizontal_top: "-",
+        horizontal_bottom: "-",
+    },
     arrows: ['>', '/', '^', '\\', '<', '/', 'v', '\\'],
     shade: '.',
     cross: ['+', '-', '|'],

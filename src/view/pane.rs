@@ -4,11 +4,10 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
-use ratatui::symbols::border;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
 
-use super::{Look, look::Symbols};
+use super::Look;
 use crate::picture::Role;
 use crate::session::{AnswerState, Pane, Session};
 
@@ -110,18 +109,8 @@ impl Surface<'_> {
     pub fn boxed(&mut self, area: Rect, heading: &str, remark: &str) -> Rect {
         let look = self.look;
         clear(area, self.buffer);
-        let Symbols { rule, upright, corners, .. } = *look.symbols();
-        let [top_left, top_right, bottom_left, bottom_right] = corners;
-        let frame = border::Set {
-            top_left,
-            top_right,
-            bottom_left,
-            bottom_right,
-            vertical_left: upright,
-            vertical_right: upright,
-            horizontal_top: rule,
-            horizontal_bottom: rule,
-        };
+        let frame = look.symbols().frame;
+        let rule = frame.horizontal_top;
         let room = usize::from(area.width.saturating_sub(4));
         let above = [
             look.span(rule, Role::Axis),

@@ -4,7 +4,7 @@ use ratatui::text::Line;
 
 use super::Look;
 use super::list::{ListContent, TEXT};
-use crate::paper::{Claim, ClaimResult, UNSAID, Verdict};
+use crate::paper::{Claim, ClaimResult, Verdict};
 use crate::picture::Role;
 use crate::session::{List, Session};
 use crate::words::{claim, significant};
@@ -38,24 +38,9 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> ListConten
 
 /// What stands above the claims of a section.
 fn heading(section: &'static str) -> &'static str {
-    match section {
-        UNSAID => "not in the paper",
-        "2" => "2  the model",
-        "3" => "3  the smooth steady state",
-        "4" | "4.1" => "4.1  the set of equilibria",
-        "4.2" => "4.2  Lyapunov's method",
-        "5" => "5  basins and periodic solutions",
-        "5.1" => "5.1  the piecewise linear system",
-        "5.2" => "5.2  the harmonic approximation",
-        "6.1" => "6.1  basins",
-        "6.2" => "6.2  limit cycles",
-        "6.2.1" => "6.2.1  characteristic points and asymptotes",
-        "6.2.2" => "6.2.2  stationary amplitudes",
-        "6.3" => "6.3  mean shift",
-        "6.4" => "6.4  bifurcation",
-        "7" => "7  conclusion",
-        other => other,
-    }
+    let lines = include_str!("../../assets/sections.txt").lines();
+    let mut headings = lines.filter_map(|line| line.split_once(" | "));
+    headings.find(|(number, _)| *number == section).map_or(section, |(_, heading)| heading)
 }
 
 /// What holds is quiet, what does not is loud.
