@@ -24,7 +24,7 @@ use crate::question::{self, Fineness, Fit, Recording, Resources};
 use crate::scan::grid::Scan;
 use crate::scene::{Finding, Request};
 use crate::session::replay::Script;
-use crate::session::{Effect, Key, Msg, PointerTarget, Session, save, settings, update};
+use crate::session::{Effect, Key, Msg, PointerTarget, Session, save, update};
 use crate::terminal::{Environment, Screen};
 use crate::view::{self, Look};
 
@@ -33,17 +33,14 @@ use crate::view::{self, Look};
 pub struct Explorer {
     session: Session,
     environment: Environment,
-    /// The user's wishes from which `look` was made.
-    wishes: settings::DisplaySettings,
     look: Look,
 }
 
 impl Explorer {
     /// A session that looks as good as the environment allows.
     pub fn new(session: Session, environment: Environment) -> Explorer {
-        let wishes = session.display;
-        let look = Look::new(environment.fit(wishes));
-        Explorer { session, environment, wishes, look }
+        let look = Look::new(environment.fit(session.display));
+        Explorer { session, environment, look }
     }
 
     pub fn session(&self) -> &Session {
@@ -53,10 +50,10 @@ impl Explorer {
 
 impl Application for Explorer {
     fn update(&mut self, msg: Msg) -> Vec<Effect> {
+        let wishes = self.session.display;
         let effects = update(&mut self.session, msg);
-        if self.session.display != self.wishes {
-            self.wishes = self.session.display;
-            self.look = Look::new(self.environment.fit(self.wishes));
+        if self.session.display != wishes {
+            self.look = Look::new(self.environment.fit(self.session.display));
         }
         effects
     }
@@ -109,12 +106,12 @@ impl Application for Explorer {
     }
 
     fn asks_for_background(&self) -> bool {
-        self.environment.asks_for_background(self.wishes)
+        self.environment.asks_for_background(self.session.display)
     }
 
     fn background(&mut self, is_light: bool) {
         self.environment.is_light = Some(is_light);
-        self.look = Look::new(self.environment.fit(self.wishes));
+        self.look = Look::new(self.environment.fit(self.session.display));
     }
 
     fn picture(&self, size: Size) -> Buffer {

@@ -222,20 +222,9 @@ fn block(char: char) -> Option<(f64, f64)> {
 
 /// Whether a line goes from the middle of the cell to the left, right, up and down.
 fn strokes(char: char) -> Option<[bool; 4]> {
-    const LINES: [(char, [bool; 4]); 11] = [
-        ('─', [true, true, false, false]),
-        ('│', [false, false, true, true]),
-        ('┌', [false, true, false, true]),
-        ('┐', [true, false, false, true]),
-        ('└', [false, true, true, false]),
-        ('┘', [true, false, true, false]),
-        ('├', [false, true, true, true]),
-        ('┤', [true, false, true, true]),
-        ('┬', [true, true, false, true]),
-        ('┴', [true, true, true, false]),
-        ('┼', [true, true, true, true]),
-    ];
-    LINES.iter().find(|line| line.0 == char).map(|line| line.1)
+    const LINES: [&str; 4] = ["─┐┘┤┬┴┼", "─┌└├┬┴┼", "│└┘├┤┴┼", "│┌┐├┤┬┼"];
+    let sides = LINES.map(|lines| lines.contains(char));
+    sides.contains(&true).then_some(sides)
 }
 
 /// A colour as `#rrggbb`, or `None` where it is left to the terminal.

@@ -125,13 +125,13 @@ fn vector_picture(figure: &Figure, svg: &str) {
         for curve in &panel.curves {
             let name = curve.name.split(", ").next().unwrap();
             assert!(letters.contains(name), "{scene}: {name} is not in the legend");
-            assert!(curve.style.name() != "dashed" || dashed, "{scene}: {name}");
+            assert!(curve.style != hopfscope::picture::Dash::Dashed || dashed, "{scene}: {name}");
             let expected = match curve.name.split(' ').next() {
                 Some("stable") => "solid",
                 Some("unstable") => "dashed",
-                _ => curve.style.name(),
+                _ => <&str>::from(curve.style),
             };
-            assert_eq!(curve.style.name(), expected, "{scene}: {name}");
+            assert_eq!(<&str>::from(curve.style), expected, "{scene}: {name}");
         }
     }
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{scene}");

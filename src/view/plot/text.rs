@@ -112,18 +112,8 @@ impl Canvas<'_> {
         let length = i32::try_from(text.chars().count()).unwrap_or(i32::MAX);
         let (width, height) = (i32::from(self.inner.width), i32::from(self.inner.height));
         let middle = -length / 2;
-        let beside = [
-            (1, 0),
-            (-length, 0),
-            (1, -1),
-            (-length, -1),
-            (1, 1),
-            (-length, 1),
-            (middle, -1),
-            (middle, 1),
-            (0, -2),
-            (0, 2),
-        ];
+        let aside = [0, -1, 1].into_iter().flat_map(move |row| [(1, row), (-length, row)]);
+        let beside = aside.chain([(middle, -1), (middle, 1), (0, -2), (0, 2)]);
         let cell =
             |column: i32, row: i32| Some((u16::try_from(column).ok()?, u16::try_from(row).ok()?));
         let no_symbol = move |(x, y)| self.dots.covering(x, y) != Covering::Symbol;
@@ -138,8 +128,9 @@ impl Canvas<'_> {
                 && apart.into_iter().all(no_symbol)
                 && within.into_iter().all(|(x, y)| self.dots.covering(x, y) <= over)
         };
-        let places =
-            cells.iter().flat_map(move |own| beside.map(|(x, y)| ((own.0 + x, own.1 + y), *own)));
+        let places = cells
+            .iter()
+            .flat_map(move |own| beside.clone().map(|(x, y)| ((own.0 + x, own.1 + y), *own)));
         places.filter(fits).filter_map(move |((column, row), _)| cell(column, row))
     }
 
@@ -174,22 +165,15 @@ impl Canvas<'_> {
     pub fn cross(&mut self, point: Point) {
         let [centre, level, upright] = self.look.symbols().cross;
         let Some((column, row)) = self.dots.cell_at(self.place(point)) else { return };
-        let arms = [
-            (column.checked_sub(2), Some(row), level),
-            (column.checked_sub(1), Some(row), level),
-            (Some(column + 1), Some(row), level),
-            (Some(column + 2), Some(row), level),
-            (Some(column), row.checked_sub(1), upright),
-            (Some(column), Some(row + 1), upright),
-            (Some(column), Some(row), centre),
-        ];
-        for (column, row, symbol) in arms {
-            if let (Some(column), Some(row)) = (column, row) {
-                // Above and below it hides no letter: a number without its sign is another number.
-                let hides = self.dots.covering(column, row) == Covering::Symbol;
-                if symbol != upright || !hides {
-                    self.dots.symbol(column, row, symbol, Role::Cursor);
-                }
+        let along = [-2, -1, 1, 2].map(|right| (right, 0, level));
+        let arms = along.into_iter().chain([(0, -1, upright), (0, 1, upright), (0, 0, centre)]);
+        for (right, down, symbol) in arms {
+            let place = (column.checked_add_signed(right), row.checked_add_signed(down));
+            let (Some(column), Some(row)) = place else { continue };
+            // Above and below it hides no letter: a number without its sign is another number.
+            let hides = self.dots.covering(column, row) == Covering::Symbol;
+            if symbol != upright || !hides {
+                self.dots.symbol(column, row, symbol, Role::Cursor);
             }
         }
     }
