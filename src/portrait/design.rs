@@ -8,10 +8,10 @@
 use serde::Serialize;
 
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Body, Parameters, Source, Tolerances};
+use crate::model::{Parameters, Source, Tolerances};
 use crate::numerics::{PlaceTolerance, exp, illinois, ln};
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::{Border, Margin, Portrait};
+use crate::portrait::{Margin, Portrait};
 
 /// A kick out of rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -65,12 +65,12 @@ pub enum FrictionNeeded {
 }
 
 impl FrictionNeeded {
-    /// The least friction; 0 if any suffices.
+    /// The least friction; `None` if any suffices.
     #[must_use]
-    pub fn least(self) -> f64 {
+    pub fn least(self) -> Option<f64> {
         match self {
-            FrictionNeeded::Any => 0.0,
-            FrictionNeeded::Friction { r } | FrictionNeeded::Fold { r, .. } => r,
+            FrictionNeeded::Any => None,
+            FrictionNeeded::Friction { r } | FrictionNeeded::Fold { r, .. } => Some(r),
         }
     }
 }
@@ -101,13 +101,13 @@ pub fn friction_for(
         return Err(Reason::NotApplicable { needs: "a positive margin" });
     }
     let mut cost = Cost::default();
-    // Logarithm of the margin, as a fraction of the one wanted.
-    let mut excess = |r: f64| -> Result<f64, Reason> {
+    let mut margin = |r: f64| -> Result<Margin, Reason> {
         let found = Portrait::of_oscillator(&Parameters { r, ..*parameters }, wanted, limits)?;
         cost += found.cost;
-        Ok(ln(kick.margin(&found.margin) / wanted))
+        Ok(found.margin)
     };
-    let needed = least_friction(wanted, hardly_any(parameters, wanted), &mut excess)?;
+    let any = hardly_any(parameters, wanted);
+    let needed = least_friction((kick, wanted), (wanted, any), &mut margin)?;
     let lost = Reason::NoConvergence { sought: "the friction for a margin", change: f64::NAN };
     Ok((needed.ok_or(lost)?, cost))
 }
@@ -124,21 +124,24 @@ fn hardly_any(parameters: &Parameters, wanted: f64) -> Option<f64> {
     }
 }
 
-/// The least friction at which an increasing function of it, which may jump, becomes positive: enclosed, and narrowed
-/// until rounding, or next to a fold until the search for cycles no longer converges. `any` is a friction that counts as
-/// none. `None` where no bracket is found.
+/// The least friction at which the margin of a kick, a function of friction that increases and may jump, is as `wanted`:
+/// enclosed, and narrowed until rounding, or next to a fold until the search for cycles no longer converges. The search
+/// starts at the friction `first`; `any` is one that counts as none. `None` where no bracket is found.
 fn least_friction(
-    wanted: f64,
-    any: Option<f64>,
-    excess: &mut dyn FnMut(f64) -> Result<f64, Reason>,
+    (kick, wanted): (Kick, f64),
+    (first, any): (f64, Option<f64>),
+    margin: &mut dyn FnMut(f64) -> Result<Margin, Reason>,
 ) -> Result<Option<FrictionNeeded>, Reason> {
+    // Logarithm of the margin, as a fraction of the one wanted.
+    let mut excess =
+        |r: f64| -> Result<f64, Reason> { Ok(ln(kick.margin(&margin(r)?) / wanted).max(f64::MIN)) };
     if let Some(r) = any
         && excess(r)? >= 0.0
     {
         return Ok(Some(FrictionNeeded::Any));
     }
     // A displacement within the sticking set is kept: the first is high enough, or nearly so.
-    let mut high = (wanted, excess(wanted)?);
+    let mut high = (first, excess(first)?);
     let mut low = high;
     for _ in 0..STEPS {
         if high.1 < 0.0 {
@@ -185,19 +188,6 @@ fn least_friction(
 // As for the oscillator of the paper, more friction of the guide turns the field
 // inwards wherever the mass moves, so that the basin of rest grows with it.
 
-/// The logarithm of the guaranteed margin of this kind, as a fraction of `wanted`.
-fn guaranteed_excess(
-    subject: &Source,
-    known: &Tolerances,
-    kick: Kick,
-    wanted: f64,
-) -> Result<f64, Reason> {
-    // Only belts have tolerances.
-    let Body::Belt(belt) = &subject.body else { return Ok(f64::MIN) };
-    let found = guaranteed(belt, known)?.map_or(0.0, |(_, margin)| kick.margin(&margin));
-    Ok(ln(found / wanted).max(f64::MIN))
-}
-
 /// The least friction R of the guide, in N, at which the margin, or with tolerances the guaranteed margin, is
 /// `wanted` (m or N s) or more; `None` where no bracket of it was found. Fails with [`Reason`] where a machine on
 /// the way has no portrait.
@@ -208,40 +198,33 @@ pub fn friction_of_guide(
     wanted: f64,
 ) -> Result<Option<FrictionNeeded>, Reason> {
     let model = subject.model()?;
-    let machine = |held: f64| subject.with_friction(held * model.stiffness);
     // As a length: what the guide holds at rest.
     let length = match kick {
         Kick::Displacement => wanted,
         Kick::Impulse => wanted / (model.mass * model.omega_0),
     };
-    let mut excess = |held: f64| {
-        let machine = machine(held);
-        if !known.is_none() {
-            return guaranteed_excess(&machine, known, kick, wanted);
+    let mut margin = |held: f64| -> Result<Margin, Reason> {
+        let machine = subject.with_friction(held * model.stiffness);
+        // Only belts have tolerances.
+        match machine.of_belt().filter(|_| !known.is_none()) {
+            Some(belt) => Ok(guaranteed(belt, known)?.map_or(Margin::ZERO, |(_, margin)| margin)),
+            None => Ok(machine.portrait()?.margin),
         }
-        let found = machine.portrait()?;
-        Ok(match found.border {
-            Border::NoBasin => f64::MIN,
-            _ => ln(kick.margin(&found.margin) / wanted).max(f64::MIN),
-        })
     };
     if !known.is_none() {
         // As much friction holds a displacement by itself; where even that guarantees nothing, no friction does.
         let half = known.half_widths.get("R").copied().unwrap_or(0.0);
         let ample = 8.0 * (length + (known.disturbance + half) / model.stiffness);
-        if excess(ample)? < 0.0 {
+        if kick.margin(&margin(ample)?) < wanted {
             return Ok(None);
         }
     }
     let without = (model.damping > 0.0 && known.is_none()).then_some(0.0);
-    let found = least_friction(length, without, &mut excess)?;
-    let force = |r: f64| r * model.stiffness;
+    let found = least_friction((kick, wanted), (length, without), &mut margin)?;
     Ok(found.map(|needed| match needed {
         FrictionNeeded::Any => FrictionNeeded::Any,
-        FrictionNeeded::Friction { r } => FrictionNeeded::Friction { r: force(r) },
-        FrictionNeeded::Fold { r, below } => {
-            FrictionNeeded::Fold { r: force(r), below: below / length * wanted }
-        }
+        FrictionNeeded::Friction { r } => FrictionNeeded::Friction { r: r * model.stiffness },
+        FrictionNeeded::Fold { r, below } => FrictionNeeded::Fold { r: r * model.stiffness, below },
     }))
 }
 

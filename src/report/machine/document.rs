@@ -150,7 +150,7 @@ fn design(designed: &DesignAnswer) -> Document {
     Document::default()
         .with("kick", designed.kick)
         .with("margin", designed.wanted)
-        .with("R", designed.force())
+        .with("R", designed.needed.least())
         .with("needed", designed.needed)
         .with("message", designed.sentence())
 }

@@ -204,7 +204,7 @@ fn rows(answer: &MachineAnswer) -> Vec<QuantityRow> {
     let share = |share| QuantityRow::pure("rest share of the window", share);
     rows.extend(answer.rest_share.map(share));
     if let Some(designed) = &answer.design {
-        rows.push(QuantityRow::physical("R for the margin", designed.force(), "N"));
+        rows.push(QuantityRow::physical("R for the margin", designed.needed.least(), "N"));
     }
     rows
 }

@@ -113,14 +113,6 @@ fn margin_sentence(physical: &Margin, whole: &Margin) -> String {
 }
 
 impl DesignAnswer {
-    /// The friction needed, in N; `None` if any suffices.
-    pub(super) fn force(&self) -> Option<f64> {
-        match self.needed {
-            FrictionNeeded::Any => None,
-            FrictionNeeded::Friction { r } | FrictionNeeded::Fold { r, .. } => Some(r),
-        }
-    }
-
     /// The answer in a sentence.
     pub(super) fn sentence(&self) -> String {
         let (name, unit) = match self.kick {
@@ -131,7 +123,7 @@ impl DesignAnswer {
         let at = self.at.map(|v0| format!(" at v0 = {}", with_unit(v0, PLACES, "m/s")));
         let has = with_unit(self.has, PLACES, "N");
         let lead = format!("for a margin of {wanted} ({name}){}: ", at.unwrap_or_default());
-        let force = self.force().map(|force| with_unit(force, 10, "N")).unwrap_or_default();
+        let force = self.needed.least().map(|force| with_unit(force, 10, "N")).unwrap_or_default();
         lead + &match self.needed {
             FrictionNeeded::Any => {
                 "any R suffices, however small; damping alone keeps it".to_owned()

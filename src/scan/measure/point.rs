@@ -66,7 +66,7 @@ impl Cells<'_> {
                             .ok_or("no friction was found to suffice")?
                     }
                 };
-                self.fill(Measure::Design, || [needed.least()]);
+                self.fill(Measure::Design, || [needed.least().unwrap_or(0.0)]);
             }
             (Measure::Repeated, source) => {
                 if let Oscillator(Problem { parameters, .. }) = source {
