@@ -354,7 +354,7 @@ fn what_is_said_early_comes_true_late() {
                 let late = followed(parameters, initial, 300.0);
                 let place =
                     format!("{parameters:?} from {initial:?}: {fate:?}, {:?}", late.outcome);
-                match fate.end {
+                match fate {
                     End::Rests => {
                         assert!(matches!(late.outcome, Outcome::Captured { .. }), "{place}");
                         ends[0] += 1;
@@ -385,6 +385,6 @@ fn a_start_on_the_unstable_cycle_is_left_to_rounding() {
     let found = cycles_drawn(&parameters, 2, &LIMITS).unwrap();
     let initial = State { q: found.cycles[0].q_max, v: 0.0 };
     let fate = fate(&found, &followed(parameters, initial, 8.0)).unwrap();
-    let End::OnTheEdge { distance } = fate.end else { panic!("{fate:?}") };
+    let End::OnTheEdge { distance } = fate else { panic!("{fate:?}") };
     assert!(distance < 1e-12, "{distance:e}");
 }

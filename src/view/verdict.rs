@@ -5,10 +5,10 @@ use crate::branch::SpecialKind;
 use crate::flow::{Fate, Outcome, Trajectory};
 use crate::model::belt::Units;
 use crate::picture::{Role, units};
-use crate::portrait::{Border, Cycle};
+use crate::portrait::{Border, Cycle, Cycles};
 use crate::question::whole::WholeMotion;
 use crate::scene::{Finding, Layer, Topic};
-use crate::session::fate::{End, MotionVerdict, SideOfBorder};
+use crate::session::fate::End;
 use crate::session::{BranchStop, Session};
 use crate::words::motion::{Writing, sentence, swings};
 use crate::words::{significant, stability, with_unit};
@@ -41,7 +41,7 @@ pub fn outcome(session: &Session) -> (String, Role) {
             }
             let text = match (whole, session.fate()) {
                 (Some((course, running)), _) => of_machine(course, &running.reduced.units, found),
-                (None, Some(fate)) => verdict(&fate, found, writing),
+                (None, Some(end)) => verdict(end, session.cycles_beside(found), found, writing),
                 (None, None) => sentence(found, writing),
             };
             (text, Role::Text)
@@ -71,15 +71,14 @@ fn held_motions(session: &Session) -> Option<String> {
 }
 
 /// What becomes of a motion and why, in a sentence.
-fn verdict(fate: &MotionVerdict, motion: &Trajectory, writing: Writing) -> String {
-    let why = match fate.place {
-        SideOfBorder::InsideCycle => " (inside the unstable cycle)",
-        SideOfBorder::OutsideCycle => " (outside the unstable cycle)",
-        SideOfBorder::InsideSeparatrix => " (inside the separatrix)",
-        SideOfBorder::OutsideSeparatrix => " (outside the separatrix)",
-        SideOfBorder::Anywhere => "",
-    };
-    let end = match (fate.end, motion.outcome) {
+fn verdict(end: End, among: Option<&Cycles>, motion: &Trajectory, writing: Writing) -> String {
+    let border = among.and_then(|found| match found.border {
+        border if border.parts_without_cycle() => Some("separatrix"),
+        _ => found.cycles.iter().any(|cycle| !cycle.stable).then_some("unstable cycle"),
+    });
+    let side = if matches!(end, End::Rests | End::Decays) { "inside" } else { "outside" };
+    let why = border.map_or_else(String::new, |border| format!(" ({side} the {border})"));
+    let end = match (end, motion.outcome) {
         (End::OnTheEdge { distance }, _) => {
             let distance = significant(distance, 1);
             return format!("on the unstable cycle to {distance}: decided by rounding");
@@ -103,7 +102,7 @@ fn verdict(fate: &MotionVerdict, motion: &Trajectory, writing: Writing) -> Strin
         (End::Grows, _) => "grows without bound".to_owned(),
         (End::Decays, _) => "decays towards the equilibrium".to_owned(),
     };
-    end + why
+    end + &why
 }
 
 /// What becomes of the motion of a machine, in its own units, by the whole model.

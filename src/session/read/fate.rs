@@ -38,33 +38,6 @@ pub enum End {
     },
 }
 
-/// The position of the start relative to the border of the basin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SideOfBorder {
-    /// Inside of the unstable cycle.
-    InsideCycle,
-    OutsideCycle,
-    /// On the captured side of the separatrix.
-    InsideSeparatrix,
-    OutsideSeparatrix,
-    /// The basin has no border.
-    Anywhere,
-}
-
-/// The fate of a motion, and where it starts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MotionVerdict {
-    /// Its fate.
-    pub end: End,
-    pub place: SideOfBorder,
-}
-
-impl End {
-    fn at(self, place: SideOfBorder) -> MotionVerdict {
-        MotionVerdict { end: self, place }
-    }
-}
-
 /// Relative distance from a cycle below which rounding decides: of a start at a turning point, and of a
 /// computed turning point, which carries the error of the motion up to there.
 const NEAR: [f64; 2] = [1e-12, 1e-8];
@@ -72,28 +45,26 @@ const NEAR: [f64; 2] = [1e-12, 1e-8];
 /// Clearance in units of r above which it is resolved by the difference of two displacements.
 const RESOLVED: f64 = 1e-6;
 
-/// The verdict on a motion among these cycles; `None` if it is unknown.
-pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
+/// The fate of a motion among these cycles; `None` if it is unknown.
+pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<End> {
     match found.border {
         border if border.parts_without_cycle() => beside_separatrix(found, motion),
         _ if !found.cycles.is_empty() => among(found, motion),
-        Border::None if found.parameters.r > 0.0 => Some(End::Rests.at(SideOfBorder::Anywhere)),
+        Border::None if found.parameters.r > 0.0 => Some(End::Rests),
         // Without friction, D2 and cycles, damping decides.
         _ => {
             let decays = found.parameters.d > 0.0 && found.parameters.d3 >= 0.0;
-            let alone = found.parameters.d2 == 0.0 && decays;
-            alone.then_some(End::Decays.at(SideOfBorder::Anywhere))
+            (found.parameters.d2 == 0.0 && decays).then_some(End::Decays)
         }
     }
 }
 
-/// The verdict without friction and nonlinear damping, where the sign of D decides and no cycles are needed.
-fn linear(motion: &Trajectory) -> Option<MotionVerdict> {
+/// The fate without friction and nonlinear damping, where the sign of D decides and no cycles are needed.
+fn linear(motion: &Trajectory) -> Option<End> {
     let (Parameters { d, d2, d3, r }, start) = (motion.problem.parameters, motion.problem.initial);
     let moves = start.q != 0.0 || start.v != 0.0;
-    let end = if d > 0.0 { End::Decays } else { End::Grows };
     let alone = [d2, d3, r] == [0.0; 3] && d != 0.0 && moves;
-    alone.then_some(end.at(SideOfBorder::Anywhere))
+    alone.then_some(if d > 0.0 { End::Decays } else { End::Grows })
 }
 
 /// The first turning point of a motion, and whether it is the start. Where turning points were not located,
@@ -106,14 +77,11 @@ fn turning(motion: &Trajectory, r: f64) -> Option<(f64, bool)> {
     motion.crossings.first().map(|crossing| (crossing.q, false))
 }
 
-/// The verdict if there are cycles, each inside the next.
-fn among(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
+/// The fate if there are cycles, each inside the next.
+fn among(found: &Cycles, motion: &Trajectory) -> Option<End> {
     let r = found.parameters.r;
-    let unstable = found.cycles.iter().any(|cycle| !cycle.stable);
-    let inside = if unstable { SideOfBorder::InsideCycle } else { SideOfBorder::Anywhere };
-    let rests = End::Rests.at(inside);
     let Some((q, exact)) = turning(motion, r) else {
-        return matches!(motion.outcome, Outcome::Captured { .. }).then_some(rests);
+        return matches!(motion.outcome, Outcome::Captured { .. }).then_some(End::Rests);
     };
     // In the frame of the side on which the motion turns; only D2 makes the sides different.
     let mirrored = q < 0.0 && found.parameters.d2 != 0.0;
@@ -123,45 +91,41 @@ fn among(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     }
     let own = q.abs() - r;
     let distance = |cycle: &Cycle| (own / clearance(cycle) - 1.0).abs();
+    let onto =
+        |cycle: &Cycle| Some(End::Onto { q_max: cycle.q_max, grows: own < clearance(cycle) });
     let near = NEAR[usize::from(!exact)];
     if let Some(cycle) = found.cycles.iter().find(|cycle| distance(cycle) <= near) {
-        let end = if cycle.stable {
-            End::Onto { q_max: cycle.q_max, grows: own < clearance(cycle) }
-        } else {
-            End::OnTheEdge { distance: distance(cycle) }
-        };
-        return Some(end.at(SideOfBorder::OutsideCycle));
+        let edge = End::OnTheEdge { distance: distance(cycle) };
+        return if cycle.stable { onto(cycle) } else { Some(edge) };
     }
     let outer = found.cycles.iter().find(|cycle| clearance(cycle) > own);
     let inner = found.cycles.iter().rfind(|cycle| clearance(cycle) < own);
-    let outside = if unstable { SideOfBorder::OutsideCycle } else { SideOfBorder::Anywhere };
-    let onto = |cycle: &Cycle, grows| End::Onto { q_max: cycle.q_max, grows }.at(outside);
-    Some(match (inner, outer) {
-        (_, Some(outer)) if outer.stable => onto(outer, true),
-        (Some(inner), _) if inner.stable => onto(inner, false),
-        (None, Some(_)) if r > 0.0 => rests,
-        (None, Some(_)) => End::Decays.at(inside),
-        (Some(_), None) => End::Grows.at(outside),
-        _ => return None,
-    })
+    match (inner, outer) {
+        (_, Some(outer)) if outer.stable => onto(outer),
+        (Some(inner), _) if inner.stable => onto(inner),
+        (None, Some(_)) if r > 0.0 => Some(End::Rests),
+        (None, Some(_)) => Some(End::Decays),
+        (Some(_), None) => Some(End::Grows),
+        _ => None,
+    }
 }
 
-/// The verdict if a separatrix borders the basin: a motion that turns within the margin is captured; otherwise,
+/// The fate if a separatrix borders the basin: a motion that turns within the margin is captured; otherwise,
 /// its outcome tells.
-fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
+fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<End> {
     let margin = found.picture.as_ref()?.margin.displacement;
     let within = |q: f64| margin.is_some_and(|margin| q.abs() < margin);
     let turned = || turning(motion, found.parameters.r).is_some_and(|(q, _)| within(q));
     match motion.outcome {
-        Outcome::Captured { .. } => Some(End::Rests.at(SideOfBorder::InsideSeparatrix)),
-        Outcome::Escaped { .. } => Some(End::Grows.at(SideOfBorder::OutsideSeparatrix)),
-        _ => turned().then_some(End::Rests.at(SideOfBorder::InsideSeparatrix)),
+        Outcome::Escaped { .. } => Some(End::Grows),
+        Outcome::Captured { .. } => Some(End::Rests),
+        _ => turned().then_some(End::Rests),
     }
 }
 
-/// The verdict by the whole model.
-fn of_course(course: &WholeMotion, motion: &Trajectory) -> Option<MotionVerdict> {
-    let end = match course.fate {
+/// The fate by the whole model.
+fn of_course(course: &WholeMotion, motion: &Trajectory) -> Option<End> {
+    Some(match course.fate {
         Fate::Rest => End::Rests,
         Fate::Cycle(_) => {
             let cycle = course.cycle?;
@@ -172,13 +136,7 @@ fn of_course(course: &WholeMotion, motion: &Trajectory) -> Option<MotionVerdict>
         }
         Fate::Escapes => End::Grows,
         Fate::Neutral | Fate::Moving | Fate::Unknown(_) => return None,
-    };
-    let place = match (course.border, end) {
-        (Border::Cycle, End::Rests) => SideOfBorder::InsideCycle,
-        (Border::Cycle, _) => SideOfBorder::OutsideCycle,
-        _ => SideOfBorder::Anywhere,
-    };
-    Some(end.at(place))
+    })
 }
 
 impl Session {
@@ -193,7 +151,6 @@ impl Session {
             self.cycles().is_some_and(|found| found.cycles.iter().any(is))
         };
         let border = self.cycles().map(|found| found.border);
-        let end = || self.fate().map(|fate| fate.end);
         match condition {
             TextCondition::Here => {
                 let (own, scene) = (self.problem, self.scene.problem);
@@ -217,31 +174,34 @@ impl Session {
             TextCondition::Sticks => any(&Cycle::sticks),
             TextCondition::Compares(symbol, bounds) => bounds.contains(&self.value(symbol)),
             TextCondition::Shows(layer) => self.shows(layer),
-            TextCondition::Rests => matches!(end(), Some(End::Rests)),
+            TextCondition::Rests => matches!(self.fate(), Some(End::Rests)),
             TextCondition::Grows => {
-                matches!(end(), Some(End::Grows | End::Onto { grows: true, .. }))
+                matches!(self.fate(), Some(End::Grows | End::Onto { grows: true, .. }))
             }
         }
     }
 
-    /// The verdict on the motion that was computed last; `None` until its cycles are known, and for methods
+    /// The cycles at the parameters of a motion; `None` until they are known.
+    pub(crate) fn cycles_beside(&self, motion: &Trajectory) -> Option<&Cycles> {
+        self.cycles().filter(|found| found.parameters == motion.problem.parameters)
+    }
+
+    /// The fate of the motion that was computed last; `None` until its cycles are known, and for methods
     /// that miss the turning points.
-    pub fn fate(&self) -> Option<MotionVerdict> {
+    pub fn fate(&self) -> Option<End> {
         let motion = self.trajectory()?;
         if let Some(course) = self.course() {
             return of_course(course, motion);
         }
-        let known = motion.problem.method.spec().events && self.contact().is_none();
-        let of_these = |found: &&Cycles| found.parameters == motion.problem.parameters;
-        let found = self.cycles().filter(|_| known).filter(of_these);
-        let end = match found {
-            Some(found) => fate(found, motion),
-            None => linear(motion).filter(|_| known),
-        };
+        if !motion.problem.method.spec().events || self.contact().is_some() {
+            return None;
+        }
+        let found = self.cycles_beside(motion);
+        let end = found.map_or_else(|| linear(motion), |found| fate(found, motion));
         // A coarse step can end on the wrong side.
-        end.filter(|fate| match motion.outcome {
-            Outcome::Captured { .. } => matches!(fate.end, End::Rests | End::OnTheEdge { .. }),
-            Outcome::Escaped { .. } => matches!(fate.end, End::Grows | End::OnTheEdge { .. }),
+        end.filter(|end| match motion.outcome {
+            Outcome::Captured { .. } => matches!(end, End::Rests | End::OnTheEdge { .. }),
+            Outcome::Escaped { .. } => matches!(end, End::Grows | End::OnTheEdge { .. }),
             Outcome::Moving { .. } => true,
             Outcome::GaveUp { .. } => false,
         })
@@ -266,7 +226,7 @@ mod tests {
     fn without_friction_and_nonlinear_damping_the_sign_of_damping_decides() {
         let fate = |d, q, r| {
             let parameters = Parameters { d, d2: 0.0, d3: 0.0, r };
-            linear(&motion(parameters, State { q, v: 0.0 }, 8.0)).map(|fate| fate.end)
+            linear(&motion(parameters, State { q, v: 0.0 }, 8.0))
         };
         assert_eq!(fate(-0.05, 0.5, 0.0), Some(End::Grows));
         assert_eq!(fate(0.1, 0.5, 0.0), Some(End::Decays));
