@@ -8,71 +8,13 @@ use std::path::Path;
 
 use ratatui::layout::Size;
 
+use super::play::{Pause, Playing};
 use super::{Application, Files, Pump};
 use crate::runtime::application::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
-use crate::session::replay::{Action, Player, Script, ScriptError};
+use crate::session::replay::{Action, Script, ScriptError};
 use crate::session::{Code, Effect, Key, Msg, Notice};
 use crate::view;
-
-/// Why a replay is paused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pause {
-    Not,
-    /// A caption waits to be read.
-    Caption,
-    /// The user asked for it.
-    Wished,
-}
-
-/// A file that is being played.
-#[derive(Debug)]
-pub(super) struct Playing {
-    player: Player,
-    /// The whole script, to start over.
-    script: Script,
-    /// Number of captions to skip on the way to the wanted one.
-    passed: usize,
-    /// Whether keys had their usual effect since the present caption was shown.
-    tried: bool,
-    pause: Pause,
-    /// Why the first file that it asked for was not written.
-    unwritten: Option<String>,
-}
-
-impl Playing {
-    pub(super) fn new(script: Script) -> Self {
-        Playing {
-            player: Player::new(script.clone()),
-            script,
-            passed: 0,
-            tried: false,
-            pause: Pause::Not,
-            unwritten: None,
-        }
-    }
-
-    /// Goes back to the previous caption: plays everything again up to there.
-    fn go_back(&mut self) {
-        if let Some(passed) = self.player.said().checked_sub(2) {
-            self.play_again(passed);
-        }
-    }
-
-    /// Continues to the next caption. If the user has tried keys, plays everything again up to here to undo
-    /// them.
-    fn go_on(&mut self) {
-        if self.tried {
-            self.play_again(self.player.said());
-        }
-        self.pause = Pause::Not;
-    }
-
-    fn play_again(&mut self, passed: usize) {
-        self.player = Player::new(self.script.clone());
-        (self.passed, self.pause, self.tried) = (passed, Pause::Not, false);
-    }
-}
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
 const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
