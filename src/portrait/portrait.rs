@@ -272,13 +272,11 @@ impl Portrait {
     /// [`Reason`] if it does not reach its next right turning point.
     pub fn fate(&self, x: f64, v: f64) -> Result<Fate, Reason> {
         let y = self.model.scaled_velocity(v);
-        let rests = self.model.place(x, y) == ContactState::Rests;
-        // Without friction only one point rests, and that like what is around it.
-        if self.orders_starts() && !(rests && self.model.guide > 0.0) {
-            return Ok(self.fates[self.region(x, y)]);
-        }
-        if rests {
+        if self.model.place(x, y) == ContactState::Rests {
             return Ok(Fate::Rest);
+        }
+        if self.orders_starts() {
+            return Ok(self.fates[self.region(x, y)]);
         }
         let mut flow = Flow::new(&self.model);
         let turn = match flow.to_the_right(x, y) {
@@ -401,6 +399,7 @@ impl Portrait {
     /// Where the starts at a displacement with these velocities, in ascending order, end: sorted by the borders there.
     fn count_ordered(&self, x: f64, velocities: &[f64]) -> Counts {
         let mut counts = Counts::default();
+        // Without friction the one point that rests counts as what is around it.
         let rests = |v: f64| v == 0.0 && self.model.guide > 0.0 && self.model.rests_at(x);
         // The rows between two speeds, a row at rest included: next to a node none else may be.
         let rows_within = |(low, high): (f64, f64)| {
