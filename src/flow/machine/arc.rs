@@ -19,17 +19,17 @@ use crate::numerics::{Bracket, PlaceTolerance, ln, newton};
 pub struct ArcEnd {
     /// Displacement.
     pub x: f64,
-    /// Whether it ended on the belt's line; otherwise at `y = 0`.
-    pub on_belt: bool,
-    /// Accelerations just after its start and just before its end.
-    pub accelerations: (f64, f64),
+    /// Velocity: that of the belt, or 0.
+    pub y: f64,
+    /// Logarithm of the acceleration just after its start over the one just before its end.
+    pub log_ratio: f64,
 }
 
 impl ArcEnd {
-    /// Logarithm of the first acceleration over the last, in the direction of integration.
+    /// Whether it ended on the belt's line; otherwise at `y = 0`.
     #[must_use]
-    pub fn log_ratio(&self) -> f64 {
-        ln((self.accelerations.0 / self.accelerations.1).abs())
+    pub fn is_on_belt(&self) -> bool {
+        self.y != 0.0
     }
 }
 
@@ -144,9 +144,8 @@ impl<'a> Flow<'a> {
             self.passes(step, watch);
             if let Some(level) = level {
                 if level == most || level == least {
-                    let accelerations = (entered, forward * slope);
-                    let on_belt = level != 0.0;
-                    return Ok(ArcEnd { x: x - offset, on_belt, accelerations });
+                    let log_ratio = ln((entered / (forward * slope)).abs());
+                    return Ok(ArcEnd { x: x - offset, y, log_ratio });
                 }
                 let outer = if level == high { side.pieces.last() } else { side.pieces.first() };
                 if outer.is_some_and(|outer| outer.low == piece.low) {

@@ -136,7 +136,7 @@ impl MotionRecorder {
             self.found.legs.push(Leg { place, start });
             let mut keep = |series: &PhaseSeries| self.keep(model, &series.step, series.left);
             match flow.leg(stepper.as_deref_mut(), place, (x, y), &mut keep) {
-                Ok(Some(leg)) => (place, x, y) = (leg.place, leg.x, leg.y),
+                Ok(Some((next, end))) => (place, x, y) = (next, end.x, end.y),
                 _ if flow.series.left <= 0.0 => return None,
                 Ok(None) => return Some(Reason::Settles),
                 Err(stop) => return Some(stop),

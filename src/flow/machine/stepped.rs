@@ -9,6 +9,7 @@ use crate::flow::explicit::{Dop853, Dopri5};
 use crate::flow::step::{Field, StepPoint, Stepper};
 use crate::flow::tableau::{dop853, dopri5};
 use crate::model::{ContactState, Model, Phase, Reason};
+use crate::numerics::elementary::ln;
 
 /// The methods that can follow a machine.
 pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";
@@ -107,8 +108,8 @@ impl<'a> Flow<'a> {
             let end = MachineStep::even(ContactState::Slips(phase), [x, 0.0], y);
             self.passes(MachineStep { duration: step.duration, ..end }, watch);
             if reached.is_some() && (y == least || y == most) {
-                let accelerations = (entered, field.acceleration(from.x, y));
-                return Ok(ArcEnd { x, on_belt: y != 0.0, accelerations });
+                let log_ratio = ln((entered / field.acceleration(from.x, y)).abs());
+                return Ok(ArcEnd { x, y, log_ratio });
             }
             if reached.is_some() {
                 return Err(self.outside(y));

@@ -9,39 +9,20 @@ use super::series::PhaseSeries;
 use super::stepped::PhaseStepper;
 use crate::model::{ContactState, Phase, Reason};
 
-/// A turning point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A turning point, and the motion that led there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Turn {
     /// Its displacement.
     pub x: f64,
     /// Whether the mass comes to rest.
     pub rests: bool,
-    /// The motion that led there.
-    pub way: WayToTurn,
-}
-
-/// Properties of the motion to a turning point.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct WayToTurn {
-    /// Logarithm of the product of (acceleration in/acceleration out) over the arcs; together with the integral of
-    /// the divergence, it is that of the derivative of the map. Minus infinity after sticking.
+    /// Logarithm of the product of (acceleration in/acceleration out) over the arcs that led there; together with the
+    /// integral of the divergence, it is that of the derivative of the map. Minus infinity after sticking.
     pub log_ratio: f64,
     /// Displacement at which the mass began to ride on the belt.
     pub sticks_from: Option<f64>,
     /// Displacement at which it left the belt's line upwards.
     pub overtakes_from: Option<f64>,
-}
-
-/// Where a leg ends: where the next begins.
-pub(crate) struct LegEnd {
-    /// What the mass does next.
-    pub place: ContactState,
-    /// Displacement.
-    pub x: f64,
-    /// Velocity.
-    pub y: f64,
-    /// Logarithm of (acceleration in/acceleration out); minus infinity after sticking.
-    pub log_ratio: f64,
 }
 
 impl<'a> Flow<'a> {
@@ -50,39 +31,40 @@ impl<'a> Flow<'a> {
     pub fn turn(
         &mut self,
         mut place: ContactState,
-        (mut x, mut y): (f64, f64),
+        (x, mut y): (f64, f64),
         watch: &mut impl FnMut(&PhaseSeries),
     ) -> Result<Turn, Reason> {
         /// Maximum number of legs: three contacts with the belt's line and one more by rounding, and a ride.
         const LEGS: usize = 8;
-        let mut way = WayToTurn::default();
+        let mut turn = Turn { x, rests: true, ..Turn::default() };
         for _ in 0..LEGS {
-            let Some(leg) = self.leg(None, place, (x, y), watch)? else {
-                return Ok(Turn { x, rests: true, way });
+            let Some((next, leg)) = self.leg(None, place, (turn.x, y), watch)? else {
+                return Ok(turn);
             };
             if place == ContactState::Sticks {
-                way.sticks_from = way.sticks_from.or(Some(x));
+                turn.sticks_from = turn.sticks_from.or(Some(turn.x));
             }
-            way.log_ratio += leg.log_ratio;
-            (place, x, y) = (leg.place, leg.x, leg.y);
+            turn.log_ratio += leg.log_ratio;
+            (place, turn.x, y) = (next, leg.x, leg.y);
             if y == 0.0 {
-                return Ok(Turn { x, rests: place == ContactState::Rests, way });
+                return Ok(Turn { rests: place == ContactState::Rests, ..turn });
             }
             if place == ContactState::Slips(Phase::Above) {
-                way.overtakes_from = Some(x);
+                turn.overtakes_from = Some(turn.x);
             }
         }
         Err(Reason::Steps)
     }
 
-    /// Follows one leg, by Taylor series where there is no other stepper; `None` at rest.
+    /// Follows one leg, by Taylor series where there is no other stepper, up to what the mass does next, and where; `None`
+    /// at rest.
     pub(crate) fn leg(
         &mut self,
         stepper: Option<&mut PhaseStepper<'a>>,
         place: ContactState,
         (x, y): (f64, f64),
         watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<Option<LegEnd>, Reason> {
+    ) -> Result<Option<(ContactState, ArcEnd)>, Reason> {
         let model = self.model;
         let phase = match place {
             ContactState::Rests => return Ok(None),
@@ -91,31 +73,23 @@ impl<'a> Flow<'a> {
                 let mut ride = MachineStep::ride(x, release, model.speed);
                 ride.duration = ride.duration.min(self.series.left);
                 self.passes(ride, watch);
-                let place = ContactState::Slips(Phase::Between);
-                return Ok(Some(LegEnd { place, x: release, y, log_ratio: f64::NEG_INFINITY }));
+                let released = ArcEnd { x: release, y, log_ratio: f64::NEG_INFINITY };
+                return Ok(Some((ContactState::Slips(Phase::Between), released)));
             }
             ContactState::Slips(phase) => phase,
         };
-        let end = match stepper {
+        let mut end = match stepper {
             None => self.arc(phase, (x, y), false, watch)?,
             Some(stepper) => self.stepped(stepper, phase, (x, y), watch)?,
         };
-        let (place, x) = self.after(phase, &end);
-        let y = if end.on_belt { model.speed } else { 0.0 };
-        Ok(Some(LegEnd { place, x, y, log_ratio: end.log_ratio() }))
-    }
-
-    /// The phase that follows an arc, and its start. Only by rounding does a motion arrive where its own side
-    /// pushes it away.
-    pub(crate) fn after(&self, phase: Phase, end: &ArcEnd) -> (ContactState, f64) {
-        let model = self.model;
-        let x = match (end.on_belt, phase, model.lines) {
+        // Only by rounding does a motion arrive where its own side pushes it away.
+        end.x = match (end.is_on_belt(), phase, model.lines) {
             (false, Phase::Below, _) => end.x.min(model.guide),
             (false, ..) => end.x.max(-model.guide),
             (true, Phase::Above, Some(lines)) => end.x.max(lines.low),
             (true, _, Some(lines)) => end.x.min(lines.fold),
             (true, _, None) => end.x,
         };
-        (model.place(x, if end.on_belt { model.speed } else { 0.0 }), x)
+        Ok(Some((model.place(end.x, end.y), end)))
     }
 }

@@ -7,7 +7,7 @@
 use crate::flow::machine::arc::ArcEnd;
 use crate::flow::machine::curve::{MachineCurve, MachineStep};
 use crate::flow::machine::series::PhaseSeries;
-use crate::flow::machine::turn::{Turn, WayToTurn};
+use crate::flow::machine::turn::Turn;
 use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Lines, Phase};
 use crate::numerics::elementary::ln;
@@ -45,7 +45,7 @@ impl Flow<'_> {
             let add = &mut |series: &PhaseSeries| divergence += series.divergence();
             match self.turn(ContactState::Slips(phase), (x, 0.0), add) {
                 Err(Reason::Settles) => {
-                    Ok(Turn { x: equilibrium, rests: true, way: WayToTurn::default() })
+                    Ok(Turn { x: equilibrium, rests: true, ..Turn::default() })
                 }
                 turn => turn,
             }
@@ -54,16 +54,16 @@ impl Flow<'_> {
         if left.rests {
             return Ok(MachineReturn::Rests(left.x));
         }
-        let Turn { x, rests, way } = turn(Phase::Between, left.x, -guide)?;
-        if rests {
-            return Ok(MachineReturn::Rests(x));
+        let right = turn(Phase::Between, left.x, -guide)?;
+        if right.rests {
+            return Ok(MachineReturn::Rests(right.x));
         }
         Ok(MachineReturn::Turns(Image {
-            x,
+            x: right.x,
             left: left.x,
-            log_slope: left.way.log_ratio + way.log_ratio + divergence,
-            sticks_from: way.sticks_from,
-            overtakes_from: way.overtakes_from,
+            log_slope: left.log_ratio + right.log_ratio + divergence,
+            sticks_from: right.sticks_from,
+            overtakes_from: right.overtakes_from,
         }))
     }
 
@@ -79,7 +79,7 @@ impl Flow<'_> {
         let guide = self.model.guide;
         let x = if phase == Phase::Below { guide } else { -guide };
         match self.arc(phase, start, backward, watch) {
-            Err(Reason::Settles) => Ok(ArcEnd { x, on_belt: false, accelerations: (0.0, 1.0) }),
+            Err(Reason::Settles) => Ok(ArcEnd { x, y: 0.0, log_ratio: f64::NEG_INFINITY }),
             end => end,
         }
     }
@@ -105,7 +105,7 @@ impl Flow<'_> {
         let mut divergence = 0.0;
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
         let end = match self.settling_arc(Phase::Between, (x, 0.0), true, &mut add) {
-            Ok(end) if end.on_belt => return Ok(None),
+            Ok(end) if end.is_on_belt() => return Ok(None),
             // Backward in time, damping adds energy: however far away it comes from, a motion turns before `x`.
             Err(Reason::Escapes) => return Ok(None),
             end => end?,
@@ -114,7 +114,7 @@ impl Flow<'_> {
         Ok(before.map(|before| Image {
             x: before.x,
             left: end.x,
-            log_slope: divergence - end.log_ratio() - before.log_ratio(),
+            log_slope: divergence - end.log_ratio - before.log_ratio,
             sticks_from: None,
             overtakes_from: None,
         }))
@@ -195,7 +195,7 @@ impl Flow<'_> {
             Err(Reason::BeyondLaw { .. }) => None,
             before => before?,
         };
-        let ratio = before.map_or(0.0, |before| before.log_ratio());
+        let ratio = before.map_or(0.0, |before| before.log_ratio);
         let between = (left + guide) / (after + guide);
         let log_slope =
             if after > -guide { divergence - ratio + ln(between.abs()) } else { f64::NEG_INFINITY };
@@ -238,7 +238,7 @@ impl Flow<'_> {
         let speed = self.model.speed;
         let Some(marks) = landmarks else { return Err(Reason::Steps) };
         // Where static friction holds what the orbit comes from, its way to the line is not on the border.
-        if !self.settling_arc(Phase::Between, (x, 0.0), true, &mut |_| {})?.on_belt {
+        if !self.settling_arc(Phase::Between, (x, 0.0), true, &mut |_| {})?.is_on_belt() {
             return self.capture_border(x, landmarks);
         }
         let mut curve = MachineCurve::default();
@@ -248,7 +248,7 @@ impl Flow<'_> {
         let left = left.min(-self.model.guide_static);
         self.arc(Phase::Below, (left, 0.0), true, &mut curve.keeper())?;
         let mut end = self.arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;
-        if end.on_belt && end.x > marks.lines.release {
+        if end.is_on_belt() && end.x > marks.lines.release {
             end = self.arc(Phase::Above, (end.x, speed), true, &mut curve.keeper())?;
         }
         curve.steps.push(MachineStep::ride(corner, end.x, speed));
@@ -265,7 +265,7 @@ impl Flow<'_> {
         let mut curve = MachineCurve::default();
         let end = self.settling_arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;
         let mut left = end.x;
-        if let Some(Landmarks { lines, .. }) = landmarks.filter(|_| end.on_belt) {
+        if let Some(Landmarks { lines, .. }) = landmarks.filter(|_| end.is_on_belt()) {
             let speed = self.model.speed;
             curve.steps.push(MachineStep::ride(lines.fold, end.x, speed));
             left = self.left_before(lines.fold, speed, &mut curve.keeper())?;
