@@ -48,8 +48,8 @@ pub fn precise(
     grain: Grain,
     limits: &Limits,
 ) -> Result<Trajectory<Twofold>, Reason> {
-    let run = MotionRun::new(problem, Method::Taylor, Detail::default());
-    let found = run.go(&mut grain.stepper(), limits);
+    let run = MotionRun::new(problem, Method::Taylor, Detail::default(), limits);
+    let found = run.go(&mut grain.stepper());
     found.outcome.answered().map(|()| found)
 }
 

@@ -7,9 +7,8 @@ use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper};
 use super::stop::ComingToRest;
-use super::swing::{Swing, swing};
-use crate::model::parameters::energy;
-use crate::model::parameters::rests;
+use super::swing::swing;
+use crate::model::parameters::{energy, rests};
 use crate::model::{HalfPlane, Ledger, Reason, Side, State};
 use crate::numerics::{Scalar, Sum, real, times_power};
 
@@ -17,26 +16,25 @@ use crate::numerics::{Scalar, Sum, real, times_power};
 const MOST_CROSSINGS: usize = 2_000_000;
 
 /// A motion in progress.
-pub struct MotionRun<N = f64> {
+pub struct MotionRun<'a, N = f64> {
     detail: Detail,
+    limits: &'a Limits<'a>,
     /// The results so far.
     found: Trajectory<N>,
     time: Sum<N>,
     /// Work of the linear, the quadratic and the cubic damping.
     works: [f64; 3],
-    /// Length of the path.
-    path: f64,
 }
 
-impl<N: Scalar> MotionRun<N> {
+impl<'a, N: Scalar> MotionRun<'a, N> {
     /// A run at its start.
-    pub fn new(problem: &Problem, method: Method, detail: Detail) -> Self {
+    pub fn new(problem: &Problem, method: Method, detail: Detail, limits: &'a Limits<'a>) -> Self {
         let State { q, v } = problem.initial;
         let mut found = Trajectory::begun(problem, method);
         if detail.samples_per_step > 0 {
             found.samples.push(Sample { tau: 0.0, q, v });
         }
-        MotionRun { detail, found, time: Sum::default(), works: [0.0; 3], path: 0.0 }
+        MotionRun { detail, limits, found, time: Sum::default(), works: [0.0; 3] }
     }
 
     /// Ends the run without an answer.
@@ -46,19 +44,15 @@ impl<N: Scalar> MotionRun<N> {
     }
 
     /// Follows the motion until it ends.
-    pub fn go<S: Stepper<HalfPlane, N>>(
-        mut self,
-        stepper: &mut S,
-        limits: &Limits,
-    ) -> Trajectory<N> {
+    pub fn go<S: Stepper<HalfPlane, N>>(mut self, stepper: &mut S) -> Trajectory<N> {
         let Problem { parameters, initial, .. } = self.found.problem;
         let outcome = match Side::entered_from(initial, parameters.r) {
             None => self.rests(),
             Some(_) if parameters.r == 0.0 && !self.detail.crossings => {
                 let field = HalfPlane::new(&parameters, Side::Upper);
-                self.glide(stepper, &field, limits, |_, _, _, _| None)
+                self.glide(stepper, &field, |_, _, _| None)
             }
-            Some(side) => self.half_swings(side, stepper, limits),
+            Some(side) => self.half_swings(side, stepper),
         };
         self.close(outcome, stepper.cost())
     }
@@ -72,8 +66,12 @@ impl<N: Scalar> MotionRun<N> {
             && let Some((q, v)) = outcome.state()
         {
             let end = State { q: q.value(), v: v.value() };
+            // Between its turns a motion goes one way.
+            let places = self.found.crossings.iter().map(|turn| turn.q.value()).chain([end.q]);
+            let way = |from: &mut f64, q: f64| Some((q - std::mem::replace(from, q)).abs());
+            let path: f64 = places.scan(initial.q, way).sum();
             let [linear, quadratic, cubic] = self.works;
-            let works = [linear, quadratic, cubic, -parameters.r * self.path];
+            let works = [linear, quadratic, cubic, -parameters.r * path];
             let energies = (energy(initial), energy(end));
             let ledger = Ledger::of_terms(&parameters, energies, works);
             // Energies may overflow where states do not.
@@ -94,14 +92,13 @@ impl<N: Scalar> MotionRun<N> {
 
     /// One smooth motion on both sides of `v = 0`: there is no friction, or it is part of the field.
     ///
-    /// `see` is called after each step, with the stepper, the time at which it began, the exponent of its unit and
-    /// the step; it may end the motion there.
+    /// `see` is called after each step, with the time at which it began, the exponent of its unit and the step; it may end
+    /// the motion there.
     fn glide<F: PlaneField, S: Stepper<F, N>>(
         &mut self,
         stepper: &mut S,
         field: &F,
-        limits: &Limits,
-        mut see: impl FnMut(&mut S, f64, i32, &Step<N>) -> Option<Outcome<N>>,
+        mut see: impl FnMut(f64, i32, &Step<N>) -> Option<Outcome<N>>,
     ) -> Outcome<N> {
         let Problem { initial: State { q, v }, until, .. } = self.found.problem;
         let (point, until) = (StepPoint { x: N::of(q), v: N::of(v) }, N::of(until));
@@ -109,16 +106,12 @@ impl<N: Scalar> MotionRun<N> {
             return Outcome::Moving { tau: until, q: point.x, v: point.v };
         }
         let mut ended = None;
-        let result = {
-            let mut keep = self.keeper::<F, S>(Side::Upper, 0.0, field.frictionless());
-            let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
-                keep(stepper, at, unit, step);
-                ended = see(stepper, at, unit, step);
-                if ended.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            };
-            swing(stepper, field, (point, 0), (until, false), limits, watch)
+        let see = |at: f64, unit: i32, step: &Step<N>| {
+            ended = see(at, unit, step);
+            ended.is_some()
         };
-        match self.book(result) {
+        let bound = (until, false);
+        match self.piece(stepper, field, (Side::Upper, 0.0), (point, 0), bound, see).0 {
             Ok(point) => ended.unwrap_or_else(|| self.stopped(point)),
             Err(reason) => self.gives_up(reason),
         }
@@ -129,7 +122,6 @@ impl<N: Scalar> MotionRun<N> {
         &mut self,
         mut side: Side,
         stepper: &mut S,
-        limits: &Limits,
     ) -> Outcome<N> {
         let Problem { parameters, initial, until, .. } = self.found.problem;
         let (r, until, rest) = (parameters.r, N::of(until), N::of(0.0));
@@ -145,69 +137,56 @@ impl<N: Scalar> MotionRun<N> {
                 return self.gives_up(Reason::HalfSwings { most: MOST_CROSSINGS });
             }
             let field = HalfPlane::new(&parameters, side);
+            let sign = N::of(side.sign());
             let stop = ComingToRest::of(&field, point.rounded(), N::NEGLIGIBLE);
-            let stop = stop.filter(|stop| N::of(stop.duration) < remaining);
-            let result = if let Some(ComingToRest { duration, .. }) = stop {
-                Swing { end: Ok(point), crossed: true, duration: N::of(duration), steps: 0 }
+            let q;
+            if let Some(stop) = stop.filter(|stop| N::of(stop.duration) < remaining) {
+                self.time.add(N::of(stop.duration));
+                q = last.x + sign * N::of(stop.way());
+                let (beyond, of) = stop.beyond((sign * last.x - N::of(r)).value());
+                (point.x, unit) = (N::of(-beyond), of);
             } else {
-                let mut keep = self.keeper::<HalfPlane, S>(side, r, field);
-                let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
-                    keep(stepper, at, unit, step);
-                    ControlFlow::Continue(())
+                let (from, bound) = ((point, unit), (remaining, true));
+                let (end, crossed) =
+                    self.piece(stepper, &field, (side, r), from, bound, |_, _, _| false);
+                let StepPoint { x, v } = match end {
+                    Ok(end) => end,
+                    Err(reason) => return self.gives_up(reason),
                 };
-                swing(stepper, &field, (point, unit), (remaining, true), limits, watch)
-            };
-            let crossed = result.crossed;
-            let end = self.book(result);
-            let tau = self.time.value();
-            match end {
-                Err(reason) => return self.gives_up(reason),
-                Ok(end) if !crossed => {
-                    self.path += (end.x - point.x).value();
-                    let v = N::of(side.sign()) * end.v;
-                    return self.stopped(StepPoint { x: side.displacement(end.x, r), v });
+                q = side.displacement(x, r);
+                if !crossed {
+                    return self.stopped(StepPoint { x: q, v: sign * v });
                 }
-                Ok(StepPoint { x, .. }) => {
-                    let (way, q) = match stop {
-                        Some(stop) => (stop.way(), last.x + N::of(side.sign() * stop.way())),
-                        None => ((x - point.x).value(), side.displacement(x, r)),
-                    };
-                    if !q.value().is_finite() {
-                        return self.gives_up(Reason::OutOfRange);
-                    }
-                    self.found.crossings.push(Crossing { tau, q });
-                    self.path += way;
-                    // The next half swing starts from its clearance, which is known more accurately than q - r.
-                    let (clearance, of) = match stop {
-                        Some(stop) => {
-                            let passed = N::of(side.sign()) * last.x - N::of(r);
-                            let (beyond, of) = stop.beyond(passed.value());
-                            (N::of(beyond), of)
-                        }
-                        None => (x - N::of(2.0 * r), 0),
-                    };
-                    last = StepPoint { x: q, v: rest };
-                    if clearance <= rest {
-                        return Outcome::Captured { tau, q };
-                    }
-                    side = side.opposite();
-                    (point, unit) = (StepPoint { x: -clearance, v: rest }, of);
-                }
+                // The next half swing starts from its clearance, which is known more accurately than q - r.
+                (point.x, unit) = (N::of(2.0 * r) - x, 0);
             }
+            if !q.value().is_finite() {
+                return self.gives_up(Reason::OutOfRange);
+            }
+            let tau = self.time.value();
+            self.found.crossings.push(Crossing { tau, q });
+            if point.x >= rest {
+                return Outcome::Captured { tau, q };
+            }
+            (last, point.v, side) = (StepPoint { x: q, v: rest }, rest, side.opposite());
         }
     }
 
-    /// What is to be done for each step on a side whose centre is displaced by `shift`: keeps points for drawing and
-    /// adds up the work.
-    fn keeper<F: Field, S: Stepper<F, N>>(
+    /// Runs one smooth piece on a side whose centre is displaced by some shift, from a point in units of a power of two,
+    /// for some time or up to `v = 0`; keeps points for drawing and adds up the work. `see` may stop it after a step.
+    /// Returns its end, and whether that is at `v = 0`.
+    fn piece<F: PlaneField, S: Stepper<F, N>>(
         &mut self,
-        side: Side,
-        shift: f64,
-        field: HalfPlane,
-    ) -> impl FnMut(&mut S, f64, i32, &Step<N>) {
+        stepper: &mut S,
+        field: &F,
+        (side, shift): (Side, f64),
+        from: (StepPoint<N>, i32),
+        bound: (N, bool),
+        mut see: impl FnMut(f64, i32, &Step<N>) -> bool,
+    ) -> (Result<StepPoint<N>, Reason>, bool) {
         let (detail, time) = (self.detail, self.time);
         let (samples, works) = (&mut self.found.samples, &mut self.works);
-        move |stepper, at, unit, step| {
+        let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
             if detail.samples_per_step > 0 {
                 sample(stepper, step, detail.samples_per_step, |offset, point| {
                     samples.push(Sample {
@@ -218,16 +197,14 @@ impl<N: Scalar> MotionRun<N> {
                 });
             }
             if detail.energy {
-                add_works(works, &stepper.powers(), &field, unit);
+                add_works(works, &stepper.powers(), &field.frictionless(), unit);
             }
-        }
-    }
-
-    /// Records steps and time; returns how the piece ended.
-    fn book(&mut self, piece: Swing<N>) -> Result<StepPoint<N>, Reason> {
+            if see(at, unit, step) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let piece = swing(stepper, field, from, bound, self.limits, watch);
         self.found.cost.steps += piece.steps;
         self.time.add(piece.duration);
-        piece.end
+        (piece.end, piece.crossed)
     }
 
     /// The motion at its end time.
@@ -240,7 +217,7 @@ impl<N: Scalar> MotionRun<N> {
     }
 }
 
-impl MotionRun {
+impl MotionRun<'_> {
     /// Takes steps that ignore `v = 0`, as the methods do that are included for comparison, and counts sign changes
     /// of the velocity as crossings.
     ///
@@ -251,32 +228,27 @@ impl MotionRun {
         stepper: &mut S,
         field: &F,
         sticks: bool,
-        limits: &Limits,
     ) -> Trajectory {
         let Problem { parameters, initial, .. } = self.found.problem;
         let mut crossings = Vec::new();
-        let mut path = 0.0;
         let mut from = StepPoint { x: initial.q, v: initial.v };
-        let see = |_: &mut S, at: f64, unit: i32, step: &Step| {
+        let see = |at: f64, unit: i32, step: &Step| {
             let end = step.end.times_power(unit);
             let (tau, start) = (at + step.duration, std::mem::replace(&mut from, end));
-            let mut turn = None;
             if start.v != 0.0 && start.v.signum() * end.v <= 0.0 {
                 let part = start.v / (start.v - end.v);
                 let q = start.x + 0.5 * part * step.duration * start.v;
                 crossings.push(Crossing { tau: at + part * step.duration, q });
-                turn = Some(q);
             }
-            // The path within the step, out and back where the velocity changes sign.
-            let turn = turn.unwrap_or(start.x);
-            path += (turn - start.x).abs() + (end.x - turn).abs();
             if tau == at {
-                let reason = Reason::StepTooSmall { step: step.duration };
-                return Some(Outcome::GaveUp { tau, reason });
+                return Some(Outcome::without_end(
+                    tau,
+                    Reason::StepTooSmall { step: step.duration },
+                ));
             }
             if crossings.len() >= MOST_CROSSINGS {
                 let reason = Reason::HalfSwings { most: MOST_CROSSINGS };
-                return Some(Outcome::GaveUp { tau, reason });
+                return Some(Outcome::without_end(tau, reason));
             }
             let stays = sticks && rests(State { q: end.x, v: end.v }, parameters.r);
             stays.then_some(Outcome::Captured { tau, q: end.x })
@@ -284,10 +256,9 @@ impl MotionRun {
         let outcome = if sticks && rests(initial, parameters.r) {
             self.rests()
         } else {
-            self.glide(stepper, field, limits, see)
+            self.glide(stepper, field, see)
         };
         self.found.crossings = crossings;
-        self.path = path;
         self.close(outcome, stepper.cost())
     }
 }

@@ -24,38 +24,38 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
     let linear = parameters.is_piecewise_linear();
     let field = HalfPlane::new(&parameters, Side::Upper);
     let regular = |epsilon| SmoothField::new(&parameters, epsilon);
-    let run = |method| MotionRun::new(problem, method, detail);
+    let run = |method| MotionRun::new(problem, method, detail, limits);
     let asked = run(problem.method);
     match problem.method {
-        Method::Auto | Method::Exact if linear => run(Method::Exact).go(&mut Exact::new(), limits),
+        Method::Auto | Method::Exact if linear => run(Method::Exact).go(&mut Exact::new()),
         Method::Exact => asked.give_up(Reason::NotApplicable { needs: "D2 = D3 = 0" }),
         Method::Auto => {
             let mut stepper = Auto::new(tolerance);
-            let mut found = run(Method::Taylor).go(&mut stepper, limits);
+            let mut found = run(Method::Taylor).go(&mut stepper);
             found.implicit_steps = stepper.implicit_steps();
             if 2 * found.implicit_steps > found.cost.steps {
                 found.method = Method::Stiff;
             }
             found
         }
-        Method::Taylor => asked.go(&mut Taylor::new(tolerance), limits),
-        Method::Dop853 => asked.go(&mut Explicit::new(&dop853::SCHEME, field, tolerance), limits),
-        Method::Dopri5 => asked.go(&mut Explicit::new(&dopri5::SCHEME, field, tolerance), limits),
-        Method::Rk4 => asked.go(&mut Explicit::new(&CLASSICAL, field, step), limits),
-        Method::Stiff => asked.go(&mut Stiff::new(field, tolerance), limits),
+        Method::Taylor => asked.go(&mut Taylor::new(tolerance)),
+        Method::Dop853 => asked.go(&mut Explicit::new(&dop853::SCHEME, field, tolerance)),
+        Method::Dopri5 => asked.go(&mut Explicit::new(&dopri5::SCHEME, field, tolerance)),
+        Method::Rk4 => asked.go(&mut Explicit::new(&CLASSICAL, field, step)),
+        Method::Stiff => asked.go(&mut Stiff::new(field, tolerance)),
         Method::Smoothed => {
             let field = regular(Some(epsilon));
             let mut stepper = Explicit::new(&dop853::SCHEME, field, tolerance);
-            asked.walk(&mut stepper, &field, false, limits)
+            asked.walk(&mut stepper, &field, false)
         }
         Method::SignRk4 => {
             let field = regular(None);
             let mut stepper = Explicit::new(&CLASSICAL, field, step);
-            asked.walk(&mut stepper, &field, false, limits)
+            asked.walk(&mut stepper, &field, false)
         }
         Method::TimeStepping => {
             let field = regular(None);
-            asked.walk(&mut TimeStepping::new(field, step), &field, true, limits)
+            asked.walk(&mut TimeStepping::new(field, step), &field, true)
         }
     }
 }

@@ -51,14 +51,9 @@ fn smoothed_friction_creeps_and_costs_as_the_inverse_of_its_width() {
 fn an_implicit_method_creeps_to_the_same_place() {
     let problem = Problem { epsilon: 1e-4, ..from(0.4) };
     let field = SmoothField::new(&problem.parameters, Some(problem.epsilon));
-    let start = || MotionRun::new(&problem, Method::Smoothed, Detail::default());
-    let explicit = start().walk(
-        &mut Dop853::new(&dop853::SCHEME, field, 1e-8),
-        &field,
-        false,
-        &Limits::PATIENT,
-    );
-    let implicit = start().walk(&mut Stiff::new(field, 1e-8), &field, false, &Limits::PATIENT);
+    let start = || MotionRun::new(&problem, Method::Smoothed, Detail::default(), &Limits::PATIENT);
+    let explicit = start().walk(&mut Dop853::new(&dop853::SCHEME, field, 1e-8), &field, false);
+    let implicit = start().walk(&mut Stiff::new(field, 1e-8), &field, false);
     assert!((end(&explicit) - end(&implicit)).abs() < 1e-8);
     assert!(100 * implicit.cost.evaluations < explicit.cost.evaluations);
 }
