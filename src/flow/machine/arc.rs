@@ -1,18 +1,16 @@
 //! A motion within one phase, up to the switching line at which it ends.
-//!
-//! `y'' = -y` wherever `y' = 0`: the speed has one maximum in each phase and no minimum. A step during which
-//! the acceleration keeps its sign is therefore monotone in y, and one during which it changes it turns
-//! exactly once. So the values at the ends of a step and at that maximum decide whether a line was reached,
-//! however shallow the contact; nothing is sampled.
 
 use super::curve::{MachineStep, ORDER};
+use super::levels::{PhaseStep, crossing};
 use super::series::PhaseSeries;
+use super::stepped::{self, PhaseField, PhaseStepper, pair_step};
 use crate::flow::Cost;
+use crate::flow::step::StepPoint;
 use crate::model::force::ForceBranch;
 use crate::model::model::FINEST;
 use crate::model::{ContactState, Model, Phase, Reason};
+use crate::numerics::ln;
 use crate::numerics::polynomial::{derivative, value, value_and_slope};
-use crate::numerics::{Bracket, PlaceTolerance, ln, newton};
 
 /// The end of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +32,7 @@ impl ArcEnd {
 }
 
 /// Maximum number of steps of an arc.
-const STEPS: u32 = 20_000;
+const STEPS: u64 = 20_000;
 
 /// Steps of a loosened tolerance are no longer than this, in `1/omega_0`, so that none of them turns twice; at
 /// the finest one the terms of a swing see to that.
@@ -60,14 +58,16 @@ pub struct Flow<'a> {
     pub series: PhaseSeries,
     /// Whether a motion that turns no more is to be followed to its end nevertheless.
     pub follows: bool,
-    steps: u64,
+    /// What takes steps in place of Taylor series, forward in time alone.
+    pub(super) stepper: Option<PhaseStepper<'a>>,
+    pub(super) steps: u64,
 }
 
 impl<'a> Flow<'a> {
     /// Ready to compute.
     #[must_use]
     pub fn new(model: &'a Model) -> Self {
-        Flow { model, series: PhaseSeries::new(), follows: false, steps: 0 }
+        Flow { model, series: PhaseSeries::new(), follows: false, stepper: None, steps: 0 }
     }
 
     /// What its steps cost: an evaluation for each term of a series.
@@ -95,75 +95,113 @@ impl<'a> Flow<'a> {
         watch: &mut impl FnMut(&PhaseSeries),
     ) -> Result<ArcEnd, Reason> {
         let model = self.model;
-        let (side, offset) = (model.side(phase), model.offset(phase));
         let (least, most) = model.range(phase);
+        let offset = model.offset(phase);
         let forward = if backward { -1.0 } else { 1.0 };
-        let (mut x, mut y) = (x + offset, y);
-        let started = x.abs().max(y.abs());
+        let mut from = StepPoint { x: x + offset, v: y };
+        let started = from.size();
         if started < LEAST {
             return Err(Reason::Settles);
         }
         // On the belt's line at the fold the acceleration vanishes exactly.
         let touching = phase == Phase::Between
             && y == most
-            && model.lines.is_some_and(|lines| x - offset == lines.fold);
+            && model.lines.is_some_and(|lines| from.x - offset == lines.fold);
         let mut known = touching.then_some(0.0);
+        let by_series = self.stepper.is_none();
+        let field = PhaseField { model, phase };
+        if let Some(stepper) = &mut self.stepper {
+            stepper.begin(&field);
+        }
         let mut first = None;
         let mut rising = None;
-        for _ in 0..STEPS {
-            let rising_here = rising.unwrap_or_else(|| self.rises(phase, (x, y), forward, known));
-            let piece = side.piece(y, rising_here).ok_or(self.outside(y))?;
-            self.series.expand((side, piece), (x, y), forward, known.take());
-            self.steps += 1;
-            let (series, left) = (&self.series, self.series.left);
-            let terms = &series.step.y;
-            let entered = *first.get_or_insert(forward * terms[1]);
-            let length = series.length(model.tolerance);
-            let length = if model.tolerance > FINEST { length.min(LONGEST) } else { length };
-            if !(length > 0.0 && length.is_finite()) {
-                // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
-                return Err(if length == f64::INFINITY {
-                    Reason::Settles
-                } else {
-                    Reason::Escapes
-                });
-            }
-            let (low, high) = (piece.low.max(least), piece.high.min(most));
-            let velocity = |t: f64| value_and_slope(terms, t);
-            let turning = |t: f64| value_and_slope(&derivative(terms), t);
-            let (peak, hit) = crossing(phase, length, (low, high), &velocity, &turning);
-            let (duration, level) = match hit {
-                Some((time, level)) if time <= left => (time, Some(level)),
-                _ => (length.min(left), None),
+        let most_steps = if by_series { STEPS } else { stepped::STEPS };
+        for _ in 0..most_steps {
+            let taken = if let Some(stepper) = &mut self.stepper {
+                pair_step(stepper, field, from, (self.series.left, first.is_none()))?
+            } else {
+                self.series_step(phase, from, forward, (rising, known.take()))?
             };
-            let peak = peak.filter(|peak| *peak <= duration);
-            let (last, slope) = velocity(duration);
-            (x, y) = (value(&series.step.x, duration), level.unwrap_or(last));
-            let place = ContactState::Slips(phase);
-            let step = MachineStep { place, duration, peak, offset, ..series.step };
+            let PhaseStep { step, end, slopes: (begun, slope), level } = taken;
+            let entered = *first.get_or_insert(begun);
+            (from, rising) = (end, Some(slope > 0.0));
             self.passes(step, watch);
-            if let Some(level) = level {
-                if level == most || level == least {
-                    let log_ratio = ln((entered / (forward * slope)).abs());
-                    return Ok(ArcEnd { x: x - offset, y, log_ratio });
+            match level {
+                Some((y, _)) if y == most || y == least => {
+                    let log_ratio = ln((entered / slope).abs());
+                    return Ok(ArcEnd { x: end.x - offset, y, log_ratio });
                 }
-                let outer = if level == high { side.pieces.last() } else { side.pieces.first() };
-                if outer.is_some_and(|outer| outer.low == piece.low) {
-                    return Err(self.outside(level));
-                }
-            }
-            rising = Some(slope > 0.0);
-            let size = x.abs().max(y.abs());
-            let end = if self.follows { NEAR * started } else { f64::INFINITY };
-            let turns = size > end || !creeps(phase, side, (x, y), forward);
-            if size < SETTLED * started || !turns || self.series.left <= 0.0 {
-                return Err(Reason::Settles);
-            }
-            if size.is_nan() || size > ESCAPED * started {
-                return Err(Reason::Escapes);
+                Some((y, true)) => return Err(self.outside(y)),
+                _ if self.series.left <= 0.0 => return Err(Reason::Settles),
+                _ if by_series => self.stays((phase, forward), started, end)?,
+                _ => {}
             }
         }
         Err(Reason::Steps)
+    }
+
+    /// A step by Taylor series within a piece of the force; along the direction of integration the velocity is known to
+    /// rise or fall, or the acceleration is known.
+    fn series_step(
+        &mut self,
+        phase: Phase,
+        StepPoint { x, v: y }: StepPoint,
+        forward: f64,
+        (rising, known): (Option<bool>, Option<f64>),
+    ) -> Result<PhaseStep, Reason> {
+        let model = self.model;
+        let (side, (least, most)) = (model.side(phase), model.range(phase));
+        let rising = rising.unwrap_or_else(|| self.rises(phase, (x, y), forward, known));
+        let piece = side.piece(y, rising).ok_or(self.outside(y))?;
+        self.series.expand((side, piece), (x, y), forward, known);
+        self.steps += 1;
+        let (series, left) = (&self.series, self.series.left);
+        let length = series.length(model.tolerance);
+        let length = if model.tolerance > FINEST { length.min(LONGEST) } else { length };
+        if !(length > 0.0 && length.is_finite()) {
+            // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
+            return Err(if length == f64::INFINITY { Reason::Settles } else { Reason::Escapes });
+        }
+        let terms = &series.step.y;
+        let velocity = |t: f64| value_and_slope(terms, t);
+        let turning = |t: f64| value_and_slope(&derivative(terms), t);
+        let (low, high) = (piece.low.max(least), piece.high.min(most));
+        let (peak, hit) = crossing(phase, length, (low, high), &velocity, &turning);
+        let (duration, level) = match hit {
+            Some((time, level)) if time <= left => (time, Some(level)),
+            _ => (length.min(left), None),
+        };
+        let peak = peak.filter(|peak| *peak <= duration);
+        let (last, slope) = velocity(duration);
+        let end = StepPoint { x: value(&series.step.x, duration), v: level.unwrap_or(last) };
+        let (place, offset) = (ContactState::Slips(phase), model.offset(phase));
+        let is_last = |level: f64| {
+            let outer = if level == high { side.pieces.last() } else { side.pieces.first() };
+            outer.is_some_and(|outer| outer.low == piece.low)
+        };
+        Ok(PhaseStep {
+            step: MachineStep { place, duration, peak, offset, ..series.step },
+            end,
+            slopes: (terms[1], slope),
+            level: level.map(|level| (level, is_last(level))),
+        })
+    }
+
+    /// Fails where a motion of some size at its start has settled, or turns no more, or has escaped.
+    fn stays(
+        &self,
+        (phase, forward): (Phase, f64),
+        started: f64,
+        end: StepPoint,
+    ) -> Result<(), Reason> {
+        let size = end.size();
+        let near = if self.follows { NEAR * started } else { f64::INFINITY };
+        let settles = size <= near && creeps(phase, self.model.side(phase), end, forward);
+        if settles || size < SETTLED * started {
+            return Err(Reason::Settles);
+        }
+        let escapes = size.is_nan() || size > ESCAPED * started;
+        if escapes { Err(Reason::Escapes) } else { Ok(()) }
     }
 
     /// Whether the velocity rises, along the direction of integration.
@@ -173,7 +211,7 @@ impl<'a> Flow<'a> {
         if rate == 0.0 { phase == Phase::Below } else { rate > 0.0 }
     }
 
-    pub(super) fn outside(&self, y: f64) -> Reason {
+    fn outside(&self, y: f64) -> Reason {
         Reason::BeyondLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
     }
 }
@@ -182,56 +220,11 @@ impl<'a> Flow<'a> {
 ///
 /// Where every velocity up to `x` decays at least twice as fast as `x` pulls, no motion leaves the wedge
 /// `y = 0 .. -x`: on its edge `y = -x` the sum `x + y` moves inwards.
-fn creeps(phase: Phase, side: &ForceBranch, (x, y): (f64, f64), forward: f64) -> bool {
+fn creeps(phase: Phase, side: &ForceBranch, end: StepPoint, forward: f64) -> bool {
     const OVERDAMPED: f64 = 2.0;
+    let StepPoint { x, v: y } = end;
     phase != Phase::Above
         && x * y * forward <= 0.0
         && y.abs() <= x.abs()
         && side.decay(x.abs(), forward).is_some_and(|decay| decay >= OVERDAMPED)
-}
-
-/// Where a step turns, and the first of two levels that it reaches, with the time at which it does; given that the speed
-/// turns at most once, from growing to falling.
-///
-/// `inside` is the velocity with its derivative at a time from the start of the step, `turning` this one with the next.
-pub(super) fn crossing(
-    phase: Phase,
-    end: f64,
-    (low, high): (f64, f64),
-    inside: &impl Fn(f64) -> (f64, f64),
-    turning: &impl Fn(f64) -> (f64, f64),
-) -> (Option<f64>, Option<(f64, f64)>) {
-    let sign = phase.sign();
-    let (outer, inner) = if sign > 0.0 { (high, low) } else { (low, high) };
-    let grows = |slope: f64| sign * slope > 0.0;
-    let beyond = |y: f64, level: f64| sign * (y - level);
-    // On a bracket in which y is monotone.
-    let root = |level: f64, (low, high): (f64, f64), rising: bool| {
-        let settled = PlaceTolerance::Absolute(1e-16 * high);
-        let ahead = |t: f64| {
-            let (velocity, slope) = inside(t);
-            (velocity - level, slope)
-        };
-        newton(Bracket { low, high, rising }, high, settled, ahead).at
-    };
-    let (velocity, slope) = inside(end);
-    let mut peak = None;
-    if grows(inside(0.0).1) {
-        let (until, fastest) = if grows(slope) {
-            (end, velocity)
-        } else {
-            let bracket = Bracket { low: 0.0, high: end, rising: sign < 0.0 };
-            // Where the velocity is flat, an error e in time costs only e^2 in it.
-            let settled = PlaceTolerance::Absolute(1e-9 * end);
-            let turn = newton(bracket, 0.5 * end, settled, turning).at;
-            peak = Some(turn);
-            (turn, inside(turn).0)
-        };
-        if beyond(fastest, outer) >= 0.0 {
-            return (peak, Some((root(outer, (0.0, until), sign > 0.0), outer)));
-        }
-    }
-    let falls = beyond(velocity, inner) <= 0.0 && !grows(slope);
-    let begin = peak.unwrap_or(0.0);
-    (peak, falls.then(|| (root(inner, (begin, end), sign < 0.0), inner)))
 }

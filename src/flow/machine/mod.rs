@@ -4,6 +4,7 @@
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod arc;
 pub(crate) mod curve;
+pub(crate) mod levels;
 #[doc(hidden)]
 pub mod motion;
 pub(crate) mod series;

@@ -3,7 +3,7 @@
 use super::arc::Flow;
 use super::curve::{MachineStep, ORDER, add, ledger};
 use super::series::PhaseSeries;
-use super::stepped::{self, PhaseStepper};
+use super::stepped;
 use crate::flow::motion::Leg;
 use crate::flow::{Crossing, Detail, Limits, Method, Outcome, Problem, Sample, Trajectory};
 use crate::model::{ContactState, Model, Phase, Reason, State};
@@ -45,8 +45,9 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
     let MotionUnits { length, omega_0, energy } = units;
     let start = (q * length, v * length / omega_0);
     let whole = until * omega_0;
-    let mut stepper = stepped::stepper(model, method);
-    let by_series = stepper.is_none();
+    let mut flow = Flow { stepper: stepped::stepper(model, method), ..Flow::new(model) };
+    (flow.series.left, flow.follows) = (whole, true);
+    let by_series = flow.stepper.is_none();
     // A step without series is known at its end alone.
     let samples_per_step = detail.samples_per_step.min(if by_series { usize::MAX } else { 1 });
     let mut recorder = MotionRecorder {
@@ -59,9 +60,7 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
         found: Trajectory::begun(problem, if by_series { Method::Taylor } else { method }),
     };
     recorder.found.samples = vec![Sample { tau: 0.0, q, v }];
-    let mut flow = Flow::new(model);
-    (flow.series.left, flow.follows) = (whole, true);
-    let ended = recorder.run(&mut flow, stepper.as_mut());
+    let ended = recorder.run(&mut flow);
     let end = recorder.sample(flow.series.left, recorder.state);
     let Sample { tau, q, v } = end;
     let MotionRecorder { detail, works, state, extremes: [x, y], mut found, .. } = recorder;
@@ -76,7 +75,7 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
     let scaled = |(low, high): (f64, f64), one: f64| (low * one, high * one);
     found.extremes = Some([scaled(x, 1.0 / length), scaled(y, omega_0 / length)]);
     let by_terms = found.cost.steps * ORDER as u64;
-    found.cost.evaluations = stepper.map_or(by_terms, |stepper| stepper.cost().evaluations);
+    found.cost.evaluations = flow.stepper.map_or(by_terms, |stepper| stepper.cost().evaluations);
     let works = detail.energy.then(|| ledger(model, works, start, state));
     found.ledger = works.map(|works| works.scaled(1.0 / energy));
     found
@@ -110,14 +109,9 @@ struct MotionRecorder {
 }
 
 impl MotionRecorder {
-    /// Follows the motion leg by leg, by Taylor series where there is no other stepper. Returns why it ends; `None` where
-    /// its time is up.
-    fn run<'a>(
-        &mut self,
-        flow: &mut Flow<'a>,
-        mut stepper: Option<&mut PhaseStepper<'a>>,
-    ) -> Option<Reason> {
-        let most = if stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
+    /// Follows the motion leg by leg. Returns why it ends; `None` where its time is up.
+    fn run(&mut self, flow: &mut Flow) -> Option<Reason> {
+        let most = if flow.stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
         let model = flow.model;
         let (mut x, mut y) = self.state;
         let mut place = model.place(x, y);
@@ -135,7 +129,7 @@ impl MotionRecorder {
             }
             self.found.legs.push(Leg { place, start });
             let mut keep = |series: &PhaseSeries| self.keep(model, &series.step, series.left);
-            match flow.leg(stepper.as_deref_mut(), place, (x, y), &mut keep) {
+            match flow.leg(place, (x, y), &mut keep) {
                 Ok(Some((next, end))) => (place, x, y) = (next, end.x, end.y),
                 _ if flow.series.left <= 0.0 => return None,
                 Ok(None) => return Some(Reason::Settles),

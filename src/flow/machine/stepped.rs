@@ -1,15 +1,13 @@
 //! An arc by an explicit Runge-Kutta method in place of Taylor series: a second opinion that shares with the first
 //! the model, what happens at its lines and how they are found, but not the steps.
 
-use super::arc::{ArcEnd, Flow, crossing};
 use super::curve::MachineStep;
-use super::series::PhaseSeries;
+use super::levels::{PhaseStep, crossing};
 use crate::flow::Method;
 use crate::flow::explicit::{Dop853, Dopri5};
 use crate::flow::step::{Field, StepPoint, Stepper};
 use crate::flow::tableau::{dop853, dopri5};
 use crate::model::{ContactState, Model, Phase, Reason};
-use crate::numerics::elementary::ln;
 
 /// The methods that can follow a machine.
 pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";
@@ -54,70 +52,53 @@ const LONGEST: f64 = 0.125;
 /// Maximum number of steps of a motion.
 pub(crate) const STEPS: u64 = 2_000_000;
 
-impl<'a> Flow<'a> {
-    /// Follows a motion to the end of its phase, or until no time is left. Fails with [`Reason`] where it leaves the
-    /// law, escapes, or needs too many steps.
-    pub(super) fn stepped(
-        &mut self,
-        stepper: &mut PhaseStepper<'a>,
-        phase: Phase,
-        (x, y): (f64, f64),
-        watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<ArcEnd, Reason> {
-        let model = self.model;
-        let (field, offset) = (PhaseField { model, phase }, model.offset(phase));
-        let (least, most) = model.range(phase);
-        let pieces = &model.side(phase).pieces;
-        let low = pieces.first().map_or(f64::INFINITY, |piece| piece.low).max(least);
-        let high = pieces.last().map_or(f64::NEG_INFINITY, |piece| piece.high).min(most);
-        let mut from = StepPoint { x: x + offset, v: y };
-        let entered = field.acceleration(from.x, from.v);
-        // What has just been released is not faster than the belt, whatever rounding says.
-        let mut outer = if phase == Phase::Between && y == most { f64::INFINITY } else { high };
-        stepper.begin(&field);
-        for _ in 0..STEPS {
-            let longest = LONGEST.min(self.series.left);
-            let mut step = stepper.advance(from, longest, false).map_err(|_| Reason::Escapes)?;
-            // The ends of the step are known, the rest takes evaluations.
-            let velocity = |t: f64| {
-                let point = if t == 0.0 {
-                    from
-                } else if t == step.duration {
-                    step.end
-                } else {
-                    stepper.at(t)
-                };
-                (point.v, field.acceleration(point.x, point.v))
-            };
-            let turning = |t: f64| {
-                let (velocity, slope) = velocity(t);
-                (slope, field.divergence(velocity) * slope - velocity)
-            };
-            let (_, hit) = crossing(phase, step.duration, (low, outer), &velocity, &turning);
-            let mut reached = None;
-            if let Some((time, level)) = hit {
-                step = stepper.advance(from, time, false).map_err(|_| Reason::Escapes)?;
-                // Where the shorter step was refused, it ends before the line.
-                reached = (step.duration >= time).then_some(level);
-            }
-            outer = high;
-            let y = reached.unwrap_or(step.end.v.clamp(least, most));
-            from = StepPoint { x: step.end.x, v: y };
-            let x = from.x - offset;
-            // Its end stands for the step: it has no series.
-            let end = MachineStep::even(ContactState::Slips(phase), [x, 0.0], y);
-            self.passes(MachineStep { duration: step.duration, ..end }, watch);
-            if reached.is_some() && (y == least || y == most) {
-                let log_ratio = ln((entered / field.acceleration(from.x, y)).abs());
-                return Ok(ArcEnd { x, y, log_ratio });
-            }
-            if reached.is_some() {
-                return Err(self.outside(y));
-            }
-            if self.series.left <= 0.0 {
-                return Err(Reason::Settles);
-            }
-        }
-        Err(Reason::Steps)
+/// A step of a stepper from this point, for the time `left` at most; a mass that has `just` entered the phase may have been
+/// released by the belt.
+pub(super) fn pair_step(
+    stepper: &mut PhaseStepper,
+    field: PhaseField,
+    from: StepPoint,
+    (left, just): (f64, bool),
+) -> Result<PhaseStep, Reason> {
+    let PhaseField { model, phase } = field;
+    let (least, most) = model.range(phase);
+    let pieces = &model.side(phase).pieces;
+    let low = pieces.first().map_or(f64::INFINITY, |piece| piece.low).max(least);
+    let high = pieces.last().map_or(f64::NEG_INFINITY, |piece| piece.high).min(most);
+    // What has just been released is not faster than the belt, whatever rounding says.
+    let released = just && phase == Phase::Between && from.v == most;
+    let outer = if released { f64::INFINITY } else { high };
+    let mut step = stepper.advance(from, LONGEST.min(left), false).map_err(|_| Reason::Escapes)?;
+    // The ends of the step are known, the rest takes evaluations.
+    let velocity = |t: f64| {
+        let point = if t == 0.0 {
+            from
+        } else if t == step.duration {
+            step.end
+        } else {
+            stepper.at(t)
+        };
+        (point.v, field.acceleration(point.x, point.v))
+    };
+    let turning = |t: f64| {
+        let (velocity, slope) = velocity(t);
+        (slope, field.divergence(velocity) * slope - velocity)
+    };
+    let (_, hit) = crossing(phase, step.duration, (low, outer), &velocity, &turning);
+    let mut level = None;
+    if let Some((time, reached)) = hit {
+        step = stepper.advance(from, time, false).map_err(|_| Reason::Escapes)?;
+        // Where the shorter step was refused, it ends before the line.
+        level = (step.duration >= time).then_some(reached);
     }
+    let end = StepPoint { v: level.unwrap_or(step.end.v.clamp(least, most)), ..step.end };
+    // Its end stands for the step: it has no series.
+    let place = [end.x - model.offset(phase), 0.0];
+    let at_end = MachineStep::even(ContactState::Slips(phase), place, end.v);
+    Ok(PhaseStep {
+        step: MachineStep { duration: step.duration, ..at_end },
+        end,
+        slopes: (field.acceleration(from.x, from.v), field.acceleration(end.x, end.v)),
+        level: level.map(|level| (level, true)),
+    })
 }

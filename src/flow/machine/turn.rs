@@ -6,7 +6,6 @@
 use super::arc::{ArcEnd, Flow};
 use super::curve::MachineStep;
 use super::series::PhaseSeries;
-use super::stepped::PhaseStepper;
 use crate::model::{ContactState, Phase, Reason};
 
 /// A turning point, and the motion that led there.
@@ -25,7 +24,7 @@ pub struct Turn {
     pub overtakes_from: Option<f64>,
 }
 
-impl<'a> Flow<'a> {
+impl Flow<'_> {
     /// Follows a motion to its next turning point: the left one from `y < 0`, the right one otherwise. Fails with
     /// [`Reason`] if it does not turn.
     pub fn turn(
@@ -38,7 +37,7 @@ impl<'a> Flow<'a> {
         const LEGS: usize = 8;
         let mut turn = Turn { x, rests: true, ..Turn::default() };
         for _ in 0..LEGS {
-            let Some((next, leg)) = self.leg(None, place, (turn.x, y), watch)? else {
+            let Some((next, leg)) = self.leg(place, (turn.x, y), watch)? else {
                 return Ok(turn);
             };
             if place == ContactState::Sticks {
@@ -56,11 +55,9 @@ impl<'a> Flow<'a> {
         Err(Reason::Steps)
     }
 
-    /// Follows one leg, by Taylor series where there is no other stepper, up to what the mass does next, and where; `None`
-    /// at rest.
+    /// Follows one leg up to what the mass does next, and where; `None` at rest.
     pub(crate) fn leg(
         &mut self,
-        stepper: Option<&mut PhaseStepper<'a>>,
         place: ContactState,
         (x, y): (f64, f64),
         watch: &mut impl FnMut(&PhaseSeries),
@@ -78,10 +75,7 @@ impl<'a> Flow<'a> {
             }
             ContactState::Slips(phase) => phase,
         };
-        let mut end = match stepper {
-            None => self.arc(phase, (x, y), false, watch)?,
-            Some(stepper) => self.stepped(stepper, phase, (x, y), watch)?,
-        };
+        let mut end = self.arc(phase, (x, y), false, watch)?;
         // Only by rounding does a motion arrive where its own side pushes it away.
         end.x = match (end.is_on_belt(), phase, model.lines) {
             (false, Phase::Below, _) => end.x.min(model.guide),

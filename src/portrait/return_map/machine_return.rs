@@ -44,9 +44,7 @@ impl Flow<'_> {
         let mut turn = |phase, x, equilibrium| {
             let add = &mut |series: &PhaseSeries| divergence += series.divergence();
             match self.turn(ContactState::Slips(phase), (x, 0.0), add) {
-                Err(Reason::Settles) => {
-                    Ok(Turn { x: equilibrium, rests: true, ..Turn::default() })
-                }
+                Err(Reason::Settles) => Ok(Turn { x: equilibrium, rests: true, ..Turn::default() }),
                 turn => turn,
             }
         };
