@@ -8,7 +8,8 @@ use std::cmp::Ordering;
 
 use rayon::prelude::*;
 
-use super::return_map::gaps::{Divide, Gap, gaps, jumps, ways};
+use super::return_map::fixed_points::Divide;
+use super::return_map::gaps::{Gap, gaps, ways};
 use super::{Border, Cycle, Edge, Margin, Reach, RestMargin};
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
@@ -88,25 +89,13 @@ impl Portrait {
         let mut flow = Flow::new(model);
         let landmarks = flow.landmarks()?;
         let found = flow.fixed_points(landmarks.as_ref())?;
-        let mut marks: Vec<(f64, Divide)> = found
-            .points
-            .iter()
-            .enumerate()
-            .map(|(index, (x, _))| (*x, Divide::Cycle(index)))
-            .collect();
-        marks.extend(jumps(model, landmarks.as_ref()).into_iter().map(|x| (x, Divide::Jump)));
-        marks.extend(found.capture.map(|x| (x, Divide::Capture)));
-        marks.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let ways = ways(&mut flow, &marks, found.end)?;
+        let ways = ways(&mut flow, &found)?;
         let mut cycles = Vec::new();
-        for (index, (x, image)) in found.points.iter().enumerate() {
-            let place =
-                marks.iter().position(|(_, mark)| matches!(mark, Divide::Cycle(i) if *i == index));
-            let attracts = |place: usize| {
-                ways[place] == Ok(Ordering::Greater) && ways[place + 1] == Ok(Ordering::Less)
-            };
-            let stable = image.sticks_from.is_some() || place.is_some_and(attracts);
-            cycles.push(flow.describe(*x, image, stable)?);
+        for (place, (x, divide)) in found.divides.iter().enumerate() {
+            let Divide::Cycle(image) = divide else { continue };
+            let attracts =
+                ways[place] == Ok(Ordering::Greater) && ways[place + 1] == Ok(Ordering::Less);
+            cycles.push(flow.describe(*x, image, image.sticks_from.is_some() || attracts)?);
         }
         let mut portrait = Portrait {
             cycles,
@@ -114,11 +103,11 @@ impl Portrait {
             landmarks,
             stop: found.stop,
             known: found.end,
-            unresolved: found.unresolved,
-            gaps: gaps(&marks, &ways, found.stop),
+            unresolved: found.unresolved.clone(),
+            gaps: gaps(&found, &ways),
             ..Portrait::blank(model)
         };
-        portrait.settle_border(&mut flow, &marks)?;
+        portrait.settle_border(&mut flow, &found.divides)?;
         portrait.cost = flow.cost();
         Ok(portrait)
     }
@@ -138,10 +127,10 @@ impl Portrait {
         } else if let Some((x, mark)) = divide.filter(|_| last < self.gaps.len()) {
             flow.follows = true;
             let (curve, left) = match mark {
-                Divide::Cycle(index) => {
+                Divide::Cycle(image) => {
                     self.border = Border::Cycle;
-                    let cycle = &self.cycles[*index];
-                    flow.around(*x, !cycle.sticks() && !cycle.overtakes)?
+                    let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
+                    flow.around(*x, slips)?
                 }
                 Divide::Jump => flow.jump_border(*x, landmarks)?,
                 Divide::Capture => flow.capture_border(*x, landmarks)?,

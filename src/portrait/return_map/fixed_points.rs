@@ -1,7 +1,6 @@
 //! The limit cycles of a machine: the fixed points of the return map, each found and described.
 
-use super::machine_return::Landmarks;
-use super::machine_return::{Image, MachineReturn};
+use super::machine_return::{Grazing, Image, Landmarks, MachineReturn};
 use crate::flow::machine::curve::MachineCurve;
 use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Model, Phase};
@@ -10,11 +9,23 @@ use crate::numerics::{PlaceTolerance, bisect, exp, exponent, ln, pow, times_powe
 use crate::portrait::closing::search::{Bracket, Node, Search};
 use crate::portrait::{Cycle, Ride};
 
+/// A right turning point at which the return map changes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Divide {
+    /// A fixed point: a cycle, with its image.
+    Cycle(Image),
+    /// The map jumps: a touch becomes a ride, or the mirror band ends.
+    Jump,
+    /// The last one from which the guide catches the mass within one return; motions from beyond grow. The border of
+    /// rest is then the motion that just reaches the end of what the guide holds.
+    Capture,
+}
+
 /// The fixed points of the return map, and whether it is the identity somewhere.
 #[derive(Clone, Debug, Default)]
 pub struct FixedPoints {
-    /// Right turning points with their images, by amplitude.
-    pub points: Vec<(f64, Image)>,
+    /// The right turning points at which the map changes, by amplitude: fixed points, and where it jumps or catches.
+    pub(crate) divides: Vec<(f64, Divide)>,
     /// Whether all motions that slip are periodic.
     pub neutral: bool,
     /// The point up to which they were sought, and what ended the search.
@@ -23,9 +34,6 @@ pub struct FixedPoints {
     pub stop: Option<Reason>,
     /// Intervals in which the search did not settle.
     pub unresolved: Vec<(f64, f64)>,
-    /// Right turning point up to which the guide catches the mass within one return, if motions from beyond it
-    /// grow. The border of rest is then the motion that just reaches the end of what the guide holds.
-    pub capture: Option<f64>,
 }
 
 /// Logarithm of the multiplier from which cycles are computed backward in time.
@@ -53,128 +61,159 @@ impl Flow<'_> {
         }
     }
 
-    /// All fixed points of the return map.
+    /// All fixed points of the return map, and where it jumps.
     ///
     /// # Errors
     /// [`Reason`] if even the motions next to rest cannot be followed.
     pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, Reason> {
-        let mut found = FixedPoints::default();
-        let touch = marks.and_then(|marks| marks.grazing.right);
-        let scale = self.scale(marks);
-        let at = |x: f64| ln(x / scale);
-        let caught = match self.smallest(scale) {
+        let (unit, found) = (unit(self.model, marks), FixedPoints::default());
+        let mut search = FixedPointSearch { flow: self, unit, found };
+        search.run(marks)?;
+        let FixedPointSearch { mut found, .. } = search;
+        found.divides.extend(jumps(self.model, marks).into_iter().map(|x| (x, Divide::Jump)));
+        found.divides.sort_by(|one, other| one.0.total_cmp(&other.0));
+        Ok(found)
+    }
+}
+
+/// Jumps of the return map: where a touch becomes a ride, and where the mirror band ends.
+fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
+    let Some(marks) = landmarks else { return Vec::new() };
+    let mut found: Vec<f64> = marks.grazing.right.into_iter().collect();
+    if marks.lines.release > marks.lines.fold {
+        found.extend(marks.beyond.filter(|beyond| Some(*beyond) != marks.grazing.right));
+    }
+    found.retain(|x| *x > model.guide_static);
+    found
+}
+
+/// A power of two beyond all special lengths of the machine, so that results do not depend on their unit.
+fn unit(model: &Model, marks: Option<&Landmarks>) -> f64 {
+    let marks = marks.into_iter().flat_map(|it| [it.grazing.right, it.released, it.beyond]);
+    let lengths = [model.guide_static, model.pull, model.speed].into_iter();
+    let lengths = lengths.chain(marks.flatten()).chain(model.velocities());
+    let largest = lengths.filter(|x| x.is_finite()).fold(0.0, f64::max);
+    if largest > 0.0 { times_power(1.0, exponent(largest) + 1) } else { 1.0 }
+}
+
+/// The search for the fixed points, over the logarithm of right turning points in a unit.
+struct FixedPointSearch<'f, 'm> {
+    flow: &'f mut Flow<'m>,
+    unit: f64,
+    found: FixedPoints,
+}
+
+impl FixedPointSearch<'_, '_> {
+    /// The growth of the return map at a logarithm.
+    fn growth(&mut self, u: f64) -> Result<Node, Reason> {
+        self.flow.growth(u, self.unit)
+    }
+
+    /// The growth at a right turning point.
+    fn growth_at(&mut self, x: f64) -> Result<Node, Reason> {
+        self.growth(ln(x / self.unit))
+    }
+
+    /// The right turning point at a logarithm.
+    fn turn(&self, u: f64) -> f64 {
+        self.unit * exp(u)
+    }
+
+    fn run(&mut self, marks: Option<&Landmarks>) -> Result<(), Reason> {
+        let held = self.flow.model.guide_static;
+        let caught = match self.smallest() {
             // Every motion comes to rest at once, or leaves the law.
             Err(stop @ Reason::BeyondLaw { .. }) => {
-                let held = Node::of_growth(at(self.model.guide_static), -FAR, 0.0);
-                found.stop = Some(stop);
-                found.end = scale * exp(self.edge(held, at(scale), scale).at);
-                return Ok(found);
+                let within = Node::of_growth(ln(held / self.unit), -FAR, 0.0);
+                let end = self.edge(within, 0.0).at;
+                (self.found.stop, self.found.end) = (Some(stop), self.turn(end));
+                return Ok(());
             }
             smallest => smallest?,
         };
         // By rounding, a motion from there may still come to rest.
         let beyond = |x: f64| x * (1.0 + 1e-12);
-        let held = self.model.guide_static;
         let mut smallest = caught.max(beyond(held));
-        if let Some((x, image)) = self.innermost(smallest)? {
-            found.points.push((x, image));
+        let innermost = self.innermost(smallest)?;
+        if let Some((x, image)) = innermost {
+            self.found.divides.push((x, Divide::Cycle(image)));
             smallest = x;
         }
         smallest = beyond(smallest);
-        let touches_before = touch.is_some_and(|touch| touch > held && touch <= smallest);
-        if held > 0.0 && smallest.is_finite() && !touches_before && found.points.is_empty() {
-            let grows = self.growth(at(smallest), scale)?.difference > 0.0;
-            found.capture = grows.then_some(caught);
+        let grazing = marks.map(|marks| &marks.grazing);
+        let touch = grazing.and_then(|grazing| Some((grazing, grazing.right?)));
+        let touches_before = touch.is_some_and(|(_, touch)| touch > held && touch <= smallest);
+        let slips = smallest.is_finite();
+        if held > 0.0 && slips && !touches_before && innermost.is_none() {
+            let grows = self.growth_at(smallest)?.value() > 0.0;
+            self.found.divides.extend(grows.then_some((caught, Divide::Capture)));
         }
-        let slipping = match touch {
-            _ if smallest.is_infinite() => None,
-            Some(touch) if touch > smallest => {
-                let grazing = marks.map_or(touch, |marks| marks.grazing.image);
-                let slope = marks.map_or(0.0, |marks| exp(marks.grazing.log_slope));
-                let image = if grazing > 0.0 { ln(grazing / touch) } else { -FAR };
-                Some(Node::of_growth(at(touch), image, slope * touch / grazing - 1.0))
-            }
-            Some(_) => None,
-            None => Some(self.farthest(smallest, scale, &mut found)?),
-        };
-        let mut roots = Vec::new();
-        if let Some(last) = slipping {
-            let first = self.growth(at(smallest), scale)?;
-            found.end = scale * exp(last.at);
-            found.neutral = self.is_neutral(first, last, scale)?;
-            if !found.neutral {
-                roots = self.zeros_between(first, last, scale, &mut found)?;
+        // Where motions only slip: up to the one that touches the belt's line.
+        if slips && touch.is_none_or(|(_, touch)| touch > smallest) {
+            let last = match touch {
+                Some((grazing, touch)) => self.touching(grazing, touch),
+                None => self.farthest(smallest)?,
+            };
+            let first = self.growth_at(smallest)?;
+            self.found.end = self.turn(last.at);
+            self.found.neutral = self.is_neutral(first, last)?;
+            if !self.found.neutral {
+                self.zeros_between(first, last)?;
             }
         }
-        if let Some(marks) = marks {
-            let released = marks.released.filter(|x| touch.is_some_and(|touch| *x >= touch));
-            match released.map(|released| (released, self.returned(released))) {
-                Some((released, Ok(MachineReturn::Turns(image))))
-                    if image.sticks_from.is_some() =>
-                {
-                    found.points.push((released, image));
+        // Where they are released by the belt, and where they overtake it.
+        let released = marks.and_then(|marks| marks.released);
+        if let Some(released) = released.filter(|x| touch.is_some_and(|(_, touch)| *x >= touch)) {
+            match self.flow.returned(released) {
+                Ok(MachineReturn::Turns(image)) if image.sticks_from.is_some() => {
+                    self.found.divides.push((released, Divide::Cycle(image)));
                 }
                 // What escapes is known.
-                Some((_, Err(stop))) if stop != Reason::Escapes => found.stop = Some(stop),
+                Err(stop) if stop != Reason::Escapes => self.found.stop = Some(stop),
                 _ => {}
             }
-            if let Some(beyond) = marks.beyond {
-                let start = beyond * (1.0 + 4.0 * f64::EPSILON);
-                let start = if smallest.is_finite() { start.max(smallest) } else { start };
-                if let Ok(first) = self.growth(at(start), scale) {
-                    let last = self.farthest(start, scale, &mut found)?;
-                    found.end = scale * exp(last.at);
-                    roots.extend(self.zeros_between(first, last, scale, &mut found)?);
-                }
+        }
+        if let Some(beyond) = marks.and_then(|marks| marks.beyond) {
+            let start = beyond * (1.0 + 4.0 * f64::EPSILON);
+            let start = if slips { start.max(smallest) } else { start };
+            if let Ok(first) = self.growth_at(start) {
+                let last = self.farthest(start)?;
+                self.found.end = self.turn(last.at);
+                self.zeros_between(first, last)?;
             }
         }
-        if found.stop.is_none() && self.model.law_ends() {
+        if self.found.stop.is_none() && self.flow.model.law_ends() {
             // Motions that come to ride on the belt are known as far as the law reaches.
-            let from = if smallest.is_finite() { smallest } else { beyond(held) };
-            let last = self.farthest(from.max(found.end), scale, &mut found)?;
-            found.end = found.end.max(scale * exp(last.at));
+            let from = if slips { smallest } else { beyond(held) };
+            let last = self.farthest(from.max(self.found.end))?;
+            self.found.end = self.found.end.max(self.turn(last.at));
         }
-        for u in roots {
-            found.points.extend(self.sharpened(scale * exp(u))?);
-        }
-        found.points.sort_by(|one, other| one.0.total_cmp(&other.0));
-        Ok(found)
+        Ok(())
     }
 
-    /// A power of two beyond all special lengths of the machine, so that results do not depend on their unit.
-    fn scale(&self, marks: Option<&Landmarks>) -> f64 {
-        let model = self.model;
-        let mut lengths = vec![model.guide_static, model.pull];
-        if model.speed.is_finite() {
-            lengths.push(model.speed);
-        }
-        if let Some(marks) = marks {
-            lengths.extend(marks.grazing.right);
-            lengths.extend(marks.released);
-            lengths.extend(marks.beyond);
-        }
-        lengths.extend(model.velocities());
-        let largest = lengths.into_iter().filter(|x| x.is_finite()).fold(0.0, f64::max);
-        if largest > 0.0 { times_power(1.0, exponent(largest) + 1) } else { 1.0 }
+    /// The growth at the right turning point of the motion that touches the belt's line, as if it slipped.
+    fn touching(&self, grazing: &Grazing, touch: f64) -> Node {
+        let Grazing { image, log_slope, .. } = *grazing;
+        let growth = if image > 0.0 { ln(image / touch) } else { -FAR };
+        Node::of_growth(ln(touch / self.unit), growth, exp(log_slope) * touch / image - 1.0)
     }
 
     /// The right turning point below which every motion comes to rest; without friction of the guide, a point
     /// below which the map is linear.
-    fn smallest(&mut self, scale: f64) -> Result<f64, Reason> {
+    fn smallest(&mut self) -> Result<f64, Reason> {
         /// Growth below this is about to be lost in rounding.
         const WEAK: f64 = 1e-9;
-        let held = self.model.guide_static;
+        let held = self.flow.model.guide_static;
         if held > 0.0 {
             // A motion that comes to rest there was released by the belt: those that only slip rest before.
-            let before = self.preimage(held)?;
+            let before = self.flow.preimage(held)?;
             return Ok(before.map_or(f64::INFINITY, |before| before.x.max(held)));
         }
-        let mut x = scale * 1e-3;
-        let linear = self.model.linear_growth();
+        let mut x = self.unit * 1e-3;
+        let linear = self.flow.model.linear_growth();
         for _ in 0..12 {
-            let here = self.growth(ln(x / scale), scale)?;
-            let settled = (here.difference - linear).abs() <= 0.1 * linear.abs()
-                || here.difference.abs() < WEAK;
+            let here = self.growth_at(x)?.value();
+            let settled = (here - linear).abs() <= 0.1 * linear.abs() || here.abs() < WEAK;
             if settled || !linear.is_finite() {
                 break;
             }
@@ -183,14 +222,8 @@ impl Flow<'_> {
         Ok(x)
     }
 
-    /// The zeros of the growth between two samples.
-    fn zeros_between(
-        &mut self,
-        first: Node,
-        last: Node,
-        scale: f64,
-        found: &mut FixedPoints,
-    ) -> Result<Vec<f64>, Reason> {
+    /// Finds the zeros of the growth between two samples.
+    fn zeros_between(&mut self, first: Node, last: Node) -> Result<(), Reason> {
         /// Number of intervals to begin with, and how often each is halved at most.
         const PARTS: f64 = 8.0;
         const HALVINGS: f64 = 4096.0;
@@ -200,18 +233,23 @@ impl Flow<'_> {
         let mut left = first;
         while left.at < last.at {
             let near_end = left.at + 1.5 * part > last.at;
-            let right = if near_end { last } else { self.growth(left.at + part, scale)? };
-            search.between(left, right, 0.0, &mut |u, _| self.growth(u, scale))?;
+            let right = if near_end { last } else { self.growth(left.at + part)? };
+            search.between(left, right, 0.0, &mut |u, _| self.growth(u))?;
             left = right;
         }
-        let turn = |u: f64| scale * exp(u);
-        let unresolved = search.unresolved.iter().map(|(from, to)| (turn(*from), turn(*to)));
-        found.unresolved.extend(unresolved);
-        search.found.into_iter().map(|bracket| self.zero(bracket, scale)).collect()
+        let unresolved = search.unresolved.iter();
+        let unresolved = unresolved.map(|(from, to)| (self.turn(*from), self.turn(*to)));
+        self.found.unresolved.extend(unresolved.collect::<Vec<_>>());
+        for bracket in search.found {
+            let zero = self.zero(bracket)?;
+            let point = self.sharpened(self.turn(zero))?;
+            self.found.divides.extend(point.map(|(x, image)| (x, Divide::Cycle(image))));
+        }
+        Ok(())
     }
 
     /// The zero of the growth in a bracket, by Newton's method.
-    fn zero(&mut self, (left, right): Bracket, scale: f64) -> Result<f64, Reason> {
+    fn zero(&mut self, (left, right): Bracket) -> Result<f64, Reason> {
         let best = if left.value().abs() < right.value().abs() { left } else { right };
         if best.value() == 0.0 {
             return Ok(best.at);
@@ -220,7 +258,7 @@ impl Flow<'_> {
         let width = 2.0 * f64::EPSILON * (1.0 + best.at.abs()).min(2.0);
         let start = bracket.inside(best.at - best.value() / best.slope);
         let root = try_newton(bracket, start, PlaceTolerance::Absolute(width), |u| {
-            self.growth(u, scale).map(|sample| (sample.value(), sample.slope))
+            self.growth(u).map(|sample| (sample.value(), sample.slope))
         });
         Ok(root?.at)
     }
@@ -228,7 +266,7 @@ impl Flow<'_> {
     /// The innermost cycle, if it repels so strongly that a few turns backward lead to it from rest and the map
     /// itself cannot resolve it.
     fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Reason> {
-        if self.model.guide_static == 0.0 || smallest.is_infinite() {
+        if self.flow.model.guide_static == 0.0 || smallest.is_infinite() {
             return Ok(None);
         }
         self.settled_backward(smallest)
@@ -236,7 +274,7 @@ impl Flow<'_> {
 
     /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
     fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Reason> {
-        let MachineReturn::Turns(image) = self.returned(x)? else { return Ok(None) };
+        let MachineReturn::Turns(image) = self.flow.returned(x)? else { return Ok(None) };
         let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
         let repels = slips && image.log_slope >= STRONG;
         let sharper = if repels { self.settled_backward(x)? } else { None };
@@ -250,14 +288,14 @@ impl Flow<'_> {
         const TURNS: usize = 8;
         /// To rounding, a cycle that repels beyond all digits turns where the guide lets go.
         const ROUNDING: f64 = 1e-12;
-        let held = self.model.guide_static;
+        let held = self.flow.model.guide_static;
         for _ in 0..TURNS {
             // A turning point that the guide holds is on no cycle; neither is the equilibrium of a phase.
             let moves = |image: &Image| {
                 let left = -image.left >= held * (1.0 - ROUNDING);
                 image.x >= held && left && image.log_slope.is_finite()
             };
-            let Some(image) = self.preimage(x)?.filter(moves) else { return Ok(None) };
+            let Some(image) = self.flow.preimage(x)?.filter(moves) else { return Ok(None) };
             if (image.x - x).abs() <= 2.0 * f64::EPSILON * x {
                 return Ok(Some((x, image)));
             }
@@ -269,32 +307,29 @@ impl Flow<'_> {
         Ok(None)
     }
 
-    /// A right turning point far beyond `scale`, or as far as motions can be followed.
-    fn farthest(&mut self, from: f64, scale: f64, found: &mut FixedPoints) -> Result<Node, Reason> {
+    /// A right turning point far beyond the unit, or as far as motions can be followed.
+    fn farthest(&mut self, from: f64) -> Result<Node, Reason> {
         /// Factor by which it lies beyond.
         const DOUBLINGS: u32 = 10;
         /// Doublings after which the shrinking of motions counts.
         const ENOUGH: u32 = 3;
         /// If a swing takes more than half of the amplitude, and the more the larger it is, dissipation dominates.
         const CONTRACTS: f64 = -0.7;
-        let at = |x: f64| ln(x / scale);
-        let mut last = self.growth(at(from), scale)?;
-        let mut x = from.max(scale);
+        let mut last = self.growth_at(from)?;
+        let mut x = from.max(self.unit);
         for doubling in 0..DOUBLINGS {
             let before = last;
-            match self.growth(at(x), scale) {
+            match self.growth_at(x) {
                 Ok(sample) => last = sample,
                 Err(stop) => {
-                    found.stop = Some(stop);
+                    self.found.stop = Some(stop);
                     // Where motions take too many steps, finding the first of them costs too much.
                     let dear = stop == Reason::Steps;
-                    return Ok(if dear { last } else { self.edge(last, at(x), scale) });
+                    return Ok(if dear { last } else { self.edge(last, ln(x / self.unit)) });
                 }
             }
-            let shrinks = doubling > ENOUGH
-                && last.difference < CONTRACTS
-                && last.difference < before.difference;
-            if shrinks || last.difference >= FAR {
+            let grows_less = last.value() < CONTRACTS && last.value() < before.value();
+            if (doubling > ENOUGH && grows_less) || last.value() >= FAR {
                 break;
             }
             x *= 2.0;
@@ -303,21 +338,21 @@ impl Flow<'_> {
     }
 
     /// The last point up to which the map is known, between one where it is and one where it is not.
-    fn edge(&mut self, known: Node, unknown: f64, unit: f64) -> Node {
+    fn edge(&mut self, known: Node, unknown: f64) -> Node {
         let mut last = known;
-        bisect(known.at, unknown, 40, |u| {
-            self.growth(u, unit).map(|sample| last = sample).is_err()
-        });
+        bisect(known.at, unknown, 40, |u| self.growth(u).map(|sample| last = sample).is_err());
         last
     }
 
     /// Whether all motions between two samples are periodic.
-    fn is_neutral(&mut self, first: Node, last: Node, unit: f64) -> Result<bool, Reason> {
-        let middle = self.growth(0.5 * (first.at + last.at), unit)?;
-        let other = self.growth(0.3 * first.at + 0.7 * last.at, unit)?;
-        Ok([first, middle, other, last].iter().all(|sample| sample.difference.abs() < NOTHING))
+    fn is_neutral(&mut self, first: Node, last: Node) -> Result<bool, Reason> {
+        let middle = self.growth(0.5 * (first.at + last.at))?;
+        let other = self.growth(0.3 * first.at + 0.7 * last.at)?;
+        Ok([first, middle, other, last].iter().all(|sample| sample.value().abs() < NOTHING))
     }
+}
 
+impl Flow<'_> {
     /// The description of the cycle through a right turning point.
     ///
     /// # Errors

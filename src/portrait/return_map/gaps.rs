@@ -3,11 +3,9 @@
 
 use std::cmp::Ordering;
 
+use super::fixed_points::{Divide, FixedPoints, NOTHING};
+use super::machine_return::MachineReturn;
 use crate::flow::{Fate, Flow, Reason};
-use crate::model::Model;
-use crate::portrait::return_map::fixed_points::NOTHING;
-use crate::portrait::return_map::machine_return::Landmarks;
-use crate::portrait::return_map::machine_return::MachineReturn;
 
 /// A gap between right turning points.
 #[derive(Clone, Copy, Debug)]
@@ -19,47 +17,22 @@ pub(crate) struct Gap {
     pub end: Fate,
 }
 
-/// A right turning point at which the return map changes.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Divide {
-    Cycle(usize),
-    Jump,
-    /// The last one from which the guide catches the mass; motions from beyond grow.
-    Capture,
-}
-
-/// Jumps of the return map: where a touch becomes a ride, and where the mirror band ends.
-pub(crate) fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
-    let Some(marks) = landmarks else { return Vec::new() };
-    let mut found: Vec<f64> = marks.grazing.right.into_iter().collect();
-    if marks.lines.release > marks.lines.fold {
-        found.extend(marks.beyond.filter(|beyond| Some(*beyond) != marks.grazing.right));
-    }
-    found.retain(|x| *x > model.guide_static);
-    found
-}
-
 /// The direction of motions in a gap: outward if they grow, and neither way if they are periodic; or why they leave
 /// the known range.
 pub(crate) type Tendency = Result<Ordering, Reason>;
 
 /// The direction of motions in each gap.
-pub(crate) fn ways(
-    flow: &mut Flow,
-    marks: &[(f64, Divide)],
-    end: f64,
-) -> Result<Vec<Tendency>, Reason> {
-    let mut ways = Vec::with_capacity(marks.len() + 1);
-    let held = flow.model.guide_static;
-    let mut low = held;
-    for mark in marks.iter().map(Some).chain([None]) {
+pub(crate) fn ways(flow: &mut Flow, found: &FixedPoints) -> Result<Vec<Tendency>, Reason> {
+    let mut ways = Vec::with_capacity(found.divides.len() + 1);
+    let mut low = flow.model.guide_static;
+    for mark in found.divides.iter().map(Some).chain([None]) {
         if let Some((x, Divide::Capture)) = mark {
             ways.push(Ok(Ordering::Less));
             low = *x;
             continue;
         }
-        let high = mark.map(|(x, _)| *x);
-        let high = high.unwrap_or(if end > low { end } else { 2.0 * low });
+        let end = if found.end > low { found.end } else { 2.0 * low };
+        let high = mark.map_or(end, |(x, _)| *x);
         let x = low + 0.5 * (high - low);
         ways.push(match flow.returned(x) {
             Ok(MachineReturn::Turns(image)) => {
@@ -78,20 +51,23 @@ pub(crate) fn ways(
 }
 
 /// The fate of each gap.
-pub(crate) fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Reason>) -> Vec<Gap> {
+pub(crate) fn gaps(found: &FixedPoints, ways: &[Tendency]) -> Vec<Gap> {
+    let marks = &found.divides;
+    let is_cycle = |(_, divide): &&(f64, Divide)| matches!(divide, Divide::Cycle(_));
+    let cycle = |mark: usize| Fate::Cycle(marks[..mark].iter().filter(is_cycle).count());
     let fate = |gap: usize| {
         let mut here = gap;
         loop {
             let (mark, next) = match ways[here] {
                 Err(stop) => return Fate::Unknown(stop),
                 Ok(Ordering::Equal) => return Fate::Neutral,
-                Ok(Ordering::Greater) => (marks.get(here), here + 1),
+                Ok(Ordering::Greater) => (here, here + 1),
                 Ok(Ordering::Less) if here == 0 => return Fate::Rest,
-                Ok(Ordering::Less) => (marks.get(here - 1), here - 1),
+                Ok(Ordering::Less) => (here - 1, here - 1),
             };
-            match mark {
-                None => return stop.map_or(Fate::Escapes, Fate::Unknown),
-                Some((_, Divide::Cycle(index))) => return Fate::Cycle(*index),
+            match marks.get(mark) {
+                None => return found.stop.map_or(Fate::Escapes, Fate::Unknown),
+                Some((_, Divide::Cycle(_))) => return cycle(mark),
                 // Motions continue across a jump: the map rises there and never sends them back.
                 Some((_, Divide::Jump | Divide::Capture)) => here = next,
             }
@@ -100,7 +76,7 @@ pub(crate) fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Reas
     let gap = |(gap, mark): (usize, Option<&(f64, Divide)>)| {
         let (to, mark) = mark.map_or((f64::INFINITY, Divide::Capture), |(x, mark)| (*x, *mark));
         let end = match mark {
-            Divide::Cycle(index) => Fate::Cycle(index),
+            Divide::Cycle(_) => cycle(gap),
             // An orbit that touches the belt sticks to it.
             Divide::Jump => fate(gap + 1),
             Divide::Capture => fate(gap),
