@@ -76,7 +76,7 @@ impl Arc {
         let mut map = HalfMap::integrating_above(detail, field, TOLERANCE);
         let mut pieces: Vec<ArcStep> = Vec::new();
         let limits = limits.up_to(BUDGET);
-        let swing = map.swing_watched(length, &limits, |stepper, unit, duration| {
+        let swing = map.swing_watched(length, true, &limits, |stepper, unit, duration| {
             let step = stepper.last_step();
             let end = times_power(step.at(duration).x, unit);
             pieces.push(ArcStep { step, unit, duration, end });

@@ -10,9 +10,8 @@
 //! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
 
 use super::equation::Equation;
-use super::half_map::{Direction, HalfMap, HalfSwing, Length};
+use super::half_map::{Direction, HalfMap, HalfSwing, Length, UNIT};
 use super::pair::Closing;
-use super::roundoff::UNIT;
 use crate::flow::step::Stepper;
 use crate::flow::{Limits, Reason};
 use crate::model::HalfPlane;
@@ -74,7 +73,7 @@ fn weigh(
     let mut gained = 0.0;
     // Every part of the swing counts: none may be skipped by a closed form.
     let skipped = map.set_linear_below(0.0);
-    let swing = map.swing_watched(start, limits, |stepper, unit, duration| {
+    let swing = map.swing_watched(start, true, limits, |stepper, unit, duration| {
         for &(node, weight) in &GAUSS {
             let point = stepper.at(node * duration);
             let (x, v) =

@@ -14,8 +14,6 @@ pub mod half_map;
 pub(crate) mod pair;
 #[doc(hidden)]
 pub mod polish;
-pub(crate) mod precise;
 pub(crate) mod return_map;
-pub(crate) mod roundoff;
 pub(crate) mod search;
 pub(crate) mod weak;

@@ -2,13 +2,12 @@
 //!
 //! Newton's method in the logarithm of the clearance, along the route that contracts; weighed as energy
 //! ([`super::balance`]) where the multiplier is close to 1, and in twice the working precision
-//! ([`super::precise`]) where doubles leave too few digits.
+//! ([`Equation::precisely_at`]) where doubles leave too few digits.
 
 use super::balance::{Weighed, weighed_closing};
-use super::equation::{Equation, Route};
+use super::equation::{Equation, FINER, PreciseClosing, Route};
 use super::half_map::Length;
 use super::pair::Closing;
-use super::precise::{FINER, PreciseClosing};
 use super::search::{Bracket, Node};
 use crate::flow::Reason;
 use crate::numerics::root;
