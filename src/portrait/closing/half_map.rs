@@ -126,6 +126,11 @@ impl HalfSwing {
         }
     }
 
+    /// Where it arrives at `v = 0`, if it does.
+    pub fn arrival(&self) -> Option<f64> {
+        self.arrives().then_some(self.end.value)
+    }
+
     /// Whether it arrives at `v = 0`.
     pub fn arrives(&self) -> bool {
         self.end.log.is_finite()

@@ -86,7 +86,7 @@ fn newton(equation: &mut Equation, start: f64, bracket: Bracket) -> Result<Closi
     }
     let mut steps = Steps {
         equation,
-        route: beyond_the_end(&bracket),
+        route: beyond_the_end(&[bracket.0, bracket.1]),
         weigh: bracket.0.slope.abs().min(bracket.1.slope.abs()) < FLAT,
         change: f64::INFINITY,
         stalls: 0,
@@ -166,11 +166,8 @@ impl Steps<'_, '_> {
             Route::steadiest(found.0.growth)
         } else if route != Route::Mixed {
             Route::Mixed
-        } else if node.rise == f64::INFINITY {
-            // Beyond the domain of one swing a route that runs it the other way has a value.
-            Route::Backward
         } else {
-            Route::Forward
+            beyond_the_end(&[node])
         };
         // Where two routes contract alike each may say that the other is better: only one of them is tried.
         let again = self.route != route && (finite || route == Route::Mixed);
@@ -187,12 +184,12 @@ impl Steps<'_, '_> {
     }
 }
 
-/// The route to begin with: where one swing has no end on one side of the bracket, the one that runs it the
-/// other way, and contracts there.
-fn beyond_the_end((low, high): &Bracket) -> Route {
-    if low.rise == f64::INFINITY || high.rise == f64::INFINITY {
+/// The route to begin with: where one swing has no end at one of these nodes, the one that runs it the other way, has a
+/// value beyond its domain, and contracts there.
+fn beyond_the_end(nodes: &[Node]) -> Route {
+    if nodes.iter().any(|node| node.rise == f64::INFINITY) {
         Route::Backward
-    } else if low.fall == f64::INFINITY || high.fall == f64::INFINITY {
+    } else if nodes.iter().any(|node| node.fall == f64::INFINITY) {
         Route::Forward
     } else {
         Route::Mixed
@@ -273,7 +270,7 @@ fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<f64, Reason> 
     if !is_exact(equation) {
         return Ok(u);
     }
-    let (mut coarse, route) = (equation.again(COARSE), beyond_the_end(bracket));
+    let (mut coarse, route) = (equation.again(COARSE), beyond_the_end(&[bracket.0, bracket.1]));
     for _ in 0..STEPS {
         let node = coarse.at(route, u)?.node;
         let change = -node.value() / node.slope;
@@ -296,8 +293,8 @@ fn as_ends((low, high): &Bracket) -> root::Bracket {
 }
 
 /// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.
-fn secant((low, high): &Bracket) -> f64 {
-    let middle = 0.5 * (low.at + high.at);
-    let secant = low.at - low.value() * (high.at - low.at) / (high.value() - low.value());
-    if secant > low.at && secant < high.at { secant } else { middle }
+fn secant(bracket: &Bracket) -> f64 {
+    let (low, high) = bracket;
+    let rise = (high.at - low.at) / (high.value() - low.value());
+    as_ends(bracket).inside(low.at - low.value() * rise)
 }

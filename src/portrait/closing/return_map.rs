@@ -92,7 +92,7 @@ impl Equation<'_> {
                 break;
             }
             let start = Length::new(passed);
-            let Some(end) = self.arrival(index, Direction::Forward, start)? else {
+            let Some(end) = self.swing(index, Direction::Forward, start)?.arrival() else {
                 return Ok(None);
             };
             (place, passed) = (side.displacement(end, r), end - 2.0 * r);
@@ -108,26 +108,15 @@ impl Equation<'_> {
             return Ok(Vec::new());
         }
         let whole = Length::new(2.0 * r);
-        let once = self.arrival(0, Direction::Backward, whole)?;
-        let twice = match self.arrival(1, Direction::Backward, whole)? {
+        let once = self.swing(0, Direction::Backward, whole)?.arrival();
+        let twice = match self.swing(1, Direction::Backward, whole)?.arrival() {
             Some(clearance) => {
                 let start = Length::new(clearance + 2.0 * r);
-                self.arrival(0, Direction::Backward, start)?
+                self.swing(0, Direction::Backward, start)?.arrival()
             }
             None => None,
         };
         Ok(once.into_iter().chain(twice).map(|clearance| r + clearance).collect())
-    }
-
-    /// Where a half swing arrives, if it does.
-    fn arrival(
-        &mut self,
-        index: usize,
-        direction: Direction,
-        start: Length,
-    ) -> Result<Option<f64>, Reason> {
-        let swing = self.swing(index, direction, start)?;
-        Ok(swing.arrives().then_some(swing.end.value))
     }
 }
 

@@ -134,7 +134,9 @@ impl FixedPointSearch<'_, '_> {
         // By rounding, a motion from there may still come to rest.
         let beyond = |x: f64| x * (1.0 + 1e-12);
         let mut smallest = caught.max(beyond(held));
-        let innermost = self.innermost(smallest)?;
+        let slips = smallest.is_finite();
+        // A cycle that repels so strongly that the map itself cannot resolve it is met a few turns before rest.
+        let innermost = if held > 0.0 && slips { self.settled_backward(smallest)? } else { None };
         if let Some((x, image)) = innermost {
             self.found.divides.push((x, Divide::Cycle(image)));
             smallest = x;
@@ -143,7 +145,6 @@ impl FixedPointSearch<'_, '_> {
         let grazing = marks.map(|marks| &marks.grazing);
         let touch = grazing.and_then(|grazing| Some((grazing, grazing.right?)));
         let touches_before = touch.is_some_and(|(_, touch)| touch > held && touch <= smallest);
-        let slips = smallest.is_finite();
         if held > 0.0 && slips && !touches_before && innermost.is_none() {
             let grows = self.growth_at(smallest)?.value() > 0.0;
             self.found.divides.extend(grows.then_some((caught, Divide::Capture)));
@@ -261,15 +262,6 @@ impl FixedPointSearch<'_, '_> {
             self.growth(u).map(|sample| (sample.value(), sample.slope))
         });
         Ok(root?.at)
-    }
-
-    /// The innermost cycle, if it repels so strongly that a few turns backward lead to it from rest and the map
-    /// itself cannot resolve it.
-    fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Reason> {
-        if self.flow.model.guide_static == 0.0 || smallest.is_infinite() {
-            return Ok(None);
-        }
-        self.settled_backward(smallest)
     }
 
     /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
