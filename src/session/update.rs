@@ -9,10 +9,7 @@ use crate::numerics::similar::most_similar;
 use crate::question::NoAnswer;
 use crate::scene::{Answered, Request};
 use crate::session::act::screen_setup::focus_on;
-use crate::session::act::{
-    answers, attempt, files, general, history, inform, inform_of_keys, parameters, plots, prompt,
-    refuse, walk, with_keys,
-};
+use crate::session::act::{answers, files, general, history, parameters, plots, prompt, walk};
 use crate::session::read::completion::names;
 use crate::session::read::contexts;
 use crate::session::read::contexts::{elsewhere, place};
@@ -29,7 +26,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     if is_press(&message) {
         // While a press waits, the only press that arrives here is one that cancels it.
         if session.waiting.take().is_some() && contexts::forgets(&message) {
-            inform(session, "the waiting key is dropped");
+            session.inform("the waiting key is dropped");
             return Vec::new();
         }
         if let Some(request) = session.awaited(&message) {
@@ -72,7 +69,7 @@ fn take_in(session: &mut Session, message: Msg) {
             session.notice = None;
             session.price = Price::default();
             session.measuring = false;
-            attempt(session, |session| plots::pointed(session, pointed));
+            session.attempt(|session| plots::pointed(session, pointed));
         }
         Msg::Resize { width, height } => session.size = Size { width, height },
         Msg::Answered(answered) => take(session, *answered),
@@ -90,7 +87,7 @@ fn take_in(session: &mut Session, message: Msg) {
             };
         }
         Msg::Read { path, purpose, result } => {
-            attempt(session, |session| files::read(session, &path, purpose, result));
+            session.attempt(|session| files::read(session, &path, purpose, result));
         }
         Msg::Written(notice) => {
             (session.writing, session.notice) = (None, Some(notice));
@@ -129,17 +126,15 @@ fn paste(session: &mut Session, text: &str) {
     }
     // Text that names no key in angle brackets was probably pasted by mistake.
     if !text.contains('<') && !text.trim_start().starts_with('#') {
-        return refuse(
-            session,
-            "the pasted text names no key such as <right>: it is not a keystroke file",
-        );
+        return session
+            .refuse("the pasted text names no key such as <right>: it is not a keystroke file");
     }
     match parse(text) {
         Ok(script) if script.keys() > 0 => {
             session.overlay = Some(Overlay::Offer(script));
         }
-        Ok(_) => inform(session, "the pasted text presses no key"),
-        Err(error) => refuse(session, format!("the pasted text is not a keystroke file: {error}")),
+        Ok(_) => session.inform("the pasted text presses no key"),
+        Err(error) => session.refuse(format!("the pasted text is not a keystroke file: {error}")),
     }
 }
 
@@ -151,8 +146,8 @@ fn take(session: &mut Session, answered: Answered) {
     if let Some(failure) = failure.filter(|_| asked)
         && failure != NoAnswer::Reason(Reason::Interrupted)
     {
-        let again = with_keys(session, "{retry} tries again");
-        refuse(session, format!("{name}: {failure}; {again}"));
+        let again = session.with_keys("{retry} tries again");
+        session.refuse(format!("{name}: {failure}; {again}"));
     }
 }
 
@@ -199,7 +194,7 @@ fn act(session: &mut Session, key: Key) {
         run_where_it_belongs(session, command, key);
     } else {
         let text = format!("{} has no meaning here; {{help}} lists the keys", key.said());
-        inform_of_keys(session, &text);
+        session.inform_of_keys(&text);
     }
 }
 
@@ -247,11 +242,11 @@ fn letter(session: &mut Session, what: Letter, key: Key) {
     match (what, name) {
         (Letter::Mark, Some(name)) => history::set_mark(session, name),
         (Letter::GoTo, Some(name)) => {
-            attempt(session, |session| history::go_to_mark(session, name));
+            session.attempt(|session| history::go_to_mark(session, name));
         }
-        (Letter::GoTo, None) if asks("go-to-mark") => attempt(session, history::go_back),
+        (Letter::GoTo, None) if asks("go-to-mark") => session.attempt(history::go_back),
         (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),
-        (_, None) => refuse(session, format!("{} is not a letter from a to z", key.said())),
+        (_, None) => session.refuse(format!("{} is not a letter from a to z", key.said())),
     }
 }
 
@@ -261,7 +256,7 @@ fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) {
         Ok(Some(pane)) => focus_on(session, pane),
         Ok(None) => {}
         Err(place) => {
-            return refuse(session, format!("{} {}", command.name, missing(session, place)));
+            return session.refuse(format!("{} {}", command.name, missing(session, place)));
         }
     }
     run(session, command, key);
@@ -273,13 +268,13 @@ fn missing(session: &Session, place: Context) -> String {
         Some(view) => {
             let spec = view.spec();
             let heading = spec.heading.to_lowercase();
-            with_keys(
-                session,
-                &format!("needs the {heading}: {{views}} or :view {} shows it", spec.name),
-            )
+            session.with_keys(&format!(
+                "needs the {heading}: {{views}} or :view {} shows it",
+                spec.name
+            ))
         }
         None if place == Context::Walk => {
-            with_keys(session, "needs a branch: {walk} on a diagram takes hold of one")
+            session.with_keys("needs a branch: {walk} on a diagram takes hold of one")
         }
         None => format!("works only {}", place.title().to_lowercase()),
     }
@@ -289,7 +284,7 @@ fn missing(session: &Session, place: Context) -> String {
 fn run(session: &mut Session, command: &Command, key: Key) {
     match command.run {
         CommandAction::Act(act) => act(session, key),
-        CommandAction::Try(act) => attempt(session, act),
+        CommandAction::Try(act) => session.attempt(act),
         CommandAction::Toggle(layer) => general::toggle(session, layer),
         CommandAction::Choose(choose) => match choose(session) {
             Ok(Some(NextCommand::Command(command))) => run_where_it_belongs(session, command, key),
@@ -298,7 +293,7 @@ fn run(session: &mut Session, command: &Command, key: Key) {
                 typed(session, |it| parameters::accept(it, row, &text));
             }
             Ok(None) => {}
-            Err(why) => refuse(session, why),
+            Err(why) => session.refuse(why),
         },
         // It takes words, which a key cannot give.
         CommandAction::Line(..) => {}
@@ -309,7 +304,7 @@ fn run(session: &mut Session, command: &Command, key: Key) {
 fn typed(session: &mut Session, act: impl FnOnce(&mut Session) -> Done) {
     let open = session.overlay.take();
     if let Err(why) = act(session) {
-        let Some(Overlay::Prompt(prompt)) = open else { return refuse(session, why) };
+        let Some(Overlay::Prompt(prompt)) = open else { return session.refuse(why) };
         let refused = Prompt { refused: Some(why), completion: None, back: 0, ..prompt };
         session.overlay = Some(Overlay::Prompt(refused));
     }
@@ -344,5 +339,5 @@ pub fn run_line(session: &mut Session, text: &str) -> Done {
 /// Runs a line that was not typed.
 fn run_untyped(session: &mut Session, text: &str) {
     (session.overlay, session.pending, session.notice) = (None, None, None);
-    attempt(session, |session| run_line(session, text));
+    session.attempt(|session| run_line(session, text));
 }

@@ -8,7 +8,6 @@ use crate::model::Knob;
 use crate::question::{NoAnswer, Rows};
 use crate::scene::{Answered, Finding, Fit, Topic};
 use crate::session::act::scan::refit;
-use crate::session::act::{inform, refuse};
 use crate::session::read::windows::{fitted, is_pending};
 use crate::session::scan::SCANNING;
 use crate::session::{Framing, Recomputation, ScanProgress, Session, StepSizes};
@@ -48,7 +47,7 @@ impl Session {
     fn show_fit(&mut self, fit: &Fit) {
         let found = match fit.found() {
             Ok(found) => found,
-            Err(unfit) => return refuse(self, unfit.to_string()),
+            Err(unfit) => return self.refuse(unfit.to_string()),
         };
         let problem = found.problem(self.scene.problem);
         let errors = Knob::MOTION.into_iter().filter_map(|knob| Some((knob, found.error(knob)?)));
@@ -67,8 +66,8 @@ impl Session {
         }
         let doubtful = found.estimate.whiteness.systematic;
         match said.into_iter().find(|text| !doubtful || text.starts_with("the residuals")) {
-            Some(text) if doubtful => refuse(self, text),
-            Some(text) => inform(self, text),
+            Some(text) if doubtful => self.refuse(text),
+            Some(text) => self.inform(text),
             None => {}
         }
     }

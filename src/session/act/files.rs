@@ -9,7 +9,7 @@ use crate::question::record::{RecordOptions, apart};
 use crate::scene::machine::NO_BELT;
 use crate::scene::machine::file::{self, is_mode};
 use crate::scene::{Recording, ScaledMachine};
-use crate::session::act::{history, inform, lists, prompt, warn_of_units, with_keys};
+use crate::session::act::{history, lists, prompt};
 use crate::session::replay;
 use crate::session::save;
 use crate::session::{Done, Effect, Listed, Overlay, Purpose, Script, Session};
@@ -59,7 +59,7 @@ pub(crate) fn figure(
         return Err(format!("a figure ends in .svg, .png, .csv or .json, not {given:?}"));
     }
     if let Some(other) = &session.writing {
-        let stops = with_keys(session, "{drop-cursor} stops that");
+        let stops = session.with_keys("{drop-cursor} stops that");
         return Err(format!("{} is still being written; {stops}", other.display()));
     }
     session.writing = Some(path.clone());
@@ -89,16 +89,16 @@ pub(crate) fn read(
     match purpose {
         Purpose::Open => {
             save::open(session, &text).map_err(of_file)?;
-            inform(session, format!("opened {}", path.display()));
+            session.inform(format!("opened {}", path.display()));
         }
         Purpose::Restore => {
             save::open(session, &text).map_err(of_file)?;
             let others = match session.interrupted.len() {
                 0 => String::new(),
-                1 => with_keys(session, "; {restore} brings the older one"),
-                count => with_keys(session, &format!("; {{restore}} lists {count} others")),
+                1 => session.with_keys("; {restore} brings the older one"),
+                count => session.with_keys(&format!("; {{restore}} lists {count} others")),
             };
-            inform(session, format!("the interrupted session is back{others}"));
+            session.inform(format!("the interrupted session is back{others}"));
             session.effects.push(Effect::PutAside(path.to_owned()));
         }
         Purpose::Fit(words) => {
@@ -143,7 +143,7 @@ fn open_machine(
     let machine = found.map_err(|error| error.to_string())?.try_into()?;
     let scaled = ScaledMachine::new(machine).map_err(|error| format!("{file}: {error}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
-    warn_of_units(session);
+    session.warn_of_units();
     Ok(())
 }
 
@@ -194,8 +194,8 @@ pub fn forget(session: &mut Session) -> Done {
     session.overlay = None;
     match all.len() {
         0 => return Err(NONE_INTERRUPTED.to_owned()),
-        1 => inform(session, "the interrupted session is not offered again"),
-        count => inform(session, format!("{count} interrupted sessions are not offered again")),
+        1 => session.inform("the interrupted session is not offered again"),
+        count => session.inform(format!("{count} interrupted sessions are not offered again")),
     }
     // The most recent one is put aside last, so that it remains.
     session.effects.extend(all.into_iter().rev().map(|kept| Effect::PutAside(kept.path)));

@@ -2,7 +2,6 @@
 
 use crate::accuracy::harmonic_error::ladder;
 use crate::scene::Layer;
-use crate::session::act::{inform, inform_of_keys};
 use crate::session::settings::{DisplaySettings, NamedValue, next_of};
 use crate::session::state::session::{LARGEST_COUNT, MOST_HARMONICS};
 use crate::session::{Done, Effect, Key, Overlay, Pending, Session};
@@ -24,7 +23,7 @@ pub fn toggle(session: &mut Session, layer: Layer) {
         }
         _ => format!("{} {state}: {}", spec.name, spec.meaning),
     };
-    inform_of_keys(session, &text);
+    session.inform_of_keys(&text);
 }
 
 /// Shows the cycles with the next number of harmonics on a ladder of numbers.
@@ -47,7 +46,7 @@ pub fn harmonics(session: &mut Session, more: bool) -> Done {
 pub(crate) fn balance(session: &mut Session, harmonics: usize) {
     session.harmonics = harmonics;
     session.layers.insert(Layer::Balance);
-    inform(session, format!("harmonic balance with N = {harmonics}"));
+    session.inform(format!("harmonic balance with N = {harmonics}"));
 }
 
 /// Takes the next value for a setting of the screen.
@@ -59,7 +58,7 @@ pub(crate) fn turn<T: NamedValue>(
     let place = setting(&mut session.display);
     let (next, name) = next_of(*place);
     *place = next;
-    inform(session, format!("{what}: {name}"));
+    session.inform(format!("{what}: {name}"));
 }
 
 /// Switches a setting of the screen on or off, and says what it is then.
@@ -71,7 +70,7 @@ pub(crate) fn flip(
     let switch = setting(&mut session.display);
     *switch = !*switch;
     let text = if *switch { on } else { off };
-    inform(session, text);
+    session.inform(text);
 }
 
 /// Switches phase planes between equal units and filling their whole space.
@@ -89,7 +88,7 @@ pub fn units(session: &mut Session) {
 /// Asks questions that have no answer again.
 pub fn retry(session: &mut Session) {
     if !session.answers.forget_failures() {
-        inform(session, "nothing has failed");
+        session.inform("nothing has failed");
     }
 }
 

@@ -8,7 +8,6 @@ use std::sync::Arc;
 use crate::fit::Unfit;
 use crate::model::Knob;
 use crate::scene::{Answered, Finding, Layer, Scene, Topic};
-use crate::session::act::inform;
 use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::set_up;
 use crate::session::read::completion::difference;
@@ -46,7 +45,7 @@ pub fn stop_fitting(session: &mut Session) {
         session.answers.keep(Answered { request, result, seconds: 0.0, complete: true });
     }
     session.fitting = 0;
-    inform(session, "the fit was stopped");
+    session.inform("the fit was stopped");
 }
 
 /// The present state, to the extent of `other`.
@@ -84,17 +83,17 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
 fn bring_back(session: &mut Session, name: &str, state: Before) {
     match state {
         Before::Setup(setup) => {
-            inform(session, format!("{name}: {}", difference(&session.setup(), &setup)));
+            session.inform(format!("{name}: {}", difference(&session.setup(), &setup)));
             session.set_setup(*setup);
         }
         Before::ScreenSetup(screen_setup) => {
             let titles: Vec<_> =
                 screen_setup.plots.iter().map(|plot| plot.view.spec().title).collect();
-            inform(session, format!("{name}: {}", titles.join(", ")));
+            session.inform(format!("{name}: {}", titles.join(", ")));
             set_up(session, &screen_setup);
         }
         Before::Scene(snapshot) => {
-            inform(session, format!("{name}: scene {}", snapshot.scene.name));
+            session.inform(format!("{name}: scene {}", snapshot.scene.name));
             restore(session, *snapshot);
         }
     }
@@ -143,7 +142,7 @@ pub(crate) fn begin(session: &mut Session, names: Vec<Knob>) {
 /// Restores the scene as it opens.
 pub fn reset_scene(session: &mut Session) {
     let scene = Arc::clone(&session.scene);
-    inform(session, format!("scene {} as it was opened", scene.name));
+    session.inform(format!("scene {} as it was opened", scene.name));
     open_scene(session, scene);
 }
 
@@ -152,7 +151,7 @@ pub(crate) fn set_mark(session: &mut Session, name: char) {
     session.marks.places.insert(name, bookmark(session));
     let key = session.keymap.key_of("go-to-mark");
     let back = key.map(|key| format!("; {key}{name} comes back")).unwrap_or_default();
-    inform(session, format!("mark {name} is here{back}"));
+    session.inform(format!("mark {name} is here{back}"));
 }
 
 /// Goes to a mark.
@@ -173,13 +172,13 @@ pub(crate) fn go_back(session: &mut Session) -> Done {
 fn go(session: &mut Session, mark: Bookmark) {
     let here = bookmark(session);
     if mark.setup == here.setup {
-        return inform(session, "here already");
+        return session.inform("here already");
     }
     let moved = difference(&here.setup, &mark.setup);
     put(session, mark.setup);
     session.marks.left = Some(here);
     session.layers.insert(Layer::Ghost);
-    inform(session, moved);
+    session.inform(moved);
 }
 
 /// The present point, and what is drawn of it once it is left.

@@ -2,7 +2,6 @@
 
 use crate::scene::letters;
 use crate::session::act::general::toggle;
-use crate::session::act::refuse;
 use crate::session::{Key, List, Listed, Overlay, Session};
 
 /// Number of rows that the page keys move by.
@@ -28,7 +27,7 @@ pub fn toggle_letter(session: &mut Session, key: Key) {
     let view = session.view_in_use();
     let Some((_, layer)) = letters(view).find(|(letter, _)| key.typed() == Some(*letter)) else {
         let text = format!("{} is not a layer of the {}", key.said(), view.spec().title);
-        return refuse(session, text);
+        return session.refuse(text);
     };
     if let Some(Overlay::List(Listed::Layers, list)) = &session.overlay {
         let place = session.layer_rows(list).iter().position(|row| row.layer == layer);

@@ -17,36 +17,38 @@ pub mod walk;
 
 use crate::session::{Done, Key, Notice, Session};
 
-/// Shows a notice that reports no refusal.
-pub(crate) fn inform(session: &mut Session, text: impl Into<String>) {
-    session.notice = Some(Notice { error: false, text: text.into() });
-}
-
-/// A sentence in which each `{command}` is replaced by the key of that command.
-pub(crate) fn with_keys(session: &Session, sentence: &str) -> String {
-    session.keymap.fill(sentence, Key::said)
-}
-
-/// Shows such a sentence.
-pub(crate) fn inform_of_keys(session: &mut Session, sentence: &str) {
-    inform(session, with_keys(session, sentence));
-}
-
-/// Shows a notice that says what was refused.
-pub(crate) fn refuse(session: &mut Session, text: impl Into<String>) {
-    session.notice = Some(Notice { error: true, text: text.into() });
-}
-
-/// Does something, or says why it was refused.
-pub(crate) fn attempt(session: &mut Session, act: impl FnOnce(&mut Session) -> Done) {
-    if let Err(why) = act(session) {
-        refuse(session, why);
+impl Session {
+    /// Shows a notice that reports no refusal.
+    pub(crate) fn inform(&mut self, text: impl Into<String>) {
+        self.notice = Some(Notice { error: false, text: text.into() });
     }
-}
 
-/// Shows what is unlikely about the numbers of the machine that was just read or typed.
-pub(crate) fn warn_of_units(session: &mut Session) {
-    if let Some(line) = session.unlikely_number() {
-        inform(session, line);
+    /// A sentence in which each `{command}` is replaced by the key of that command.
+    pub(crate) fn with_keys(&self, sentence: &str) -> String {
+        self.keymap.fill(sentence, Key::said)
+    }
+
+    /// Shows such a sentence.
+    pub(crate) fn inform_of_keys(&mut self, sentence: &str) {
+        self.inform(self.with_keys(sentence));
+    }
+
+    /// Shows a notice that says what was refused.
+    pub(crate) fn refuse(&mut self, text: impl Into<String>) {
+        self.notice = Some(Notice { error: true, text: text.into() });
+    }
+
+    /// Does something, or says why it was refused.
+    pub(crate) fn attempt(&mut self, act: impl FnOnce(&mut Self) -> Done) {
+        if let Err(why) = act(self) {
+            self.refuse(why);
+        }
+    }
+
+    /// Shows what is unlikely about the numbers of the machine that was just read or typed.
+    pub(crate) fn warn_of_units(&mut self) {
+        if let Some(line) = self.unlikely_number() {
+            self.inform(line);
+        }
     }
 }

@@ -7,7 +7,6 @@ use crate::model::State;
 use crate::numerics::decimal::{decimal_sum, shortest};
 use crate::portrait::Cycles;
 use crate::scene::{Layer, Topic};
-use crate::session::act::inform;
 use crate::session::act::parameters::put;
 use crate::session::state::session::PACES;
 use crate::session::{Done, MOST_MOTIONS, Pace, Session, Setup};
@@ -33,7 +32,7 @@ pub(crate) fn start(session: &mut Session, initial: State) {
     setup.others.push(before);
     if setup.others.len() == MOST_MOTIONS {
         setup.others.remove(0);
-        inform(session, format!("{MOST_MOTIONS} motions at most: the oldest gave way"));
+        session.inform(format!("{MOST_MOTIONS} motions at most: the oldest gave way"));
     }
     setup.problem.initial = initial;
     put(session, setup);
@@ -48,7 +47,7 @@ pub fn drop_newest(session: &mut Session) -> Done {
     put(session, setup);
     let motions = if count == 1 { "motion" } else { "motions" };
     let place = format!("q0 = {}, v0 = {}", shortest(q), shortest(v));
-    inform(session, format!("{count} {motions} on show; {place}"));
+    session.inform(format!("{count} {motions} on show; {place}"));
     Ok(())
 }
 
@@ -111,7 +110,7 @@ pub fn play(session: &mut Session) -> Done {
     }
     let playing = session.playback.playing;
     let text = if playing { format!("playing: {}", session.pace()) } else { "held".to_owned() };
-    inform(session, text);
+    session.inform(text);
     Ok(())
 }
 
@@ -133,7 +132,7 @@ pub fn pace(session: &mut Session) {
     paces.sort_by(|one, other| session.rate(*one).total_cmp(&session.rate(*other)));
     let now = paces.iter().position(|pace| *pace == session.playback.pace);
     session.playback.pace = now.and_then(|now| paces.get(now + 1)).copied().unwrap_or(paces[0]);
-    inform(session, format!("pace: {}", session.pace()));
+    session.inform(format!("pace: {}", session.pace()));
 }
 
 impl Session {

@@ -5,7 +5,6 @@ use crate::model::unit::measured;
 use crate::model::{Knob, KnobSpec};
 use crate::numerics::{log10, shortest};
 use crate::scene::{Setting, View};
-use crate::session::act::{inform, warn_of_units};
 use crate::session::read::completion::typed;
 use crate::session::state::setup::symbol_of;
 use crate::session::{Before, Done, Framing, Key, Overlay, Prompt, Row, Session, Setup, StepSizes};
@@ -35,7 +34,7 @@ pub(crate) fn put(session: &mut Session, mut setup: Setup) -> bool {
     session.history.record(Before::Setup(Box::new(before)));
     session.set_setup(setup);
     if was_on && session.is_on_the_belt() == Some(false) {
-        inform(session, "off the belt: no speed has these numbers; the row belt leads back");
+        session.inform("off the belt: no speed has these numbers; the row belt leads back");
     }
     true
 }
@@ -120,7 +119,7 @@ pub fn reset_row(session: &mut Session) {
         }
     }
     if !put(session, reset) {
-        inform(session, format!("{} has the scene's value", row.name_in(&session.problem)));
+        session.inform(format!("{} has the scene's value", row.name_in(&session.problem)));
     }
 }
 
@@ -133,7 +132,7 @@ pub fn dial(session: &mut Session, finer: bool) -> Done {
     change(session, session.problem.at(quality));
     let (knob, setting) = (Row::Tolerance.knob_in(&session.problem), session.problem.setting());
     let (name, meaning) = (quality.name, quality.meaning);
-    inform(session, format!("{name}: {knob} {}; {meaning}", shortest(setting)));
+    session.inform(format!("{name}: {knob} {}; {meaning}", shortest(setting)));
     Ok(())
 }
 
@@ -171,7 +170,7 @@ pub fn next_method(session: &mut Session, by: isize) {
     let row = rows[next];
     session.measuring = true;
     change(session, Problem { method: row.method, ..session.problem });
-    inform(session, format!("{}: {}", row.name, row.guarantee));
+    session.inform(format!("{}: {}", row.name, row.guarantee));
 }
 
 impl Session {
@@ -234,7 +233,7 @@ pub fn begin(session: &mut Session, key: Key) {
 pub(crate) fn accept(session: &mut Session, row: Row, text: &str) -> Done {
     let setup = read(session, &session.setup(), row, text)?;
     put(session, setup);
-    warn_of_units(session);
+    session.warn_of_units();
     Ok(())
 }
 

@@ -10,7 +10,7 @@ use crate::session::act::general::flip;
 use crate::session::act::motions::start;
 use crate::session::act::parameters::{change, put};
 use crate::session::act::screen_setup::focus_on;
-use crate::session::act::{history, inform, lists, refuse, scan, with_keys};
+use crate::session::act::{history, lists, scan};
 use crate::session::{Done, Effect, Framing, Gesture, Pane, Plot, Pointed, PointerTarget, Session};
 
 /// Number of cursor steps in a far move.
@@ -124,7 +124,7 @@ fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) {
         before != after
     });
     if framed == Some(false) {
-        refuse(session, "the window ends here: numbers closer or farther cannot be told apart");
+        session.refuse("the window ends here: numbers closer or farther cannot be told apart");
     }
 }
 
@@ -152,7 +152,7 @@ pub fn home(session: &mut Session) {
 fn cursor(session: &Session) -> Result<Point, String> {
     let text = "no cursor yet: {cursor-left}, {cursor-up} and so on show it";
     let cursor = session.focused().and_then(|plot| plot.cursor);
-    cursor.ok_or_else(|| with_keys(session, text))
+    cursor.ok_or_else(|| session.with_keys(text))
 }
 
 /// Selects the method and the accuracy of the row nearest to the cursor.
@@ -185,7 +185,7 @@ pub fn start_here(session: &mut Session) -> Done {
     if session.focused().is_some_and(|plot| plot.view == View::Phase) {
         start(session, initial);
     } else if change(session, Problem { initial, ..session.problem }) {
-        inform(session, format!("q0 = {}, v0 = {}", shortest(q), shortest(v)));
+        session.inform(format!("q0 = {}, v0 = {}", shortest(q), shortest(v)));
     }
     Ok(())
 }
@@ -235,7 +235,7 @@ pub fn next_parameter(session: &mut Session, upwards: bool) {
         }
         None => set_axes(session, axes),
     }
-    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
+    session.inform(format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
 }
 
 /// Gives the diagram in focus these axes.
@@ -261,7 +261,7 @@ pub fn next_ordinate(session: &mut Session) {
     let row = &ORDINATES[(plot.axes.ordinate as usize + 1) % ORDINATES.len()];
     let axes = Axes { ordinate: row.ordinate, ..plot.axes };
     set_axes(session, axes);
-    inform(session, format!("{}: {}", axes.label(), row.meaning));
+    session.inform(format!("{}: {}", axes.label(), row.meaning));
 }
 
 /// Switches lengths of the cycles between units of r and those of the equation; the branch stays.
@@ -275,7 +275,7 @@ pub fn next_unit(session: &mut Session) -> Done {
     let axes = Axes { unit, ..plot.axes };
     set_axes(session, axes);
     let units = if unit == Unit::One { "" } else { ", in units of r" };
-    inform(session, format!("{}: {}{units}", axes.label(), spec.meaning));
+    session.inform(format!("{}: {}{units}", axes.label(), spec.meaning));
     Ok(())
 }
 

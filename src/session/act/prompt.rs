@@ -6,7 +6,6 @@ use crate::paper::Claim;
 use crate::scene::find;
 use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
-use crate::session::act::inform;
 use crate::session::act::lists::search_with;
 use crate::session::act::screen_setup::show_from_list;
 use crate::session::act::values::belt;
@@ -163,6 +162,6 @@ fn show_claim(session: &mut Session, claim: &Claim) -> Done {
     let scene =
         scene.ok_or_else(|| format!("no scene shows {}: it is a formula alone", claim.equation))?;
     open_scene(session, scene);
-    inform(session, format!("{}: {}", claim.equation, claim.statement));
+    session.inform(format!("{}: {}", claim.equation, claim.statement));
     Ok(())
 }

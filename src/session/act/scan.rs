@@ -9,7 +9,6 @@ use crate::scan::sweep::Sweep;
 use crate::scene::{Request, Span, View};
 use crate::session::act::parameters::change;
 use crate::session::act::screen_setup::{add, focus_on, show};
-use crate::session::act::{inform, inform_of_keys};
 use crate::session::scan::SCANNING;
 use crate::session::{
     Done, Effect, Overlay, Pane, Plot, Prompt, ScanOnShow, ScanProgress, Session,
@@ -69,7 +68,7 @@ pub fn start(session: &mut Session, scan: Scan) {
         None => beside(session),
     }
     refit(session);
-    inform(session, SCANNING);
+    session.inform(SCANNING);
 }
 
 /// Shows the scan beside the phase plane to which its points are applied: in the plot in use, in another one,
@@ -94,7 +93,7 @@ pub fn stop(session: &mut Session) {
         scanned.progress = ScanProgress::Stopped;
         let (rows, points) = (scanned.rows.len(), scanned.scan.points());
         let text = format!("stopped: {rows} of {points} rows; {{scan-pause}} continues");
-        inform_of_keys(session, &text);
+        session.inform_of_keys(&text);
     }
 }
 
@@ -110,9 +109,9 @@ pub fn pause(session: &mut Session) -> Done {
         ScanProgress::Running { .. } => stop(session),
         ScanProgress::Stopped => {
             scanned.progress = ScanProgress::Running { from: scanned.rows.len() };
-            inform(session, SCANNING);
+            session.inform(SCANNING);
         }
-        ScanProgress::Done => inform(session, "the scan is done"),
+        ScanProgress::Done => session.inform("the scan is done"),
     }
     Ok(())
 }
@@ -173,7 +172,7 @@ pub fn take(session: &mut Session) -> Done {
         said.push(format!("{symbol} = {}", shortest(value)));
     }
     change(session, problem);
-    inform(session, said.join(", "));
+    session.inform(said.join(", "));
     Ok(())
 }
 

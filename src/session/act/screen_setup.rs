@@ -2,7 +2,6 @@
 //! which pane has the focus. Each change but that of the focus can be undone.
 
 use crate::scene::{LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
-use crate::session::act::{inform, with_keys};
 use crate::session::settings::next_of;
 use crate::session::{Before, Done, Pane, Plot, ScreenSetup, Session};
 
@@ -61,14 +60,14 @@ pub fn show(session: &mut Session, view: View) {
     }
     focus_on(session, Pane::Plot(index));
     let spec = view.spec();
-    inform(session, format!("{}: {}", spec.title, spec.meaning));
+    session.inform(format!("{}: {}", spec.title, spec.meaning));
 }
 
 /// Changes the view of the plot in use, unless the new one could show nothing: of a list, one knows that only
 /// afterwards.
 pub fn show_from_list(session: &mut Session, view: View) -> Done {
     if let Some(lacks) = session.lacks(view) {
-        return Err(format!("{} {}", view.spec().title, with_keys(session, lacks)));
+        return Err(format!("{} {}", view.spec().title, session.with_keys(lacks)));
     }
     show(session, view);
     Ok(())
@@ -106,7 +105,7 @@ pub fn add(session: &mut Session) -> Done {
     session.enlarged = false;
     focus_on(session, Pane::Plot(index + 1));
     let spec = plot_setup.view.spec();
-    inform(session, format!("{} more: {}", spec.title, spec.meaning));
+    session.inform(format!("{} more: {}", spec.title, spec.meaning));
     Ok(())
 }
 
@@ -121,7 +120,7 @@ pub fn remove(session: &mut Session) -> Done {
     if session.focus != Pane::Parameters {
         focus_on(session, Pane::Plot(session.plot));
     }
-    inform(session, format!("{} removed", removed.view.spec().title));
+    session.inform(format!("{} removed", removed.view.spec().title));
     Ok(())
 }
 
@@ -142,7 +141,7 @@ pub fn arrange(session: &mut Session) {
     record(session);
     let (arrangement, name) = next_of(session.arrangement);
     session.arrangement = arrangement;
-    inform(session, format!("arrangement: {name}"));
+    session.inform(format!("arrangement: {name}"));
 }
 
 /// Gives the focus to another pane.

@@ -5,9 +5,7 @@ use std::sync::Arc;
 use crate::model::{Knob, unknown};
 use crate::portrait::kicks::RandomKick;
 use crate::scene::{Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find, machine};
-use crate::session::act::{
-    general, history, inform, parameters, plots, screen_setup, warn_of_units,
-};
+use crate::session::act::{general, history, parameters, plots, screen_setup};
 use crate::session::read::completion::{properties, rows};
 use crate::session::settings::{NamedValue, choices};
 use crate::session::state::session::MOST_HARMONICS;
@@ -54,7 +52,7 @@ fn assign(session: &mut Session, given: Vec<(&str, String)>) -> Done {
         setup = parameters::read(session, &setup, row_named(session, name)?, &value)?;
     }
     parameters::put(session, setup);
-    warn_of_units(session);
+    session.warn_of_units();
     Ok(())
 }
 
@@ -151,7 +149,7 @@ pub fn kicks(session: &mut Session, rest: &str) -> Done {
     }
     session.kicks = kicks;
     session.layers.insert(Layer::Kicks);
-    inform(session, format!("{} kicks {kicks}, in q and v", kicks.law.name()));
+    session.inform(format!("{} kicks {kicks}, in q and v", kicks.law.name()));
     Ok(())
 }
 

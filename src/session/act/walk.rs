@@ -4,7 +4,6 @@ use crate::model::State;
 use crate::numerics::{hypot, shortest};
 use crate::scene::{Axes, Layer, Topic};
 use crate::session::act::parameters::change;
-use crate::session::act::{inform, inform_of_keys, with_keys};
 use crate::session::read::walk::BranchPath;
 use crate::session::{BranchStop, Done, Pane, Plot, Session};
 
@@ -13,7 +12,7 @@ pub const FAR: isize = 10;
 
 /// Begins a walk on the branch: at the cursor of the diagram if there is one, otherwise at the present value.
 pub fn take_hold(session: &mut Session) -> Done {
-    let stop = first(session).map_err(|why| with_keys(session, why))?;
+    let stop = first(session).map_err(|why| session.with_keys(why))?;
     session.held = Some(stop);
     Ok(())
 }
@@ -53,7 +52,7 @@ pub fn go(session: &mut Session, count: isize) {
     let further = |way: &BranchPath, held: &BranchStop| way.further(held, count);
     if !moved(session, further) {
         let text = "the branch ends here; {walk-to-next} leads to the next special point or end";
-        inform_of_keys(session, text);
+        session.inform_of_keys(text);
     }
 }
 
@@ -91,7 +90,7 @@ pub fn take(session: &mut Session) -> Done {
     let start = held.cycle.map(|_| ", and the motion starts on its cycle").unwrap_or_default();
     let label = &shown.variant.label;
     let also = if label.is_empty() { "" } else { ", " };
-    inform(session, format!("{abscissa} = {}{also}{label}{start}", shortest(value)));
+    session.inform(format!("{abscissa} = {}{also}{label}{start}", shortest(value)));
     Ok(())
 }
 
