@@ -54,6 +54,7 @@
 
 #[doc(hidden)]
 pub mod accuracy;
+#[warn(clippy::missing_errors_doc)]
 pub mod branch;
 #[warn(clippy::missing_errors_doc)]
 pub mod closed_form;

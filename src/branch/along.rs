@@ -228,9 +228,7 @@ impl CurveTracer<'_> {
     fn seeds(&mut self, p: f64, known: &[(f64, f64)]) -> Result<Vec<CurvePoint>, Reason> {
         let parameters = self.curve.parameters_at(p);
         let rough = self.points == Points::Followed;
-        let Limits { evaluations, interrupted } = *self.curve.limits;
-        let evaluations = if rough { evaluations.min(SEED_BUDGET) } else { evaluations };
-        let limits = Limits { evaluations, interrupted };
+        let limits = self.curve.limits.up_to(if rough { SEED_BUDGET } else { u64::MAX });
         let mut equation =
             Equation::on_side(&parameters, self.curve.side, self.curve.fineness(), &limits);
         let closings = closings(&mut equation, usize::MAX, known);

@@ -25,8 +25,10 @@ pub struct Chart {
     pub cost: Cost,
 }
 
-/// Draws a chart; the two parameters of the plane do not matter. Fails with [`Reason::Interrupted`], or
-/// [`Reason::NotApplicable`] where the plane is invalid. What fails on a line is reported there.
+/// Draws a chart; the two parameters of the plane do not matter. What fails on a line is reported there.
+///
+/// # Errors
+/// [`Reason::Interrupted`], or [`Reason::NotApplicable`] where the plane is invalid.
 pub fn chart(
     parameters: &Parameters,
     plane: Plane,

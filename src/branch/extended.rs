@@ -36,10 +36,12 @@ pub struct FoldGuess {
     pub parameters: Parameters,
     /// The unknown `ln c0`.
     pub u: f64,
-    slopes: Option<(Knob, Slopes)>,
+    /// Along which parameter slopes are known, and these.
+    pub slopes: Option<(Knob, Slopes)>,
 }
 
-type Slopes = [[f64; 2]; 2];
+/// The derivatives of both functions by u and by the logarithm of a parameter.
+pub type Slopes = [[f64; 2]; 2];
 
 impl FoldGuess {
     /// A place known otherwise.
@@ -61,11 +63,6 @@ impl FoldGuess {
         let d = here.d * (known.parameters.d / there.d);
         let (parameters, u) = (Parameters { d, ..*parameters }, known.u + here.u - there.u);
         Some(FoldGuess { parameters, u, slopes: Some(known.along) })
-    }
-
-    /// The same cycle at other parameters.
-    pub fn moved_to(self, parameters: &Parameters) -> Self {
-        FoldGuess { parameters: *parameters, ..self }
     }
 }
 

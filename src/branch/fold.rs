@@ -23,7 +23,7 @@
 use serde::Serialize;
 
 use super::escape::escape_point;
-use super::extended::{FoldGuess, fold_near};
+use super::extended::{FoldCycle, FoldGuess, fold_near};
 use super::fold_graph::highest_cycle;
 use super::special::FoldPoint;
 use crate::closed_form::harmonic;
@@ -68,7 +68,8 @@ pub fn fold_within(
         let (found, spent) = fold_near(&guess, Knob::D, tolerance, limits)?;
         cost += spent;
         if let Some(found) = found {
-            return Ok((Some(FoldPoint::from(&found)), cost));
+            let FoldCycle { closing, parameters, side, .. } = found;
+            return Ok((Some(FoldPoint::of(&closing, &parameters, side)), cost));
         }
     }
     // A rough fold, one of many on a map, need not be found at any cost.

@@ -9,7 +9,6 @@ use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{exp, ln, try_maximum};
-use crate::portrait::Cycle;
 use crate::portrait::closing::equation::{Route, first_side};
 
 /// Finds the cycle of the largest D, to a relative error `tolerance` of its clearance; that of D is the square, to
@@ -27,10 +26,8 @@ pub fn highest_cycle(
     let mut graph = Graph { curve, parameters: *parameters, d };
     let met =
         graph.meeting(u, stride).map(|CurvePoint { p: d, closing, log_multiplier, .. }| {
-            let cycle = closing.describe(&graph.curve.parameters_at(d), side);
-            let grazes = d < -1.0 && cycle.is_stable_beyond_doubt();
-            let Cycle { q_max, period, .. } = cycle;
-            (FoldPoint { d, q_max, period, grazes }, log_multiplier)
+            let parameters = graph.curve.parameters_at(d);
+            (FoldPoint::of(&closing, &parameters, side), log_multiplier)
         });
     (met, graph.curve.cost)
 }

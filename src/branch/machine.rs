@@ -53,7 +53,10 @@ pub struct MachineBranch {
 impl MachineBranch {
     /// Follows the cycles of a machine along one of its numbers, through `count` evenly spaced values on all cores. Unless
     /// `beside` is `None`, changes are located, and each has further points at these parts of the distance between two
-    /// values. Fails with one line where the machine's law has no such number; ends early where it is interrupted.
+    /// values. Ends early where it is interrupted.
+    ///
+    /// # Errors
+    /// One line where the machine's law has no such number.
     pub fn along(
         source: &Source,
         varied: Knob,

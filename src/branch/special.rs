@@ -2,8 +2,9 @@
 
 use serde::{Serialize, Serializer};
 
-use super::extended::FoldCycle;
 use crate::flow::Fate;
+use crate::model::{Parameters, Side};
+use crate::portrait::closing::pair::Closing;
 use crate::portrait::{Cycle, CycleErrors};
 
 /// What makes a point of a branch special.
@@ -179,9 +180,11 @@ pub struct FoldPoint {
     pub grazes: bool,
 }
 
-impl From<&FoldCycle> for FoldPoint {
-    fn from(fold: &FoldCycle) -> Self {
-        let Cycle { q_max, period, .. } = fold.closing.describe(&fold.parameters, fold.side);
-        FoldPoint { d: fold.parameters.d, q_max, period, grazes: false }
+impl FoldPoint {
+    /// The cycle of the largest D, whose first swing is on this side.
+    pub(super) fn of(closing: &Closing, parameters: &Parameters, side: Side) -> Self {
+        let (d, cycle) = (parameters.d, closing.describe(parameters, side));
+        let grazes = d < -1.0 && cycle.is_stable_beyond_doubt();
+        FoldPoint { d, q_max: cycle.q_max, period: cycle.period, grazes }
     }
 }

@@ -10,7 +10,7 @@ use crate::branch::along::{Points, branch};
 use crate::branch::fold::{Boundary, BoundaryPoint, border};
 use crate::branch::machine::MachineBranch;
 use crate::flow::Limits;
-use crate::model::{Belt, Knob};
+use crate::model::{Belt, Knob, Source};
 use crate::proof::ParameterBox;
 use crate::proof::bifurcation::{enclose_escape, enclose_fold};
 use crate::proof::range::{change_near, range};
@@ -38,17 +38,20 @@ fn range_of(over: &Sweep) -> (f64, f64) {
     (over.from.min(over.to), over.from.max(over.to))
 }
 
+/// The cycles of a machine along a number, and the changes between its values.
+fn followed(subject: &Source, over: &Sweep) -> Result<MachineBranch, String> {
+    let (range, values) = ((over.from, over.to), (over.count, Some([].as_slice())));
+    MachineBranch::along(subject, over.symbol, range, values, &Limits::PATIENT)
+}
+
 impl BranchCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let case = self.source.portrayed()?;
         let over = read("--over", &self.over, |text| self.source.numbers().over(text))?;
-        let Sweep { symbol, from, to, count, .. } = over;
+        let Sweep { symbol, count, .. } = over;
         if let Some(case) = case {
             let subject = &case.described.problem.subject;
-            let limits = &Limits::PATIENT;
-            let values = (count, Some([].as_slice()));
-            let follow = || MachineBranch::along(subject, symbol, (from, to), values, limits);
-            let (found, seconds) = timed(self.output.repeat, follow);
+            let (found, seconds) = timed(self.output.repeat, || followed(subject, &over));
             let (found, about) = (found.map_err(Failure::Usage)?, case.about().but(&[symbol]));
             return self.output.print(report::of_machine(&about, symbol, &found, seconds));
         }
@@ -135,11 +138,8 @@ impl BorderCommand {
             )));
         }
         let row = |index| {
-            let (value, range) = (over.value(index), (along.from, along.to));
-            let (here, limits) = (subject.with(over.symbol, value)?, &Limits::PATIENT);
-            let values = (along.count, Some([].as_slice()));
-            let found = MachineBranch::along(&here, along.symbol, range, values, limits);
-            Ok((value, found?.special))
+            let value = over.value(index);
+            Ok((value, followed(&subject.with(over.symbol, value)?, &along)?.special))
         };
         let follow = || (0..over.count).map(row).collect::<Result<Vec<_>, String>>();
         let (found, seconds) = timed(self.output.repeat, follow);

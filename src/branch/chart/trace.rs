@@ -230,16 +230,12 @@ impl Tracer<'_> {
         }
         if d3 == 0.0 && d2 != 0.0 && d > -1.0 {
             // D_c depends on r D2 alone.
-            return Ok([None, Some(self.product_of_escape(d)? / d2.abs())]);
+            let (product, cost) = escape_product(d, self.limits)?;
+            self.cost += cost;
+            let lost = Reason::NoConvergence { sought: "the escape point", change: f64::NAN };
+            return Ok([None, Some(product.ok_or(lost)? / d2.abs())]);
         }
         nowhere
-    }
-
-    /// The product `r abs(D2)` whose escape point is `d`.
-    fn product_of_escape(&mut self, d: f64) -> Result<f64, Reason> {
-        let (found, cost) = escape_product(d, self.limits)?;
-        self.cost += cost;
-        found.ok_or(Reason::NoConvergence { sought: "the escape point", change: f64::NAN })
     }
 
     /// `D_c`.
@@ -262,7 +258,8 @@ impl Tracer<'_> {
             None => FoldGuess::in_damping(&near),
         };
         if let Some(beside) = beside
-            && let Some(found) = self.fold_near(&beside.moved_to(&near), self.plane.along())?
+            && let Some(found) =
+                self.fold_near(&FoldGuess { parameters: near, ..beside }, self.plane.along())?
         {
             return Ok(Some(found.value(self.plane.along())));
         }
