@@ -10,8 +10,7 @@ use crate::closed_form::harmonics::{HarmonicCycle, harmonic_cycle};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Parameters, State};
 use crate::numerics::elementary::ln;
-use crate::portrait::Cycle;
-use crate::portrait::basin::cycle::cycles;
+use crate::portrait::{Cycle, cycles};
 
 /// How far a cycle of N harmonics is from the true one; relative, positive where it is too large.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

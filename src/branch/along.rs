@@ -31,12 +31,9 @@ use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{cbrt, ln, pow, powi, real};
-use crate::portrait::Cycle;
-use crate::portrait::closing::all::{STEP, closings};
-use crate::portrait::closing::equation::{Equation, Route, first_side};
-use crate::portrait::closing::pair::Closing;
-use crate::portrait::closing::polish::polish_near;
-use crate::portrait::closing::weak::weak_closing;
+use crate::portrait::{
+    Closing, Cycle, Equation, Route, STEP, closings, first_side, polish_near, weak_closing,
+};
 
 /// A cycle and the parameter value at which it lives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

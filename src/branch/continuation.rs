@@ -16,8 +16,7 @@ pub use spread::CurvePlace;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{hypot, ln, try_bisect};
-use crate::portrait::closing::equation::{Equation, Route};
-use crate::portrait::closing::pair::Closing;
+use crate::portrait::{Closing, Equation, Route};
 
 /// Tolerance of the integration steps, in units of that of the points.
 const STEP: f64 = 1e-2;

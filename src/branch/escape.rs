@@ -21,8 +21,7 @@ use std::f64::consts::PI;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::Parameters;
 use crate::numerics::{PlaceTolerance, illinois, ln};
-use crate::portrait::closing::balance::weighed_closing;
-use crate::portrait::closing::equation::{Equation, Route};
+use crate::portrait::{Equation, Route, weighed_closing};
 
 /// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`); and what it
 /// cost.

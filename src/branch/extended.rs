@@ -13,8 +13,7 @@ use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::elementary::{cbrt, exp, ln, powi};
-use crate::portrait::closing::equation::{Equation, Route, first_side};
-use crate::portrait::closing::pair::Closing;
+use crate::portrait::{Closing, Equation, Route, first_side};
 
 /// A fold: the cycle at which two meet.
 #[derive(Clone, Copy, Debug)]

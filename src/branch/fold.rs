@@ -31,8 +31,7 @@ use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters};
 use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::portrait::basin::between;
-use crate::portrait::closing::all::{STEP, all_closings};
-use crate::portrait::closing::equation::{Equation, WayFromRim};
+use crate::portrait::{Equation, STEP, WayFromRim, all_closings};
 
 /// Maximum number of evaluations of one swing: a cycle that takes more is not followed.
 const BUDGET: u64 = 200_000;

@@ -11,9 +11,8 @@ use crate::flow::{Cost, Fate, Flow, Limits, Reason};
 use crate::model::{ContactState, Knob, Model, Phase, Source};
 use crate::numerics::{PlaceTolerance, exp, illinois, ln, real, try_bisect};
 use crate::portrait::basin::between;
-use crate::portrait::closing::search::Node;
 use crate::portrait::return_map::machine_return::Landmarks;
-use crate::portrait::{Border, Cycle, Portrait};
+use crate::portrait::{Border, Cycle, Node, Portrait};
 
 /// What a machine does at a value of the number that varies.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,8 +4,7 @@ use serde::{Serialize, Serializer};
 
 use crate::flow::Fate;
 use crate::model::{Parameters, Side};
-use crate::portrait::closing::pair::Closing;
-use crate::portrait::{Cycle, CycleErrors};
+use crate::portrait::{Closing, Cycle, CycleErrors};
 
 /// What makes a point of a branch special.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -10,9 +10,7 @@ use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
 use crate::model::unit::{Dimension, WithTolerance, measured};
 use crate::model::{Group, Knob, MachineProblem};
-use crate::portrait::basin::StartWindow;
-use crate::portrait::design::Kick;
-use crate::portrait::kicks::RandomKick;
+use crate::portrait::{Kick, RandomKick, StartWindow};
 use crate::scan::sweep::{Spacing, Sweep};
 
 /// The numbers by which options are read whose values depend on what a command is about.

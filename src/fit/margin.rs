@@ -17,10 +17,8 @@ use crate::branch::fold::fold;
 use crate::flow::{Limits, Reason};
 use crate::model::{Knob, ParameterBox, Parameters};
 use crate::numerics::count::{real, truncated};
-use crate::portrait::closing::all::all_closings;
-use crate::portrait::closing::equation::Equation;
 use crate::portrait::guarantee::oscillator::guaranteed;
-use crate::portrait::{Kicks, Margin, Portrait};
+use crate::portrait::{Equation, Kicks, Margin, Portrait, all_closings};
 
 /// What is asked of the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,8 +10,7 @@ use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::flow::Reason;
 use crate::model::Parameters;
 use crate::numerics::elementary::{ln, log2};
-use crate::portrait::Border;
-use crate::portrait::basin::cycle::cycles;
+use crate::portrait::{Border, cycles};
 
 pub(super) const CHECKS: &[Check] = &[
     worst("exponent of the mean", |it| {

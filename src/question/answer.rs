@@ -17,10 +17,8 @@ use crate::flow::quality::DRAFT;
 use crate::flow::{Cost, Limits, Reason, Trajectory};
 use crate::model::{Belt, Knob, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};
-use crate::portrait::basin::capture::bands;
-use crate::portrait::basin::stability::Share;
 use crate::portrait::closing::return_map::return_map;
-use crate::portrait::{Cycles, Portrait, ReturnMap};
+use crate::portrait::{Cycles, Portrait, ReturnMap, Share, bands};
 use crate::proof::{ParameterBox, Proof, prove};
 use crate::scan::grid::{Scan, ScanRow};
 

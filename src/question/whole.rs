@@ -4,8 +4,7 @@
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
 use crate::model::{Belt, Model, Parameters};
-use crate::portrait::basin::cycle::picture_reach;
-use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, survey};
+use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, picture_reach, survey};
 
 /// What is known of a machine's motion beside its course.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Belt, ParameterBox, State, Tolerances};
-use crate::portrait::basin::cycle::picture_reach;
 use crate::portrait::guarantee::{Uncertain, machine, oscillator};
-use crate::portrait::{Margin, Portrait, survey};
+use crate::portrait::{Margin, Portrait, picture_reach, survey};
 
 /// What is not known exactly, and disturbed.
 #[derive(Clone, Debug, PartialEq)]

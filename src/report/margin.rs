@@ -2,11 +2,8 @@
 
 use super::proof::kick_columns;
 use super::{About, Answer, Columns, Document, Quantity, cycles};
-use crate::portrait::basin::{Counts, StartWindow};
 use crate::portrait::guarantee::Uncertain;
-use crate::portrait::kicks::RandomKick;
-use crate::portrait::kicks::repeated::Repeated;
-use crate::portrait::{Margin, Portrait};
+use crate::portrait::{Counts, Margin, Portrait, RandomKick, Repeated, StartWindow};
 use crate::proof::kicks::ProvedKicks;
 use crate::words::significant;
 

@@ -10,8 +10,7 @@ use super::sweep::Sweep;
 use crate::flow::{Cost, Limits, Problem, Reason};
 use crate::model::belt::FrictionLaw;
 use crate::model::{Interval, Knob, MachineProblem, ParameterBox, Parameters, State};
-use crate::portrait::basin::StartWindow;
-use crate::portrait::kicks::RandomKick;
+use crate::portrait::{RandomKick, StartWindow};
 
 /// Most points of a scan.
 pub const MOST_POINTS: usize = 1_000_000_000;

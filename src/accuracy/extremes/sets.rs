@@ -5,10 +5,7 @@ use serde::Serialize;
 use super::lattice::all_parameters;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::Parameters;
-use crate::portrait::Cycle;
-use crate::portrait::closing::all::{STEP, all_closings};
-use crate::portrait::closing::equation::{Equation, Route};
-use crate::portrait::closing::pair::Closing;
+use crate::portrait::{Closing, Cycle, Equation, Route, STEP, all_closings};
 
 /// Maximum number of evaluations of one half map in a search.
 pub const BUDGET: u64 = 3_000_000;

@@ -2,8 +2,7 @@
 
 use crate::model::Parameters;
 use crate::numerics::elementary::hypot;
-use crate::portrait::closing::equation::Route;
-use crate::portrait::closing::pair::Closing;
+use crate::portrait::{Closing, Route};
 
 /// Length of u that counts as much as the whole range of the parameter.
 pub(crate) const UNIT_OF_U: f64 = 4.0;

@@ -11,9 +11,8 @@ use super::margin::{GUARANTEED, margin_columns};
 use super::page::SourceFile;
 use super::{About, Answer, Columns, Quantity};
 use crate::model::{Interval, Knob, Tolerances};
-use crate::portrait::design::{FrictionNeeded, Kick};
 use crate::portrait::guarantee::Uncertain;
-use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
+use crate::portrait::{Course, CubicExpansion, Cycle, FrictionNeeded, Kick, Margin, Portrait};
 use crate::words::provenance::Provenance;
 use crate::words::stability;
 

@@ -3,8 +3,7 @@
 use super::{DesignAnswer, MachineAnswer, OnBelt, excess, in_units};
 use crate::flow::{Fate, Sample, Trajectory};
 use crate::model::belt::{Derivatives, FrictionLaw};
-use crate::portrait::design::{FrictionNeeded, Kick};
-use crate::portrait::{Course, CubicExpansion, Margin, Portrait};
+use crate::portrait::{Course, CubicExpansion, FrictionNeeded, Kick, Margin, Portrait};
 use crate::report::answer::{PLACES, interval};
 use crate::words::number::rounded_down;
 use crate::words::{significant, with_unit};

@@ -9,14 +9,12 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Problem, Reason, Trajectory, follow_by_series};
 use crate::model::{MachineProblem, Parameters, State};
 use crate::numerics::Interval;
-use crate::portrait::Portrait;
-use crate::portrait::basin::cycle::cycles_and_closings;
-use crate::portrait::closing::all::{STEP, first_closings};
-use crate::portrait::closing::equation::Equation;
-use crate::portrait::design::{friction_for, friction_of_guide};
 use crate::portrait::guarantee::{machine, oscillator};
 use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::proved;
+use crate::portrait::{
+    Equation, Portrait, STEP, cycles_and_closings, first_closings, friction_for, friction_of_guide,
+};
 
 impl Cells<'_> {
     /// Computes a measure, and fills its cells and those of all that are computed with it. Fails with why it gave up.

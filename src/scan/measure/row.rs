@@ -7,10 +7,7 @@ use super::settling::Settling;
 use super::table::{CYCLES, Conditions, Measure, ScanSource, Value};
 use crate::flow::{Cost, Limits, Outcome, Reason, Trajectory};
 use crate::model::State;
-use crate::portrait::basin::StartWindow;
-use crate::portrait::basin::stability::Share;
-use crate::portrait::closing::pair::Closing;
-use crate::portrait::{Cycle, Cycles, Margin, Portrait};
+use crate::portrait::{Closing, Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]

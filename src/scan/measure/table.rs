@@ -6,9 +6,7 @@ use std::sync::LazyLock;
 use crate::flow::Problem;
 use crate::model::{Group, Knob, MachineProblem, Model, ParameterBox, Parameters};
 use crate::numerics::count::real;
-use crate::portrait::basin::StartWindow;
-use crate::portrait::design::Kick;
-use crate::portrait::kicks::RandomKick;
+use crate::portrait::{Kick, RandomKick, StartWindow};
 
 /// One row of [`MEASURES`].
 #[derive(Clone, Debug)]

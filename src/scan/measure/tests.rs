@@ -1,8 +1,7 @@
 use super::*;
 use crate::flow::Problem;
 use crate::model::{Knob, Parameters, State};
-use crate::portrait::basin::StartWindow;
-use crate::portrait::design::Kick;
+use crate::portrait::{Kick, StartWindow};
 
 const WINDOW: StartWindow = StartWindow { q: (-3.0, 3.0), v: (-3.0, 3.0) };
 

@@ -13,8 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::branch::{BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Problem};
 use crate::model::{Knob, State};
-use crate::portrait::Cycle;
-use crate::portrait::kicks::RandomKick;
+use crate::portrait::{Cycle, RandomKick};
 use crate::scene::{
     Arrangement, Axes, Layer, PlotSetup, Point, Request, ScaledMachine, Scene, Setting, Topic,
     View, Window,
