@@ -7,7 +7,7 @@
 use std::cell::Cell;
 
 use super::motion::Cost;
-use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
+use super::step::{Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, stopping_time};
 use super::tableau::{ErrorEstimate, Scheme};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::{Bracket, PlaceTolerance, newton, rough_exp2, rough_log2};
@@ -111,7 +111,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     /// Error of the attempt in units of the tolerance (accepted up to 1), and the power of the step length with
     /// which it grows.
     fn error(&self, h: f64, end: StepPoint) -> (f64, f64) {
-        let scale = ErrorScale::new(self.tolerance, self.start, end);
+        let scale = allowed_error(self.tolerance, self.start, end);
         let norm = |(x, v): (f64, f64)| {
             let (x, v) = (x / scale.x, v / scale.v);
             x * x + v * v

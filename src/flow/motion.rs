@@ -118,7 +118,6 @@ pub enum Outcome<N = f64> {
         /// The time reached.
         tau: N,
         /// Why the computation gave up.
-        #[serde(serialize_with = "reason_as_text")]
         reason: Reason,
     },
 }
@@ -192,10 +191,6 @@ impl<N: Scalar> Outcome<N> {
             Outcome::Escaped { .. } | Outcome::GaveUp { .. } => None,
         }
     }
-}
-
-fn reason_as_text<S: serde::Serializer>(reason: &Reason, out: S) -> Result<S::Ok, S::Error> {
-    out.collect_str(reason)
 }
 
 /// An arrival at `v = 0`.

@@ -33,25 +33,14 @@ impl<N: Scalar> StepPoint<N> {
     }
 }
 
-/// The error allowed in each component of a step.
+/// The error allowed in each component of a step between these points with this relative tolerance.
 ///
 /// For the position it is relative to the state, for the velocity to the velocities of the step. Far out,
 /// velocities are much smaller than the position, yet it is the velocity that escapes, creeps or changes sign.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ErrorScale {
-    /// Allowed error of the position.
-    pub x: f64,
-    /// Allowed error of the velocity.
-    pub v: f64,
-}
-
-impl ErrorScale {
-    /// The scale of a step between these points with this relative tolerance.
-    pub fn new(tolerance: f64, start: StepPoint, end: StepPoint) -> Self {
-        ErrorScale {
-            x: tolerance * start.size().max(end.size()),
-            v: tolerance * start.v.abs().max(end.v.abs()),
-        }
+pub fn allowed_error(tolerance: f64, start: StepPoint, end: StepPoint) -> StepPoint {
+    StepPoint {
+        x: tolerance * start.size().max(end.size()),
+        v: tolerance * start.v.abs().max(end.v.abs()),
     }
 }
 
@@ -147,12 +136,11 @@ impl Powers {
     /// The integrals of a velocity from 0 to `duration`, by Gauss's rule on so many pieces.
     pub fn over(duration: f64, pieces: usize, velocity: impl Fn(f64) -> f64) -> Self {
         let width = duration / real(pieces);
-        let (mut powers, mut begin) = (Powers::default(), 0.0);
-        for _ in 0..pieces {
+        let mut powers = Powers::default();
+        for piece in 0..pieces {
             for &(node, weight) in &GAUSS {
-                powers.add_node(weight * width, velocity(begin + node * width));
+                powers.add_node(weight * width, velocity((real(piece) + node) * width));
             }
-            begin += width;
         }
         powers
     }
@@ -160,9 +148,7 @@ impl Powers {
     /// The integrals over `duration` by the quadrature of a method, whose stages are the nodes.
     pub fn of_stages(duration: f64, weights: &[f64], velocity: &[f64]) -> Self {
         let mut powers = Powers::default();
-        for (weight, &v) in weights.iter().zip(velocity) {
-            powers.add_node(weight * duration, v);
-        }
+        weights.iter().zip(velocity).for_each(|(weight, &v)| powers.add_node(weight * duration, v));
         powers
     }
 

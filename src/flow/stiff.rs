@@ -18,10 +18,11 @@ use std::sync::LazyLock;
 mod algebra;
 mod arrival;
 
-use algebra::{MOST, differences, interpolated, solve, weighted};
+use algebra::{MOST, differences, interpolated, weighted};
+use nalgebra::{SMatrix, SVector};
 
 use super::motion::Cost;
-use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
+use super::step::{Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, stopping_time};
 use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
@@ -161,17 +162,17 @@ impl<F: Field> Stiff<F> {
                 rate[j] = self.field.divergence(velocity[j]);
             }
             self.cost.evaluations += stages as u64;
-            let mut matrix = [[0.0; MOST]; MOST];
-            let mut change = [0.0; MOST];
+            // Beyond the stages of the scheme nothing changes.
+            let mut matrix = SMatrix::<f64, MOST, MOST>::identity();
+            let mut change = SVector::<f64, MOST>::zeros();
             for i in 0..stages {
                 let row = &integrals[i];
                 change[i] = self.start.v - velocity[i] + h * weighted(row, &acceleration);
                 for k in 0..stages {
-                    matrix[i][k] = h * (h * self.square[i][k] - row[k] * rate[k]);
+                    matrix[(i, k)] += h * (h * self.square[i][k] - row[k] * rate[k]);
                 }
-                matrix[i][i] += 1.0;
             }
-            solve(&mut matrix, &mut change, stages)?;
+            let change: [f64; MOST] = matrix.lu().solve(&change)?.into();
             let mut size = self.start.v.abs();
             let mut moved = 0.0_f64;
             for (velocity, change) in velocity.iter_mut().zip(&change).take(stages) {
@@ -222,13 +223,13 @@ impl<F: Field> Stiff<F> {
     }
 
     /// The error allowed for an attempt over a step of length `h` to `end`.
-    fn scale(&self, h: f64, end: StepPoint) -> ErrorScale {
-        let scale = ErrorScale::new(self.tolerance_of(h, end), self.start, end);
-        ErrorScale { v: scale.v.max(NOISE * self.rounding(h)), ..scale }
+    fn scale(&self, h: f64, end: StepPoint) -> StepPoint {
+        let scale = allowed_error(self.tolerance_of(h, end), self.start, end);
+        StepPoint { v: scale.v.max(NOISE * self.rounding(h)), ..scale }
     }
 
     /// Error of the last attempt in units of the allowed error; accepted up to 1.
-    fn error(&mut self, h: f64, scale: ErrorScale, first: bool) -> f64 {
+    fn error(&mut self, h: f64, scale: StepPoint, first: bool) -> f64 {
         let Collocation { error: weights, start: own, .. } = self.scheme;
         let part = h * own;
         let rate = self.field.divergence(self.start.v);

@@ -130,6 +130,12 @@ pub enum Reason {
     },
 }
 
+impl serde::Serialize for Reason {
+    fn serialize<S: serde::Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.collect_str(self)
+    }
+}
+
 impl Reason {
     /// Whether a machine itself is at fault, and not what it takes to compute its motions.
     #[must_use]

@@ -39,13 +39,8 @@ pub enum SetAnswer {
     /// No answer.
     GaveUp {
         /// Why.
-        #[serde(serialize_with = "as_text")]
         reason: Reason,
     },
-}
-
-fn as_text<S: serde::Serializer>(reason: &Reason, out: S) -> Result<S::Ok, S::Error> {
-    out.collect_str(reason)
 }
 
 /// The parameters of a place of the lattice and what the search for cycles answered there.

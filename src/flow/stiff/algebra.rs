@@ -1,4 +1,4 @@
-//! The small linear algebra of a collocation step: elimination, and polynomials through the stages.
+//! Sums over the stages of a collocation step, and polynomials through them.
 
 /// Maximum number of stages.
 pub(super) const MOST: usize = 7;
@@ -6,36 +6,6 @@ pub(super) const MOST: usize = 7;
 /// The sum of the values of the stages, weighted by a row of the scheme.
 pub(super) fn weighted(weights: &[f64], values: &[f64; MOST]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
-}
-
-/// Solves `matrix * x = right` in place by elimination with partial pivoting; `None` if singular.
-pub(super) fn solve(
-    matrix: &mut [[f64; MOST]; MOST],
-    right: &mut [f64; MOST],
-    size: usize,
-) -> Option<()> {
-    for column in 0..size {
-        let magnitude = |row: &usize| matrix[*row][column].abs();
-        let pivot = (column..size).max_by(|a, b| magnitude(a).total_cmp(&magnitude(b)))?;
-        matrix.swap(column, pivot);
-        right.swap(column, pivot);
-        let own = matrix[column];
-        if own[column] == 0.0 {
-            return None;
-        }
-        for row in column + 1..size {
-            let factor = matrix[row][column] / own[column];
-            for k in column + 1..size {
-                matrix[row][k] -= factor * own[k];
-            }
-            right[row] -= factor * right[column];
-        }
-    }
-    for row in (0..size).rev() {
-        let known: f64 = (row + 1..size).map(|k| matrix[row][k] * right[k]).sum();
-        right[row] = (right[row] - known) / matrix[row][row];
-    }
-    Some(())
 }
 
 /// Newton's divided differences over 0 and the nodes.

@@ -2,7 +2,7 @@
 
 use super::Stiff;
 use super::algebra::{MOST, interpolated};
-use crate::flow::step::{ErrorScale, Field, Step, StepPoint};
+use crate::flow::step::{Field, Step, StepPoint};
 use crate::flow::tableau::radau::Collocation;
 use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
 
@@ -44,7 +44,7 @@ impl<F: Field> Stiff<F> {
     /// its step began: a motion that creeps in from far out may end its swing in one step.
     pub(super) fn is_sharp(&mut self, arrival: &Step) -> bool {
         let scale = self.scale(arrival.duration, arrival.end);
-        let place = ErrorScale {
+        let place = StepPoint {
             x: scale.x * (arrival.end.x / self.start.size().max(arrival.end.x)),
             ..scale
         };
