@@ -2,7 +2,7 @@
 
 use super::{Look, pane};
 use crate::branch::SpecialKind;
-use crate::flow::{Fate, Outcome, Trajectory};
+use crate::flow::{Outcome, Trajectory};
 use crate::model::belt::Units;
 use crate::picture::{Role, units};
 use crate::portrait::{Border, Cycle, Cycles};
@@ -10,8 +10,8 @@ use crate::question::whole::WholeMotion;
 use crate::scene::{Finding, Layer, Topic};
 use crate::session::fate::End;
 use crate::session::{BranchStop, Session};
-use crate::words::motion::{Writing, sentence, swings};
-use crate::words::{significant, stability, with_unit};
+use crate::words::motion::{Writing, of_machine, sentence, swings};
+use crate::words::{significant, stability};
 
 /// What became of the motion, in a sentence.
 pub fn outcome(session: &Session) -> (String, Role) {
@@ -40,7 +40,9 @@ pub fn outcome(session: &Session) -> (String, Role) {
                 return (text, Role::Warning);
             }
             let text = match (whole, session.fate()) {
-                (Some((course, running)), _) => of_machine(course, &running.reduced.units, found),
+                (Some((course, running)), _) => {
+                    by_whole_model(course, &running.reduced.units, found)
+                }
                 (None, Some(end)) => verdict(end, session.cycles_beside(found), found, writing),
                 (None, None) => sentence(found, writing),
             };
@@ -106,8 +108,7 @@ fn verdict(end: End, among: Option<&Cycles>, motion: &Trajectory, writing: Writi
 }
 
 /// What becomes of the motion of a machine, in its own units, by the whole model.
-fn of_machine(course: &WholeMotion, units: &Units, motion: &Trajectory) -> String {
-    const PLACES: usize = 4;
+fn by_whole_model(course: &WholeMotion, units: &Units, motion: &Trajectory) -> String {
     let within = match course.border {
         Border::Cycle => " (inside the unstable cycle)",
         Border::Grazing => " (inside the motion that touches the belt)",
@@ -115,31 +116,12 @@ fn of_machine(course: &WholeMotion, units: &Units, motion: &Trajectory) -> Strin
         Border::Separatrix => " (inside the separatrix)",
         Border::None | Border::NoBasin | Border::Unknown(_) => "",
     };
-    match (course.fate, motion.outcome) {
-        (Fate::Rest, Outcome::Captured { tau, q }) => {
-            let place = with_unit(q * units.displacement, PLACES, "m");
-            let time = with_unit(tau * units.time, PLACES, "s");
-            format!("comes to rest at x = {place}, after {time}{within}")
-        }
-        (Fate::Rest, _) => format!("comes to rest{within}"),
-        (Fate::Cycle(_), _) => course.cycle.map_or_else(String::new, |cycle| {
-            onto(&cycle, &with_unit(cycle.q_max * units.displacement, PLACES, "m"))
-        }),
-        (Fate::Neutral, _) => "is periodic, one of a family".to_owned(),
-        (Fate::Moving, _) => "still moves".to_owned(),
-        (Fate::Escapes, _) => "grows without bound".to_owned(),
-        (Fate::Unknown(stop), _) => format!("ends in a way that is not known: {stop}"),
-    }
-}
-
-/// The cycle to which a motion tends.
-fn onto(cycle: &Cycle, size: &str) -> String {
-    let over = if cycle.overtakes { "overtaking " } else { "" };
-    if !cycle.sticks() {
-        return format!("tends to the {over}slip cycle, x up to {size}");
-    }
-    let part = significant(100.0 * cycle.stick_duration() / cycle.period, 3);
-    format!("tends to {over}stick-slip, x up to {size}; it sticks for {part} % of the time")
+    let rest = match motion.outcome {
+        Outcome::Captured { tau, q } => [Some(q * units.displacement), Some(tau * units.time)],
+        _ => [None; 2],
+    };
+    let cycle = course.cycle.map(|cycle| cycle.scaled(units.displacement, units.omega_0));
+    of_machine(course.fate, rest, cycle.as_ref(), within, 4)
 }
 
 /// Significant digits: as many as fit, at most as many as distinguish special points from others.

@@ -3,8 +3,9 @@
 use super::counted;
 use super::number::significant;
 use super::number::with_unit;
-use crate::flow::{Outcome, Trajectory};
+use crate::flow::{Fate, Outcome, Trajectory};
 use crate::model::belt::Units;
+use crate::portrait::Cycle;
 
 /// How the quantities of a motion are written: as numbers of the oscillator, or in the units of a machine.
 #[derive(Clone, Copy, Debug, Default)]
@@ -65,6 +66,40 @@ pub fn sentence(motion: &Trajectory, writing: Writing) -> String {
         Outcome::GaveUp { tau, reason } => {
             format!("gave up at {}{swings}: {reason}", time(tau))
         }
+    }
+}
+
+/// What becomes of a motion of a machine, by its whole model in SI units: where and after what time it comes to rest, as
+/// far as that is known, `within` which border; or the cycle to which it tends.
+pub fn of_machine(
+    fate: Fate,
+    [place, time]: [Option<f64>; 2],
+    cycle: Option<&Cycle>,
+    within: &str,
+    digits: usize,
+) -> String {
+    let told = |before: &str, number: Option<f64>, unit| {
+        number.map_or_else(String::new, |it| format!("{before}{}", with_unit(it, digits, unit)))
+    };
+    match fate {
+        Fate::Rest => {
+            let place = told(" at x = ", place, "m");
+            format!("comes to rest{place}{}{within}", told(", after ", time, "s"))
+        }
+        Fate::Cycle(_) => {
+            let Some(cycle) = cycle else { return String::new() };
+            let over = if cycle.overtakes { "overtaking " } else { "" };
+            let size = told("x up to ", Some(cycle.q_max), "m");
+            if !cycle.sticks() {
+                return format!("tends to the {over}slip cycle, {size}");
+            }
+            let part = significant(100.0 * cycle.stick_duration() / cycle.period, 3);
+            format!("tends to {over}stick-slip, {size}; it sticks for {part} % of the time")
+        }
+        Fate::Neutral => "is periodic, one of a family".to_owned(),
+        Fate::Moving => "still moves".to_owned(),
+        Fate::Escapes => "grows without bound".to_owned(),
+        Fate::Unknown(stop) => format!("ends in a way that is not known: {stop}"),
     }
 }
 

@@ -5,6 +5,7 @@ use crate::flow::{Fate, Sample, Trajectory};
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::{Course, CubicExpansion, FrictionNeeded, Kick, Margin, Portrait};
 use crate::report::answer::{PLACES, interval};
+use crate::words::motion::of_machine;
 use crate::words::number::rounded_down;
 use crate::words::{significant, with_unit};
 
@@ -162,27 +163,15 @@ pub(super) fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 
 /// How the motion ends, in a sentence.
 fn fate((x, v): (f64, f64), course: &Course) -> String {
-    let length = |x| with_unit(x, PLACES, "m");
-    let from = format!("from x = {}, v = {}: ", length(x), with_unit(v, PLACES, "m/s"));
-    from + &match course.fate {
-        Fate::Rest => {
-            let place = course.rest.map_or_else(String::new, |x| format!(" at x = {}", length(x)));
-            match course.motion.outcome.rest() {
-                Ok(Some(t)) => {
-                    format!("comes to rest{place}, at t = {}", with_unit(t, PLACES, "s"))
-                }
-                _ => format!("comes to rest{place}"),
-            }
-        }
-        Fate::Cycle(index) => {
-            let cycle = &course.portrait.cycles[index];
-            format!("ends on the {} cycle up to x = {}", cycle.kind(), length(cycle.q_max))
-        }
-        Fate::Neutral => "is periodic, one of a family".to_owned(),
-        Fate::Moving => "still moves".to_owned(),
-        Fate::Escapes => "grows without bound".to_owned(),
-        Fate::Unknown(stop) => format!("is not known: {stop}"),
-    } + &course.second.as_ref().map_or_else(String::new, |second| by(second, course))
+    let (x, v) = (with_unit(x, PLACES, "m"), with_unit(v, PLACES, "m/s"));
+    let cycle = match course.fate {
+        Fate::Cycle(index) => course.portrait.cycles.get(index),
+        _ => None,
+    };
+    let time = course.motion.outcome.rest().ok().flatten();
+    let end = of_machine(course.fate, [course.rest, time], cycle, "", PLACES);
+    let by = course.second.as_ref().map_or_else(String::new, |second| by(second, course));
+    format!("from x = {x}, v = {v}: {end}{by}")
 }
 
 /// The motion by the second method, compared with the first, in a sentence.
