@@ -3,7 +3,7 @@
 
 use super::elements::{self, Anchor};
 use super::paper::{Frame, PLOT, Spot, ink};
-use super::{FigureCurve, MarkedPoint, Panel};
+use super::{MarkedPoint, Outline, Panel};
 use crate::numerics::{count::real, elementary::hypot};
 use crate::picture::{Caption, Dash, along};
 use crate::scene::Point;
@@ -67,9 +67,10 @@ impl Surroundings {
     fn of(panel: &Panel, frame: Frame) -> Self {
         // A bar may run through its own name. Asymptotes and the line of the present value are there to be read
         // against.
-        let thin = panel.curves.iter().filter(|curve| curve.style != Dash::Thick);
-        let (sparse, curves): (Vec<_>, Vec<_>) = thin.partition(|it| it.style == Dash::Sparse);
-        let spots = |curve: &FigureCurve| followed(&curve.points, frame);
+        let thin = panel.curves.iter().filter(|curve| curve.style != Some(Dash::Thick));
+        let (sparse, curves): (Vec<_>, Vec<_>) =
+            thin.partition(|it| it.style == Some(Dash::Sparse));
+        let spots = |curve: &Outline| followed(&curve.points, frame);
         let guides = panel.guides.iter().map(|guide| followed(guide, frame));
         let mark = |mark: &MarkedPoint| frame.spot(Point { x: mark.x, y: mark.y });
         Surroundings {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::areas::polygons;
 use super::lines::{graph, kept, lattice, missed};
@@ -10,6 +10,7 @@ use crate::model::{Knob, Parameters, State};
 use crate::picture::{
     self, Caption, Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap,
 };
+use crate::report::Document;
 use crate::scene::{Point, Span, Window, rectangle};
 use crate::words::provenance::Provenance;
 
@@ -49,8 +50,9 @@ pub struct Panel {
     pub x: Axis,
     pub y: Axis,
     /// Lines, from back to front.
-    pub curves: Vec<FigureCurve>,
-    pub areas: Vec<Area>,
+    pub curves: Vec<Outline>,
+    #[serde(serialize_with = "with_edges")]
+    pub areas: Vec<Outline>,
     /// Points with a meaning.
     pub marks: Vec<MarkedPoint>,
     /// What is behind all lines, where the plot is a map.
@@ -89,33 +91,30 @@ pub struct Axis {
     pub to: f64,
 }
 
+/// A line, or the edge of an area.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FigureCurve {
+pub struct Outline {
     /// What it is, and which values it has of its own.
     pub name: String,
     pub role: Role,
-    /// How it is drawn.
-    pub style: Dash,
+    /// How a line is drawn; `None` for an area.
+    pub style: Option<Dash>,
     /// The parameters that hold all along it; those on an axis of the panel are left out.
-    pub parameters: BTreeMap<&'static str, f64>,
-    /// Its points; `null` interrupts it.
+    pub parameters: Held,
+    /// Its points; `null` interrupts a line. An area whose edge is not closed is the side of it that holds the origin.
     pub points: Vec<[f64; 2]>,
     /// What it is, whichever variant it belongs to.
     #[serde(skip)]
     pub kind: String,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Area {
-    pub name: String,
-    pub role: Role,
-    /// The parameters that hold all over it; those on an axis of the panel are left out.
-    pub parameters: BTreeMap<&'static str, f64>,
-    /// Its edge. Where this is not closed, the area is the side of it that holds the origin.
-    pub edge: Vec<[f64; 2]>,
-    /// What it is, whichever variant it belongs to.
-    #[serde(skip)]
-    pub kind: String,
+/// Areas in a document, which have an edge in place of points.
+fn with_edges<S: Serializer>(areas: &[Outline], serializer: S) -> Result<S::Ok, S::Error> {
+    let area = |Outline { name, role, parameters, points, .. }: &Outline| {
+        let named = Document::default().with("name", name).with("role", role);
+        named.with("parameters", parameters).with("edge", points)
+    };
+    serializer.collect_seq(areas.iter().map(area))
 }
 
 /// A point with a meaning.
@@ -137,7 +136,7 @@ pub struct MarkedPoint {
 }
 
 /// The parameters that hold all along a curve.
-type Held = BTreeMap<&'static str, f64>;
+pub type Held = BTreeMap<&'static str, f64>;
 
 impl Panel {
     /// What a picture shows, with every function sampled and everything once.
@@ -176,8 +175,9 @@ impl Panel {
             if line.name.is_empty() {
                 // A line without a name is not data.
                 self.guides.push(pairs(points));
-            } else if let Some(curve) = curve(picture, line, points) {
-                self.curve(curve);
+            } else if points.iter().filter(|it| it.x.is_finite() && it.y.is_finite()).count() > 1 {
+                // One point is not a line: a motion at rest has its mark.
+                include(&mut self.curves, outline(picture, line, Some(line.dash), points));
             }
         };
         match item {
@@ -213,36 +213,8 @@ impl Panel {
         }
     }
 
-    /// Adds a curve; of several variants that have it in common it is kept once.
-    fn curve(&mut self, curve: FigureCurve) {
-        let same = |other: &&mut FigureCurve| {
-            (other.role, other.style, &other.kind) == (curve.role, curve.style, &curve.kind)
-                && other.points == curve.points
-        };
-        match self.curves.iter_mut().find(same) {
-            Some(known) => {
-                join(&known.kind, &mut known.name, &mut known.parameters, &curve.parameters);
-            }
-            None => self.curves.push(curve),
-        }
-    }
-
-    /// Adds an area in the same way.
     fn area(&mut self, picture: &Picture, line: &LineStyle, edge: &[Point]) {
-        let area = Area {
-            name: line.full_name().into_owned(),
-            role: line.role,
-            parameters: held(picture, line),
-            edge: pairs(edge),
-            kind: line.name.to_string(),
-        };
-        let same = |other: &&mut Area| other.kind == area.kind && other.edge == area.edge;
-        match self.areas.iter_mut().find(same) {
-            Some(known) => {
-                join(&known.kind, &mut known.name, &mut known.parameters, &area.parameters);
-            }
-            None => self.areas.push(area),
-        }
+        include(&mut self.areas, outline(picture, line, None, edge));
     }
 
     fn marks(&mut self, marks: &Marks) {
@@ -269,17 +241,29 @@ fn beyond(edge: &[Point], window: Window) -> Vec<Point> {
     corners.into_iter().chain(edge.iter().copied()).chain([corners[0]]).collect()
 }
 
-/// A line as data. One point is not a line: a motion at rest has its mark.
-fn curve(picture: &Picture, line: &LineStyle, points: &[Point]) -> Option<FigureCurve> {
-    let finite = points.iter().filter(|point| point.x.is_finite() && point.y.is_finite());
-    (finite.count() > 1).then(|| FigureCurve {
+/// A line, or the edge of an area, as data.
+fn outline(picture: &Picture, line: &LineStyle, style: Option<Dash>, points: &[Point]) -> Outline {
+    Outline {
         name: line.full_name().into_owned(),
         role: line.role,
-        style: line.dash,
+        style,
         parameters: held(picture, line),
         points: pairs(points),
         kind: line.name.to_string(),
-    })
+    }
+}
+
+/// Adds an outline; of several variants that have it in common it is kept once, with what holds for all of them.
+fn include(all: &mut Vec<Outline>, new: Outline) {
+    let alike = |it: &Outline| (it.role, it.style) == (new.role, new.style) && it.kind == new.kind;
+    match all.iter_mut().find(|it| alike(it) && it.points == new.points) {
+        Some(known) => {
+            known.kind.clone_into(&mut known.name);
+            let others = &new.parameters;
+            known.parameters.retain(|symbol, value| others.get(symbol) == Some(value));
+        }
+        None => all.push(new),
+    }
 }
 
 /// The parameters of the variant of a line, or of the first where it belongs to all, except for those that vary along it.
@@ -294,12 +278,6 @@ fn held(picture: &Picture, line: &LineStyle) -> Held {
         .collect()
 }
 
-/// Takes in the same thing of another variant: what is left is what they have in common.
-fn join(kind: &str, name: &mut String, parameters: &mut Held, others: &Held) {
-    kind.clone_into(name);
-    parameters.retain(|symbol, value| others.get(symbol) == Some(value));
-}
-
 fn pairs(points: &[Point]) -> Vec<[f64; 2]> {
     points.iter().map(|point| (*point).into()).collect()
 }
@@ -307,13 +285,8 @@ fn pairs(points: &[Point]) -> Vec<[f64; 2]> {
 impl Panel {
     /// The largest distance between a curve and its chords within the window, in pixels; an estimate.
     pub fn chord(&self) -> f64 {
-        self.lines().map(|line| missed(line, self.window)).fold(0.0, f64::max)
-    }
-
-    /// The lines that were computed.
-    fn lines(&self) -> impl Iterator<Item = &[[f64; 2]]> {
-        let curves = self.curves.iter().map(|curve| curve.points.as_slice());
-        curves.chain(self.areas.iter().map(|area| area.edge.as_slice()))
+        let lines = self.curves.iter().chain(&self.areas);
+        lines.map(|line| missed(&line.points, self.window)).fold(0.0, f64::max)
     }
 }
 
@@ -323,11 +296,8 @@ impl Figure {
         if times > 1 {
             for panel in &mut self.panels {
                 let window = panel.window;
-                for curve in &mut panel.curves {
-                    curve.points = kept(&curve.points, window, times);
-                }
-                for area in &mut panel.areas {
-                    area.edge = kept(&area.edge, window, times);
+                for line in panel.curves.iter_mut().chain(&mut panel.areas) {
+                    line.points = kept(&line.points, window, times);
                 }
             }
         }

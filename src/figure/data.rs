@@ -1,7 +1,7 @@
 //! A figure as data: one JSON document, or one CSV row a point.
 
-use super::{Area, Figure, FigureCurve, MarkedPoint, Panel};
-use crate::picture::{MapCell, ScanMap};
+use super::{Figure, MarkedPoint, Outline, Panel};
+use crate::picture::{Dash, MapCell, ScanMap};
 use crate::report::Columns;
 use crate::report::json::text;
 use crate::words::printable;
@@ -62,12 +62,11 @@ fn rows<'a>(panel: u32, shown: &'a Panel) -> Vec<PointRow<'a>> {
         rows.extend(points.iter().map(|&[x, y]| PointRow { panel, x, y, ..row }));
     };
     let plain = PointRow::default();
-    for (number, FigureCurve { name, role, style, points, .. }) in (1..).zip(&shown.curves) {
-        let (role, style) = (role.name(), (*style).into());
-        add(PointRow { kind: "curve", number, name, role, style, ..plain }, points);
-    }
-    for (number, Area { name, role, edge, .. }) in (1..).zip(&shown.areas) {
-        add(PointRow { kind: "area", number, name, role: role.name(), ..plain }, edge);
+    for (kind, lines) in [("curve", &shown.curves), ("area", &shown.areas)] {
+        for (number, Outline { name, role, style, points, .. }) in (1..).zip(lines) {
+            let (role, style) = (role.name(), style.map_or("", Into::into));
+            add(PointRow { kind, number, name, role, style, ..plain }, points);
+        }
     }
     for (number, MarkedPoint { name, role, x, y, .. }) in (1..).zip(&shown.marks) {
         add(PointRow { kind: "mark", number, name, role: role.name(), ..plain }, &[[*x, *y]]);

@@ -18,7 +18,7 @@ mod paper;
 mod png;
 mod svg;
 
-pub use content::{Area, Axis, Figure, FigureCurve, MarkedPoint, Panel};
+pub use content::{Axis, Figure, MarkedPoint, Outline, Panel};
 pub use data::{csv, json};
 pub use lines::FAINT;
 pub use svg::{panels, svg};

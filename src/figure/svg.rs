@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use super::elements::{Anchor, circle, path, rectangle, text};
 use super::paper::{self, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot, ink, shading, stroke};
-use super::{Area, Figure, MarkedPoint, Panel, areas::loops, captions, data::remarks, map};
+use super::{Figure, MarkedPoint, Outline, Panel, areas::loops, captions, data::remarks, map};
 use crate::numerics::{hypot, real, truncated};
 use crate::picture::legend::distinct;
-use crate::picture::{LegendEntry, LegendSample, Mark, Marks, ScanMap, Ticks, passes};
+use crate::picture::{Dash, LegendEntry, LegendSample, Mark, Marks, ScanMap, Ticks, passes};
 use crate::scene::Point;
 use crate::words::printable::xml;
 
@@ -81,7 +81,7 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
         map::draw(out, shown, frame);
     }
     // Parts of the same area are one path: between two paths a hair of paper would show.
-    let alike = |one: &Area, other: &Area| (&one.name, one.role) == (&other.name, other.role);
+    let alike = |one: &Outline, other: &Outline| (&one.name, one.role) == (&other.name, other.role);
     for same in panel.areas.chunk_by(alike) {
         shade(out, same, frame);
     }
@@ -92,7 +92,8 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
         polyline(out, guide, "stroke=\"#b0b0b0\" stroke-width=\"0.6\"", frame);
     }
     for curve in &panel.curves {
-        polyline(out, &curve.points, &stroke(curve.role, curve.style), frame);
+        let dash = curve.style.unwrap_or(Dash::Solid);
+        polyline(out, &curve.points, &stroke(curve.role, dash), frame);
     }
     for mark in &panel.marks {
         dot(out, mark, frame);
@@ -137,10 +138,10 @@ fn near(x: f64, y: f64, frame: Frame) -> bool {
     (-3.0..=4.0).contains(&window.x.fraction(x)) && (-3.0..=4.0).contains(&window.y.fraction(y))
 }
 
-fn shade(out: &mut String, areas: &[Area], frame: Frame) {
-    let Some(Area { role, .. }) = areas.first() else { return };
+fn shade(out: &mut String, areas: &[Outline], frame: Frame) {
+    let Some(Outline { role, .. }) = areas.first() else { return };
     let mut commands = String::new();
-    for polygon in areas.iter().flat_map(|area| loops(&area.edge, frame.window)) {
+    for polygon in areas.iter().flat_map(|area| loops(&area.points, frame.window)) {
         for (index, point) in polygon.iter().enumerate() {
             let (across, along) = drawable(frame, *point);
             let command = if index == 0 { 'M' } else { 'L' };
@@ -256,14 +257,15 @@ fn legend(figure: &Figure) -> Vec<LegendEntry> {
             let points: Vec<Point> = curve.points.iter().copied().map(Point::from).collect();
             passes(&points, panel.window)
         });
-        let lines = seen.map(|it| entry(&it.kind, it.role, LegendSample::Line(it.style)));
-        let areas = panel.areas.iter().map(|it| entry(&it.kind, it.role, LegendSample::Shade));
+        let lines = seen.chain(&panel.areas).map(|it| {
+            entry(&it.kind, it.role, it.style.map_or(LegendSample::Shade, LegendSample::Line))
+        });
         let words = panel.map.iter().flat_map(ScanMap::words);
         let words = words.map(|word| entry(word, map::role(word), LegendSample::Shade));
         let dropped = [Mark::Outlier, Mark::Saturated, Mark::Aside];
         let marks = panel.marks.iter().filter(|it| dropped.contains(&it.mark));
         let marks = marks.map(|it| entry(&it.name, it.role, LegendSample::Point(it.mark)));
-        lines.chain(areas).chain(words).chain(marks).collect::<Vec<_>>()
+        lines.chain(words).chain(marks).collect::<Vec<_>>()
     };
     distinct(figure.panels.iter().flat_map(of_panel))
 }
