@@ -15,7 +15,7 @@ use crate::model::Parameters;
 use crate::paper::examine_all;
 use crate::question::answer;
 use crate::report::extremes::{extreme_cycles, extremes};
-use crate::report::scenes::{QuestionCost, SceneCost, StepCost, costs, scenes};
+use crate::report::scenes::{AskedTogether, OPENING, QuestionCost, SceneCost, costs, scenes};
 use crate::report::{Answer, Columns, Format, claims};
 use crate::runtime::standard::tell;
 use crate::scene::{Scene, library};
@@ -160,14 +160,13 @@ fn cost_of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
         let kept = stepped.requirements().into_iter().map(|part| part.request);
         let reused = kept.filter(|request| !stepped.is_open(request));
         let reused = reused.map(|request| request.topic()).collect();
-        let recomputed = settle(&mut stepped, scene)?;
-        let name = row.name_in(&session.problem);
-        Ok(StepCost { name, recomputed, reused })
+        let questions = settle(&mut stepped, scene)?;
+        Ok(AskedTogether { after: row.name_in(&session.problem), questions, reused })
     };
     Ok(SceneCost {
         scene: Arc::clone(scene),
         formulas: session.drawn_by_formulas().iter().map(|layer| layer.spec().name).collect(),
-        questions,
+        opening: AskedTogether { after: OPENING, questions, reused: Vec::new() },
         steps: rows.map(step).collect::<Result<_, Failure>>()?,
     })
 }

@@ -49,25 +49,33 @@ pub struct QuestionCost {
     pub seconds: f64,
 }
 
-/// The cost of a step of a number.
+/// What a scene asks at once.
 #[derive(Clone, Debug)]
-pub struct StepCost {
-    pub name: &'static str,
-    /// The questions that were computed again.
-    pub recomputed: Vec<QuestionCost>,
+pub struct AskedTogether {
+    /// [`OPENING`], or the name of a number after whose step it asks.
+    pub after: &'static str,
+    pub questions: Vec<QuestionCost>,
     /// The questions whose answers did not change.
     pub reused: Vec<Topic>,
 }
 
+/// Names what a scene asks when it opens.
+pub const OPENING: &str = "opening";
+
 #[derive(Clone, Debug)]
 pub struct SceneCost {
     pub scene: Arc<Scene>,
-    /// The questions that it asks when it opens.
-    pub questions: Vec<QuestionCost>,
     /// The names of the layers that are drawn from formulas, without a question.
     pub formulas: Vec<&'static str>,
-    /// The cost of a step of each of its numbers.
-    pub steps: Vec<StepCost>,
+    pub opening: AskedTogether,
+    /// What it asks again after a step of each of its numbers.
+    pub steps: Vec<AskedTogether>,
+}
+
+impl SceneCost {
+    fn asked(&self) -> impl Iterator<Item = &AskedTogether> {
+        std::iter::once(&self.opening).chain(&self.steps)
+    }
 }
 
 fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
@@ -80,103 +88,90 @@ fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
 /// The costs of scenes: in rows one line for each question of each scene, when it opens and after each step; in text
 /// one table for each scene.
 pub fn costs(scenes: &[SceneCost]) -> Answer<'_> {
-    let asked = scenes.iter().flat_map(|found| {
-        let opening = found.questions.iter().map(|one| AskedRow::of_question(found, one));
-        let steps = found.steps.iter().flat_map(|step| {
-            let again = step.recomputed.chunks(1);
-            again.map(|asked| AskedRow::after(found, step, asked))
-        });
-        opening.chain(steps)
-    });
+    let singly = |found| SceneCost::asked(found).flat_map(|asked| AskedRow::singly(found, asked));
     let answer = Answer::default()
         .array(move || scenes.iter().map(document).collect::<Vec<_>>())
-        .csv(cost_columns(), asked);
+        .csv(cost_columns(), scenes.iter().flat_map(singly));
     scenes.iter().fold(answer, |answer, found| {
-        let opening = found.questions.iter().map(|one| AskedRow::of_question(found, one));
-        let steps = found.steps.iter().map(|step| AskedRow::after(found, step, &step.recomputed));
+        let opening = AskedRow::singly(found, &found.opening);
+        let all = found.asked().map(|asked| AskedRow { scene: found, asked, question: None });
         let formulas = format!("by formulas: {}", found.formulas.join(", "));
         answer
             .lines([format!("{}: {}", found.scene.name, found.scene.title)])
-            .captioned("", || {
-                cost_columns()
-                    .table(opening.chain([AskedRow::of_all(found)]).chain(steps))
-                    .unbroken()
-            })
+            .captioned("", || cost_columns().table(opening.chain(all)).unbroken())
             .lines((!found.formulas.is_empty()).then_some(formulas))
     })
 }
 
 fn document(found: &SceneCost) -> Document {
-    let step = |step: &StepCost| {
-        let (cost, seconds) = sum(&step.recomputed);
+    let step = |step: &AskedTogether| {
+        let (cost, seconds) = sum(&step.questions);
         Document::default()
-            .with("parameter", step.name)
-            .with("recomputed", step.recomputed.iter().map(|it| it.topic).collect::<Vec<_>>())
+            .with("parameter", step.after)
+            .with("recomputed", step.questions.iter().map(|it| it.topic).collect::<Vec<_>>())
             .with("reused", &step.reused)
             .with("evaluations", cost.evaluations)
             .with("steps", cost.steps)
             .with("seconds", seconds)
     };
-    let (cost, seconds) = sum(&found.questions);
+    let (cost, seconds) = sum(&found.opening.questions);
     Document::default()
         .with("scene", &found.scene.name)
-        .with("questions", &found.questions)
+        .with("questions", &found.opening.questions)
         .with("formulas", &found.formulas)
         .with("evaluations", cost.evaluations)
         .with("seconds", seconds)
         .with("steps", found.steps.iter().map(step).collect::<Vec<_>>())
 }
 
-/// Questions of a scene that are answered together.
+/// A question that a scene asks, or all that it asks at once.
 struct AskedRow<'a> {
-    scene: &'a str,
-    after: &'static str,
-    asked: &'a [QuestionCost],
-    what: String,
-    remark: String,
+    scene: &'a SceneCost,
+    asked: &'a AskedTogether,
+    question: Option<&'a QuestionCost>,
 }
 
 impl<'a> AskedRow<'a> {
-    fn of_question(found: &'a SceneCost, question: &'a QuestionCost) -> Self {
-        AskedRow {
-            asked: std::slice::from_ref(question),
-            what: question.topic.name().to_owned(),
-            remark: format!("for {}", question.layers.join(", ")),
-            ..Self::of_all(found)
+    fn singly(scene: &'a SceneCost, asked: &'a AskedTogether) -> impl Iterator<Item = Self> {
+        let row = move |question| AskedRow { scene, asked, question: Some(question) };
+        asked.questions.iter().map(row)
+    }
+
+    fn sum(&self) -> (Cost, f64) {
+        sum(self.question.map_or(&self.asked.questions, std::slice::from_ref))
+    }
+
+    fn what(&self) -> String {
+        match (self.question, self.asked.after) {
+            (Some(question), _) => question.topic.name().to_owned(),
+            (None, OPENING) => "all of it".to_owned(),
+            (None, number) => format!("a step of {number}"),
         }
     }
 
-    /// All that a scene asks when it opens.
-    fn of_all(found: &'a SceneCost) -> Self {
-        let what = "all of it".to_owned();
-        let (scene, asked) = (&found.scene.name, &found.questions);
-        AskedRow { scene, after: "opening", asked, what, remark: String::new() }
-    }
-
-    /// Some of what a step asks again.
-    fn after(found: &'a SceneCost, step: &'a StepCost, asked: &'a [QuestionCost]) -> Self {
-        let part = |name: &str, topics: &[Topic]| {
-            (!topics.is_empty()).then(|| format!("{name} {}", named(topics, ", ")))
-        };
-        let again: Vec<Topic> = asked.iter().map(|asked| asked.topic).collect();
-        let [again, kept] = [part("recomputes", &again), part("reuses", &step.reused)];
-        let remark = again.into_iter().chain(kept).collect::<Vec<_>>().join("; ");
-        let what = format!("a step of {}", step.name);
-        AskedRow { after: step.name, asked, what, remark, ..Self::of_all(found) }
+    fn remark(&self) -> String {
+        let AskedTogether { after, questions, reused } = self.asked;
+        if let Some(question) = self.question {
+            return format!("for {}", question.layers.join(", "));
+        }
+        let again: Vec<Topic> = questions.iter().map(|asked| asked.topic).collect();
+        let parts = [("recomputes", again.as_slice()), ("reuses", reused)].into_iter();
+        let parts = parts.filter(|(_, topics)| *after != OPENING && !topics.is_empty());
+        let parts = parts.map(|(verb, topics)| format!("{verb} {}", named(topics, ", ")));
+        parts.collect::<Vec<_>>().join("; ")
     }
 }
 
 fn cost_columns<'a>() -> Columns<'a, AskedRow<'a>> {
-    let cost = |row: &AskedRow| sum(row.asked).0;
     Columns::default()
-        .file("scene", |row: &AskedRow| row.scene.to_owned())
-        .file("after", |row| row.after)
-        .file("question", |row| row.asked.first().map(|asked| asked.topic))
-        .text("question", |row| row.what.clone())
-        .fields(&Cost::default(), move |row| Some(cost(row)))
-        .text("evaluations", move |row| count(cost(row).evaluations))
-        .text("steps", move |row| count(cost(row).steps))
-        .number("seconds", Quantity::of("s", 2), |row| sum(row.asked).1)
+        .file("scene", |row: &AskedRow| row.scene.scene.name.clone())
+        .file("after", |row| row.asked.after)
+        .file("question", |row| row.question.map(|asked| asked.topic))
+        .text("question", AskedRow::what)
+        .fields(&Cost::default(), |row| Some(row.sum().0))
+        .text("evaluations", |row| count(row.sum().0.evaluations))
+        .text("steps", |row| count(row.sum().0.steps))
+        .number("seconds", Quantity::of("s", 2), |row| row.sum().1)
         .titled("time")
-        .text("", |row| row.remark.clone())
+        .text("", AskedRow::remark)
 }
