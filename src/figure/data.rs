@@ -1,7 +1,7 @@
 //! A figure as data: one JSON document, or one CSV row a point.
 
 use super::{Figure, MarkedPoint, Outline, Panel};
-use crate::picture::{Dash, MapCell, ScanMap};
+use crate::picture::{MapCell, ScanMap};
 use crate::report::Columns;
 use crate::report::json::text;
 use crate::words::printable;

@@ -278,12 +278,7 @@ impl<'a> ClaimCase<'a> {
     pub fn edge(&self) -> Result<Certain<Border>, Reason> {
         let found = Portrait::of_oscillator(self, 10.0, &self.limits)?.border;
         let proved = kicks::edge(&prove(&ParameterBox::from(&self.parameters), &[]));
-        let certain = match found {
-            Border::None => proved == Some(kicks::ProvedEdge::None),
-            Border::Cycle => proved == Some(kicks::ProvedEdge::Cycle),
-            Border::Separatrix => proved == Some(kicks::ProvedEdge::Separatrix),
-            _ => false,
-        };
+        let certain = proved.map(Border::from) == Some(found);
         Ok(Certain { value: found, certain })
     }
 

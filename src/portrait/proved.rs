@@ -59,16 +59,20 @@ pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     Ok(())
 }
 
+impl From<ProvedEdge> for Border {
+    fn from(edge: ProvedEdge) -> Self {
+        match edge {
+            ProvedEdge::None => Border::None,
+            ProvedEdge::Cycle => Border::Cycle,
+            ProvedEdge::Separatrix => Border::Separatrix,
+        }
+    }
+}
+
 /// What is proved about the edge of a basin; nothing where the search says otherwise.
 #[must_use]
 pub fn agreed(proved: ProvedKicks, found: &Portrait) -> ProvedKicks {
     const DIFFERENT: &str = "not proved, because the proof contradicts the numbers above";
-    let edge = match proved.edge {
-        Some(ProvedEdge::None) => Some(Border::None),
-        Some(ProvedEdge::Cycle) => Some(Border::Cycle),
-        Some(ProvedEdge::Separatrix) => Some(Border::Separatrix),
-        None => None,
-    };
     let Margin { displacement, impulse, from_rest } = found.margin;
     let pairs = [
         (proved.displacement, displacement),
@@ -79,6 +83,7 @@ pub fn agreed(proved: ProvedKicks, found: &Portrait) -> ProvedKicks {
     let agree = |(bounds, value): (Option<Interval>, Option<f64>)| {
         bounds.zip(value).is_none_or(|(bounds, value)| is_near(bounds, value))
     };
+    let edge = proved.edge.map(Border::from);
     if edge.is_none_or(|edge| edge == found.border) && pairs.into_iter().all(agree) {
         return proved;
     }

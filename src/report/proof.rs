@@ -7,10 +7,10 @@ use crate::branch::fold::BoundaryPoint;
 use crate::check::{Bounds, Certificate, StepKind};
 use crate::model::ParameterBox;
 use crate::numerics::Interval;
-use crate::portrait::Cycle;
 use crate::portrait::proved::matching;
+use crate::portrait::{Border, Cycle};
 use crate::proof::cycles::{OpenGap, ProvedCycle};
-use crate::proof::kicks::{ProvedEdge, ProvedKicks};
+use crate::proof::kicks::ProvedKicks;
 use crate::proof::motion::{ProvedFate, ProvedMotion, ProvedTurn};
 use crate::proof::range::{CountChange, Range, RangePiece};
 use crate::proof::{Enclosure, Proof};
@@ -232,13 +232,8 @@ pub(super) fn followed(motion: &ProvedMotion, until: f64) -> Document {
 /// The columns of enclosures of the smallest kicks that are not captured.
 pub(super) fn kick_columns<'a>() -> Columns<'a, &'a ProvedKicks> {
     const NO_EDGE: &str = "what borders the basin";
-    let name = |edge| match edge {
-        ProvedEdge::None => "none",
-        ProvedEdge::Cycle => "cycle",
-        ProvedEdge::Separatrix => "separatrix",
-    };
     Columns::default()
-        .word("edge", move |kicks: &&ProvedKicks| kicks.edge.map(name))
+        .word("edge", |kicks: &&ProvedKicks| kicks.edge.map(Border::from))
         .titled("border of the basin, proved")
         .bounds("displacement", |kicks| kicks.displacement)
         .titled("displacement from q = 0, proved")
