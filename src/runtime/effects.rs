@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crossterm::Command;
-use crossterm::clipboard::CopyToClipboard;
+use termina::escape::osc::{Osc, Selection};
 
 use super::bounded;
 use super::new_file::{self, Readers};
@@ -21,10 +20,7 @@ pub struct Files {
 impl Files {
     /// The sequence that puts a text on the terminal's clipboard: OSC 52.
     pub fn clipboard(text: &str) -> String {
-        let mut sequence = String::new();
-        // Writing to a string cannot fail.
-        let _ = CopyToClipboard::to_clipboard_from(text).write_ansi(&mut sequence);
-        sequence
+        Osc::SetSelection(Selection::CLIPBOARD, text).to_string()
     }
 
     /// Saves a copy; says so, or why it is not saved.
