@@ -27,7 +27,6 @@
 //! ```
 
 pub(crate) mod force;
-#[warn(clippy::missing_errors_doc)]
 #[expect(clippy::module_inception, reason = "the model itself, beside what belongs to it")]
 pub(crate) mod model;
 pub(crate) mod reach;

@@ -10,21 +10,17 @@
 
 pub(crate) mod count;
 pub(crate) mod decimal;
-#[doc(hidden)]
 pub mod elementary;
 pub(crate) mod interval;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
-#[doc(hidden)]
 pub mod random;
 pub(crate) mod root;
 pub(crate) mod scalar;
-#[doc(hidden)]
 pub mod scaling;
 pub(crate) mod similar;
 pub(crate) mod spline;
 pub(crate) mod sum;
-#[doc(hidden)]
 pub mod twofold;
 
 pub(crate) use count::{real, reciprocals, truncated};

@@ -24,7 +24,6 @@
 //! assert!(portrait.cycles.iter().any(|cycle| cycle.stable && cycle.sticks()));
 //! ```
 
-#[warn(clippy::missing_errors_doc)]
 pub mod basin;
 #[doc(hidden)]
 pub mod closing;
@@ -65,9 +64,9 @@ pub use closing::return_map::{Return, ReturnMap};
 pub(crate) use closing::search::Node;
 pub(crate) use closing::weak::weak_closing;
 pub use cycle::{Cycle, CycleErrors, Ride};
-pub use design::{FrictionNeeded, Kick, friction_for, friction_of_guide};
-pub use kicks::RandomKick;
-pub use kicks::repeated::Repeated;
+pub(crate) use design::{FrictionNeeded, Kick, friction_for, friction_of_guide};
+pub(crate) use kicks::RandomKick;
+pub(crate) use kicks::repeated::Repeated;
 pub use margin::{Kicks, Margin, Reach, RestMargin};
 pub use portrait::Portrait;
 pub use survey::{Course, CubicExpansion};

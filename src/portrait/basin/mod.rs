@@ -7,7 +7,6 @@
 pub(crate) mod arc;
 #[doc(hidden)]
 pub mod capture;
-#[warn(clippy::missing_errors_doc)]
 pub mod cycle;
 pub(crate) mod orbit;
 #[doc(hidden)]

@@ -4,15 +4,11 @@
 //! itself with the damping reversed. Cycles close two of them ([`equation`]); a search that excludes what cannot hold
 //! a cycle finds all ([`search`], [`all`]), and energy decides where differences lose their digits ([`balance`]).
 
-#[doc(hidden)]
 pub mod all;
 pub(crate) mod balance;
-#[doc(hidden)]
 pub mod equation;
-#[doc(hidden)]
 pub mod half_map;
 pub(crate) mod pair;
-#[doc(hidden)]
 pub mod polish;
 pub(crate) mod return_map;
 pub(crate) mod search;

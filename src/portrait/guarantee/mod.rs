@@ -2,9 +2,7 @@
 
 use thiserror::Error;
 
-#[doc(hidden)]
 pub mod machine;
-#[warn(clippy::missing_errors_doc)]
 pub mod oscillator;
 
 /// Why no kick is survived for certain.

@@ -1,8 +1,6 @@
 //! The return map of a machine on its belt, which never decreases: it orders all cycles, and what a start ends as is
 //! read off the next turning point.
 
-#[warn(clippy::missing_errors_doc)]
 pub(crate) mod fixed_points;
 pub(crate) mod gaps;
-#[doc(hidden)]
 pub mod machine_return;
