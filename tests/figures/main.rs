@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fs;
 
-use hopfscope::figure::{Figure, FigureCurve, FileForm, file};
+use hopfscope::figure::{Figure, FileForm, Outline, file};
 use hopfscope::flow::Limits;
 use hopfscope::numerics::elementary::{atan2, cbrt, exp, exp_m1, hypot, powi};
 use hopfscope::question::Fineness;
@@ -40,7 +40,7 @@ fn scenes() -> impl Iterator<Item = &'static str> {
 }
 
 /// The curves of a panel (counted from 0) whose name begins with `name`.
-fn curves<'a>(figure: &'a Figure, panel: usize, name: &str) -> Vec<&'a FigureCurve> {
+fn curves<'a>(figure: &'a Figure, panel: usize, name: &str) -> Vec<&'a Outline> {
     let all = figure.panels[panel].curves.iter();
     let found: Vec<_> = all.filter(|curve| curve.name.starts_with(name)).collect();
     assert!(!found.is_empty(), "{} has no {name}", figure.figure);
@@ -125,13 +125,17 @@ fn vector_picture(figure: &Figure, svg: &str) {
         for curve in &panel.curves {
             let name = curve.name.split(", ").next().unwrap();
             assert!(letters.contains(name), "{scene}: {name} is not in the legend");
-            assert!(curve.style != hopfscope::picture::Dash::Dashed || dashed, "{scene}: {name}");
+            assert!(
+                curve.style != Some(hopfscope::picture::Dash::Dashed) || dashed,
+                "{scene}: {name}"
+            );
+            let style: &str = curve.style.map_or("", Into::into);
             let expected = match curve.name.split(' ').next() {
                 Some("stable") => "solid",
                 Some("unstable") => "dashed",
-                _ => <&str>::from(curve.style),
+                _ => style,
             };
-            assert_eq!(<&str>::from(curve.style), expected, "{scene}: {name}");
+            assert_eq!(style, expected, "{scene}: {name}");
         }
     }
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{scene}");
@@ -166,7 +170,7 @@ fn no_text_covers_another(scene: &str, picture: &Document) {
 const PANEL: (f64, f64) = (380.0, 300.0);
 
 /// A curve within its panel, in pixels.
-fn on_paper(figure: &Figure, panel: usize, curve: &FigureCurve) -> Vec<(f64, f64)> {
+fn on_paper(figure: &Figure, panel: usize, curve: &Outline) -> Vec<(f64, f64)> {
     let window = figure.panels[panel].window;
     let place =
         |[x, y]: &[f64; 2]| (PANEL.0 * window.x.fraction(*x), PANEL.1 * window.y.fraction(*y));

@@ -62,7 +62,7 @@ fn the_borders_of_the_basins_are_the_cycles_of_the_formulas() {
         let areas = &drawn.panels[panel].areas;
         let basin = areas.iter().find(|area| area.name == "basin of the sticking set").unwrap();
         for (points, parameters) in
-            [(&cycle.points, &cycle.parameters), (&basin.edge, &basin.parameters)]
+            [(&cycle.points, &cycle.parameters), (&basin.points, &basin.parameters)]
         {
             assert_eq!(parameters["D"], d);
             let farthest = |axis: usize| points.iter().map(|at| at[axis]).fold(0.0, f64::max);
