@@ -15,93 +15,56 @@ use crate::session::act::{
 };
 use crate::session::read::completion;
 use crate::session::settings::{Colors, Glyphs, Theme, choices};
-use crate::session::state::keymap::CommandAction::{self, Act, Choose, Line, Toggle, Try};
+use crate::session::state::keymap::CommandAction::{self, Act, Choose, Line, Move, Toggle, Try};
 use crate::session::state::keymap::contexts;
 use crate::session::{
     Command, Context, Effect, Input, Key, Keymap, Letter as Ask, Pending, Purpose, Session, Size,
 };
 
-/// What each command does, by its name, or by its name behind a colon if it takes words.
+/// What commands do: by the name that their line ends with, which is that of the command where the line does not say it;
+/// by its name behind a colon if it takes words. What moves something takes the steps to the right and upwards from there.
 #[rustfmt::skip]
 const ACTIONS: &[(&str, CommandAction)] = &[
-    ("select-previous", Act(|s, _| parameters::select(s, -1))),
-    ("select-next", Act(|s, _| parameters::select(s, 1))),
-    ("step-down", Try(|s| parameters::step(s, -1))),
-    ("step-up", Try(|s| parameters::step(s, 1))),
-    ("step-far-down", Try(|s| parameters::step(s, -10))),
-    ("step-far-up", Try(|s| parameters::step(s, 10))),
-    ("step-size-smaller", Try(|s| parameters::step_size(s, false))),
-    ("step-size-larger", Try(|s| parameters::step_size(s, true))),
-    ("narrower", Try(|s| parameters::half_width(s, -1))),
-    ("wider", Try(|s| parameters::half_width(s, 1))),
+    ("select", Move(|s, [by, _]| parameters::select(s, by as isize))),
+    ("step", Move(|s, [by, _]| s.attempt(|s| parameters::step(s, by)))),
+    ("step-size", Move(|s, [by, _]| s.attempt(|s| parameters::step_size(s, by > 0)))),
+    ("half-width", Move(|s, [by, _]| s.attempt(|s| parameters::half_width(s, by)))),
     ("edit", Act(|s, _| parameters::edit(s))),
     ("type-number", Act(parameters::begin)),
     ("reset-value", Act(|s, _| parameters::reset_row(s))),
 
     ("start-here", Try(plots::start_here)),
-    ("start-on-cycle", Try(plots::start_here)),
     ("use-method", Try(plots::use_method)),
     ("jump-here", Try(plots::jump_here)),
 
-    ("take-parameters", Try(plots::jump_here)),
-
-    ("next-abscissa", Act(|s, _| plots::next_parameter(s, false))),
+    ("next-parameter", Move(|s, [_, up]| plots::next_parameter(s, up > 0))),
     ("next-ordinate", Act(|s, _| plots::next_ordinate(s))),
-    ("next-chart-right", Act(|s, _| plots::next_parameter(s, false))),
-    ("next-chart-up", Act(|s, _| plots::next_parameter(s, true))),
     ("next-unit", Try(plots::next_unit)),
     ("walk", Try(walk::take_hold)),
-    ("walk-back", Act(|s, _| walk::go(s, -1))),
-    ("walk-on", Act(|s, _| walk::go(s, 1))),
-    ("walk-far-back", Act(|s, _| walk::go(s, -walk::FAR))),
-    ("walk-far-on", Act(|s, _| walk::go(s, walk::FAR))),
-    ("walk-to-next", Act(|s, _| walk::go_to_landmark(s, true))),
-    ("walk-to-previous", Act(|s, _| walk::go_to_landmark(s, false))),
-    ("walk-to-first", Act(|s, _| walk::go(s, isize::MIN))),
-    ("walk-to-last", Act(|s, _| walk::go(s, isize::MAX))),
+    ("walk-by", Move(|s, [by, _]| walk::go(s, by as isize))),
+    ("walk-to", Move(|s, [by, _]| walk::go_to_landmark(s, by > 0))),
     ("walk-take", Try(walk::take)),
     ("walk-let-go", Act(|s, _| s.held = None)),
 
     ("scan", Act(|s, _| scan::open(s))),
-    ("scan-back", Try(|s| scan::go(s, -1, 0))),
-    ("scan-on", Try(|s| scan::go(s, 1, 0))),
-    ("scan-up", Try(|s| scan::go(s, 0, 1))),
-    ("scan-down", Try(|s| scan::go(s, 0, -1))),
-    ("scan-far-back", Try(|s| scan::go(s, -scan::PAGE, 0))),
-    ("scan-far-on", Try(|s| scan::go(s, scan::PAGE, 0))),
-    ("scan-first", Try(|s| scan::go(s, isize::MIN, 0))),
-    ("scan-last", Try(|s| scan::go(s, isize::MAX, 0))),
+    ("scan-by", Move(|s, by| s.attempt(|s| scan::go(s, by.map(|by| by as isize))))),
     ("scan-take", Try(scan::take)),
-    ("scan-column", Try(|s| scan::next_column(s, 1))),
-    ("scan-column-back", Try(|s| scan::next_column(s, -1))),
+    ("scan-column", Move(|s, [by, _]| s.attempt(|s| scan::next_column(s, by as isize)))),
     ("scan-table", Try(scan::table)),
     ("scan-pause", Try(scan::pause)),
     ("scan-save", Try(|s| scan::save(s, scan::FILE))),
 
-    ("cursor-left", Act(|s, _| plots::move_cursor(s, -1, 0))),
-    ("cursor-right", Act(|s, _| plots::move_cursor(s, 1, 0))),
-    ("cursor-up", Act(|s, _| plots::move_cursor(s, 0, 1))),
-    ("cursor-down", Act(|s, _| plots::move_cursor(s, 0, -1))),
-    ("cursor-far-left", Act(|s, _| plots::move_cursor(s, -plots::FAR, 0))),
-    ("cursor-far-right", Act(|s, _| plots::move_cursor(s, plots::FAR, 0))),
-    ("cursor-far-up", Act(|s, _| plots::move_cursor(s, 0, plots::FAR))),
-    ("cursor-far-down", Act(|s, _| plots::move_cursor(s, 0, -plots::FAR))),
-    ("zoom-in", Act(|s, _| plots::zoom(s, true))),
-    ("zoom-out", Act(|s, _| plots::zoom(s, false))),
+    ("cursor", Move(plots::move_cursor)),
+    ("zoom", Move(|s, [by, _]| plots::zoom(s, by > 0))),
     ("fit-window", Act(|s, _| plots::fit(s))),
     ("home", Act(|s, _| plots::home(s))),
-    ("pan-left", Act(|s, _| plots::pan(s, -1, 0))),
-    ("pan-down", Act(|s, _| plots::pan(s, 0, -1))),
-    ("pan-up", Act(|s, _| plots::pan(s, 0, 1))),
-    ("pan-right", Act(|s, _| plots::pan(s, 1, 0))),
+    ("pan", Move(plots::pan)),
 
-    ("next-pane", Act(|s, _| screen_setup::focus(s, 1))),
-    ("previous-pane", Act(|s, _| screen_setup::focus(s, -1))),
+    ("pane", Move(|s, [by, _]| screen_setup::focus(s, by as isize))),
     ("enlarge", Act(|s, _| s.enlarged = !s.enlarged)),
     ("paper", Act(|s, _| lists::open(s, Paper))),
     ("views", Act(|s, _| lists::open(s, Views))),
-    ("next-view", Act(|s, _| screen_setup::next_view(s, 1))),
-    ("previous-view", Act(|s, _| screen_setup::next_view(s, -1))),
+    ("next-view", Move(|s, [by, _]| screen_setup::next_view(s, by as isize))),
     ("add-plot", Try(screen_setup::add)),
     ("remove-plot", Try(screen_setup::remove)),
     ("move-plot", Try(screen_setup::move_on)),
@@ -121,21 +84,16 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("drop-motion", Try(motions::drop_newest)),
     ("drop-other-motions", Try(motions::drop_others)),
     ("play-motion", Try(motions::play)),
-    ("motion-on", Try(|s| motions::step(s, 1.0))),
-    ("motion-back", Try(|s| motions::step(s, -1.0))),
+    ("motion-by", Move(|s, [by, _]| s.attempt(|s| motions::step(s, f64::from(by))))),
     ("motion-pace", Act(|s, _| motions::pace(s))),
     ("unfold", Act(|s, _| s.unfolded = !s.unfolded)),
     ("reset-scene", Act(|s, _| history::reset_scene(s))),
-    ("coarser", Try(|s| parameters::dial(s, false))),
-    ("finer", Try(|s| parameters::dial(s, true))),
+    ("accuracy", Move(|s, [by, _]| s.attempt(|s| parameters::dial(s, by > 0)))),
     ("next-method", Act(|s, _| parameters::next_method(s, 1))),
 
-    ("fewer-harmonics", Try(|s| general::harmonics(s, false))),
-    ("more-harmonics", Try(|s| general::harmonics(s, true))),
-    ("take-speed", Try(plots::jump_here)),
+    ("harmonics", Move(|s, [by, _]| s.attempt(|s| general::harmonics(s, by > 0)))),
 
     ("count", Act(general::count)),
-    ("begin-count", Act(general::count)),
     ("delete-digit", Act(|s, _| general::delete_digit(s))),
     ("forget-pending", Act(|s, _| s.pending = None)),
     ("set-mark", Act(|s, _| s.pending = Some(Pending::Letter(Ask::Mark)))),
@@ -147,7 +105,6 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("forget-interrupted", Try(files::forget)),
     ("restore-selected", Act(|s, _| files::restore_selected(s))),
     ("forget-one", Try(files::forget_selected)),
-    ("forget-all", Try(files::forget)),
 
     ("costs", Act(|s, _| lists::open(s, Cost))),
     ("retry", Act(|s, _| general::retry(s))),
@@ -163,44 +120,27 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("theme", Act(|s, _| general::turn(s, "theme", |it| &mut it.theme))),
     ("drop-cursor", Act(|s, _| plots::drop_cursor(s))),
     ("back", Act(|s, _| s.overlay = None)),
-    ("close-again", Act(|s, _| s.overlay = None)),
     ("quit", Act(|s, _| general::quit(s))),
 
-    ("list-up", Act(|s, _| lists::move_by(s, -1))),
-    ("list-down", Act(|s, _| lists::move_by(s, 1))),
-    ("list-page-up", Act(|s, _| lists::move_by(s, -lists::PAGE))),
-    ("list-page-down", Act(|s, _| lists::move_by(s, lists::PAGE))),
-    ("list-first", Act(|s, _| lists::move_by(s, isize::MIN))),
-    ("list-last", Act(|s, _| lists::move_by(s, isize::MAX))),
+    ("list-by", Move(|s, [by, _]| lists::move_by(s, by as isize))),
     ("search", Act(|s, _| lists::search(s))),
-    ("open-scene", Choose(prompt::choose)),
+    ("choose", Choose(prompt::choose)),
     ("toggle-letter", Act(lists::toggle_letter)),
-    ("toggle-layer", Choose(prompt::choose)),
-    ("show-claim", Choose(prompt::choose)),
-    ("show-view", Choose(prompt::choose)),
-    ("run-command", Choose(prompt::choose)),
     ("search-done", Choose(prompt::search_done)),
     ("search-drop", Act(|s, _| lists::search_drop(s))),
     ("search-delete", Act(|s, _| lists::search_with(s, |it| _ = it.pop()))),
     ("search-clear", Act(|s, _| lists::search_with(s, String::clear))),
 
     ("accept", Choose(|s| Ok(prompt::accept(s)))),
-    ("run-line", Choose(|s| Ok(prompt::accept(s)))),
-    ("complete", Act(|s, _| prompt::complete(s, 1))),
-    ("complete-back", Act(|s, _| prompt::complete(s, -1))),
-    ("older-line", Act(|s, _| prompt::recall(s, 1))),
-    ("newer-line", Act(|s, _| prompt::recall(s, -1))),
+    ("complete", Move(|s, [by, _]| prompt::complete(s, by as isize))),
+    ("line-back", Move(|s, [by, _]| prompt::recall(s, by as isize))),
     ("clear", Act(|s, _| prompt::with(s, |i| *i = Input::default()))),
     ("delete-word", Act(|s, _| prompt::with(s, Input::delete_word))),
     ("delete-before", Act(|s, _| prompt::with(s, |i| _ = i.before.pop()))),
     ("delete-after", Act(|s, _| prompt::with(s, Input::delete_after))),
-    ("caret-left", Act(|s, _| prompt::with(s, |i| i.move_caret(-1)))),
-    ("caret-right", Act(|s, _| prompt::with(s, |i| i.move_caret(1)))),
-    ("caret-home", Act(|s, _| prompt::with(s, |i| i.move_caret(isize::MIN)))),
-    ("caret-end", Act(|s, _| prompt::with(s, |i| i.move_caret(isize::MAX)))),
+    ("caret", Move(|s, [by, _]| prompt::with(s, |i| i.move_caret(by as isize)))),
 
     ("replay-pasted", Act(|s, _| general::accept_offer(s))),
-    ("forget-pasted", Act(|s, _| s.overlay = None)),
 
     ("suspend", Act(|s, _| s.effects.push(Effect::Suspend))),
     ("repaint", Act(|s, _| s.effects.push(Effect::Repaint))),
@@ -253,19 +193,34 @@ fn table() -> &'static [Command] {
 
 /// The command that a line of the file describes; `None` for a comment. A test reads every line.
 fn command(line: &'static str) -> Option<Command> {
-    let (name, rest) = line.split_once(" | ")?;
-    let (place, rest) = rest.split_once(" | ")?;
-    let run = ACTIONS.iter().find(|row| row.0 == name)?.1;
-    Some(match (name.strip_prefix(':'), rest.split_once(" | ")) {
-        (Some(name), _) => {
-            Command { name, keys: Vec::new(), hint: "", doc: rest, arguments: place, run }
+    let fields: Vec<&str> = line.split(" | ").collect();
+    let action = |name: &str| ACTIONS.iter().find(|row| row.0 == name).map(|row| row.1);
+    match fields[..] {
+        [typed, arguments, doc] => {
+            let (name, run) = (typed.strip_prefix(':')?, action(typed)?);
+            Some(Command { name, keys: Vec::new(), hint: "", doc, arguments, run, by: [0; 2] })
         }
-        (None, described) => {
-            let (hint, doc) = described?;
+        [name, places, hint, doc, ref does @ ..] => {
+            let mut words = does.first().unwrap_or(&name).split(' ');
+            let run = action(words.next()?)?;
+            let mut by = [0; 2];
+            for (by, word) in by.iter_mut().zip(words) {
+                *by = steps(word)?;
+            }
             let hint = if hint == "-" { "" } else { hint };
-            Command { name, keys: keys(place), hint, doc, arguments: "", run }
+            Some(Command { name, keys: keys(places), hint, doc, arguments: "", run, by })
         }
-    })
+        _ => None,
+    }
+}
+
+/// How many steps a command moves something, as the file says it.
+fn steps(word: &str) -> Option<i32> {
+    match word {
+        "first" => Some(i32::MIN),
+        "last" => Some(i32::MAX),
+        number => number.parse().ok(),
+    }
 }
 
 /// Contexts by their names, each followed by the keys there.
@@ -293,6 +248,7 @@ fn toggle(spec: &LayerSpec) -> Command {
         doc: leaked(format!("Show or hide {}", spec.meaning)),
         arguments: "",
         run: Toggle(spec.layer),
+        by: [0; 2],
     }
 }
 
@@ -323,9 +279,12 @@ mod tests {
     fn every_line_of_the_file_has_a_function_and_keys_that_can_be_read() {
         let lines = include_str!("../../assets/commands.txt").lines();
         let lines: Vec<_> = lines.filter(|line| line.contains(" | ")).collect();
-        let named = |line: &&str| line.split(" | ").next().unwrap().to_owned();
-        let named: Vec<_> = lines.iter().map(named).collect();
-        assert_eq!(named, ACTIONS.iter().map(|row| row.0.to_owned()).collect::<Vec<_>>());
+        let does = |line: &&str| {
+            let does = line.split(" | ").nth(4).or(line.split(" | ").next());
+            does.unwrap().split(' ').next().unwrap().to_owned()
+        };
+        let used: std::collections::BTreeSet<_> = lines.iter().map(does).collect();
+        assert_eq!(used, ACTIONS.iter().map(|row| row.0.to_owned()).collect());
         assert_eq!(lines.iter().filter_map(|line| command(line)).count(), lines.len());
         for line in lines.into_iter().filter(|line| !line.starts_with(':')) {
             let [_, words, ..] = line.split(" | ").collect::<Vec<_>>()[..] else {

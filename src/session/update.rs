@@ -284,6 +284,7 @@ fn missing(session: &Session, place: Context) -> String {
 fn run(session: &mut Session, command: &Command, key: Key) {
     match command.run {
         CommandAction::Act(act) => act(session, key),
+        CommandAction::Move(act) => act(session, command.by),
         CommandAction::Try(act) => session.attempt(act),
         CommandAction::Toggle(layer) => general::toggle(session, layer),
         CommandAction::Choose(choose) => match choose(session) {

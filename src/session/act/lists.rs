@@ -4,9 +4,6 @@ use crate::scene::letters;
 use crate::session::act::general::toggle;
 use crate::session::{Key, List, Listed, Overlay, Session};
 
-/// Number of rows that the page keys move by.
-pub const PAGE: isize = 10;
-
 /// Opens a list, with the present scene or the view of the plot in use selected.
 pub fn open(session: &mut Session, listed: Listed) {
     let list = List::default();

@@ -13,9 +13,6 @@ use crate::session::act::screen_setup::focus_on;
 use crate::session::act::{history, lists, scan};
 use crate::session::{Done, Effect, Framing, Gesture, Pane, Plot, Pointed, PointerTarget, Session};
 
-/// Number of cursor steps in a far move.
-pub const FAR: i32 = 8;
-
 /// Number of cursor steps across a window, about the columns of a plot at 80 columns.
 ///
 /// Relative to the window and not to the screen, so that a keystroke file has the same effect on every screen.
@@ -47,7 +44,7 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
 }
 
 /// Moves the cursor of the plot in focus; the first move shows it.
-pub fn move_cursor(session: &mut Session, right: i32, up: i32) {
+pub fn move_cursor(session: &mut Session, [right, up]: [i32; 2]) {
     let origin = session.focused().map(|plot| cursor_origin(session, plot));
     if let Some((plot, origin)) = session.focused_mut().zip(origin) {
         let Point { x, y } = plot.cursor.unwrap_or(origin);
@@ -109,7 +106,7 @@ pub fn zoom_about(session: &mut Session, about: impl FnOnce(&Plot) -> Point, clo
 }
 
 /// Moves the window of the plot in focus.
-pub fn pan(session: &mut Session, right: i32, up: i32) {
+pub fn pan(session: &mut Session, [right, up]: [i32; 2]) {
     frame(session, |plot| {
         let Window { x, y } = plot.window;
         Window { x: x.shifted(PAN * f64::from(right)), y: y.shifted(PAN * f64::from(up)) }

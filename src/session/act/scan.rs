@@ -18,9 +18,6 @@ use crate::words::number::resolved;
 /// The file in which a key saves the rows; the command line takes any name.
 pub const FILE: &str = "scan.csv";
 
-/// Number of rows that the page keys move by.
-pub const PAGE: isize = 10;
-
 /// Opens the command line with the last scan; before the first one, with one over the parameter of a diagram on show,
 /// otherwise over the selected parameter around its value.
 pub fn open(session: &mut Session) {
@@ -143,7 +140,7 @@ pub(crate) fn refit(session: &mut Session) {
 
 /// Moves over the points, computed or not: `right` along the axis to the right, `up` along the other axis of a
 /// grid. In a table and along a line, both move along the rows.
-pub fn go(session: &mut Session, right: isize, up: isize) -> Done {
+pub fn go(session: &mut Session, [right, up]: [isize; 2]) -> Done {
     let scanned = scanned(session)?;
     let last = scanned.scan.points().saturating_sub(1);
     let over = scanned.scan.over();

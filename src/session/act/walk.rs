@@ -7,9 +7,6 @@ use crate::session::act::parameters::change;
 use crate::session::read::walk::BranchPath;
 use crate::session::{BranchStop, Done, Pane, Plot, Session};
 
-/// Number of points in a far move.
-pub const FAR: isize = 10;
-
 /// Begins a walk on the branch: at the cursor of the diagram if there is one, otherwise at the present value.
 pub fn take_hold(session: &mut Session) -> Done {
     let stop = first(session).map_err(|why| session.with_keys(why))?;

@@ -27,6 +27,8 @@ pub struct Command {
     /// Syntax of the words after the name, for the help.
     pub arguments: &'static str,
     pub run: CommandAction,
+    /// The steps by which it moves something.
+    pub by: [i32; 2],
 }
 
 impl PartialEq for Command {
@@ -47,6 +49,8 @@ impl Command {
 pub enum CommandAction {
     /// It changes the session; the key is the one that was pressed.
     Act(fn(&mut Session, Key)),
+    /// It moves something by some steps, to the right or onwards, and upwards.
+    Move(fn(&mut Session, [i32; 2])),
     /// It changes the session, unless it fails with one line that says why not.
     Try(fn(&mut Session) -> Done),
     /// It switches a layer.
