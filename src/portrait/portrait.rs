@@ -4,12 +4,8 @@
 //! motions go one way, to the next cycle on that side. One evaluation in each gap therefore settles the fate of
 //! all starts; a start itself is followed only to its next right turning point.
 
-use std::cmp::Ordering;
-
 use rayon::prelude::*;
 
-use super::return_map::fixed_points::Divide;
-use super::return_map::gaps::{Gap, gaps, ways};
 use super::{Border, Cycle, Edge, Margin, Reach, RestMargin};
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
@@ -20,6 +16,16 @@ use crate::portrait::basin::stability::{Share, part_within};
 use crate::portrait::basin::{Counts, StartWindow, between};
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
+
+/// A gap between right turning points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gap {
+    /// Its upper end.
+    pub to: f64,
+    pub fate: Fate,
+    /// Fate of a motion that turns exactly at the upper end.
+    pub end: Fate,
+}
 
 /// All possible motions of a machine.
 #[derive(Clone, Debug)]
@@ -79,85 +85,6 @@ impl Portrait {
             followed: f64::INFINITY,
             gaps: Vec::new(),
         }
-    }
-
-    /// The portrait of any machine by its return map.
-    ///
-    /// # Errors
-    /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
-    pub fn by_return_map(model: &Model) -> Result<Self, Reason> {
-        let mut flow = Flow::new(model);
-        let landmarks = flow.landmarks()?;
-        let found = flow.fixed_points(landmarks.as_ref())?;
-        let ways = ways(&mut flow, &found)?;
-        let mut cycles = Vec::new();
-        for (place, (x, divide)) in found.divides.iter().enumerate() {
-            let Divide::Cycle(image) = divide else { continue };
-            let attracts =
-                ways[place] == Ok(Ordering::Greater) && ways[place + 1] == Ok(Ordering::Less);
-            cycles.push(flow.describe(*x, image, image.sticks_from.is_some() || attracts)?);
-        }
-        let mut portrait = Portrait {
-            cycles,
-            neutral: found.neutral,
-            landmarks,
-            stop: found.stop,
-            known: found.end,
-            unresolved: found.unresolved.clone(),
-            gaps: gaps(&found, &ways),
-            ..Portrait::blank(model)
-        };
-        portrait.settle_border(&mut flow, &found.divides)?;
-        portrait.cost = flow.cost();
-        Ok(portrait)
-    }
-
-    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Divide)]) -> Result<(), Reason> {
-        let Some(first) = self.gaps.first() else { return Ok(()) };
-        let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
-        if let Fate::Unknown(stop) = first.fate {
-            return Err(stop);
-        }
-        let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
-        let divide = last.checked_sub(1).and_then(|last| marks.get(last));
-        let landmarks = self.landmarks.as_ref();
-        if last == 0 {
-            self.border = Border::NoBasin;
-            self.reach = Some(Reach::default());
-        } else if let Some((x, mark)) = divide.filter(|_| last < self.gaps.len()) {
-            flow.follows = true;
-            let (curve, left) = match mark {
-                Divide::Cycle(image) => {
-                    self.border = Border::Cycle;
-                    let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
-                    flow.around(*x, slips)?
-                }
-                Divide::Jump => flow.jump_border(*x, landmarks)?,
-                Divide::Capture => flow.capture_border(*x, landmarks)?,
-            };
-            if !matches!(mark, Divide::Cycle(_)) {
-                let touches = curve.steps.iter().any(|step| step.place == ContactState::Sticks);
-                self.border = if touches { Border::Grazing } else { Border::Capture };
-            }
-            let edge = Edge::Curve(curve);
-            let velocity = self.kept_within(&edge, 0.0);
-            self.reach = Some(Reach { displacement: (*x, -left), velocity });
-            self.borders.push(edge);
-        } else if let Some(stop) = self.open_end() {
-            self.border = Border::Unknown(stop);
-            self.reach = Some(self.covered(0.0));
-        }
-        self.margin = self.margin_within(self.model.guide_static, self.model.mass);
-        Ok(())
-    }
-
-    /// What hides a border farther out, where none was met.
-    fn open_end(&self) -> Option<Reason> {
-        let Model { omega_0, speed, .. } = self.model;
-        let slip = (speed - self.model.least_velocity()) * omega_0;
-        let ends = self.model.law_ends().then_some(Reason::BeyondLaw { slip });
-        let hides = |stop: &Reason| !matches!(stop, Reason::Escapes | Reason::Settles);
-        self.stop.filter(hides).or(ends)
     }
 
     /// The border of the basin, if one was traced.
@@ -222,7 +149,7 @@ impl Portrait {
     /// The kicks from rest at `from` that certainly come to rest, if motions that slip faster than the law covers are
     /// unknown, or some could not be followed. Motions do not cross, so in each direction these are all kicks up to a
     /// largest one. It is sought beyond [`Self::known`] only where the law ends.
-    fn covered(&self, from: f64) -> Reach {
+    pub(super) fn covered(&self, from: f64) -> Reach {
         /// Halvings down to rounding.
         const HALVINGS: u32 = 60;
         let model = &self.model;

@@ -86,20 +86,16 @@ impl Closing {
     ) -> Self {
         let node = Node::new(clearances[0].log, 0.0, 0.0, f64::NAN);
         let (duration, square) = (0.5 * duration, 0.5 * square);
-        let swing = HalfSwing {
-            duration,
-            square,
-            fastest,
-            ..HalfSwing::lost(clearances[0], clearances[1])
-        };
-        let own = |clearance| Errors {
+        let own = clearances.map(|clearance| Errors {
             length: UNIT + rounding(clearance),
             duration: UNIT * duration,
             square: UNIT * square,
             fastest: UNIT * fastest,
-        };
-        let errors = clearances.map(|clearance| [own(clearance), Errors::default()]);
-        let uncertainty = errors[0][0].length;
+        });
+        let lost = HalfSwing::lost(clearances[0], clearances[1]);
+        let swing = HalfSwing { duration, square, fastest, ..lost };
+        let errors = own.map(|own| [own, Errors::default()]);
+        let uncertainty = own[0].length;
         Closing { uncertainty, errors, ..Closing::new(node, clearances, [swing; 2]) }
     }
 

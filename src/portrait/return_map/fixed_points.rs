@@ -7,7 +7,7 @@ use crate::model::{ContactState, Model, Phase};
 use crate::numerics::root;
 use crate::numerics::{PlaceTolerance, bisect, exp, exponent, ln, pow, times_power, try_newton};
 use crate::portrait::closing::search::{Bracket, Node, Search};
-use crate::portrait::{Cycle, Ride};
+use crate::portrait::{Cycle, Portrait, Ride};
 
 /// A right turning point at which the return map changes.
 #[derive(Clone, Copy, Debug)]
@@ -19,21 +19,6 @@ pub(crate) enum Divide {
     /// The last one from which the guide catches the mass within one return; motions from beyond grow. The border of
     /// rest is then the motion that just reaches the end of what the guide holds.
     Capture,
-}
-
-/// The fixed points of the return map, and whether it is the identity somewhere.
-#[derive(Clone, Debug, Default)]
-pub struct FixedPoints {
-    /// The right turning points at which the map changes, by amplitude: fixed points, and where it jumps or catches.
-    pub(crate) divides: Vec<(f64, Divide)>,
-    /// Whether all motions that slip are periodic.
-    pub neutral: bool,
-    /// The point up to which they were sought, and what ended the search.
-    pub end: f64,
-    /// See [`Self::end`].
-    pub stop: Option<Reason>,
-    /// Intervals in which the search did not settle.
-    pub unresolved: Vec<(f64, f64)>,
 }
 
 /// Logarithm of the multiplier from which cycles are computed backward in time.
@@ -60,20 +45,23 @@ impl Flow<'_> {
             Err(stop) => Err(stop),
         }
     }
+}
 
-    /// All fixed points of the return map, and where it jumps.
-    ///
-    /// # Errors
-    /// [`Reason`] if even the motions next to rest cannot be followed.
-    pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, Reason> {
-        let (unit, found) = (unit(self.model, marks), FixedPoints::default());
-        let mut search = FixedPointSearch { flow: self, unit, found };
-        search.run(marks)?;
-        let FixedPointSearch { mut found, .. } = search;
-        found.divides.extend(jumps(self.model, marks).into_iter().map(|x| (x, Divide::Jump)));
-        found.divides.sort_by(|one, other| one.0.total_cmp(&other.0));
-        Ok(found)
-    }
+/// The right turning points at which the return map changes, by amplitude: its fixed points, and where it jumps or catches.
+/// Tells the portrait how far they were sought, what ended the search, and where it did not settle. Fails with [`Reason`]
+/// if even the motions next to rest cannot be followed.
+pub(crate) fn fixed_points(
+    flow: &mut Flow,
+    portrait: &mut Portrait,
+) -> Result<Vec<(f64, Divide)>, Reason> {
+    let landmarks = portrait.landmarks;
+    let marks = landmarks.as_ref();
+    let divides = jumps(flow.model, marks).into_iter().map(|x| (x, Divide::Jump)).collect();
+    let unit = unit(flow.model, marks);
+    let mut search = FixedPointSearch { flow, unit, portrait, divides };
+    search.run(marks)?;
+    search.divides.sort_by(|one, other| one.0.total_cmp(&other.0));
+    Ok(search.divides)
 }
 
 /// Jumps of the return map: where a touch becomes a ride, and where the mirror band ends.
@@ -100,7 +88,8 @@ fn unit(model: &Model, marks: Option<&Landmarks>) -> f64 {
 struct FixedPointSearch<'f, 'm> {
     flow: &'f mut Flow<'m>,
     unit: f64,
-    found: FixedPoints,
+    portrait: &'f mut Portrait,
+    divides: Vec<(f64, Divide)>,
 }
 
 impl FixedPointSearch<'_, '_> {
@@ -126,7 +115,7 @@ impl FixedPointSearch<'_, '_> {
             Err(stop @ Reason::BeyondLaw { .. }) => {
                 let within = Node::of_growth(ln(held / self.unit), -FAR, 0.0);
                 let end = self.edge(within, 0.0).at;
-                (self.found.stop, self.found.end) = (Some(stop), self.turn(end));
+                (self.portrait.stop, self.portrait.known) = (Some(stop), self.turn(end));
                 return Ok(());
             }
             smallest => smallest?,
@@ -138,7 +127,7 @@ impl FixedPointSearch<'_, '_> {
         // A cycle that repels so strongly that the map itself cannot resolve it is met a few turns before rest.
         let innermost = if held > 0.0 && slips { self.settled_backward(smallest)? } else { None };
         if let Some((x, image)) = innermost {
-            self.found.divides.push((x, Divide::Cycle(image)));
+            self.divides.push((x, Divide::Cycle(image)));
             smallest = x;
         }
         smallest = beyond(smallest);
@@ -147,7 +136,7 @@ impl FixedPointSearch<'_, '_> {
         let touches_before = touch.is_some_and(|(_, touch)| touch > held && touch <= smallest);
         if held > 0.0 && slips && !touches_before && innermost.is_none() {
             let grows = self.growth_at(smallest)?.value() > 0.0;
-            self.found.divides.extend(grows.then_some((caught, Divide::Capture)));
+            self.divides.extend(grows.then_some((caught, Divide::Capture)));
         }
         // Where motions only slip: up to the one that touches the belt's line.
         if slips && touch.is_none_or(|(_, touch)| touch > smallest) {
@@ -156,9 +145,9 @@ impl FixedPointSearch<'_, '_> {
                 None => self.farthest(smallest)?,
             };
             let first = self.growth_at(smallest)?;
-            self.found.end = self.turn(last.at);
-            self.found.neutral = self.is_neutral(first, last)?;
-            if !self.found.neutral {
+            self.portrait.known = self.turn(last.at);
+            self.portrait.neutral = self.is_neutral(first, last)?;
+            if !self.portrait.neutral {
                 self.zeros_between(first, last)?;
             }
         }
@@ -167,10 +156,10 @@ impl FixedPointSearch<'_, '_> {
         if let Some(released) = released.filter(|x| touch.is_some_and(|(_, touch)| *x >= touch)) {
             match self.flow.returned(released) {
                 Ok(MachineReturn::Turns(image)) if image.sticks_from.is_some() => {
-                    self.found.divides.push((released, Divide::Cycle(image)));
+                    self.divides.push((released, Divide::Cycle(image)));
                 }
                 // What escapes is known.
-                Err(stop) if stop != Reason::Escapes => self.found.stop = Some(stop),
+                Err(stop) if stop != Reason::Escapes => self.portrait.stop = Some(stop),
                 _ => {}
             }
         }
@@ -179,15 +168,15 @@ impl FixedPointSearch<'_, '_> {
             let start = if slips { start.max(smallest) } else { start };
             if let Ok(first) = self.growth_at(start) {
                 let last = self.farthest(start)?;
-                self.found.end = self.turn(last.at);
+                self.portrait.known = self.turn(last.at);
                 self.zeros_between(first, last)?;
             }
         }
-        if self.found.stop.is_none() && self.flow.model.law_ends() {
+        if self.portrait.stop.is_none() && self.flow.model.law_ends() {
             // Motions that come to ride on the belt are known as far as the law reaches.
             let from = if slips { smallest } else { beyond(held) };
-            let last = self.farthest(from.max(self.found.end))?;
-            self.found.end = self.found.end.max(self.turn(last.at));
+            let last = self.farthest(from.max(self.portrait.known))?;
+            self.portrait.known = self.portrait.known.max(self.turn(last.at));
         }
         Ok(())
     }
@@ -240,11 +229,11 @@ impl FixedPointSearch<'_, '_> {
         }
         let unresolved = search.unresolved.iter();
         let unresolved = unresolved.map(|(from, to)| (self.turn(*from), self.turn(*to)));
-        self.found.unresolved.extend(unresolved.collect::<Vec<_>>());
+        self.portrait.unresolved.extend(unresolved.collect::<Vec<_>>());
         for bracket in search.found {
             let zero = self.zero(bracket)?;
             let point = self.sharpened(self.turn(zero))?;
-            self.found.divides.extend(point.map(|(x, image)| (x, Divide::Cycle(image))));
+            self.divides.extend(point.map(|(x, image)| (x, Divide::Cycle(image))));
         }
         Ok(())
     }
@@ -314,7 +303,7 @@ impl FixedPointSearch<'_, '_> {
             match self.growth_at(x) {
                 Ok(sample) => last = sample,
                 Err(stop) => {
-                    self.found.stop = Some(stop);
+                    self.portrait.stop = Some(stop);
                     // Where motions take too many steps, finding the first of them costs too much.
                     let dear = stop == Reason::Steps;
                     return Ok(if dear { last } else { self.edge(last, ln(x / self.unit)) });

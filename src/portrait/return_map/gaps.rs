@@ -1,38 +1,104 @@
-//! The gaps between the right turning points at which the return map changes, and the fate of the motions in
-//! each gap.
+//! The portrait of a machine by its return map: the fixed points and the jumps of the map cut the line of right turning
+//! points into gaps, and the way of one motion in each gap tells the fate of all in it.
 
 use std::cmp::Ordering;
 
-use super::fixed_points::{Divide, FixedPoints, NOTHING};
+use super::fixed_points::{Divide, NOTHING, fixed_points};
 use super::machine_return::MachineReturn;
 use crate::flow::{Fate, Flow, Reason};
+use crate::model::{ContactState, Model};
+use crate::portrait::portrait::Gap;
+use crate::portrait::{Border, Edge, Portrait, Reach};
 
-/// A gap between right turning points.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Gap {
-    /// Its upper end.
-    pub to: f64,
-    pub fate: Fate,
-    /// Fate of a motion that turns exactly at the upper end.
-    pub end: Fate,
+impl Portrait {
+    /// The portrait of any machine by its return map.
+    ///
+    /// # Errors
+    /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
+    pub fn by_return_map(model: &Model) -> Result<Self, Reason> {
+        let mut flow = Flow::new(model);
+        let landmarks = flow.landmarks()?;
+        let mut portrait = Portrait { landmarks, known: 0.0, ..Portrait::blank(model) };
+        let marks = fixed_points(&mut flow, &mut portrait)?;
+        let ways = ways(&mut flow, &marks, portrait.known)?;
+        for (place, (x, divide)) in marks.iter().enumerate() {
+            let Divide::Cycle(image) = divide else { continue };
+            let attracts =
+                ways[place] == Ok(Ordering::Greater) && ways[place + 1] == Ok(Ordering::Less);
+            let stable = image.sticks_from.is_some() || attracts;
+            portrait.cycles.push(flow.describe(*x, image, stable)?);
+        }
+        portrait.gaps = gaps(&marks, &ways, portrait.stop);
+        portrait.settle_border(&mut flow, &marks)?;
+        portrait.cost = flow.cost();
+        Ok(portrait)
+    }
+
+    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Divide)]) -> Result<(), Reason> {
+        let Some(first) = self.gaps.first() else { return Ok(()) };
+        let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
+        if let Fate::Unknown(stop) = first.fate {
+            return Err(stop);
+        }
+        let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
+        let divide = last.checked_sub(1).and_then(|last| marks.get(last));
+        let landmarks = self.landmarks.as_ref();
+        if last == 0 {
+            self.border = Border::NoBasin;
+            self.reach = Some(Reach::default());
+        } else if let Some((x, mark)) = divide.filter(|_| last < self.gaps.len()) {
+            flow.follows = true;
+            let (curve, left) = match mark {
+                Divide::Cycle(image) => {
+                    self.border = Border::Cycle;
+                    let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
+                    flow.around(*x, slips)?
+                }
+                Divide::Jump => flow.jump_border(*x, landmarks)?,
+                Divide::Capture => flow.capture_border(*x, landmarks)?,
+            };
+            if !matches!(mark, Divide::Cycle(_)) {
+                let touches = curve.steps.iter().any(|step| step.place == ContactState::Sticks);
+                self.border = if touches { Border::Grazing } else { Border::Capture };
+            }
+            let edge = Edge::Curve(curve);
+            let velocity = self.kept_within(&edge, 0.0);
+            self.reach = Some(Reach { displacement: (*x, -left), velocity });
+            self.borders.push(edge);
+        } else if let Some(stop) = self.open_end() {
+            self.border = Border::Unknown(stop);
+            self.reach = Some(self.covered(0.0));
+        }
+        self.margin = self.margin_within(self.model.guide_static, self.model.mass);
+        Ok(())
+    }
+
+    /// What hides a border farther out, where none was met.
+    fn open_end(&self) -> Option<Reason> {
+        let Model { omega_0, speed, .. } = self.model;
+        let slip = (speed - self.model.least_velocity()) * omega_0;
+        let ends = self.model.law_ends().then_some(Reason::BeyondLaw { slip });
+        let hides = |stop: &Reason| !matches!(stop, Reason::Escapes | Reason::Settles);
+        self.stop.filter(hides).or(ends)
+    }
 }
 
 /// The direction of motions in a gap: outward if they grow, and neither way if they are periodic; or why they leave
 /// the known range.
-pub(crate) type Tendency = Result<Ordering, Reason>;
+type Tendency = Result<Ordering, Reason>;
 
 /// The direction of motions in each gap.
-pub(crate) fn ways(flow: &mut Flow, found: &FixedPoints) -> Result<Vec<Tendency>, Reason> {
-    let mut ways = Vec::with_capacity(found.divides.len() + 1);
+fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tendency>, Reason> {
+    let mut ways = Vec::with_capacity(marks.len() + 1);
     let mut low = flow.model.guide_static;
-    for mark in found.divides.iter().map(Some).chain([None]) {
+    for mark in marks.iter().map(Some).chain([None]) {
         if let Some((x, Divide::Capture)) = mark {
             ways.push(Ok(Ordering::Less));
             low = *x;
             continue;
         }
-        let end = if found.end > low { found.end } else { 2.0 * low };
-        let high = mark.map_or(end, |(x, _)| *x);
+        let beyond = if end > low { end } else { 2.0 * low };
+        let high = mark.map_or(beyond, |(x, _)| *x);
         let x = low + 0.5 * (high - low);
         ways.push(match flow.returned(x) {
             Ok(MachineReturn::Turns(image)) => {
@@ -51,8 +117,7 @@ pub(crate) fn ways(flow: &mut Flow, found: &FixedPoints) -> Result<Vec<Tendency>
 }
 
 /// The fate of each gap.
-pub(crate) fn gaps(found: &FixedPoints, ways: &[Tendency]) -> Vec<Gap> {
-    let marks = &found.divides;
+fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Reason>) -> Vec<Gap> {
     let is_cycle = |(_, divide): &&(f64, Divide)| matches!(divide, Divide::Cycle(_));
     let cycle = |mark: usize| Fate::Cycle(marks[..mark].iter().filter(is_cycle).count());
     let fate = |gap: usize| {
@@ -66,7 +131,7 @@ pub(crate) fn gaps(found: &FixedPoints, ways: &[Tendency]) -> Vec<Gap> {
                 Ok(Ordering::Less) => (here - 1, here - 1),
             };
             match marks.get(mark) {
-                None => return found.stop.map_or(Fate::Escapes, Fate::Unknown),
+                None => return stop.map_or(Fate::Escapes, Fate::Unknown),
                 Some((_, Divide::Cycle(_))) => return cycle(mark),
                 // Motions continue across a jump: the map rises there and never sends them back.
                 Some((_, Divide::Jump | Divide::Capture)) => here = next,

@@ -66,7 +66,8 @@ impl Flow<'_> {
     }
 
     /// An arc below the belt's line that may settle: it then ends at the equilibrium of its phase, where nothing
-    /// accelerates it. Fails with [`Reason`] as [`Flow::arc`].
+    /// accelerates it. Backward between rest and the belt's speed, it ends at the left turning point from which a motion
+    /// comes; where there is none, at the edge of what the guide holds. Fails with [`Reason`] as [`Flow::arc`].
     fn settling_arc(
         &mut self,
         phase: Phase,
@@ -117,18 +118,6 @@ impl Flow<'_> {
             overtakes_from: None,
         }))
     }
-
-    /// The left turning point from which a motion between rest and the belt's speed reaches `(x, y)`; where
-    /// there is none, the edge of what the guide holds. Fails with [`Reason`] where the friction law ends or the
-    /// steps run out.
-    pub fn left_before(
-        &mut self,
-        x: f64,
-        y: f64,
-        watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<f64, Reason> {
-        Ok(self.settling_arc(Phase::Between, (x, y), true, watch)?.x)
-    }
 }
 
 // The special motions at the belt's line: those that touch it, are released by it, or overtake it.
@@ -175,7 +164,8 @@ impl Flow<'_> {
                 Err(Reason::Settles) => None,
                 Err(stop) => return Err(stop),
             };
-        let low_left = self.left_before(lines.low, model.speed, &mut |_| {})?;
+        let low_left =
+            self.settling_arc(Phase::Between, (lines.low, model.speed), true, &mut |_| {})?.x;
         let beyond = self.beyond(&lines, low_left)?;
         Ok(Some(Landmarks { lines, grazing, released, low_left, beyond }))
     }
@@ -184,7 +174,7 @@ impl Flow<'_> {
         let (guide, speed) = (self.model.guide, self.model.speed);
         let mut divergence = 0.0;
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
-        let left = self.left_before(lines.fold, speed, &mut add)?;
+        let left = self.settling_arc(Phase::Between, (lines.fold, speed), true, &mut add)?.x;
         // If overdamped, it comes to rest without another turn.
         let start = (lines.fold, speed);
         let after = self.settling_arc(Phase::Between, start, false, &mut add)?.x;
@@ -206,9 +196,11 @@ impl Flow<'_> {
         // The last motion that comes down on the band is followed back to where it rose above the line.
         let rose = self.arc(Phase::Above, (lines.release, speed), true, &mut |_| {});
         let Some(rose) = if_any(rose)? else { return Ok(None) };
-        let falls_short = rose.x >= lines.low;
-        let left =
-            if falls_short { low_left } else { self.left_before(rose.x, speed, &mut |_| {})? };
+        let mut left = low_left;
+        if rose.x < lines.low {
+            let start = (rose.x, speed);
+            left = self.settling_arc(Phase::Between, start, true, &mut |_| {})?.x;
+        }
         let right = if_any(self.right_before(left, &mut |_| {}))?.flatten();
         Ok(right.map(|right| right.x))
     }
@@ -242,7 +234,7 @@ impl Flow<'_> {
         let mut curve = MachineCurve::default();
         let corner =
             if Some(x) == marks.grazing.right { marks.lines.fold } else { marks.lines.low };
-        let left = self.left_before(corner, speed, &mut curve.keeper())?;
+        let left = self.settling_arc(Phase::Between, (corner, speed), true, &mut curve.keeper())?.x;
         let left = left.min(-self.model.guide_static);
         self.arc(Phase::Below, (left, 0.0), true, &mut curve.keeper())?;
         let mut end = self.arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;
@@ -266,7 +258,9 @@ impl Flow<'_> {
         if let Some(Landmarks { lines, .. }) = landmarks.filter(|_| end.is_on_belt()) {
             let speed = self.model.speed;
             curve.steps.push(MachineStep::ride(lines.fold, end.x, speed));
-            left = self.left_before(lines.fold, speed, &mut curve.keeper())?;
+            left = self
+                .settling_arc(Phase::Between, (lines.fold, speed), true, &mut curve.keeper())?
+                .x;
         }
         left = left.min(-self.model.guide_static);
         self.settling_arc(Phase::Below, (left, 0.0), true, &mut curve.keeper())?;
