@@ -61,9 +61,8 @@ pub fn harmonic_balance(
     points: usize,
     limits: &Limits,
 ) -> Result<HarmonicBalance, Reason> {
-    let (exact, cost, unknown) = match cycles(parameters, limits) {
+    let (exact, cost, unknown) = match Reason::tolerated(cycles(parameters, limits))? {
         Ok(found) => (found.cycles, found.cost, None),
-        Err(Reason::Interrupted) => return Err(Reason::Interrupted),
         Err(reason) => (Vec::new(), Cost::default(), Some(reason)),
     };
     let balance = compare(parameters, &exact, harmonics, points, limits)?;
@@ -93,9 +92,7 @@ fn compare(
 ) -> Result<HarmonicBalance, Reason> {
     let balance = |first: Harmonic| {
         let cycle = harmonic_cycle(parameters, &first, harmonics, limits.interrupted);
-        if cycle == Err(Reason::Interrupted) {
-            return Err(Reason::Interrupted);
-        }
+        let cycle = Reason::tolerated(cycle)?;
         let error = cycle.as_ref().ok().and_then(|cycle| error(cycle, exact));
         let curve = match &cycle {
             Ok(cycle) if points > 0 => cycle.curve(points),

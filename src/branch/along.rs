@@ -445,12 +445,8 @@ fn polished(curve: &CycleCurve, place: &CurvePlace) -> Result<(Option<Cycle>, Co
     let mut equation = Equation::on_side(&parameters, side, STEP, curve.limits);
     let sharp = POLISHED * curve.tolerance;
     let closing = polish_near(&mut equation, place.u, place.log_multiplier, sharp);
-    let cycle = match closing {
-        Err(Reason::Interrupted) => return Err(Reason::Interrupted),
-        Ok(Some(closing)) => Some(closing.describe(&parameters, side)),
-        Ok(None) | Err(_) => None,
-    };
-    Ok((cycle, equation.cost()))
+    let closing = Reason::tolerated(closing)?.ok().flatten();
+    Ok((closing.map(|closing| closing.describe(&parameters, side)), equation.cost()))
 }
 
 /// The branch of the piecewise linear oscillator over D, from its closed form.

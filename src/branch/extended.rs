@@ -141,11 +141,7 @@ impl System<'_> {
         equation.want_fastest(true);
         let closing = equation.at(Route::Mixed, u);
         self.cost += equation.cost();
-        let closing = match closing {
-            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
-            Err(_) => return Ok(None),
-            Ok(closing) => closing,
-        };
+        let Ok(closing) = Reason::tolerated(closing)? else { return Ok(None) };
         let (f, g) = (closing.node.value(), closing.growth[0] + closing.growth[1]);
         let slope = closing.node.slope;
         let finite = f.is_finite() && g.is_finite() && slope.is_finite();

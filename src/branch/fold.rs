@@ -146,12 +146,9 @@ pub fn border(
     for index in 0..count {
         let value = between(range, index, count);
         let here = parameters.with(second, value);
-        let found = fold(&here, limits);
-        let escape = escape_point(&here, limits);
+        let found = Reason::tolerated(fold(&here, limits))?;
+        let escape = Reason::tolerated(escape_point(&here, limits))?;
         let reason = found.as_ref().err().or(escape.as_ref().err()).copied();
-        if reason == Some(Reason::Interrupted) {
-            return Err(Reason::Interrupted);
-        }
         let (fold, cost) = found.unwrap_or_default();
         let (escape, further) = escape.unwrap_or_default();
         border.cost += cost;
@@ -183,10 +180,7 @@ fn grazing(
     limits: &Limits,
     cost: &mut Cost,
 ) -> Result<Option<FoldPoint>, Reason> {
-    match grazing_cycle(parameters, limits, cost) {
-        Err(Reason::Interrupted) => Err(Reason::Interrupted),
-        found => Ok(found.unwrap_or_default()),
-    }
+    Ok(Reason::tolerated(grazing_cycle(parameters, limits, cost))?.unwrap_or_default())
 }
 
 /// The same, or the [`Reason`] why a swing could not be computed.

@@ -137,6 +137,17 @@ impl serde::Serialize for Reason {
 }
 
 impl Reason {
+    /// What came of an attempt that may fail: only an interruption ends whatever it was for.
+    ///
+    /// # Errors
+    /// [`Reason::Interrupted`], and no other.
+    pub fn tolerated<T>(attempt: Result<T, Reason>) -> Result<Result<T, Reason>, Reason> {
+        match attempt {
+            Err(Reason::Interrupted) => Err(Reason::Interrupted),
+            attempt => Ok(attempt),
+        }
+    }
+
     /// Whether a machine itself is at fault, and not what it takes to compute its motions.
     #[must_use]
     pub fn is_of_the_machine(&self) -> bool {

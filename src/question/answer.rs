@@ -236,10 +236,10 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason
         Request::Proof { parameters } => {
             Finding::Proof(prove(&ParameterBox::from(parameters), &[]))
         }
-        Request::Reference(problem) => match Reference::of(problem, &limits.up_to(REFERENCE)) {
-            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
-            found => Finding::Reference(found.map(Box::new)),
-        },
+        Request::Reference(problem) => {
+            let found = Reference::of(problem, &limits.up_to(REFERENCE));
+            Finding::Reference(Reason::tolerated(found)?.map(Box::new))
+        }
     })
 }
 

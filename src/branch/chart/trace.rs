@@ -144,8 +144,7 @@ impl Tracer<'_> {
         } else {
             self.boundaries_at_d(&here)
         };
-        let (boundaries, failure) = match boundaries {
-            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+        let (boundaries, failure) = match Reason::tolerated(boundaries)? {
             Err(reason) => ([None; 2], Some(reason)),
             Ok(boundaries) => (boundaries, None),
         };

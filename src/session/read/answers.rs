@@ -85,9 +85,7 @@ impl Session {
     pub fn proof(&self) -> Option<&Proof> {
         last!(self, Proof, self.plot).filter(|_| !self.is_stale(Topic::Proof, self.plot))
     }
-}
 
-impl Session {
     /// The fit of the record on show with the held numbers; until it is there, the most similar one.
     pub fn fitted(&self) -> Option<&Fitted> {
         // With the distribution of the margin once that is there.
