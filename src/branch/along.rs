@@ -370,9 +370,8 @@ impl CurveTracer<'_> {
             let (places, curve) = (self.curve.spread(points, count.max(2))?, &self.curve);
             let polished = places.par_iter().map(|place| polished(curve, place));
             let polished: Vec<_> = polished.collect::<Result<_, _>>()?;
-            for (place, (cycle, cost)) in places.iter().zip(polished) {
-                self.curve.cost += cost;
-                match cycle {
+            for (place, polished) in places.iter().zip(polished) {
+                match self.curve.cost.spend(polished) {
                     Some(cycle) => piece.push(BranchPoint { value: place.p, cycle }),
                     None => self.found.vague.push(place.p),
                 }
@@ -408,17 +407,13 @@ impl CurveTracer<'_> {
         let parameters = self.curve.parameters_at(0.0);
         self.hopf(parameters.r);
         let values = match self.found.parameter {
-            Knob::D => {
-                let (value, cost) = escape_point(&parameters, self.curve.limits)?;
-                self.found.cost += cost;
-                [value, None]
-            }
+            Knob::D => [self.found.cost.spend(escape_point(&parameters, self.curve.limits)?), None],
             Knob::D2 | Knob::R if parameters.d3 == 0.0 => {
                 // Only the product of friction and asymmetric damping matters.
                 let other =
                     if self.found.parameter == Knob::R { parameters.d2 } else { parameters.r };
-                let (product, cost) = escape_product(parameters.d, self.curve.limits)?;
-                self.found.cost += cost;
+                let product = escape_product(parameters.d, self.curve.limits)?;
+                let product = self.found.cost.spend(product);
                 let value = product.map(|product| product / other.abs());
                 [value, value.filter(|_| self.found.parameter == Knob::D2).map(|value| -value)]
             }

@@ -64,9 +64,7 @@ pub fn fold_within(
     let limits = &limits.up_to(BUDGET);
     let mut cost = Cost::default();
     if let Some(guess) = FoldGuess::in_damping(parameters) {
-        let (found, spent) = fold_near(&guess, Knob::D, tolerance, limits)?;
-        cost += spent;
-        if let Some(found) = found {
+        if let Some(found) = cost.spend(fold_near(&guess, Knob::D, tolerance, limits)?) {
             let FoldCycle { closing, parameters, side, .. } = found;
             return Ok((Some(FoldPoint::of(&closing, &parameters, side)), cost));
         }
@@ -80,8 +78,7 @@ pub fn fold_within(
     {
         return Ok((Some(point), cost));
     }
-    let (met, spent) = highest_cycle(parameters, tolerance, limits);
-    cost += spent;
+    let met = cost.spend(highest_cycle(parameters, tolerance, limits));
     let lost = match &met {
         Ok((met, log_multiplier)) => {
             met.d < -1.0 && (log_multiplier.is_nan() || log_multiplier.abs() >= 1.0)
@@ -149,10 +146,8 @@ pub fn border(
         let found = Reason::tolerated(fold(&here, limits))?;
         let escape = Reason::tolerated(escape_point(&here, limits))?;
         let reason = found.as_ref().err().or(escape.as_ref().err()).copied();
-        let (fold, cost) = found.unwrap_or_default();
-        let (escape, further) = escape.unwrap_or_default();
-        border.cost += cost;
-        border.cost += further;
+        let fold = border.cost.spend(found.unwrap_or_default());
+        let escape = border.cost.spend(escape.unwrap_or_default());
         border.points.push(BoundaryPoint {
             value,
             fold,

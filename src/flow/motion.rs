@@ -248,6 +248,14 @@ pub struct Cost {
     pub rejected: u64,
 }
 
+impl Cost {
+    /// Adds what something took, and returns what it found.
+    pub fn spend<T>(&mut self, (found, spent): (T, Cost)) -> T {
+        *self += spent;
+        found
+    }
+}
+
 impl std::ops::AddAssign for Cost {
     fn add_assign(&mut self, other: Self) {
         self.evaluations += other.evaluations;

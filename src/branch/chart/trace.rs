@@ -161,8 +161,8 @@ impl Tracer<'_> {
 
     /// The fold next to a guess, while `symbol` varies.
     fn fold_near(&mut self, guess: &FoldGuess, symbol: Knob) -> Result<Option<Parameters>, Reason> {
-        let (found, cost) = fold_near(guess, symbol, self.resolution.tolerance, self.limits)?;
-        self.cost += cost;
+        let found = fold_near(guess, symbol, self.resolution.tolerance, self.limits)?;
+        let found = self.cost.spend(found);
         self.known = found.or(self.known);
         Ok(found.map(|found| found.parameters))
     }
@@ -174,9 +174,9 @@ impl Tracer<'_> {
         {
             return Ok(found.d);
         }
-        let (found, cost) = fold_within(parameters, self.resolution.tolerance, self.limits)?;
-        self.cost += cost;
-        found
+        let found = fold_within(parameters, self.resolution.tolerance, self.limits)?;
+        self.cost
+            .spend(found)
             .map(|found| found.d)
             .ok_or(Reason::NoConvergence { sought: "the fold", change: f64::NAN })
     }
@@ -190,7 +190,7 @@ impl Tracer<'_> {
             return Ok([None; 2]);
         }
         if here.d3 == 0.0 {
-            let escape = self.escape(here)?;
+            let escape = self.cost.spend(escape_point(here, self.limits)?);
             return Ok([None, escape.or(Some(f64::NEG_INFINITY))]);
         }
         let strong = harmonic::fold(here.d3, here.r).is_none_or(|fold| fold.d < DOUBTFUL)
@@ -219,7 +219,8 @@ impl Tracer<'_> {
                 return nowhere;
             }
             // As D3 goes to 0 the fold goes to D_c: if that lies below D, so do all folds.
-            let least = self.escape(&Parameters { d3: 0.0, ..*here })?;
+            let without = Parameters { d3: 0.0, ..*here };
+            let least = self.cost.spend(escape_point(&without, self.limits)?);
             let none = d2 != 0.0 && least.is_none_or(|least| d >= least);
             let fold = if none { Some(0.0) } else { self.seek(here)? };
             return Ok([fold, None]);
@@ -229,19 +230,11 @@ impl Tracer<'_> {
         }
         if d3 == 0.0 && d2 != 0.0 && d > -1.0 {
             // D_c depends on r D2 alone.
-            let (product, cost) = escape_product(d, self.limits)?;
-            self.cost += cost;
+            let product = self.cost.spend(escape_product(d, self.limits)?);
             let lost = Reason::NoConvergence { sought: "the escape point", change: f64::NAN };
             return Ok([None, Some(product.ok_or(lost)? / d2.abs())]);
         }
         nowhere
-    }
-
-    /// `D_c`.
-    fn escape(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
-        let (found, cost) = escape_point(here, self.limits)?;
-        self.cost += cost;
-        Ok(found)
     }
 
     /// The value along the line at which the fold is at the line's D; infinite where none is.

@@ -26,13 +26,11 @@ impl Cells<'_> {
             (Measure::Margin, Oscillator(problem)) => self.basin_of(&problem.parameters)?,
             (Measure::Proved, Oscillator(problem)) => self.proof_of(&problem.parameters)?,
             (Measure::Fold, Oscillator(problem)) => {
-                let (found, cost) = fold(&problem.parameters, limits)?;
-                self.cost += cost;
+                let found = self.cost.spend(fold(&problem.parameters, limits)?);
                 self.fill(Measure::Fold, || found.into_iter().flat_map(|it| [it.d, it.q_max]));
             }
             (Measure::Escape, Oscillator(problem)) => {
-                let (found, cost) = escape_point(&problem.parameters, limits)?;
-                self.cost += cost;
+                let found = self.cost.spend(escape_point(&problem.parameters, limits)?);
                 self.fill(Measure::Escape, || found);
             }
             (Measure::Guaranteed, Oscillator(problem)) => {
@@ -52,11 +50,8 @@ impl Cells<'_> {
             (Measure::Design, source) => {
                 let Some((kick, wanted)) = conditions.wanted else { return Ok(()) };
                 let needed = match source {
-                    Oscillator(problem) => {
-                        let (needed, cost) =
-                            friction_for(&problem.parameters, kick, wanted, limits)?;
-                        self.cost += cost;
-                        needed
+                    Oscillator(Problem { parameters, .. }) => {
+                        self.cost.spend(friction_for(parameters, kick, wanted, limits)?)
                     }
                     Machine(problem) => {
                         let MachineProblem { subject, tolerances, .. } = &**problem;
