@@ -61,12 +61,13 @@ impl Cells<'_> {
                 };
                 self.fill(Measure::Design, || [needed.least().unwrap_or(0.0)]);
             }
+            // Without friction there is no set of places to rest.
+            (Measure::Repeated, Oscillator(problem)) if problem.parameters.r == 0.0 => {}
             (Measure::Repeated, source) => {
                 if let Oscillator(Problem { parameters, .. }) = source {
                     let reach = conditions.kicks.reach() + parameters.r;
                     self.portrait = Some(Portrait::of_oscillator(parameters, reach, limits)?);
                 }
-                // Without friction there is no set of places to rest.
                 let held = |found: &&Portrait| found.model.guide_static > 0.0;
                 let Some(portrait) = self.portrait.as_ref().filter(held) else { return Ok(()) };
                 let found = repeated(portrait, &conditions.kicks, limits)?;
