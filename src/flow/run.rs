@@ -38,16 +38,15 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     }
 
     /// Ends the run without an answer.
-    pub fn give_up(mut self, reason: Reason) -> Trajectory<N> {
-        self.found.outcome = self.gives_up(reason);
-        self.found
+    pub fn give_up(self, reason: Reason) -> Trajectory<N> {
+        self.close(Err(reason), Cost::default())
     }
 
     /// Follows the motion until it ends.
     pub fn go<S: Stepper<HalfPlane, N>>(mut self, stepper: &mut S) -> Trajectory<N> {
         let Problem { parameters, initial, .. } = self.found.problem;
         let outcome = match Side::entered_from(initial, parameters.r) {
-            None => self.rests(),
+            None => Ok(self.rests()),
             Some(_) if parameters.r == 0.0 && !self.detail.crossings => {
                 let field = HalfPlane::new(&parameters, Side::Upper);
                 self.glide(stepper, &field, |_, _, _| None)
@@ -58,8 +57,10 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     }
 
     /// The motion with its outcome, cost and energy ledger.
-    fn close(mut self, outcome: Outcome<N>, cost: Cost) -> Trajectory<N> {
+    fn close(mut self, outcome: Result<Outcome<N>, Reason>, cost: Cost) -> Trajectory<N> {
         let Problem { parameters, initial, .. } = self.found.problem;
+        let outcome =
+            outcome.unwrap_or_else(|reason| Outcome::without_end(self.time.value(), reason));
         self.found.outcome = outcome;
         self.found.cost += cost;
         if self.detail.energy
@@ -85,11 +86,6 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         Outcome::Captured { tau: N::of(0.0), q: N::of(self.found.problem.initial.q) }
     }
 
-    /// The outcome of a motion that escapes, or is given up.
-    fn gives_up(&self, reason: Reason) -> Outcome<N> {
-        Outcome::without_end(self.time.value(), reason)
-    }
-
     /// One smooth motion on both sides of `v = 0`: there is no friction, or it is part of the field.
     ///
     /// `see` is called after each step, with the time at which it began, the exponent of its unit and the step; it may end
@@ -98,12 +94,12 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         &mut self,
         stepper: &mut S,
         field: &F,
-        mut see: impl FnMut(f64, i32, &Step<N>) -> Option<Outcome<N>>,
-    ) -> Outcome<N> {
+        mut see: impl FnMut(f64, i32, &Step<N>) -> Option<Result<Outcome<N>, Reason>>,
+    ) -> Result<Outcome<N>, Reason> {
         let Problem { initial: State { q, v }, until, .. } = self.found.problem;
         let (point, until) = (StepPoint { x: N::of(q), v: N::of(v) }, N::of(until));
         if until <= N::of(0.0) {
-            return Outcome::Moving { tau: until, q: point.x, v: point.v };
+            return Ok(Outcome::Moving { tau: until, q: point.x, v: point.v });
         }
         let mut ended = None;
         let see = |at: f64, unit: i32, step: &Step<N>| {
@@ -111,10 +107,8 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             ended.is_some()
         };
         let bound = (until, false);
-        match self.piece(stepper, field, (Side::Upper, 0.0), (point, 0), bound, see).0 {
-            Ok(point) => ended.unwrap_or_else(|| self.stopped(point)),
-            Err(reason) => self.gives_up(reason),
-        }
+        let point = self.piece(stepper, field, (Side::Upper, 0.0), (point, 0), bound, see).0?;
+        ended.unwrap_or_else(|| self.stopped(point))
     }
 
     /// Joins half swings, the first on `side`, until the motion ends.
@@ -122,7 +116,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         &mut self,
         mut side: Side,
         stepper: &mut S,
-    ) -> Outcome<N> {
+    ) -> Result<Outcome<N>, Reason> {
         let Problem { parameters, initial, until, .. } = self.found.problem;
         let (r, until, rest) = (parameters.r, N::of(until), N::of(0.0));
         let mut last = StepPoint { x: N::of(initial.q), v: N::of(initial.v) };
@@ -131,10 +125,10 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         loop {
             let remaining = self.time.until(until);
             if remaining <= rest {
-                return Outcome::Moving { tau: until, q: last.x, v: last.v };
+                return Ok(Outcome::Moving { tau: until, q: last.x, v: last.v });
             }
             if self.found.crossings.len() >= MOST_CROSSINGS {
-                return self.gives_up(Reason::HalfSwings { most: MOST_CROSSINGS });
+                return Err(Reason::HalfSwings { most: MOST_CROSSINGS });
             }
             let field = HalfPlane::new(&parameters, side);
             let sign = N::of(side.sign());
@@ -149,10 +143,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
                 let (from, bound) = ((point, unit), (remaining, true));
                 let (end, crossed) =
                     self.piece(stepper, &field, (side, r), from, bound, |_, _, _| false);
-                let StepPoint { x, v } = match end {
-                    Ok(end) => end,
-                    Err(reason) => return self.gives_up(reason),
-                };
+                let StepPoint { x, v } = end?;
                 q = side.displacement(x, r);
                 if !crossed {
                     return self.stopped(StepPoint { x: q, v: sign * v });
@@ -161,12 +152,12 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
                 (point.x, unit) = (N::of(2.0 * r) - x, 0);
             }
             if !q.value().is_finite() {
-                return self.gives_up(Reason::OutOfRange);
+                return Err(Reason::OutOfRange);
             }
             let tau = self.time.value();
             self.found.crossings.push(Crossing { tau, q });
             if point.x >= rest {
-                return Outcome::Captured { tau, q };
+                return Ok(Outcome::Captured { tau, q });
             }
             (last, point.v, side) = (StepPoint { x: q, v: rest }, rest, side.opposite());
         }
@@ -208,12 +199,10 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     }
 
     /// The motion at its end time.
-    fn stopped(&self, StepPoint { x: q, v }: StepPoint<N>) -> Outcome<N> {
-        if q.value().is_finite() && v.value().is_finite() {
-            Outcome::Moving { tau: N::of(self.found.problem.until), q, v }
-        } else {
-            self.gives_up(Reason::OutOfRange)
-        }
+    fn stopped(&self, StepPoint { x: q, v }: StepPoint<N>) -> Result<Outcome<N>, Reason> {
+        let is_finite = q.value().is_finite() && v.value().is_finite();
+        let tau = N::of(self.found.problem.until);
+        if is_finite { Ok(Outcome::Moving { tau, q, v }) } else { Err(Reason::OutOfRange) }
     }
 }
 
@@ -241,20 +230,16 @@ impl MotionRun<'_> {
                 crossings.push(Crossing { tau: at + part * step.duration, q });
             }
             if tau == at {
-                return Some(Outcome::without_end(
-                    tau,
-                    Reason::StepTooSmall { step: step.duration },
-                ));
+                return Some(Err(Reason::StepTooSmall { step: step.duration }));
             }
             if crossings.len() >= MOST_CROSSINGS {
-                let reason = Reason::HalfSwings { most: MOST_CROSSINGS };
-                return Some(Outcome::without_end(tau, reason));
+                return Some(Err(Reason::HalfSwings { most: MOST_CROSSINGS }));
             }
             let stays = sticks && rests(State { q: end.x, v: end.v }, parameters.r);
-            stays.then_some(Outcome::Captured { tau, q: end.x })
+            stays.then_some(Ok(Outcome::Captured { tau, q: end.x }))
         };
         let outcome = if sticks && rests(initial, parameters.r) {
-            self.rests()
+            Ok(self.rests())
         } else {
             self.glide(stepper, field, see)
         };
