@@ -27,6 +27,26 @@ impl Portrait {
     /// The portrait of the oscillator of the paper; `reach` is the largest displacement of interest, as far as which a
     /// separatrix is followed.
     ///
+    /// ```
+    /// use hopfscope::flow::{Fate, Limits};
+    /// use hopfscope::model::Parameters;
+    /// use hopfscope::portrait::Portrait;
+    ///
+    /// let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+    /// let found = Portrait::of_oscillator(&parameters, 3.0, &Limits::PATIENT)?;
+    /// assert_eq!(found.fate(0.2, 0.0), Ok(Fate::Rest));
+    /// assert_eq!(found.fate(0.3, 0.0), Ok(Fate::Cycle(1)));
+    ///
+    /// // A_q = r coth(x/2) with x = -pi D/sqrt(1 - D^2), for D2 = D3 = 0.
+    /// let (d, r): (f64, f64) = (-0.4, 0.1);
+    /// let linear = Parameters { d, d2: 0.0, d3: 0.0, r };
+    /// let found = Portrait::of_oscillator(&linear, 3.0, &Limits::PATIENT)?;
+    /// let x = -std::f64::consts::PI * d / (1.0 - d * d).sqrt();
+    /// let displacement = found.margin.displacement.unwrap();
+    /// assert!((displacement - r / (0.5 * x).tanh()).abs() < 1e-12);
+    /// # Ok::<(), hopfscope::flow::Reason>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Reason`] if the search for cycles fails, or a border cannot be traced.
     pub fn of_oscillator(

@@ -84,62 +84,62 @@ pub fn basin<'a>(
     certified: Option<&'a ProvedKicks>,
     seconds: f64,
 ) -> Answer<'a> {
-    let (border, margin) = (found.border, found.margin);
-    let (area, lyapunov) = (found.area(), found.lyapunov_share());
+    let (area, share) = (found.area(), found.lyapunov_share());
     let on_paper = !about.is_machine();
-    let captured = if on_paper {
-        Some(counts.captured_part())
+    let (captured, lines) = if on_paper {
+        (Some(counts.captured_part()), vec![cycles::border(found.border)])
     } else {
-        found.rest_share(window.q, window.v).map(|share| share.part)
+        let captured = found.rest_share(window.q, window.v).map(|share| share.part);
+        (captured, cycles::known(found))
     };
-    let lines = if on_paper { vec![cycles::border(border)] } else { cycles::known(found) };
     let ending = Quantity::pure(10).or("not known");
-    let enclosed = on_paper.then(|| {
-        Columns::default()
-            .number("area", Quantity::pure(10), move |_: &MarginRow| area)
-            .titled("area of the basin")
-    });
-    let share = on_paper.then(|| {
-        Columns::default()
-            .number("lyapunov_share", Quantity::pure(4), move |_| lyapunov)
-            .titled("Lyapunov's disk (24), a part of the margin")
-    });
+    let whole = Columns::default()
+        .number("area", Quantity::pure(10), move |_: &MarginRow| area)
+        .titled("area of the basin");
+    let known = Columns::default()
+        .number("lyapunov_share", Quantity::pure(4), move |_: &MarginRow| share)
+        .titled("Lyapunov's disk (24), a part of the margin");
     let proved = certified
         .map(|kicks| Columns::default().part("certified", kick_columns(), move |_| Some(kicks)));
-    let columns = Columns::default()
-        .text("starts of the window, smallest kicks not captured", |(name, _): &MarginRow| {
-            (*name).to_owned()
-        })
-        .word("captured", move |_| counts.captured)
-        .titled("starts that are captured")
-        .word("cycle", move |_| counts.cycle)
-        .titled("starts that end on a stable cycle")
-        .word("escaped", move |_| counts.escaped)
-        .titled("starts that escape")
-        .word("undecided", move |_| counts.undecided)
-        .titled("starts that stay undecided")
+    let columns = count_columns(counts)
         .and(margin_columns(about, 10))
-        .and(enclosed)
+        .and(on_paper.then_some(whole))
         .number("captured_part", ending, move |_| captured)
         .titled("part of the window that comes to rest")
-        .and(share)
+        .and(on_paper.then_some(known))
         .and(proved);
-    let row = ("", margin);
-    let too_large = lyapunov.is_some_and(|share| on_paper && share > 1.0);
+    let row = ("", found.margin);
+    let too_large = share.is_some_and(|share| on_paper && share > 1.0);
     about
         .answer()
         .lines(lines)
-        .with("edge", border)
+        .with("edge", found.border)
         .with("counts", counts)
-        .with("margin", margin)
+        .with("margin", found.margin)
         .with("captured", captured)
         .with_any("area", on_paper.then_some(area))
-        .with_any("lyapunov_share", on_paper.then_some(lyapunov))
+        .with_any("lyapunov_share", on_paper.then_some(share))
         .with_any("certified", certified.map(|it| kick_columns().object(&it)))
         .csv(columns.clone(), [row])
         .captioned("", move || columns.table([row]).transposed())
         .lines(too_large.then_some("Lyapunov's disk is too large, as it ignores D2 and D3"))
         .cost(found.cost, seconds)
+}
+
+/// The columns of where starts end, whatever the row.
+fn count_columns<'a>(counts: Counts) -> Columns<'a, MarginRow> {
+    let ends = [
+        ("captured", "starts that are captured", counts.captured),
+        ("cycle", "starts that end on a stable cycle", counts.cycle),
+        ("escaped", "starts that escape", counts.escaped),
+        ("undecided", "starts that stay undecided", counts.undecided),
+    ];
+    let heading = "starts of the window, smallest kicks not captured";
+    let columns = Columns::default().text(heading, |(name, _): &MarginRow| (*name).to_owned());
+    let one = |all: Columns<'a, MarginRow>, (name, title, count)| {
+        all.word(name, move |_| count).titled(title)
+    };
+    ends.into_iter().fold(columns, one)
 }
 
 /// What becomes of random kicks; `held` is the farthest place of rest on either side. The mean is null in a document if
