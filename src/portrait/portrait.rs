@@ -215,6 +215,26 @@ impl Portrait {
         Ok(self.fate_of_turn(x))
     }
 
+    /// The same for a motion that is told of: unknown where it leaves the law.
+    ///
+    /// # Errors
+    /// As for [`Self::fate`], for other reasons.
+    pub fn told_fate(&self, x: f64, v: f64) -> Result<Fate, Reason> {
+        self.fate(x, v).or_else(|stop| match stop {
+            Reason::BeyondLaw { .. } => Ok(Fate::Unknown(stop)),
+            stop => Err(stop),
+        })
+    }
+
+    /// The cycle that a motion of this fate tends to, if it does.
+    #[must_use]
+    pub fn tends_to(&self, fate: Fate) -> Option<&Cycle> {
+        match fate {
+            Fate::Cycle(index) => self.cycles.get(index),
+            _ => None,
+        }
+    }
+
     /// Whether the borders alone say where a start ends: there is no belt, and what the guide holds at rest it holds of
     /// every motion that turns there.
     fn orders_starts(&self) -> bool {

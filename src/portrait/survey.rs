@@ -52,10 +52,7 @@ impl Course {
     pub fn new(model: &Model, start: (f64, f64), until: f64) -> Result<Self, Reason> {
         let portrait = Portrait::of(model)?;
         let (x, v) = start;
-        let fate = match portrait.fate(x, v) {
-            Err(stop @ Reason::BeyondLaw { .. }) => Fate::Unknown(stop),
-            fate => fate?,
-        };
+        let fate = portrait.told_fate(x, v)?;
         let rest = (fate == Fate::Rest)
             .then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v), &Limits::PATIENT));
         let motion = follow_by_series(model, start, until);

@@ -3,7 +3,7 @@
 
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
-use crate::model::{Belt, Model, Parameters};
+use crate::model::{Belt, Parameters};
 use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, picture_reach, survey};
 
 /// What is known of a machine's motion beside its course.
@@ -25,11 +25,6 @@ pub struct WholeCycles {
     pub margins: [Margin; 2],
     /// Whether all slipping motions are periodic.
     pub neutral: bool,
-}
-
-/// A cycle in the units of the drawing.
-fn cycle(model: &Model, cycle: &Cycle) -> Cycle {
-    cycle.scaled(1.0 / model.pull, 1.0 / model.omega_0)
 }
 
 /// A motion with `between` points between the ends of each step: of the paper's oscillator, or of a machine by the whole
@@ -63,16 +58,10 @@ pub fn motion(
         found.ledger = follow(&model, &by_series, MotionUnits::of_paper(&model), detail).ledger;
     }
     let (x, v) = (problem.initial.q * model.pull, problem.initial.v * model.pull * model.omega_0);
-    let fate = match portrait.fate(x, v) {
-        Err(stop @ Reason::BeyondLaw { .. }) => Fate::Unknown(stop),
-        fate => fate?,
-    };
-    let tends = match fate {
-        Fate::Cycle(index) => portrait.cycles.get(index),
-        _ => None,
-    };
-    let course =
-        WholeMotion { fate, cycle: tends.map(|it| cycle(&model, it)), border: portrait.border };
+    let fate = portrait.told_fate(x, v)?;
+    let scaled = |it: &Cycle| it.scaled(1.0 / model.pull, 1.0 / model.omega_0);
+    let cycle = portrait.tends_to(fate).map(scaled);
+    let course = WholeMotion { fate, cycle, border: portrait.border };
     Ok((found, Some(Box::new(course))))
 }
 

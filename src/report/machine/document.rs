@@ -189,14 +189,12 @@ fn expanded(cycle: &Cycle, expansion: &CubicExpansion, portrait: &Portrait) -> D
         .with("dimensionless", cycle)
 }
 
-/// The numbers of a cycle, less those of another.
+/// The extremes and the period of a cycle, less those of another.
 fn numbers(cycle: &Cycle, other: &Cycle) -> Document {
-    Document::default()
-        .with("x_min", cycle.q_min - other.q_min)
-        .with("x_max", cycle.q_max - other.q_max)
-        .with("v_min", cycle.v_min - other.v_min)
-        .with("v_max", cycle.v_max - other.v_max)
-        .with("period", cycle.period - other.period)
+    of_machine().take(5).fold(Document::default(), |all, number| {
+        let both = (number.value)(cycle).zip((number.value)(other));
+        all.with(&number.physical_name(), both.map(|(own, other)| own - other))
+    })
 }
 
 /// A margin of the expansion with its differences to that of the whole model, in SI units and dimensionless.

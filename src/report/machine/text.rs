@@ -1,7 +1,7 @@
 //! The answer about a machine in sentences.
 
 use super::{DesignAnswer, MachineAnswer, OnBelt, excess, in_units};
-use crate::flow::{Fate, Sample, Trajectory};
+use crate::flow::{Sample, Trajectory};
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::{Course, CubicExpansion, FrictionNeeded, Kick, Margin, Portrait};
 use crate::report::answer::{PLACES, interval};
@@ -164,10 +164,7 @@ pub(super) fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 /// How the motion ends, in a sentence.
 fn fate((x, v): (f64, f64), course: &Course) -> String {
     let (x, v) = (with_unit(x, PLACES, "m"), with_unit(v, PLACES, "m/s"));
-    let cycle = match course.fate {
-        Fate::Cycle(index) => course.portrait.cycles.get(index),
-        _ => None,
-    };
+    let cycle = course.portrait.tends_to(course.fate);
     let time = course.motion.outcome.rest().ok().flatten();
     let end = of_machine(course.fate, [course.rest, time], cycle, "", PLACES);
     let by = course.second.as_ref().map_or_else(String::new, |second| by(second, course));
