@@ -3,6 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::basin::orbit::Orbit;
+use super::cycle::Cycle;
 use crate::flow::Reason;
 use crate::flow::machine::curve::MachineCurve;
 use crate::model::{Parameters, State};
@@ -53,14 +54,14 @@ impl Border {
     }
 
     /// What borders the basin: the innermost cycle, else a separatrix where motions can escape.
-    pub fn around(parameters: &Parameters, stable: &[bool]) -> Self {
+    pub fn around(parameters: &Parameters, cycles: &[Cycle]) -> Self {
         let self_excited_node = parameters.d <= -1.0 && parameters.r > 0.0;
         // Without friction a rest that repels has no basin, and nothing borders it.
         let repels = parameters.r == 0.0 && parameters.d < 0.0;
         let escapes = parameters.d3 == 0.0 && parameters.d2 != 0.0 && !repels;
         // Positive cubic damping bounds every motion: where no cycle is left for it, it comes to rest.
         let bounded = parameters.d3 > 0.0;
-        match stable.first() {
+        match cycles.first().map(|cycle| cycle.stable) {
             Some(false) => Border::Cycle,
             Some(true) if !self_excited_node => Border::None,
             None if bounded || !(escapes || self_excited_node) => Border::None,

@@ -5,12 +5,13 @@
 //! of the turning point where damping is nearly critical.
 
 use super::basin::arc::Arc;
+use super::basin::cycle::described;
 use super::basin::orbit::Orbit;
 use super::closing::all::{STEP, all_closings};
-use super::closing::equation::{Equation, first_side};
+use super::closing::equation::Equation;
 use super::closing::pair::Closing;
 use super::portrait::Portrait;
-use super::{Border, Edge, Reach};
+use super::{Border, Cycle, Edge, Reach};
 use crate::closed_form::harmonic::is_centre;
 use crate::flow::{Fate, Limits, Reason};
 use crate::model::{Model, Parameters};
@@ -82,10 +83,8 @@ impl Portrait {
         reach: f64,
         limits: &Limits,
     ) -> Result<Self, Reason> {
-        let side = first_side(parameters);
-        let stable: Vec<bool> =
-            found.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
-        let border = Border::around(parameters, &stable);
+        let cycles = described(parameters, found);
+        let border = Border::around(parameters, &cycles);
         let mut orbits = Vec::new();
         let mut fates = Vec::new();
         if border == Border::Separatrix {
@@ -93,12 +92,11 @@ impl Portrait {
             fates.push(if is_centre(parameters) { Fate::Neutral } else { Fate::Rest });
         }
         for closing in found {
-            orbits.push(Orbit::of_cycle(parameters, side, closing, limits)?);
+            orbits.push(Orbit::of_cycle(parameters, closing, limits)?);
         }
-        fates.extend(fates_between(parameters, &stable, fates.is_empty()));
-        let describe = |closing: &Closing| closing.describe(parameters, side);
-        let cycles = found.iter().map(|closing| describe(closing).scaled(1.0, model.omega_0));
-        let blank = Portrait { cycles: cycles.collect(), border, fates, ..Portrait::blank(model) };
+        fates.extend(fates_between(parameters, &cycles, fates.is_empty()));
+        let cycles = cycles.iter().map(|cycle| cycle.scaled(1.0, model.omega_0)).collect();
+        let blank = Portrait { cycles, border, fates, ..Portrait::blank(model) };
         Ok(Portrait { followed: reach, ..blank.parted(orbits) })
     }
 
@@ -166,10 +164,10 @@ pub(crate) fn of_paper(parameters: &Parameters) -> Result<Model, Reason> {
 
 /// The fates of the regions that nested cycles make, from the inside out. A separatrix may already have
 /// taken the sticking set's own region.
-fn fates_between(parameters: &Parameters, stable: &[bool], with_centre: bool) -> Vec<Fate> {
+fn fates_between(parameters: &Parameters, cycles: &[Cycle], with_centre: bool) -> Vec<Fate> {
     let within = |outer: usize| {
-        let inner = outer.checked_sub(1).and_then(|inner| stable.get(inner));
-        match (inner, stable.get(outer)) {
+        let stable = |index: usize| cycles.get(index).map(|cycle| cycle.stable);
+        match (outer.checked_sub(1).and_then(stable), stable(outer)) {
             (None, Some(true)) if parameters.r > 0.0 && with_centre => Fate::Rest,
             (_, Some(true)) => Fate::Cycle(outer),
             (None, Some(false)) => Fate::Rest,
@@ -178,7 +176,7 @@ fn fates_between(parameters: &Parameters, stable: &[bool], with_centre: bool) ->
             (Some(_), _) => Fate::Cycle(outer - 1),
         }
     };
-    (0..=stable.len()).map(within).collect()
+    (0..=cycles.len()).map(within).collect()
 }
 
 /// The fate of the whole plane where nothing parts it, and next to rest.

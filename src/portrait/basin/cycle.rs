@@ -20,7 +20,7 @@ use crate::flow::{Cost, Flow, Limits, Reason};
 use crate::model::{Ledger, Model, Parameters, Side, State};
 use crate::numerics::elementary::exp;
 use crate::portrait::closing::all::{STEP, all_closings};
-use crate::portrait::closing::equation::Equation;
+use crate::portrait::closing::equation::{Equation, first_side};
 use crate::portrait::closing::pair::{Closing, share};
 use crate::portrait::portrait::Portrait;
 use crate::portrait::{Border, Cycle, CycleErrors, Edge, Margin};
@@ -64,17 +64,16 @@ pub(crate) fn cycles_and_closings(
 ) -> Result<(Cycles, Vec<Closing>), Reason> {
     let mut equation = Equation::new(parameters, STEP, limits);
     let closings = all_closings(&mut equation)?;
-    let describe = |closing: &Closing| closing.describe(parameters, equation.side);
-    let stable: Vec<bool> =
-        closings.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
-    let answer = Cycles {
-        parameters: *parameters,
-        cycles: closings.iter().map(describe).collect(),
-        border: Border::around(parameters, &stable),
-        picture: None,
-        cost: equation.cost(),
-    };
-    Ok((answer, closings))
+    let cycles = described(parameters, &closings);
+    let border = Border::around(parameters, &cycles);
+    let (parameters, cost) = (*parameters, equation.cost());
+    Ok((Cycles { parameters, cycles, border, picture: None, cost }, closings))
+}
+
+/// The cycles that these closed pairs of half swings are.
+pub(crate) fn described(parameters: &Parameters, found: &[Closing]) -> Vec<Cycle> {
+    let side = first_side(parameters);
+    found.iter().map(|closing| closing.describe(parameters, side)).collect()
 }
 
 impl Portrait {

@@ -41,19 +41,18 @@ impl Orbit {
         }
     }
 
-    /// The two arcs of a cycle, the first of them on `side`. Fails with the [`Reason`] why one could not be
+    /// The two arcs of a cycle. Fails with the [`Reason`] why one could not be
     /// computed, or [`Reason::NoConvergence`] where an arc does not end at the beginning of the other one.
     pub fn of_cycle(
         parameters: &Parameters,
-        side: Side,
         closing: &Closing,
         limits: &Limits,
     ) -> Result<Self, Reason> {
         let repels = closing.log_multiplier(parameters) > 0.0;
-        Self::of_closing([parameters; 2], side, closing, repels, limits)
+        Self::of_closing([parameters; 2], first_side(parameters), closing, repels, limits)
     }
 
-    /// The same with parameters of its own for each of the two arcs; `repels` is the direction in time that is tried first.
+    /// The same with parameters of its own for each of the two arcs, the first of them on `side`; `repels` is the direction in time that is tried first.
     pub fn of_closing(
         parameters: [&Parameters; 2],
         side: Side,
