@@ -72,7 +72,7 @@ impl Application for Watched {
     }
 
     fn picture(&self, size: ratatui::layout::Size) -> Buffer {
-        let session = self.explorer.session();
+        let session = &self.explorer.session;
         let missing = |request: &Request| {
             request.topic() != Topic::Reference
                 && !matches!(

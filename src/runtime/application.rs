@@ -3,49 +3,62 @@
 use std::path::Path;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Size;
+use ratatui::layout::{Position, Rect, Size};
 
 use super::workers::Work;
 use crate::scene::Request;
 use crate::session::replay::ScriptError;
-use crate::session::{Effect, Gesture, Key, Msg, PointerTarget};
+use crate::session::{Effect, Gesture, Key, Msg, PointerTarget, Session, save};
+use crate::view;
 
 /// A session and how it is drawn; tests have simpler implementations.
 pub trait Application {
     fn update(&mut self, msg: Msg) -> Vec<Effect>;
 
+    /// The session that runs; `None` where a test has something simpler.
+    fn session(&self) -> Option<&Session> {
+        None
+    }
+
     /// The requests to compute now: those that are wanted and have neither an answer nor a failure.
-    fn wants(&self) -> Vec<Request>;
+    fn wants(&self) -> Vec<Request> {
+        let Some(session) = self.session() else { return Vec::new() };
+        let mut wants = session.wants();
+        wants.retain(|request| session.is_open(request));
+        wants
+    }
 
     /// Whether the state changes with time, so that it must be told how much time has passed.
     fn is_moving(&self) -> bool {
-        false
+        self.session().is_some_and(Session::is_moving)
     }
 
     /// Whether a command waits for an answer: all further input of the user must then wait, too.
     fn is_waiting(&self) -> bool {
-        false
+        self.session().is_some_and(Session::is_waiting)
     }
 
     /// Whether a key has its usual effect while a caption is shown, instead of continuing the replay.
-    fn tries(&self, _key: Key) -> bool {
-        false
+    fn tries(&self, key: Key) -> bool {
+        self.session().is_some_and(|session| session.tries(key))
     }
 
     /// Number of key presses of the last command that asked for something outside the session.
     fn asked(&self) -> u32 {
-        1
+        self.session().map_or(1, |session| session.asked)
     }
 
     /// The target at a cell of a screen of this size, if there is one.
-    fn place(&self, _size: Size, _column: u16, _row: u16) -> Option<PointerTarget> {
-        None
+    fn place(&self, size: Size, column: u16, row: u16) -> Option<PointerTarget> {
+        let screen = Rect::from((Position::ORIGIN, size));
+        view::place(screen, self.session()?, Position { x: column, y: row })
     }
 
     /// The text of a file that preserves its state for the case of an interruption; `None` if nothing would be
     /// lost.
     fn what_to_keep(&self) -> Option<String> {
-        None
+        let session = self.session().filter(|session| session.is_worth_keeping())?;
+        save::text(session).ok()
     }
 
     /// Prepares a figure of what is on show, or of one plot, in the format that the file's extension asks for;

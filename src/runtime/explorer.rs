@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use crossbeam_channel::unbounded;
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::Size;
 
 use super::application::{Application, ReplayResult};
 use super::effects::Files;
@@ -24,14 +24,14 @@ use crate::question::{self, Fineness, Fit, Recording, Resources};
 use crate::scan::grid::Scan;
 use crate::scene::{Finding, Request};
 use crate::session::replay::Script;
-use crate::session::{Effect, Key, Msg, PointerTarget, Session, save, update};
+use crate::session::{Effect, Msg, Session, update};
 use crate::terminal::{Environment, Screen};
 use crate::view::{self, Look};
 
 /// A session and its appearance in the present terminal.
 #[derive(Clone, Debug)]
 pub struct Explorer {
-    session: Session,
+    pub session: Session,
     environment: Environment,
     look: Look,
 }
@@ -41,10 +41,6 @@ impl Explorer {
     pub fn new(session: Session, environment: Environment) -> Explorer {
         let look = Look::new(environment.fit(session.display));
         Explorer { session, environment, look }
-    }
-
-    pub fn session(&self) -> &Session {
-        &self.session
     }
 }
 
@@ -58,31 +54,8 @@ impl Application for Explorer {
         effects
     }
 
-    fn is_moving(&self) -> bool {
-        self.session.is_moving()
-    }
-
-    fn is_waiting(&self) -> bool {
-        self.session.is_waiting()
-    }
-
-    fn tries(&self, key: Key) -> bool {
-        self.session.tries(key)
-    }
-
-    fn asked(&self) -> u32 {
-        self.session.asked
-    }
-
-    fn wants(&self) -> Vec<Request> {
-        let mut wants = self.session.wants();
-        wants.retain(|request| self.session.is_open(request));
-        wants
-    }
-
-    fn place(&self, size: Size, column: u16, row: u16) -> Option<PointerTarget> {
-        let screen = Rect::from((Position::ORIGIN, size));
-        view::place(screen, &self.session, Position { x: column, y: row })
+    fn session(&self) -> Option<&Session> {
+        Some(&self.session)
     }
 
     fn figure(&self, path: &Path, plot: Option<usize>) -> Result<Work, String> {
@@ -99,10 +72,6 @@ impl Application for Explorer {
             let drawn = print::figure(&mut session, &plots, &limits).from(provenance);
             figure::file(&drawn, form)
         }))
-    }
-
-    fn what_to_keep(&self) -> Option<String> {
-        self.session.is_worth_keeping().then(|| save::text(&self.session).ok())?
     }
 
     fn asks_for_background(&self) -> bool {
@@ -195,8 +164,8 @@ mod tests {
 
     #[test]
     fn waiting_for_every_answer_and_for_none_end_on_the_same_numbers() {
-        let slow = played("<right*30>").application.session().problem;
-        let fast = played("<async> <right*30>").application.session().problem;
+        let slow = played("<right*30>").application.session.problem;
+        let fast = played("<async> <right*30>").application.session.problem;
         assert_eq!(slow, fast);
     }
 }

@@ -13,7 +13,7 @@ fn screen(scene: Scene, keys: &str) -> (Session, String) {
     let script = parse(keys).unwrap_or_else(|error| panic!("{keys}: {error}"));
     let played = play(session, Environment::default(), script, false).unwrap();
     assert_eq!(played.unmet, None, "{keys}");
-    (played.application.session().clone(), hopfscope::view::screen::text(&played.screen))
+    (played.application.session.clone(), hopfscope::view::screen::text(&played.screen))
 }
 
 fn figure() -> Scene {

@@ -50,10 +50,6 @@ impl Application for Counter {
         vec![]
     }
 
-    fn wants(&self) -> Vec<Request> {
-        vec![]
-    }
-
     fn is_moving(&self) -> bool {
         self.moving
     }
