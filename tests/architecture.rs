@@ -33,7 +33,7 @@ const SIBLINGS: [(&str, &str); 2] = [("view", "figure"), ("view", "report")];
 const PURE: usize = 13;
 
 /// Crates and modules reserved for the outer rings, and what they give access to.
-const OUTSIDE: [(&str, &str); 12] = [
+const OUTSIDE: [(&str, &str); 13] = [
     ("std::env", "the environment"),
     ("std::fs", "files"),
     ("std::net", "the network"),
@@ -41,6 +41,7 @@ const OUTSIDE: [(&str, &str); 12] = [
     ("std::thread", "threads"),
     ("std::time", "the clock"),
     ("std::io", "input and output"),
+    ("crossterm", "the terminal"),
     ("crossbeam_channel", "threads"),
     ("ratatui", "the terminal"),
     ("rustix", "the system"),

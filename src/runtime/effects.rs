@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use termina::escape::osc::{Osc, Selection};
+use crossterm::Command;
+use crossterm::clipboard::CopyToClipboard;
 
 use super::bounded;
 use super::new_file::{self, Readers};
@@ -20,7 +21,10 @@ pub struct Files {
 impl Files {
     /// The sequence that puts a text on the terminal's clipboard: OSC 52.
     pub fn clipboard(text: &str) -> String {
-        Osc::SetSelection(Selection::CLIPBOARD, text).to_string()
+        let mut sequence = String::new();
+        // Writing to a string cannot fail.
+        let _ = CopyToClipboard::to_clipboard_from(text).write_ansi(&mut sequence);
+        sequence
     }
 
     /// Saves a copy; says so, or why it is not saved.

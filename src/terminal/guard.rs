@@ -9,9 +9,8 @@ use std::io::{self, Write};
 use std::os::fd::AsFd;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rustix::stdio::stdin;
-use rustix::termios::{OptionalActions, Termios, tcgetattr, tcsetattr};
 
 use super::screen::{END, PLAIN};
 
@@ -56,11 +55,10 @@ fn leaving(mouse: bool) -> String {
     [END, PLAIN].into_iter().chain(off).collect()
 }
 
+/// Whether the terminal is taken, and whether mouse reports are wanted.
 #[derive(Debug, Default)]
 struct GuardState {
-    /// How the terminal was before it was taken; `None` where it is not.
-    before: Option<Termios>,
-    /// Whether mouse reports are wanted.
+    taken: bool,
     mouse: bool,
 }
 
@@ -83,14 +81,11 @@ impl Guard {
     /// cannot be switched to raw mode or written to; the terminal is then as before.
     pub fn enter(&self) -> io::Result<()> {
         let mut state = self.state();
-        if state.before.is_some() {
+        if state.taken {
             return Ok(());
         }
-        let before = tcgetattr(stdin())?;
-        let mut raw = before.clone();
-        raw.make_raw();
-        tcsetattr(stdin(), OptionalActions::Now, &raw)?;
-        state.before = Some(before);
+        enable_raw_mode()?;
+        state.taken = true;
         let written = self.write(&entering(state.mouse));
         drop(state);
         written.inspect_err(|_| self.leave())
@@ -100,7 +95,7 @@ impl Guard {
     /// terminal cannot be written to.
     pub fn mouse(&self, on: bool) -> io::Result<()> {
         let mut state = self.state();
-        if state.before.is_some() && state.mouse != on {
+        if state.taken && state.mouse != on {
             self.write(if on { MOUSE.on } else { MOUSE.off })?;
         }
         state.mouse = on;
@@ -131,9 +126,9 @@ impl Guard {
 
     fn restore(&self, write: impl FnOnce(&str)) {
         let mut state = self.state();
-        if let Some(before) = state.before.take() {
+        if std::mem::take(&mut state.taken) {
             write(&leaving(state.mouse));
-            let _ = tcsetattr(stdin(), OptionalActions::Now, &before);
+            drop(disable_raw_mode());
         }
     }
 
