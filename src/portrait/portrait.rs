@@ -15,7 +15,6 @@ use crate::portrait::basin::orbit::Orbit;
 use crate::portrait::basin::stability::{Share, part_within};
 use crate::portrait::basin::{Counts, StartWindow, between};
 use crate::portrait::return_map::machine_return::Landmarks;
-use crate::portrait::return_map::machine_return::MachineReturn;
 
 /// A gap between right turning points.
 #[derive(Clone, Copy, Debug)]
@@ -205,9 +204,9 @@ impl Portrait {
         // Far out, every swing is checked: it may leave the known range.
         while x > self.known {
             match flow.returned(x) {
-                Ok(MachineReturn::Turns(image)) if image.x < x => x = image.x,
-                Ok(MachineReturn::Turns(_)) => break,
-                Ok(MachineReturn::Rests(_)) => return Ok(Fate::Rest),
+                Ok(Some(image)) if image.x < x => x = image.x,
+                Ok(Some(_)) => break,
+                Ok(None) => return Ok(Fate::Rest),
                 Err(Reason::Escapes) => return Ok(Fate::Escapes),
                 Err(stop) => return Err(stop),
             }

@@ -17,7 +17,6 @@ use hopfscope::numerics::elementary::{
     asin, atan, atan2, cos, exp, exp_m1, hypot, ln, powi, sin, tanh,
 };
 use hopfscope::portrait::basin::StartWindow;
-use hopfscope::portrait::return_map::machine_return::MachineReturn;
 use hopfscope::portrait::{Border, Portrait};
 use serde_json::{Value, json};
 

@@ -50,8 +50,8 @@ fn the_return_map_of_any_machine_never_decreases() {
         for step in 1..60 {
             let x = model.guide_static + 0.05 * f64::from(step) * model.speed.max(model.pull);
             let image = match flow.returned(x) {
-                Ok(MachineReturn::Turns(image)) => image.x,
-                Ok(MachineReturn::Rests(_)) => model.guide_static,
+                Ok(Some(image)) => image.x,
+                Ok(None) => model.guide_static,
                 Err(_) => break,
             };
             assert!(image >= last - 1e-13 * image.abs(), "{model:?} at {x}: {image} after {last}");
@@ -126,7 +126,7 @@ fn no_contact_is_too_shallow_to_be_seen() {
         for power in 3..13 {
             for sign in [-1.0, 1.0] {
                 let x = touch * (1.0 + sign * powi(10.0, -power));
-                let Ok(MachineReturn::Turns(image)) = flow.returned(x) else { panic!("{name}") };
+                let Ok(Some(image)) = flow.returned(x) else { panic!("{name}") };
                 assert_eq!(image.sticks_from.is_some(), sign > 0.0, "{name} at {x}");
             }
         }
@@ -145,7 +145,7 @@ fn what_comes_to_ride_on_the_belt_leaves_it_as_one() {
         let end = marks.beyond.unwrap_or(3.0 * touch).min(3.0 * touch);
         for part in [1e-9, 0.1, 0.5, 0.999] {
             let x = touch + part * (end - touch);
-            let Ok(MachineReturn::Turns(image)) = flow.returned(x) else { continue };
+            let Ok(Some(image)) = flow.returned(x) else { continue };
             let from = image.sticks_from.unwrap_or_else(|| panic!("{model:?} at {x}: {image:?}"));
             assert_eq!((image.x, image.log_slope), (released, f64::NEG_INFINITY), "{model:?}");
             assert!(from <= marks.lines.release && from >= marks.lines.low, "{model:?}");

@@ -1,6 +1,6 @@
 //! The limit cycles of a machine: the fixed points of the return map, each found and described.
 
-use super::machine_return::{Grazing, Image, Landmarks, MachineReturn};
+use super::machine_return::{Grazing, Image, Landmarks};
 use crate::flow::machine::curve::MachineCurve;
 use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Model, Phase};
@@ -36,11 +36,11 @@ impl Flow<'_> {
         let x = unit * exp(u);
         let lost = |f| Ok(Node::of_growth(u, f, 0.0));
         match self.returned(x) {
-            Ok(MachineReturn::Turns(image)) => {
+            Ok(Some(image)) => {
                 let slope = exp(image.log_slope) * x / image.x - 1.0;
                 Ok(Node::of_growth(u, ln(image.x / x), slope))
             }
-            Ok(MachineReturn::Rests(_)) => lost(-FAR),
+            Ok(None) => lost(-FAR),
             Err(Reason::Escapes) => lost(FAR),
             Err(stop) => Err(stop),
         }
@@ -155,7 +155,7 @@ impl FixedPointSearch<'_, '_> {
         let released = marks.and_then(|marks| marks.released);
         if let Some(released) = released.filter(|x| touch.is_some_and(|(_, touch)| *x >= touch)) {
             match self.flow.returned(released) {
-                Ok(MachineReturn::Turns(image)) if image.sticks_from.is_some() => {
+                Ok(Some(image)) if image.sticks_from.is_some() => {
                     self.divides.push((released, Divide::Cycle(image)));
                 }
                 // What escapes is known.
@@ -255,9 +255,8 @@ impl FixedPointSearch<'_, '_> {
 
     /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
     fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Reason> {
-        let MachineReturn::Turns(image) = self.flow.returned(x)? else { return Ok(None) };
-        let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
-        let repels = slips && image.log_slope >= STRONG;
+        let Some(image) = self.flow.returned(x)? else { return Ok(None) };
+        let repels = image.slips() && image.log_slope >= STRONG;
         let sharper = if repels { self.settled_backward(x)? } else { None };
         Ok(Some(sharper.unwrap_or((x, image))))
     }

@@ -4,7 +4,6 @@
 use std::cmp::Ordering;
 
 use super::fixed_points::{Divide, NOTHING, fixed_points};
-use super::machine_return::MachineReturn;
 use crate::flow::{Fate, Flow, Reason};
 use crate::model::{ContactState, Model};
 use crate::portrait::portrait::Gap;
@@ -51,8 +50,7 @@ impl Portrait {
             let (curve, left) = match mark {
                 Divide::Cycle(image) => {
                     self.border = Border::Cycle;
-                    let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
-                    flow.around(*x, slips)?
+                    flow.around(*x, image.slips())?
                 }
                 Divide::Jump => flow.jump_border(*x, landmarks)?,
                 Divide::Capture => flow.capture_border(*x, landmarks)?,
@@ -101,12 +99,12 @@ fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tenden
         let high = mark.map_or(beyond, |(x, _)| *x);
         let x = low + 0.5 * (high - low);
         ways.push(match flow.returned(x) {
-            Ok(MachineReturn::Turns(image)) => {
+            Ok(Some(image)) => {
                 let change = (image.x - x) / x;
                 let stays = change.abs() < NOTHING;
                 Ok(if stays { Ordering::Equal } else { change.total_cmp(&0.0) })
             }
-            Ok(MachineReturn::Rests(_)) | Err(Reason::Settles) => Ok(Ordering::Less),
+            Ok(None) => Ok(Ordering::Less),
             Err(Reason::Escapes) => Ok(Ordering::Greater),
             Err(stop @ Reason::BeyondLaw { .. }) => Err(stop),
             Err(reason) => return Err(reason),

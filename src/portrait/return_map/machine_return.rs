@@ -27,42 +27,43 @@ pub struct Image {
     pub overtakes_from: Option<f64>,
 }
 
-/// The result of following a motion for one return.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MachineReturn {
-    /// It turns on the right again.
-    Turns(Image),
-    /// It comes to rest at this displacement.
-    Rests(f64),
+impl Image {
+    /// Whether the motion only slips, below the speed of the belt.
+    pub fn slips(&self) -> bool {
+        self.sticks_from.is_none() && self.overtakes_from.is_none()
+    }
 }
 
 impl Flow<'_> {
-    /// The next right turning point after the one at `x`, outside of what the guide holds. Fails with
-    /// [`Reason`] if the motion does not turn; a motion that settles at an equilibrium counts as coming to rest.
-    pub fn returned(&mut self, x: f64) -> Result<MachineReturn, Reason> {
-        let (guide, mut divergence) = (self.model.guide, 0.0);
-        let mut turn = |phase, x, equilibrium| {
-            let add = &mut |series: &PhaseSeries| divergence += series.divergence();
-            match self.turn(ContactState::Slips(phase), (x, 0.0), add) {
-                Err(Reason::Settles) => Ok(Turn { x: equilibrium, rests: true, ..Turn::default() }),
-                turn => turn,
-            }
-        };
-        let left = turn(Phase::Below, x, guide)?;
-        if left.rests {
-            return Ok(MachineReturn::Rests(left.x));
-        }
-        let right = turn(Phase::Between, left.x, -guide)?;
-        if right.rests {
-            return Ok(MachineReturn::Rests(right.x));
-        }
-        Ok(MachineReturn::Turns(Image {
+    /// The next right turning point after the one at `x`, outside of what the guide holds; `None` if the mass comes to
+    /// rest before. Fails with [`Reason`] if the motion does not turn.
+    pub fn returned(&mut self, x: f64) -> Result<Option<Image>, Reason> {
+        let mut divergence = 0.0;
+        let mut add = |series: &PhaseSeries| divergence += series.divergence();
+        let [below, between] = [Phase::Below, Phase::Between].map(ContactState::Slips);
+        let Some(left) = self.next_turn(below, (x, 0.0), &mut add)? else { return Ok(None) };
+        let right = self.next_turn(between, (left.x, 0.0), &mut add)?;
+        Ok(right.map(|right| Image {
             x: right.x,
             left: left.x,
             log_slope: left.log_ratio + right.log_ratio + divergence,
             sticks_from: right.sticks_from,
             overtakes_from: right.overtakes_from,
         }))
+    }
+
+    /// The next turning point of a motion, if it moves on from there: one that settles at an equilibrium comes to rest,
+    /// too. Fails with [`Reason`] if it does not turn.
+    fn next_turn(
+        &mut self,
+        place: ContactState,
+        start: (f64, f64),
+        watch: &mut impl FnMut(&PhaseSeries),
+    ) -> Result<Option<Turn>, Reason> {
+        match self.turn(place, start, watch) {
+            Err(Reason::Settles) => Ok(None),
+            turn => turn.map(|turn| Some(turn).filter(|turn| !turn.rests)),
+        }
     }
 
     /// An arc below the belt's line that may settle: it then ends at the equilibrium of its phase, where nothing
@@ -158,12 +159,9 @@ impl Flow<'_> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };
         let grazing = self.grazing(&lines)?;
-        let released =
-            match self.turn(ContactState::Sticks, (lines.release, model.speed), &mut |_| {}) {
-                Ok(turn) => (!turn.rests).then_some(turn.x),
-                Err(Reason::Settles) => None,
-                Err(stop) => return Err(stop),
-            };
+        let start = (lines.release, model.speed);
+        let released = self.next_turn(ContactState::Sticks, start, &mut |_| {})?;
+        let released = released.map(|turn| turn.x);
         let low_left =
             self.settling_arc(Phase::Between, (lines.low, model.speed), true, &mut |_| {})?.x;
         let beyond = self.beyond(&lines, low_left)?;
