@@ -65,12 +65,11 @@ pub struct Auto {
     worthwhile: bool,
     /// Short implicit steps that did not grow since the last worthwhile one.
     stalled: u32,
-    /// Consecutive limited steps, and how many it takes to try implicit ones.
+    /// Consecutive limited steps, and series steps in this half swing.
     limited: u32,
-    patience: u32,
-    /// Series steps in this half swing, and how many it takes to try implicit ones.
     series_steps: u64,
-    many: u64,
+    /// How often implicit steps were not worthwhile since they last were.
+    in_vain: u32,
     implicit_steps: u64,
 }
 
@@ -102,9 +101,8 @@ impl Auto {
             worthwhile: false,
             stalled: 0,
             limited: 0,
-            patience: PATIENCE.0,
             series_steps: 0,
-            many: MANY.0,
+            in_vain: 0,
             implicit_steps: 0,
         }
     }
@@ -198,11 +196,7 @@ impl Stepper for Auto {
             }
             if self.stalled == STALLED {
                 self.implicit = false;
-                (self.patience, self.many) = if self.worthwhile {
-                    (PATIENCE.0, MANY.0)
-                } else {
-                    ((2 * self.patience).min(PATIENCE.1), self.many.saturating_mul(MANY.1))
-                };
+                self.in_vain = if self.worthwhile { 0 } else { self.in_vain.saturating_add(1) };
             }
             self.reached = step.duration;
             return Ok(step);
@@ -212,7 +206,9 @@ impl Stepper for Auto {
         let limited = self.damping_times(&step) > LIMITED * self.taylor.order();
         self.limited = if limited { self.limited + 1 } else { 0 };
         self.series_steps += 1;
-        if self.limited >= self.patience || self.series_steps >= self.many {
+        let patience = PATIENCE.0.saturating_mul(2_u32.saturating_pow(self.in_vain));
+        let many = MANY.0.saturating_mul(MANY.1.saturating_pow(self.in_vain));
+        if self.limited >= patience.min(PATIENCE.1) || self.series_steps >= many {
             (self.limited, self.series_steps, self.reached) = (0, 0, 0.0);
             (self.implicit, self.worthwhile, self.stalled) = (true, false, 0);
             let (field, tolerance) = (self.field, self.tolerance);

@@ -196,9 +196,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         let slope = self.velocity[0].abs().max(self.acceleration[0].abs());
         if slope > 0.0 { (0.01 * self.start.size() / slope).min(LONGEST) } else { LONGEST }
     }
-}
 
-impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     /// Rejects a step of fixed length if damping is too fast at any of its stages.
     fn check_stability(&self, length: f64) -> Result<(), Reason> {
         if !self.is_fixed() {

@@ -257,9 +257,7 @@ impl<F: Field> Stiff<F> {
         self.cost.evaluations += 1;
         norm(filtered(part * v + sums.x, part * slope + sums.v))
     }
-}
 
-impl<F: Field> Stiff<F> {
     /// Repeats the step, at most `longest` long, until its error is within the tolerance.
     ///
     /// With `above`, a step that ends above `v = 0` is also repeated if its position does not grow.

@@ -52,51 +52,43 @@ pub fn swing<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     let mut unit = unit + size;
     let mut scaled = field.in_units(unit);
     let mut clock = Sum::<N>::default();
-    let mut steps = 0;
+    let (mut duration, mut crossed, mut steps) = (N::default(), false, 0);
     stepper.begin(&scaled);
-    loop {
-        let time = clock.value();
-        let failed = |reason| Swing { end: Err(reason), crossed: false, duration: time, steps };
+    let end = loop {
         if (limits.interrupted)() {
-            return failed(Reason::Interrupted);
+            break Err(Reason::Interrupted);
         }
         let evaluations = stepper.cost().evaluations;
         if evaluations > limits.evaluations {
-            return failed(Reason::Budget { evaluations });
+            break Err(Reason::Budget { evaluations });
         }
         let smooth = scaled.frictionless();
         if !(smooth.d2.is_finite() && smooth.d3.is_finite()) {
-            return failed(Reason::OutOfRange);
+            break Err(Reason::OutOfRange);
         }
-        let remaining = longest - time;
+        let remaining = longest - duration;
         let step = match stepper.advance(point, remaining, arrives) {
             Ok(step) => step,
-            Err(reason) => return failed(reason),
+            Err(reason) => break Err(reason),
         };
         steps += 1;
-        let goes_on = watch(stepper, time.value(), unit, &step).is_continue();
+        let goes_on = watch(stepper, duration.value(), unit, &step).is_continue();
         let step = progress(step, point, remaining);
         clock.add(step.duration);
-        let time = clock.value();
-        point = step.end;
-        let in_time = step.crossed || step.duration < remaining;
-        if step.crossed || !(in_time && goes_on) {
-            let duration = if in_time { time } else { longest };
-            return Swing {
-                end: Ok(point.times_power(unit)),
-                crossed: step.crossed,
-                duration,
-                steps,
-            };
+        (point, crossed) = (step.end, step.crossed);
+        let in_time = crossed || step.duration < remaining;
+        duration = if in_time { clock.value() } else { longest };
+        if crossed || !(in_time && goes_on) {
+            break Ok(point.times_power(unit));
         }
-        let error = BLOW_UP_ERROR * N::NEGLIGIBLE * time.value();
+        let error = BLOW_UP_ERROR * N::NEGLIGIBLE * duration.value();
         // The time is that of the two driving terms alone; its error is the effect of the others.
         if let Some((rest, others)) = blow_up(&smooth, point.rounded())
             && rest * others <= error
-            && time + N::of(rest) <= longest
+            && duration + N::of(rest) <= longest
         {
-            let duration = time + N::of(rest);
-            return Swing { end: Err(Reason::Escapes), crossed: false, duration, steps };
+            duration = duration + N::of(rest);
+            break Err(Reason::Escapes);
         }
         let drift = exponent(point.size());
         if drift.abs() > FAR {
@@ -105,7 +97,8 @@ pub fn swing<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
             point = point.times_power(-drift);
             stepper.begin(&scaled);
         }
-    }
+    };
+    Swing { end, crossed, duration, steps }
 }
 
 /// The step itself or, if it changed nothing, as many like it as it takes to move x to the next number.

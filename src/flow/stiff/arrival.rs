@@ -53,14 +53,12 @@ impl<F: Field> Stiff<F> {
 
     /// Bracket of the first zero of the velocity in the step, as far as the stages tell.
     fn bracket(&self, whole: f64) -> (f64, f64) {
-        let mut low = 0.0;
-        for (node, &v) in self.scheme.nodes.iter().zip(&self.velocity) {
-            if v <= 0.0 {
-                return (low, node * whole);
-            }
-            low = node * whole;
+        let nodes = &self.scheme.nodes;
+        match (0..nodes.len()).find(|stage| self.velocity[*stage] <= 0.0) {
+            Some(0) => (0.0, nodes[0] * whole),
+            Some(stage) => (nodes[stage - 1] * whole, nodes[stage] * whole),
+            None => (0.0, whole),
         }
-        (0.0, whole)
     }
 
     /// Whether the last attempt reaches `v = 0`.
