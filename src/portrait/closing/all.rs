@@ -9,7 +9,7 @@ use super::equation::{Equation, FINER, Route};
 use super::half_map::Length;
 use super::pair::Closing;
 use super::polish::{VAGUE, is_exact, polish};
-use super::search::{Bracket, Node, Search};
+use super::search::{Bracket, Node, RootSearch};
 use super::weak::{has_cycle, is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::Reason;
@@ -207,7 +207,7 @@ fn brackets(
     let mut function = |u: f64, fine: bool| {
         if fine { resolved(equation, u) } else { Ok(rough.at(Route::Mixed, u)?.node) }
     };
-    let mut search = Search { finest: FINEST, ..Search::default() };
+    let mut search = RootSearch { finest: FINEST, ..RootSearch::default() };
     // Where the next unknown interval begins, at or beyond a place.
     let unknown = |mut at: f64| {
         while let Some(&(_, to)) = known.iter().find(|(from, to)| *from <= at && at < *to) {

@@ -60,7 +60,7 @@ pub type Bracket = (Node, Node);
 
 /// A search, and what it found so far.
 #[derive(Clone, Debug, Default)]
-pub struct Search {
+pub struct RootSearch {
     /// Half of the length of intervals that are not halved any more.
     pub finest: f64,
     /// Values below this count as zero: where all do, roots cannot be told apart, and none is found. If it is above
@@ -72,7 +72,7 @@ pub struct Search {
     pub unresolved: Vec<(f64, f64)>,
 }
 
-impl Search {
+impl RootSearch {
     /// Collects brackets of all roots between two nodes.
     ///
     /// `function(at, fine)` may be off by `blur` where it is not asked to be fine; where that is too much to decide, it
@@ -219,7 +219,7 @@ mod tests {
     }
 
     fn roots_of(mut function: impl FnMut(f64, bool) -> Result<Node, ()>) -> Vec<Bracket> {
-        let mut search = Search { finest: 1e-4, ..Search::default() };
+        let mut search = RootSearch { finest: 1e-4, ..RootSearch::default() };
         let (low, high) = (function(0.0, true).unwrap(), function(4.0, true).unwrap());
         search.between(low, high, 0.0, &mut function).unwrap();
         search.found

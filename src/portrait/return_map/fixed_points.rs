@@ -6,7 +6,7 @@ use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Model, Phase};
 use crate::numerics::root;
 use crate::numerics::{PlaceTolerance, bisect, exp, exponent, ln, pow, times_power, try_newton};
-use crate::portrait::closing::search::{Bracket, Node, Search};
+use crate::portrait::closing::search::{Bracket, Node, RootSearch};
 use crate::portrait::{Cycle, Portrait, Ride};
 
 /// A right turning point at which the return map changes.
@@ -219,7 +219,7 @@ impl FixedPointSearch<'_, '_> {
         const HALVINGS: f64 = 4096.0;
         let part = (last.at - first.at) / PARTS;
         let finest = 0.5 * part / HALVINGS;
-        let mut search = Search { finest, nothing: NOTHING, ..Search::default() };
+        let mut search = RootSearch { finest, nothing: NOTHING, ..RootSearch::default() };
         let mut left = first;
         while left.at < last.at {
             let near_end = left.at + 1.5 * part > last.at;
