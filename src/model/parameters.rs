@@ -5,20 +5,21 @@ use serde::{Deserialize, Serialize};
 use crate::numerics::scaling::times_power;
 
 /// The parameters of equation (4): damping, asymmetry, cubic damping, friction. All dimensionless, and each 0 or
-/// within 1e-150 .. 1e150 in magnitude ([`KNOBS`](super::KNOBS)): beyond that, nothing is promised.
+/// within 1e-150 .. 1e150 in magnitude ([`KNOBS`](super::KNOBS)): beyond that, nothing is promised. They are numbers, or
+/// the intervals in which these lie.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Parameters {
+pub struct Parameters<N = f64> {
     /// Effective linear damping D; negative means self-excited, `abs(D) < 1` oscillatory.
     #[serde(rename = "D")]
-    pub d: f64,
+    pub d: N,
     /// Asymmetric (quadratic) damping D2.
     #[serde(rename = "D2")]
-    pub d2: f64,
+    pub d2: N,
     /// Cubic damping D3.
     #[serde(rename = "D3")]
-    pub d3: f64,
+    pub d3: N,
     /// Intensity r of the dry friction, not negative.
-    pub r: f64,
+    pub r: N,
 }
 
 /// A point of the phase plane.
