@@ -1,8 +1,7 @@
 //! Places texts beside their points, where they cover nothing and cannot be mistaken for the name of another
 //! curve.
 
-use super::elements::{self, Anchor};
-use super::paper::{Frame, PLOT, Spot, ink};
+use super::paper::{self, Anchor, Frame, PLOT, Spot, ink};
 use super::{MarkedPoint, Outline, Panel};
 use crate::numerics::{count::real, elementary::hypot};
 use crate::picture::{Caption, Dash, along};
@@ -204,7 +203,7 @@ pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {
             "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"2.5\"".to_owned(),
             format!("fill=\"{color}\""),
         ] {
-            elements::text(out, spot, Anchor::Right, &format!("font-size=\"10.5\" {paint}"), text);
+            paper::text(out, spot, Anchor::Right, &format!("font-size=\"10.5\" {paint}"), text);
         }
     }
 }

@@ -10,7 +10,6 @@ mod areas;
 mod captions;
 mod content;
 mod data;
-mod elements;
 mod lines;
 mod map;
 mod paper;
