@@ -1,6 +1,7 @@
 //! A map and its scale as SVG: cells of one hue, the stronger the more dangerous.
 
-use super::paper::{Anchor, Frame, PLOT, Spot, path, shading, text};
+use super::elements::{Anchor, path, text};
+use super::paper::{Frame, PLOT, Spot, shading};
 use crate::numerics::count::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
 use crate::scene::Point;

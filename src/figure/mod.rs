@@ -10,6 +10,7 @@ mod areas;
 mod captions;
 mod content;
 mod data;
+mod elements;
 mod lines;
 mod map;
 mod paper;

@@ -2,10 +2,8 @@
 
 use std::fmt::Write;
 
-use super::paper::{
-    self, Anchor, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot, circle, ink, path, rectangle, shading,
-    stroke, text,
-};
+use super::elements::{Anchor, circle, path, rectangle, text};
+use super::paper::{self, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot, ink, shading, stroke};
 use super::{Figure, MarkedPoint, Outline, Panel, areas::loops, captions, data::remarks, map};
 use crate::numerics::{hypot, real, truncated};
 use crate::picture::legend::distinct;
@@ -108,27 +106,24 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
 /// A polyline with these attributes, run by run between points that are not finite. What lies far outside of the plot
 /// is moved to where its lines still run where they ran, and left out where they cannot be seen.
 fn polyline(out: &mut String, points: &[[f64; 2]], attributes: &str, frame: Frame) {
-    let seen = |at: usize| points.get(at).is_some_and(|[x, y]| near(*x, *y, frame));
-    let is_kept = |at: &usize| {
-        let beside = seen(at.wrapping_sub(1)) || seen(at + 1);
-        points[*at].iter().all(|value| value.is_finite()) && (seen(*at) || beside)
-    };
-    let kept: Vec<usize> = (0..points.len()).filter(is_kept).collect();
-    let runs = kept.chunk_by(|one, next| one + 1 == *next);
-    let run = |run: &[usize]| through(run.iter().map(|at| points[*at]), frame);
-    let commands: String = runs.map(run).collect();
+    let mut commands = String::new();
+    let mut down = false;
+    for (index, [x, y]) in points.iter().enumerate() {
+        let seen = |[x, y]: &[f64; 2]| near(*x, *y, frame);
+        let neighbour = index.checked_sub(1).map(|before| &points[before]);
+        let beside = neighbour.is_some_and(seen) || points.get(index + 1).is_some_and(seen);
+        if !(x.is_finite() && y.is_finite()) || !(near(*x, *y, frame) || beside) {
+            down = false;
+            continue;
+        }
+        let (across, along) = drawable(frame, [*x, *y]);
+        let command = if down { 'L' } else { 'M' };
+        let _ = write!(commands, "{command}{across:.3} {along:.3}");
+        down = true;
+    }
     if !commands.is_empty() {
         path(out, &commands, attributes);
     }
-}
-
-/// The commands of a line through these points.
-fn through(points: impl IntoIterator<Item = [f64; 2]>, frame: Frame) -> String {
-    let command = |(index, point): (usize, [f64; 2])| {
-        let (across, along) = drawable(frame, point);
-        format!("{}{across:.3} {along:.3}", if index == 0 { 'M' } else { 'L' })
-    };
-    points.into_iter().enumerate().map(command).collect()
 }
 
 /// Where a point stands. Coordinates of paper have six digits; what is far outside keeps its side.
@@ -145,8 +140,15 @@ fn near(x: f64, y: f64, frame: Frame) -> bool {
 
 fn shade(out: &mut String, areas: &[Outline], frame: Frame) {
     let Some(Outline { role, .. }) = areas.first() else { return };
-    let polygons = areas.iter().flat_map(|area| loops(&area.points, frame.window));
-    let commands: String = polygons.map(|polygon| through(polygon, frame) + "Z").collect();
+    let mut commands = String::new();
+    for polygon in areas.iter().flat_map(|area| loops(&area.points, frame.window)) {
+        for (index, point) in polygon.iter().enumerate() {
+            let (across, along) = drawable(frame, *point);
+            let command = if index == 0 { 'M' } else { 'L' };
+            let _ = write!(commands, "{command}{across:.3} {along:.3}");
+        }
+        commands.push('Z');
+    }
     path(out, &commands, &format!("{} fill-rule=\"evenodd\"", shading(*role)));
 }
 

@@ -176,21 +176,9 @@ pub const TIME_UNITS: [(&str, f64); 7] = [
 /// Parts of the names of time columns, in lower case.
 const TIMES: [&str; 5] = ["time", "zeit", "temps", "tiempo", "seconds"];
 
-/// Parts of the names of displacement columns, in lower case, in order of preference; single letters are whole
-/// names.
-const DISPLACEMENTS: [&str; 11] = [
-    "displ",
-    "weg",
-    "auslenk",
-    "deflec",
-    "peak",
-    "position",
-    "amplitude",
-    "extrem",
-    "distance",
-    "x",
-    "q",
-];
+/// Parts of the names of displacement columns, in lower case, in order of preference, with blanks between them; single
+/// letters are whole names.
+const DISPLACEMENTS: &str = "displ weg auslenk deflec peak position amplitude extrem distance x q";
 
 /// Parts of the names of columns that hold other signals, in lower case.
 const SIGNALS: [(Signal, [&str; 3]); 2] = [
@@ -325,10 +313,10 @@ impl Header {
 
     /// The column of displacements; `time` is the column of times, which is skipped.
     pub fn displacement(&self, time: Option<usize>) -> Option<usize> {
-        DISPLACEMENTS.iter().find_map(|known| {
+        DISPLACEMENTS.split(' ').find_map(|known| {
             let is_whole = known.len() == 1;
             self.find(time, |it| {
-                if is_whole { it.name.to_lowercase() == *known } else { it.name_has(&[known]) }
+                if is_whole { it.name.to_lowercase() == known } else { it.name_has(&[known]) }
             })
         })
     }

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{
-    Dropped, Estimate, FEWEST, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R, RUN, Record,
-    Rival, Runs, Unfit, Unknowns, interrupted, longest_run, peaks, samples,
+    Dropped, Estimate, FEWEST, FittedDrift, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R,
+    RUN, Record, Rival, Runs, Unfit, Unknowns, interrupted, longest_run, peaks, samples,
 };
 use crate::numerics::{Random, real};
 
@@ -74,24 +74,7 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
             format!("{:.0} effective draws", margins.effective),
         ),
     ];
-    let left = estimate.left_drift;
-    let fitted = estimate.drift().filter(|_| !left.is_seen());
-    let is_hidden = fitted.is_none() && !left.is_seen() && left.moved > IMPOSSIBLE;
-    let (holds, detail) = if left.is_seen() {
-        (false, format!("the zero drifts by {:.2e} over the record", left.change))
-    } else if let Some(drift) = fitted {
-        let detail = format!("it drifts by {:.2e} over the record, which is fitted", drift.change);
-        (!whiteness.systematic, detail)
-    } else if is_hidden {
-        let detail = format!(
-            "a drift by {:.2e}, too small to be seen, would move a number by {:.1} standard errors",
-            left.change, left.moved
-        );
-        (false, detail)
-    } else {
-        (true, "no drift is seen".to_owned())
-    };
-    all.push(Condition { essential: !is_hidden, ..state("zero", holds, detail) });
+    all.push(zero(estimate));
     if estimate.noise.deviation > 0.0 {
         let detail = format!("{ratio:.2} times the noise of neighbouring differences");
         all.insert(1, state("noise", ratio <= HIDDEN, detail));
@@ -105,6 +88,29 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
         all.push(state("repetition", off <= IMPOSSIBLE, detail));
     }
     all
+}
+
+/// Whether the zero stays, or drifts as is fitted. A drift too small to be seen is for caution.
+fn zero(estimate: &Estimate) -> Condition {
+    let left = estimate.left_drift;
+    let (holds, essential, detail) = match estimate.drift() {
+        _ if left.is_seen() => {
+            (false, true, format!("the zero drifts by {:.2e} over the record", left.change))
+        }
+        Some(FittedDrift { change, .. }) => {
+            let detail = format!("it drifts by {change:.2e} over the record, which is fitted");
+            (!estimate.whiteness.systematic, true, detail)
+        }
+        None if left.moved > IMPOSSIBLE => {
+            let detail = format!(
+                "a drift by {:.2e}, too small to be seen, would move a number by {:.1} standard errors",
+                left.change, left.moved
+            );
+            (false, false, detail)
+        }
+        None => (true, true, "no drift is seen".to_owned()),
+    };
+    Condition { name: "zero", holds, essential, detail }
 }
 
 /// How far a fit of a record simulated from an estimate comes off it, in standard errors by the intervals of the

@@ -7,7 +7,7 @@ use super::{
     follow, parameters, rate,
 };
 use crate::model::{Parameters, State};
-use crate::numerics::count::{real, truncated};
+use crate::numerics::{real, truncated};
 
 /// A point of a curve.
 pub type PlotPoint = [f64; 2];

@@ -4,8 +4,8 @@
 use serde::Serialize;
 
 use super::{
-    BEND, Beginning, Covariance, Extreme, NAMES, Optimum, Runs, SLOPE, Task, UNKNOWNS, Unfit,
-    Unknowns, autocorrelations, drift, interrupted, middle_of, moved, robust, scattered,
+    BEND, Beginning, Covariance, Extreme, LinearResiduals, NAMES, Optimum, Runs, SLOPE, Task,
+    UNKNOWNS, Unfit, Unknowns, autocorrelations, drift, interrupted, middle_of, robust,
 };
 use crate::numerics::{powi, real};
 
@@ -50,18 +50,15 @@ impl LeftDrift {
             return None;
         }
         let wider = task.with_drift();
-        let factor = wider.factor(&optimum.seen);
-        let width = factor.ncols() - 1;
-        let upper = factor.view((0, 0), (width, width));
-        let right = factor.view((0, width), (width, 1)).column(0).into_owned();
-        let step = scattered(&wider.columns(), &upper.solve_upper_triangular(&right)?);
-        let told = |by: &Unknowns| by.iter().zip(&step).map(|(by, step)| by * step).sum::<f64>();
+        let LinearResiduals { upper, turned, left } = wider.factor(&optimum.seen);
+        let step = upper.solve_upper_triangular(&turned)?;
         let used = task.used_residuals(&optimum.seen);
-        let left: Vec<f64> = used.map(|it| it.value - told(&it.by)).collect();
-        let variance = powi(factor[(width, width)], 2) / (real(left.len()) - real(width)).max(1.0);
+        let values: Vec<f64> = used.map(|it| it.value - it.by.dot(&step)).collect();
+        let freedom = (real(values.len()) - real(wider.columns().count())).max(1.0);
+        let variance = powi(left, 2) / freedom;
         // Those of the slope and of the bend come last.
-        let fall = right.rows(width - 2, 2).norm_squared();
-        let evidence = fall / variance * independent(&left);
+        let fall = turned.rows(SLOPE, 2).norm_squared();
+        let evidence = fall / variance * independent(&values);
         Some((LeftDrift { evidence, change: step[SLOPE], moved: 0.0 }, step))
     }
 
@@ -141,7 +138,7 @@ impl Task<'_> {
             return Ok(None);
         }
         let mut beginnings = guessed();
-        let guesses = vec![moved(&best.p, 1.0, &step), best.p];
+        let guesses = vec![best.p + step, best.p];
         match beginnings.iter_mut().find(|beginning| beginning.start == best.start) {
             Some(beginning) => beginning.guesses.extend(guesses),
             None => beginnings.push(Beginning { start: best.start, certain: true, guesses }),

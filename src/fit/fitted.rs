@@ -17,7 +17,7 @@ use super::{
 use crate::flow::Problem;
 use crate::model::belt::Units;
 use crate::model::{Knob, State};
-use crate::numerics::elementary::powi;
+use crate::numerics::powi;
 
 /// The whole result of a fit.
 #[derive(Clone, Debug)]

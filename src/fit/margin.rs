@@ -16,7 +16,7 @@ use super::{
 use crate::branch::fold::fold;
 use crate::flow::{Limits, Reason};
 use crate::model::{Knob, ParameterBox, Parameters};
-use crate::numerics::count::{real, truncated};
+use crate::numerics::{real, truncated};
 use crate::portrait::guarantee::oscillator::guaranteed;
 use crate::portrait::{Equation, Kicks, Margin, Portrait, all_closings};
 

@@ -2,8 +2,8 @@
 //!
 //! [`record`] reads the files of instruments. [`mod@guess`] makes a first guess from the [`mod@turning_points`], by the
 //! decrements of averaging. [`motion`] follows a motion with its exact derivatives, half swing by half swing;
-//! [`observation`] compares it with the record. [`task`] says what is estimated,
-//! [`levenberg_marquardt`] minimizes the loss, and [`search`] finds the right [`valley`] for it. [`mod@samples`]
+//! [`observation`] compares it with the record. [`task`] says which of the [`unknowns`] are estimated, and
+//! minimizes the loss; [`search`] finds the right [`valley`] for it. [`mod@samples`]
 //! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for
 //! correlated noise ([`uncertainty`], [`residuals`]); intervals where the loss is not quadratic ([`profile`]); numbers
 //! of which only combinations are known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What
@@ -40,7 +40,6 @@ mod drift;
 mod estimate;
 mod fitted;
 mod guess;
-mod levenberg_marquardt;
 mod margin;
 mod motion;
 mod noise;
@@ -49,7 +48,6 @@ mod posterior;
 mod profile;
 mod question;
 mod record;
-mod refit;
 mod residuals;
 mod samples;
 mod search;
@@ -57,71 +55,64 @@ mod signal;
 mod task;
 mod turning_points;
 mod uncertainty;
+mod unknowns;
 mod valley;
 
 pub use estimate::Estimate;
 pub use fitted::{Fitted, RecordPoint};
 pub use margin::{DRAWS, MarginQuestion, Margins, margins};
-pub use observation::parameters;
 pub use question::{Inertia, LossName, Question, Unfit};
 pub use record::{BadRecord, Reading, Record, parse};
 pub use signal::{LENGTHS, Signal, length_in_metres};
+pub use unknowns::parameters;
 
 #[doc(hidden)]
 pub use {
     conditions::{Condition, conditions},
-    estimate::Rival,
+    estimate::{Rival, following},
     motion::Way,
-    observation::{
-        BEND, D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, Residual, SLOPE, StartKind, UNKNOWNS,
-        Unknowns,
-    },
+    observation::Residual,
     question::{Choice, NAMES, NameSpec, named},
-    refit::following,
     task::{Dropped, Runs, Task},
+    unknowns::{
+        BEND, D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, SLOPE, StartKind, UNKNOWNS, Unknowns,
+    },
 };
 
-pub(crate) use {
-    curves::{Curves, PlotPoint, memory},
-    drift::FittedDrift,
-    estimate::{LeftOut, left_out},
-    fitted::{Combination, EstimatedNumber, combinations, rows},
-    margin::MarginSpread,
-    question::{assigned, listed},
-    record::decoded,
-    refit::{RISES, contour, held},
-    signal::quantity,
-};
-
-// What the files of this ring use of each other.
+// What other rings use of it, and its files of each other.
 pub(crate) use {
     cells::{Header, TIME_UNITS, cells, clock_seconds, lines, read, seconds_in, separator},
     conditions::repeated,
-    drift::{LeftDrift, drift_of_swings, without_drift},
-    estimate::judged,
+    curves::{Curves, PlotPoint, memory},
+    drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
+    estimate::{LeftOut, RISES, contour, held, judged, left_out},
+    fitted::{Combination, EstimatedNumber, combinations, rows},
     guess::{Beginning, Guess, guess, period_of},
-    motion::{FittedTurn, Gradient, MotionLost, follow},
+    margin::MarginSpread,
+    motion::{FittedTurn, MotionLost, follow},
     noise::{
         IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,
     },
     observation::{Bound, Region, Seen, drift},
     posterior::{Drawn, FEWEST, drawn},
     profile::{Left, Profile, ProfileInterval},
-    question::{Loss, placed, reach},
+    question::{Loss, assigned, listed, placed, reach},
+    record::decoded,
     residuals::{
         Whiteness, autocorrelations, chi_squared, deviation_of_95_percent, normal_at, whiteness,
     },
     samples::{peaks, samples},
     search::released_before,
-    signal::{SignalUnit, measure, value_of, with_latin_micro},
+    signal::{SignalUnit, measure, quantity, value_of, with_latin_micro},
     task::{
-        FitVerdict, HIDDEN, Optimum, RUN, interrupted, longest_run, mean_square, moved, scattered,
+        FitVerdict, HIDDEN, LinearResiduals, Optimum, RUN, interrupted, longest_run, mean_square,
     },
     turning_points::{
         Extreme, amplitudes, averaged, dominant_frequency, middle_of, regressions, robust,
         smoothed, turning_points, without_jumps,
     },
     uncertainty::{Covariance, left_over, ratio_of_kinds},
+    unknowns::{UnknownsMatrix, direction},
     valley::{WIDE, by_cost, through_the_valley},
 };
 

@@ -10,7 +10,9 @@
 //! variational equation `y' = w, w' = -y + (df/dv) w + g` are computed: a homogeneous one that starts across the flow, and
 //! those for D, D2 and D3 with `g = -2 v, -v^2, -v^3`. Their Taylor coefficients follow from those of the motion.
 
-use super::Signal;
+use nalgebra::Vector4;
+
+use super::{D, D2, D3, LAST, Q0, R, Signal, Unknowns, direction};
 use crate::flow::step::{StepPoint, Stepper};
 use crate::flow::taylor::Taylor;
 use crate::model::{HalfPlane, Parameters, Side, State};
@@ -23,22 +25,13 @@ const ORDER: usize = 18;
 const TOLERANCE: f64 = 1e-13;
 
 /// Solutions of the variational equation: across the flow, and by D, D2 (in the frame of the half plane) and D3.
-type Ways = [f64; 4];
-
-/// Number of the quantities on which a motion depends: D, D2, D3, r, q0, v0.
-pub const NUMBERS: usize = 6;
-
-/// Index of r among the [`NUMBERS`].
-const R: usize = 3;
+type Ways = Vector4<f64>;
 
 /// Maximum number of half swings of one motion.
 const MOST: usize = 100_000;
 
 /// Maximum number of steps in one half swing, a hundred times what any recorded motion takes.
 const STEPS: u32 = 5_000;
-
-/// Derivatives with respect to the [`NUMBERS`].
-pub type Gradient = [f64; NUMBERS];
 
 /// A point of a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,12 +45,12 @@ pub struct MotionPoint {
     /// Its derivative by the time.
     pub rate: f64,
     /// Its derivatives at a fixed time.
-    pub by: Gradient,
+    pub by: Unknowns,
 }
 
 impl MotionPoint {
     /// A mass at rest.
-    fn resting(q: f64, by: Gradient, signal: Signal) -> Self {
+    fn resting(q: f64, by: Unknowns, signal: Signal) -> Self {
         let point = MotionPoint { q, ..MotionPoint::default() };
         if signal.is_displacement() { MotionPoint { signal: q, by, ..point } } else { point }
     }
@@ -71,9 +64,9 @@ pub struct FittedTurn {
     /// Displacement.
     pub q: f64,
     /// Derivatives of the time.
-    pub tau_by: Gradient,
+    pub tau_by: Unknowns,
     /// Derivatives of the displacement.
-    pub q_by: Gradient,
+    pub q_by: Unknowns,
 }
 
 /// The turning points of a motion, as far as it was followed.
@@ -125,7 +118,7 @@ pub fn follow(
     let mut stepper = Taylor::with_order(TOLERANCE, ORDER);
     let mut next = 0;
     let mut swing = FittedSwing::first(parameters, start);
-    let mut rest = MotionPoint::resting(start.q, [0.0, 0.0, 0.0, 0.0, 1.0, 0.0], way.signal);
+    let mut rest = MotionPoint::resting(start.q, direction(Q0), way.signal);
     for _ in 0..MOST {
         let Some(moving) = swing else {
             (next..times.len()).for_each(|index| see(index, rest));
@@ -163,9 +156,9 @@ struct FittedSwing {
     start: Jet,
     tau: f64,
     /// Derivatives of the start in the direction that the jet takes, for each number.
-    across: Gradient,
+    across: Unknowns,
     /// Derivatives of the time of the start, for each number.
-    tau_by: Gradient,
+    tau_by: Unknowns,
 }
 
 impl FittedSwing {
@@ -182,7 +175,7 @@ impl FittedSwing {
         let (ux, uv) = (*v / norm, force / norm);
         (y[0], w[0]) = (-uv, ux);
         let sign = side.sign();
-        for (number, dx, dv) in [(R, 1.0, 0.0), (4, sign, 0.0), (5, 0.0, sign)] {
+        for (number, dx, dv) in [(R, 1.0, 0.0), (Q0, sign, 0.0), (LAST, 0.0, sign)] {
             swing.across[number] = ux * dv - uv * dx;
             swing.tau_by[number] = -(ux * dx + uv * dv) / norm;
         }
@@ -193,8 +186,7 @@ impl FittedSwing {
     fn after(&self, parameters: &Parameters, turn: &FittedTurn) -> Option<Self> {
         let side = self.side.opposite();
         let mut swing = Self::new(parameters, side, turn.q);
-        swing.across = turn.q_by.map(|by| side.sign() * by);
-        swing.across[R] += 1.0;
+        swing.across = side.sign() * turn.q_by + direction(R);
         (swing.tau, swing.tau_by) = (turn.tau, turn.tau_by);
         (swing.start.at.x < 0.0).then_some(swing)
     }
@@ -203,20 +195,20 @@ impl FittedSwing {
     fn new(parameters: &Parameters, side: Side, q: f64) -> Self {
         let Parameters { r, .. } = *parameters;
         let at = StepPoint { x: side.position(q, r), v: 0.0 };
-        let start = Jet { at, y: [1.0, 0.0, 0.0, 0.0], w: Ways::default() };
-        let [across, tau_by] = [[0.0; NUMBERS]; 2];
+        let start = Jet { at, y: Ways::x(), w: Ways::zeros() };
+        let [across, tau_by] = [Unknowns::zeros(); 2];
         let field = HalfPlane::new(parameters, side);
         FittedSwing { side, r, field, start, tau: 0.0, across, tau_by }
     }
 
     /// The derivatives with respect to all numbers from the solutions of the variational equation.
     #[inline]
-    fn combined(&self, ways: &Ways) -> Gradient {
-        let [across, d, d2, d3] = *ways;
-        let mut by = self.across.map(|share| share * across);
-        by[0] += d;
-        by[1] += self.side.sign() * d2;
-        by[2] += d3;
+    fn combined(&self, ways: &Ways) -> Unknowns {
+        let [across, d, d2, d3] = (*ways).into();
+        let mut by = across * self.across;
+        by[D] += d;
+        by[D2] += self.side.sign() * d2;
+        by[D3] += d3;
         by
     }
 
@@ -284,27 +276,20 @@ impl FittedSwing {
             Signal::Velocity => (v, force),
             Signal::Acceleration => (force, slope * force - v),
         };
-        let mut by = [0.0; NUMBERS];
+        let mut by = Unknowns::zeros();
         if way.with_derivatives {
             by = match way.signal {
-                Signal::Displacement => {
-                    let mut by = self.combined(&jet.y);
-                    by[R] -= 1.0;
-                    by
-                }
+                Signal::Displacement => self.combined(&jet.y) - direction(R),
                 Signal::Velocity => self.combined(&jet.w),
                 Signal::Acceleration => {
-                    let (moved, sped) = (self.combined(&jet.y), self.combined(&jet.w));
-                    let mut by: Gradient = std::array::from_fn(|p| slope * sped[p] - moved[p]);
-                    by[0] -= 2.0 * v;
-                    by[1] -= sign * v * v;
-                    by[2] -= v * v * v;
+                    let mut by = slope * self.combined(&jet.w) - self.combined(&jet.y);
+                    by[D] -= 2.0 * v;
+                    by[D2] -= sign * v * v;
+                    by[D3] -= v * v * v;
                     by
                 }
             };
-            for (by, delay) in by.iter_mut().zip(self.tau_by) {
-                *by = sign * (*by - delay * rate);
-            }
+            by = sign * (by - rate * self.tau_by);
         }
         let q = self.side.displacement(x, self.r);
         MotionPoint { q, v: sign * v, signal: sign * signal, rate: sign * rate, by }
@@ -313,10 +298,8 @@ impl FittedSwing {
     fn turn(&self, tau: f64, end: &Jet) -> FittedTurn {
         let sign = self.side.sign();
         let force = self.field.acceleration(end.at.x, 0.0);
-        let (moved, sped) = (self.combined(&end.y), self.combined(&end.w));
-        let mut q_by = moved.map(|by| sign * by);
-        q_by[R] -= sign;
-        let tau_by = std::array::from_fn(|p| self.tau_by[p] - sped[p] / force);
+        let q_by = sign * (self.combined(&end.y) - direction(R));
+        let tau_by = self.tau_by - self.combined(&end.w) / force;
         FittedTurn { tau, q: self.side.displacement(end.at.x, self.r), tau_by, q_by }
     }
 }
@@ -336,40 +319,35 @@ impl Derivatives {
         let terms = &mut self.terms;
         let mut square = [0.0; ORDER];
         let mut slope = [0.0; ORDER];
-        let mut w = [Ways::default(); ORDER + 1];
+        let mut w = [Ways::zeros(); ORDER + 1];
         (terms[0], w[0], self.unit) = (start.y, start.w, unit);
         for k in 0..ORDER {
             square[k] = (0..=k).map(|i| v[i] * v[k - i]).sum();
             let cube: f64 = (0..=k).map(|i| square[i] * v[k - i]).sum();
             let linear = if k == 0 { -2.0 * d } else { 0.0 };
             slope[k] = linear - 2.0 * d2 * v[k] - 3.0 * d3 * square[k];
-            let mut sum = [0.0, -2.0 * v[k], -square[k], -cube];
+            let mut sum = Ways::new(0.0, -2.0 * v[k], -square[k], -cube);
             for i in 0..=k {
-                for (sum, w) in sum.iter_mut().zip(&w[k - i]) {
-                    *sum += slope[i] * w;
-                }
+                sum += slope[i] * w[k - i];
             }
             let part = unit / real(k + 1);
-            w[k + 1] = std::array::from_fn(|way| part * (sum[way] - terms[k][way]));
-            terms[k + 1] = w[k].map(|w| part * w);
+            w[k + 1] = part * (sum - terms[k]);
+            terms[k + 1] = part * w[k];
         }
     }
 
     /// The derivatives of the position `t` after the start of the step.
     fn of_position(&self, t: f64) -> Ways {
         let t = t / self.unit;
-        let terms = self.terms.iter().rev();
-        terms.fold(Ways::default(), |sum, term| std::array::from_fn(|i| sum[i] * t + term[i]))
+        self.terms.iter().rev().fold(Ways::zeros(), |sum, term| sum * t + term)
     }
 
     /// Those of the velocity.
     fn of_velocity(&self, t: f64) -> Ways {
         let t = t / self.unit;
         let terms = self.terms.iter().enumerate().skip(1).rev();
-        let sum = terms.fold(Ways::default(), |sum, (order, term)| {
-            std::array::from_fn(|i| sum[i] * t + real(order) * term[i])
-        });
-        sum.map(|w| w / self.unit)
+        let sum = terms.fold(Ways::zeros(), |sum, (order, term)| sum * t + real(order) * term);
+        sum / self.unit
     }
 }
 
@@ -431,30 +409,31 @@ mod tests {
         {
             let numbers =
                 [parameters.d, parameters.d2, parameters.d3, parameters.r, start.q, start.v];
-            let at = |numbers: [f64; NUMBERS], with_derivatives: bool| {
+            let at = |numbers: [f64; 6], with_derivatives: bool| {
                 let [d, d2, d3, r, q, v] = numbers;
                 let parameters = Parameters { d, d2, d3, r };
                 let way = Way { signal, ..way(with_derivatives) };
                 points(&parameters, State { q, v }, &times(), way)
             };
             let exact = at(numbers, true);
-            for p in (0..NUMBERS).filter(|&p| p != 5 || start.v != 0.0) {
+            let places = [D, D2, D3, R, Q0, LAST].into_iter().enumerate();
+            for (p, place) in places.filter(|&(_, place)| place != LAST || start.v != 0.0) {
                 let moved = |step: f64| {
                     let mut numbers = numbers;
                     numbers[p] += step;
                     at(numbers, false)
                 };
                 let (above, below) = (moved(STEP), moved(-STEP));
-                let largest = exact.iter().map(|point| point.by[p].abs()).fold(0.0, f64::max);
+                let largest = exact.iter().map(|point| point.by[place].abs()).fold(0.0, f64::max);
                 for ((exact, above), below) in exact.iter().zip(&above).zip(&below) {
                     if above.v.signum() != below.v.signum() {
                         continue;
                     }
                     let difference = (above.signal - below.signal) / (2.0 * STEP);
-                    let off = (exact.by[p] - difference).abs();
+                    let off = (exact.by[place] - difference).abs();
                     assert!(
                         off < 1e-6 * largest,
-                        "{signal}, {parameters:?}: number {p}: {off} of {largest}"
+                        "{signal}, {parameters:?}: number {place}: {off} of {largest}"
                     );
                 }
             }
@@ -475,7 +454,8 @@ mod tests {
                 let moves = v.v != 0.0;
                 let is = if moves { -force - q.q - friction } else { 0.0 };
                 assert!((a.signal - is).abs() < 1e-12 * start.q.abs(), "{parameters:?} {a:?}");
-                assert!(moves || (v.signal, a.by, v.by) == (0.0, [0.0; NUMBERS], [0.0; NUMBERS]));
+                let none = Unknowns::zeros();
+                assert!(moves || (v.signal, a.by, v.by) == (0.0, none, none));
             }
         }
     }
@@ -499,6 +479,6 @@ mod tests {
         assert_eq!(found, Err(MotionLost));
         let rest = State { q: 0.05, v: 0.0 };
         let found = points(&parameters, rest, &[0.0, 50.0], way(true));
-        assert!(found.iter().all(|point| (point.q, point.v, point.by[4]) == (0.05, 0.0, 1.0)));
+        assert!(found.iter().all(|point| (point.q, point.v, point.by[Q0]) == (0.05, 0.0, 1.0)));
     }
 }

@@ -6,58 +6,12 @@
 //! offset is that of the signal. It may drift along a parabola, whose two numbers are held at zero unless the
 //! record shows a drift. Turning points, with or without times, are the same motion observed only where `v = 0`.
 
-use super::{FittedTurn, Gradient, MotionLost, Record, Way, follow, rate};
-use crate::model::{Parameters, State};
-use crate::numerics::count::real;
-
-/// Number of unknowns.
-pub const UNKNOWNS: usize = 10;
-
-/// Places of the unknowns.
-pub const OMEGA0: usize = 0;
-/// See [`OMEGA0`].
-pub const OFFSET: usize = 1;
-/// See [`OMEGA0`].
-pub const D: usize = 2;
-/// See [`OMEGA0`].
-pub const D2: usize = 3;
-/// See [`OMEGA0`].
-pub const D3: usize = 4;
-/// See [`OMEGA0`].
-pub const R: usize = 5;
-/// See [`OMEGA0`].
-pub const Q0: usize = 6;
-/// The time of release, of the first peak, or the velocity at the first sample.
-pub const LAST: usize = 7;
-/// The change of the offset from the beginning to the end of the record.
-pub const SLOPE: usize = 8;
-/// Four times the height of the ends of the record above its middle, by which the offset bends; its mean is zero.
-pub const BEND: usize = 9;
-
-/// Values of the unknowns: angular frequency in 1/s, lengths in the unit of the record, times in s, the initial
-/// velocity as `velocity/omega0`.
-pub type Unknowns = [f64; UNKNOWNS];
-
-/// How the recorded motion begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StartKind {
-    /// Held at rest, then released.
-    Release,
-    /// In motion at the first sample.
-    Moving,
-}
-
-impl StartKind {
-    /// When a motion begins that is observed at these times, and its first state.
-    pub fn beginning(self, p: &Unknowns, t: &[f64]) -> (f64, State) {
-        match self {
-            StartKind::Release => (p[LAST], State { q: p[Q0], v: 0.0 }),
-            StartKind::Moving => {
-                (t.first().copied().unwrap_or(0.0), State { q: p[Q0], v: p[LAST] })
-            }
-        }
-    }
-}
+use super::{
+    BEND, FittedTurn, LAST, MotionLost, OFFSET, OMEGA0, Q0, R, Record, SLOPE, StartKind, Unknowns,
+    Way, direction, follow, parameters, rate,
+};
+use crate::model::State;
+use crate::numerics::real;
 
 impl Record {
     /// Number of residuals: of samples, or of displacements and times of peaks.
@@ -142,21 +96,14 @@ impl Seen {
         let bound = |(index, turn): (usize, &FittedTurn)| {
             // A mass that rests has turned within the sticking set, and before that outside it.
             let side = if self.region.is_some() && index == 0 { -1.0 } else { 1.0 };
-            let mut by = unknowns(&turn.q_by).map(|by| side * turn.q.signum() * by);
-            by[R] -= side;
-            if start == StartKind::Moving {
-                by[LAST] = side * turn.q.signum() * turn.q_by[5];
+            let mut by = side * (turn.q.signum() * turn.q_by - direction(R));
+            if start == StartKind::Release {
+                by[LAST] = 0.0;
             }
             (side * (turn.q.abs() - p[R]), by)
         };
         last.enumerate().map(bound).collect()
     }
-}
-
-/// The parameters of the motion among the unknowns.
-#[must_use]
-pub fn parameters(p: &Unknowns) -> Parameters {
-    Parameters { d: p[D], d2: p[D2], d3: p[D3], r: p[R] }
 }
 
 impl Record {
@@ -210,28 +157,21 @@ impl Record {
         };
         let still = if way.signal.is_displacement() { 1.0 } else { 0.0 };
         for index in 0..held {
-            let mut by = [0.0; UNKNOWNS];
-            by[Q0] = still;
-            push(index, by, still * p[Q0]);
+            push(index, still * direction(Q0), still * p[Q0]);
         }
         let moving = begin == StartKind::Moving;
         let followed = follow(&parameters(p), start, &times, way, |index, point| {
-            let mut by = unknowns(&point.by).map(|by| scale * by);
+            let mut by = scale * point.by;
             let passed = times[index] / p[OMEGA0];
             by[OMEGA0] = scale * (point.rate * passed + real(order) * point.signal / p[OMEGA0]);
-            by[LAST] = scale * if moving { point.by[5] } else { -p[OMEGA0] * point.rate };
+            if !moving {
+                by[LAST] = -scale * p[OMEGA0] * point.rate;
+            }
             push(held + index, by, scale * point.signal);
         })?;
         let region = followed.rests.then_some(followed.turns.len());
         Ok(Seen { residuals, turns: followed.turns, rests: followed.rests, region })
     }
-}
-
-/// The derivatives with respect to D, D2, D3, r and q0, at their places among the unknowns.
-fn unknowns(by: &Gradient) -> Unknowns {
-    let mut all = [0.0; UNKNOWNS];
-    all[D..=Q0].copy_from_slice(&by[..5]);
-    all
 }
 
 /// Compares turning points; residuals of times are divided by `ratio`.
@@ -243,8 +183,7 @@ fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Seen, Moti
     let way = Way { turns: x.len() - 1, ..way };
     let start = State { q: p[Q0], v: 0.0 };
     let followed = follow(&parameters(p), start, &patience, way, |_, _| {})?;
-    let mut first = FittedTurn { q: p[Q0], ..Default::default() };
-    first.q_by[4] = 1.0;
+    let first = FittedTurn { q: p[Q0], q_by: direction(Q0), ..Default::default() };
     let mut turns: Vec<_> = std::iter::once(first).chain(followed.turns.iter().copied()).collect();
     // After the mass has come to rest the motion continues with amplitude zero. So nothing jumps when the last
     // turning point crosses the rim of the sticking set.
@@ -257,12 +196,13 @@ fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Seen, Moti
     }
     let mut residuals = Vec::with_capacity(2 * x.len());
     for (turn, x) in turns.iter().zip(x) {
-        let mut by = unknowns(&turn.q_by);
-        by[OFFSET] = 1.0;
+        let mut by = turn.q_by;
+        // The motion begins at a turning point, without a velocity that could vary.
+        (by[OFFSET], by[LAST]) = (1.0, 0.0);
         residuals.push(Residual { value: x - p[OFFSET] - turn.q, by });
     }
     for (turn, t) in turns.iter().zip(&data.t) {
-        let mut by = unknowns(&turn.tau_by).map(|by| by / (p[OMEGA0] * ratio));
+        let mut by = turn.tau_by / (p[OMEGA0] * ratio);
         by[OMEGA0] = -turn.tau / (p[OMEGA0] * p[OMEGA0] * ratio);
         by[LAST] = 1.0 / ratio;
         residuals.push(Residual { value: (t - p[LAST] - turn.tau / p[OMEGA0]) / ratio, by });

@@ -6,12 +6,11 @@
 //! density of these draws and the likelihood is a weight near one (Bardsley, Solonen, Haario and Laine,
 //! *Randomize-then-optimize*, 2014). With negative friction ruled out, this gives the posterior for a uniform prior.
 
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::{
-    D, D2, D3, Estimate, R, Runs, Seen, Task, Unfit, Unknowns, chi_squared, moved, normal_at,
-    scattered,
+    D, D2, D3, Estimate, R, Runs, Seen, Task, Unfit, Unknowns, UnknownsMatrix, chi_squared,
+    normal_at,
 };
 use crate::flow::{Limits, Reason};
 use crate::numerics::{exp, ln, pow, real};
@@ -109,15 +108,14 @@ fn resampled(points: &[(Unknowns, f64)], weights: &[f64], draws: usize) -> Vec<U
 struct PosteriorFrame<'a> {
     task: Task<'a>,
     estimate: &'a Estimate,
-    columns: Vec<usize>,
     /// Orthonormal directions, a row for each residual that counts.
-    along: Vec<DVector<f64>>,
+    along: Vec<Unknowns>,
     /// The triangular factor of the gradients of the estimate.
-    upper: DMatrix<f64>,
+    upper: UnknownsMatrix,
     /// The root of the covariance of errors along the directions.
-    root: DMatrix<f64>,
+    root: UnknownsMatrix,
     /// The residuals of the estimate along the directions; zero unless a bound holds it.
-    center: DVector<f64>,
+    center: Unknowns,
     /// Loss per unit of chi-squared.
     unit: f64,
 }
@@ -125,68 +123,60 @@ struct PosteriorFrame<'a> {
 impl<'a> PosteriorFrame<'a> {
     fn of(estimate: &'a Estimate, runs: &mut Runs) -> Result<Self, Unfit> {
         let task = estimate.task(&[]);
-        let columns = estimate.covariance.columns.clone();
         let seen = task.evaluated(&estimate.p, true, runs)?;
-        let (upper, along) = (task.upper(&seen), task.directions(&seen));
+        let (upper, along) = (task.factor(&seen).upper, task.directions(&seen));
         // The covariance of the estimate is U^-1 C U^-T for errors with the covariance C along the directions.
-        let errors = &upper * &estimate.covariance.matrix * upper.transpose();
+        let errors = upper * estimate.covariance.matrix * upper.transpose() + task.held();
+        let unit = estimate.unit(runs)?;
         let root = errors.cholesky().map(|it| it.l());
-        let (width, unit) = (columns.len(), estimate.unit(runs)?);
-        let root = root.unwrap_or_else(|| unit.sqrt() * DMatrix::identity(width, width));
-        let center = DVector::zeros(width);
-        let mut frame =
-            PosteriorFrame { task, estimate, columns, along, upper, root, center, unit };
+        let root = root.unwrap_or_else(|| unit.sqrt() * UnknownsMatrix::identity());
+        let center = Unknowns::zeros();
+        let mut frame = PosteriorFrame { task, estimate, along, upper, root, center, unit };
         frame.center = frame.seen_along(&seen).0;
         Ok(frame)
     }
 
     /// Errors along the directions, the `index`th of evenly spread ones.
-    fn errors(&self, index: usize) -> DVector<f64> {
-        let width = self.columns.len();
+    fn errors(&self, index: usize) -> Unknowns {
+        let width = self.task.columns().count();
         let even = evenly(index, width + 1);
-        let normal = DVector::from_fn(width, |i, _| normal_at(even[i]));
+        let mut normal = Unknowns::zeros();
+        for (place, even) in self.task.columns().zip(&even) {
+            normal[place] = normal_at(*even);
+        }
         // The size of the noise is itself known only from its residuals.
         let freedom = self.estimate.covariance.independent(R);
         let wider = (freedom / chi_squared(freedom, normal_at(even[width]))).sqrt();
-        &self.root * normal * wider
+        self.root * normal * wider
     }
 
     /// The point to which the linear model leads from the estimate for a change of what is seen.
-    fn straight(&self, change: &DVector<f64>) -> Unknowns {
-        let step = self.upper.solve_upper_triangular(change);
-        self.stepped(&self.estimate.p, &step.unwrap_or_else(|| DVector::zeros(self.columns.len())))
-    }
-
-    fn stepped(&self, p: &Unknowns, step: &DVector<f64>) -> Unknowns {
-        moved(p, 1.0, &scattered(&self.columns, step))
+    fn straight(&self, change: &Unknowns) -> Unknowns {
+        self.estimate.p + self.upper.solve_upper_triangular(change).unwrap_or_default()
     }
 
     /// The residuals along the directions, and the derivatives of the motion along them.
-    fn seen_along(&self, seen: &Seen) -> (DVector<f64>, DMatrix<f64>) {
-        let width = self.columns.len();
-        let (mut values, mut by) = (DVector::zeros(width), DMatrix::zeros(width, width));
+    fn seen_along(&self, seen: &Seen) -> (Unknowns, UnknownsMatrix) {
+        let (mut values, mut by) = (Unknowns::zeros(), self.task.held());
         for (along, residual) in self.along.iter().zip(self.task.used_residuals(seen)) {
             values.axpy(residual.value, along, 1.0);
-            for (j, &column) in self.columns.iter().enumerate() {
-                by.column_mut(j).axpy(residual.by[column], along, 1.0);
-            }
+            by.ger(1.0, along, &self.task.by_free(&residual.by), 1.0);
         }
         (values, by)
     }
 
     /// The motions whose residuals have these errors, each with the logarithm of its weight, and the number of
     /// motions computed. There may be one near every minimum.
-    fn draws(&self, errors: &DVector<f64>, limits: &Limits) -> (Vec<(Unknowns, f64)>, u64) {
+    fn draws(&self, errors: &Unknowns, limits: &Limits) -> (Vec<(Unknowns, f64)>, u64) {
         let mut runs = Runs::new(limits.interrupted);
         let mut found: Vec<(Unknowns, f64)> = Vec::new();
         let estimate = self.estimate;
         for rival in estimate.contenders() {
             let Some((p, weight)) = self.draw(&rival.p, errors, &mut runs) else { continue };
             let near = |other: &Unknowns| {
-                let apart = |&column: &usize| {
-                    (p[column] - other[column]).abs() < 0.01 * estimate.covariance.error(column)
-                };
-                self.columns.iter().all(apart)
+                self.task.columns().all(|place| {
+                    (p[place] - other[place]).abs() < 0.01 * estimate.covariance.error(place)
+                })
             };
             if !found.iter().any(|(other, _)| near(other)) {
                 found.push((p, weight));
@@ -196,20 +186,15 @@ impl<'a> PosteriorFrame<'a> {
     }
 
     /// One of them, by Newton's method; `None` if it would have negative friction, or none is found.
-    fn draw(
-        &self,
-        from: &Unknowns,
-        errors: &DVector<f64>,
-        runs: &mut Runs,
-    ) -> Option<(Unknowns, f64)> {
+    fn draw(&self, from: &Unknowns, errors: &Unknowns, runs: &mut Runs) -> Option<(Unknowns, f64)> {
         const ROUNDS: usize = 14;
         /// So many points with negative friction show that there is none without.
         const NEGATIVE: usize = 3;
         /// How far the residuals may be from the errors, squared, in units of the noise.
         const NEAR: f64 = 1e-4;
         let mut at =
-            if *from == self.estimate.p { self.straight(&(&self.center - errors)) } else { *from };
-        let mut before: Option<(Unknowns, DVector<f64>, f64)> = None;
+            if *from == self.estimate.p { self.straight(&(self.center - errors)) } else { *from };
+        let mut before: Option<(Unknowns, Unknowns, f64)> = None;
         let mut negative = 0;
         for _ in 0..ROUNDS {
             negative += usize::from(at[R] < 0.0);
@@ -220,7 +205,7 @@ impl<'a> PosteriorFrame<'a> {
             let seen = self.task.evaluated(&at, true, runs).ok();
             let state = seen.map(|seen| {
                 let (values, by) = self.seen_along(&seen);
-                ((&values - errors).norm_squared() / self.unit, values, by, self.task.cost(&seen))
+                ((values - errors).norm_squared() / self.unit, values, by, self.task.cost(&seen))
             });
             match (state, &before) {
                 (Some((off, values, by, cost)), last)
@@ -233,16 +218,16 @@ impl<'a> PosteriorFrame<'a> {
                         return Some((at, -0.5 * bent - size));
                     }
                     let step = lu.solve(&(values - errors))?;
-                    before = Some((at, step.clone(), off));
-                    at = self.stepped(&at, &step);
+                    before = Some((at, step, off));
+                    at += step;
                 }
                 // Too far: half the step.
                 (_, Some(_)) => {
                     let (last, step, _) = before.as_mut()?;
                     *step *= 0.4;
-                    at = self.stepped(last, step);
+                    at = *last + *step;
                 }
-                (_, None) => at = std::array::from_fn(|i: usize| 0.5 * (at[i] + from[i])),
+                (_, None) => at = 0.5 * (at + from),
             }
         }
         None

@@ -4,9 +4,7 @@
 //! explains. If the loss is quadratic, the ends lie at a multiple of the standard error from the minimum, which is
 //! checked by one motion on each side. Otherwise the ends are found by refitting all other unknowns.
 
-use super::{
-    Covariance, Optimum, R, Runs, Task, Unfit, deviation_of_95_percent, interrupted, moved,
-};
+use super::{Covariance, Optimum, R, Runs, Task, Unfit, deviation_of_95_percent, interrupted};
 
 /// A 95 % interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -131,7 +129,7 @@ impl Profile<'_> {
     /// Whether the loss rises as a quadratic one would, if the unknown is moved and all others follow freely.
     fn rises_by(&self, unknown: usize, by: f64, rise: f64, runs: &mut Runs) -> Result<bool, Left> {
         let along = self.covariance.following(&[(unknown, 1.0)]);
-        let p = moved(&self.optimum.p, by, &along);
+        let p = self.optimum.p + by * along;
         // Friction cannot be negative: r ends at 0, and unknowns that depend on r have a kink there.
         if p[R] < 0.0 && self.task.free[R] {
             return Ok(false);

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::{BEND, D, D2, D3, OFFSET, OMEGA0, R, SLOPE, UNKNOWNS, Unknowns, range};
 use crate::model::{KNOBS, Knob, unknown};
-use crate::numerics::elementary::{ln_1p, powi};
+use crate::numerics::{ln_1p, powi};
 
 /// How residuals count, as the user says it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -295,7 +295,7 @@ pub enum Unfit {
 /// A guess in which held unknowns have their values.
 #[must_use]
 pub fn placed(held: &[Option<f64>; UNKNOWNS], guess: Unknowns) -> Unknowns {
-    std::array::from_fn(|place| held[place].unwrap_or(guess[place]))
+    Unknowns::from_fn(|place, _| held[place].unwrap_or(guess[place]))
 }
 
 /// The displacement beyond which a motion counts as escaped, for a record with these displacements.

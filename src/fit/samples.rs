@@ -14,7 +14,7 @@ use super::{
     ratio_of_kinds, reach, regressions, released_before, robust_deviation, within_scale,
     without_drift,
 };
-use crate::numerics::count::{real, truncated};
+use crate::numerics::{real, truncated};
 
 /// Fits a record of samples. Fails with [`Unfit`].
 pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
@@ -60,16 +60,12 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         let found = samples(&part, question, runs).ok();
         found.filter(|it| !it.whiteness.systematic).map(|it| of_part(it, range, &within))
     };
-    if let Some(until) = again
-        && let Some(found) = part(0..until, runs)
-    {
-        return Ok(found);
-    }
     let struck = struck.map(|from| from..x.len());
-    if let Some(range) = struck.clone().filter(|_| signal.is_displacement())
-        && let Some(found) = part(range, runs)
-    {
-        return Ok(found);
+    let at_once = struck.clone().filter(|_| signal.is_displacement());
+    for range in again.map(|until| 0..until).into_iter().chain(at_once) {
+        if let Some(found) = part(range, runs) {
+            return Ok(found);
+        }
     }
     let loss = loss_of(question.loss, &noise);
     let reach = reach(&swinging);

@@ -1,12 +1,19 @@
-//! What is estimated from a record, and how well a motion explains it.
+//! What is estimated from a record, how well a motion explains it, and the descent to the motion that explains it best.
+//!
+//! The descent is nonlinear least squares with exact gradients: the Levenberg-Marquardt method on a QR factor.
+//! Each set of gradients is factored once; every damping that is tried costs another factorization of some twenty
+//! rows. The damping is scaled by the largest column norms so far (More, *The Levenberg-Marquardt
+//! algorithm*, 1978); its size follows the ratio of actual to predicted reduction (Nielsen, 1999). A trial
+//! point whose motion escapes is a rejected step. A step that would make friction negative, or leave the region to
+//! which a descent is confined, is recomputed along that border.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::{
-    BEND, IMPOSSIBLE, Loss, OMEGA0, Record, Region, Residual, SLOPE, Seen, StartKind, UNKNOWNS,
-    Unfit, Unknowns, Way, robust_deviation, whiteness,
+    BEND, Bound, IMPOSSIBLE, Loss, OMEGA0, R, Record, Region, Residual, SLOPE, Seen, StartKind,
+    UNKNOWNS, Unfit, Unknowns, UnknownsMatrix, Way, direction, robust_deviation, whiteness,
 };
-use crate::numerics::count::real;
+use crate::numerics::{powi, real};
 
 /// Counters of the computation, and the check for an interruption.
 pub struct Runs<'a> {
@@ -108,6 +115,18 @@ pub struct Task<'a> {
     pub within: Option<Region>,
 }
 
+/// The weighted residuals as linear functions of the free unknowns, up to an orthogonal map: `turned - upper step`, and
+/// one more that no step changes.
+#[derive(Clone, Debug, Default)]
+pub struct LinearResiduals {
+    /// A triangular matrix.
+    pub upper: UnknownsMatrix,
+    /// What becomes of the residuals.
+    pub turned: Unknowns,
+    /// The one that no step changes.
+    pub left: f64,
+}
+
 /// What the residuals of a minimum may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FitVerdict {
@@ -133,20 +152,6 @@ pub fn longest_run(flags: impl Iterator<Item = bool>) -> usize {
         (longest.max(run), run)
     });
     longest
-}
-
-/// Values of some unknowns, with zero for all others.
-pub fn scattered(columns: &[usize], values: &DVector<f64>) -> Unknowns {
-    let mut all = [0.0; UNKNOWNS];
-    for (&column, value) in columns.iter().zip(values.iter()) {
-        all[column] = *value;
-    }
-    all
-}
-
-/// A point moved by a part of a step.
-pub fn moved(p: &Unknowns, part: f64, step: &Unknowns) -> Unknowns {
-    std::array::from_fn(|place| p[place] + part * step[place])
 }
 
 impl<'a> Task<'a> {
@@ -225,41 +230,58 @@ impl<'a> Task<'a> {
     }
 
     /// The places of the free unknowns.
-    pub fn columns(&self) -> Vec<usize> {
-        (0..UNKNOWNS).filter(|&column| self.free[column]).collect()
+    pub fn columns(&self) -> impl Iterator<Item = usize> {
+        let free = self.free;
+        (0..UNKNOWNS).filter(move |place| free[*place])
     }
 
-    /// The triangular factor of the weighted gradients of the free unknowns, with the residuals as a last column.
-    pub fn factor(&self, seen: &Seen) -> DMatrix<f64> {
-        let columns = self.columns();
-        let width = columns.len() + 1;
-        triangle(width, seen.residuals.len(), |index, row| {
-            let residual = &seen.residuals[index];
-            let weight =
-                if self.counts(index) { self.loss.weight(residual.value).sqrt() } else { 0.0 };
-            for (cell, &column) in row.iter_mut().zip(&columns) {
-                *cell = weight * residual.by[column];
+    /// One for each unknown that is held, in the diagonal.
+    pub fn held(&self) -> UnknownsMatrix {
+        UnknownsMatrix::from_diagonal(&Unknowns::from_fn(|place, _| f64::from(!self.free[place])))
+    }
+
+    /// The derivatives by the free unknowns, with zeros for those that are held.
+    pub fn by_free(&self, by: &Unknowns) -> Unknowns {
+        Unknowns::from_fn(|place, _| if self.free[place] { by[place] } else { 0.0 })
+    }
+
+    /// The triangular factor of the weighted gradients of the free unknowns, and the vector to which the orthogonal factor
+    /// turns the residuals, with what is left of them beyond. Each held unknown has a row of its own, a unit vector.
+    pub fn factor(&self, seen: &Seen) -> LinearResiduals {
+        /// Number of rows that are factored together, few enough to stay in the cache.
+        const BLOCK: usize = 128;
+        const WIDTH: usize = UNKNOWNS + 1;
+        let mut factor = SMatrix::<f64, WIDTH, WIDTH>::zeros();
+        factor.fixed_view_mut::<UNKNOWNS, UNKNOWNS>(0, 0).copy_from(&self.held());
+        for (number, residuals) in seen.residuals.chunks(BLOCK).enumerate() {
+            // The orthogonal factor is never formed: the residuals, to which it would be applied, are the last column.
+            let mut block = DMatrix::zeros(WIDTH + residuals.len(), WIDTH);
+            block.rows_mut(0, WIDTH).copy_from(&factor);
+            for (row, it) in residuals.iter().enumerate() {
+                if self.counts(number * BLOCK + row) {
+                    let root = self.loss.weight(it.value).sqrt();
+                    for place in self.columns() {
+                        block[(WIDTH + row, place)] = root * it.by[place];
+                    }
+                    block[(WIDTH + row, UNKNOWNS)] = root * it.value;
+                }
             }
-            row[width - 1] = weight * residual.value;
-        })
-    }
-
-    /// The triangular factor of the weighted gradients alone.
-    pub fn upper(&self, seen: &Seen) -> DMatrix<f64> {
-        let factor = self.factor(seen);
-        let width = factor.ncols() - 1;
-        factor.view((0, 0), (width, width)).into_owned()
+            factor.copy_from(&block.qr().r().rows(0, WIDTH));
+        }
+        LinearResiduals {
+            upper: factor.fixed_view::<UNKNOWNS, UNKNOWNS>(0, 0).into_owned(),
+            turned: factor.fixed_view::<UNKNOWNS, 1>(0, UNKNOWNS).into_owned(),
+            left: factor[(UNKNOWNS, UNKNOWNS)],
+        }
     }
 
     /// The rows of Q if the weighted gradients of the residuals that count are `Q U`, with an orthogonal Q and a
     /// triangular U.
-    pub fn directions(&self, seen: &Seen) -> Vec<DVector<f64>> {
-        let (columns, lower) = (self.columns(), self.upper(seen).transpose());
+    pub fn directions(&self, seen: &Seen) -> Vec<Unknowns> {
+        let lower = self.factor(seen).upper.transpose();
         let row = |it: &Residual| {
-            let root = self.loss.weight(it.value).sqrt();
-            let row = columns.iter().map(|&column| root * it.by[column]);
-            let row = DVector::from_iterator(columns.len(), row);
-            lower.solve_lower_triangular(&row).unwrap_or_else(|| DVector::zeros(columns.len()))
+            let row = self.loss.weight(it.value).sqrt() * self.by_free(&it.by);
+            lower.solve_lower_triangular(&row).unwrap_or_default()
         };
         self.used_residuals(seen).map(row).collect()
     }
@@ -307,28 +329,190 @@ pub fn mean_square(values: &[f64]) -> f64 {
     values.iter().map(|it| it * it).sum::<f64>() / real(values.len())
 }
 
-/// The triangular factor of a matrix with `count` rows and `width` columns, computed by blocks of rows.
-///
-/// `fill(index, row)` writes row `index`. The orthogonal factor is never formed: a vector to which it would be
-/// applied is appended as another column.
-fn triangle(width: usize, count: usize, mut fill: impl FnMut(usize, &mut [f64])) -> DMatrix<f64> {
-    /// Number of rows that are factored together, few enough to stay in the cache.
-    const BLOCK: usize = 128;
-    let mut factor = DMatrix::zeros(width, width);
-    let mut row = vec![0.0; width];
-    let mut begin = 0;
-    while begin < count {
-        let end = (begin + BLOCK).min(count);
-        let mut block = DMatrix::zeros(width + end - begin, width);
-        block.rows_mut(0, width).copy_from(&factor);
-        for index in begin..end {
-            fill(index, &mut row);
-            for (column, value) in row.iter().enumerate() {
-                block[(width + index - begin, column)] = *value;
-            }
+/// Maximum number of iterations.
+const MOST: usize = 50;
+
+/// Maximum number of iterations for a rough answer.
+const FEW: usize = 12;
+
+/// Relative reduction of the loss below which the iteration has converged.
+const SETTLED: f64 = 1e-10;
+
+impl Task<'_> {
+    /// What a step must not violate: friction is not negative, and the rims around the region are not crossed. A
+    /// step goes only a part of the way to a rim.
+    fn bounds(&self, p: &Unknowns, seen: &Seen) -> Vec<Bound> {
+        const PART: f64 = 0.9;
+        let mut bounds = Vec::new();
+        if self.free[R] {
+            bounds.push((p[R], direction(R)));
         }
-        factor = block.qr().r().rows(0, width).into_owned();
-        begin = end;
+        if self.within.is_some() {
+            let rims = seen.clearances(p, self.data, self.start).into_iter();
+            bounds.extend(rims.map(|(value, by)| (PART * value, self.by_free(&by))));
+        }
+        bounds
     }
-    factor
+
+    /// The point that the linear model predicts after one of the unknowns has moved by an amount: the others follow
+    /// so that the loss remains as small as possible, and all remain within bounds.
+    pub fn followed(&self, from: &Optimum, unknown: usize, by: f64) -> Option<Unknowns> {
+        let model = LinearModel::of(self, &from.seen);
+        let bounds = self.bounds(&from.p, &from.seen);
+        let (step, _) = model.step(1e-12, &bounds, vec![(-by, direction(unknown))])?;
+        let mut p = from.p + step;
+        p[unknown] = from.p[unknown] + by;
+        p[R] = p[R].max(0.0);
+        Some(p)
+    }
+
+    /// Iterates from a first guess.
+    ///
+    /// # Errors
+    /// [`Unfit`] if even the guess cannot be compared with the record.
+    pub fn solve(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
+        self.solve_within(SETTLED, MOST, guess, runs)
+    }
+
+    /// The same to a fraction of a standard error, which suffices for a start or for the profile of the loss.
+    ///
+    /// # Errors
+    /// As [`Task::solve`].
+    pub fn solve_roughly(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
+        self.solve_within(self.unit(0.01), FEW, guess, runs)
+    }
+
+    fn solve_within(
+        &self,
+        enough: f64,
+        most: usize,
+        guess: Unknowns,
+        runs: &mut Runs,
+    ) -> Result<Optimum, Unfit> {
+        // A descent may not leave its region.
+        let permits = |seen: &Seen| self.within.is_none_or(|region| region == seen.region);
+        let mut p = guess;
+        let mut seen = self.evaluated(&p, true, runs)?;
+        if !permits(&seen) {
+            return Err(Unfit::NoMotion);
+        }
+        let mut cost = self.cost(&seen);
+        let mut model = LinearModel::of(self, &seen);
+        let (mut damping, mut grow) = (1e-4, 2.0);
+        for _ in 0..most {
+            let bounds = self.bounds(&p, &seen);
+            let taken = loop {
+                let step = model.step(damping, &bounds, Vec::new());
+                let Some((step, predicted)) = step.filter(|it| it.1 > enough * cost) else {
+                    break None;
+                };
+                let trial = p + step;
+                let found = interrupted(self.evaluated(&trial, false, runs))?;
+                let found = found.filter(permits).map(|seen| self.cost(&seen));
+                let gain = found.map_or(-1.0, |found| (cost - found) / predicted);
+                if let Some(found) = found.filter(|found| *found < cost) {
+                    let bend = 1.0 - powi(2.0 * gain - 1.0, 3);
+                    damping = (damping * bend.clamp(0.1, 1.0)).max(1e-12);
+                    grow = 2.0;
+                    break Some((trial, found));
+                }
+                damping *= if found.is_none() { 8.0 } else { grow };
+                grow *= 2.0;
+                if damping > 1e16 {
+                    break None;
+                }
+            };
+            let Some((trial, found)) = taken else { break };
+            let settled = (cost - found) <= enough * cost;
+            (p, cost) = (trial, found);
+            seen = self.evaluated(&p, true, runs)?;
+            if settled {
+                break;
+            }
+            model.renew(self.factor(&seen));
+        }
+        Ok(Optimum { start: self.start, p, cost, seen })
+    }
+}
+
+/// The residuals as linear functions of the free unknowns about a point.
+struct LinearModel {
+    /// The number of free unknowns.
+    free: usize,
+    residuals: LinearResiduals,
+    /// The scales of the unknowns: the largest norms of their gradients so far.
+    norms: Unknowns,
+}
+
+impl LinearModel {
+    fn of(task: &Task, seen: &Seen) -> Self {
+        let (free, norms) = (task.columns().count(), Unknowns::zeros());
+        let mut model = LinearModel { free, residuals: LinearResiduals::default(), norms };
+        model.renew(task.factor(seen));
+        model
+    }
+
+    /// The same about another point.
+    fn renew(&mut self, residuals: LinearResiduals) {
+        for (largest, column) in self.norms.iter_mut().zip(residuals.upper.column_iter()) {
+            *largest = largest.max(column.norm());
+        }
+        self.residuals = residuals;
+    }
+
+    /// The damped step that violates no bound and on which those in `fixed` become zero, and the reduction of the loss
+    /// that the linear model predicts; `None` where all unknowns are held.
+    fn step(
+        &self,
+        damping: f64,
+        bounds: &[Bound],
+        mut fixed: Vec<Bound>,
+    ) -> Option<(Unknowns, f64)> {
+        loop {
+            let step = self.solved(damping, &fixed)?;
+            let short = |(value, by): &Bound| -> f64 {
+                let size = by.component_mul(&step).abs().sum();
+                let left = by.dot(&step) + value;
+                if left < -1e-9 * size { left / (size + value.abs()) } else { 0.0 }
+            };
+            let free = bounds.iter().filter(|bound| !fixed.contains(bound));
+            let worst = free.min_by(|one, other| short(one).total_cmp(&short(other)));
+            let worst = worst.filter(|bound| short(bound) < 0.0 && fixed.len() < self.free);
+            if let Some(bound) = worst {
+                fixed.push(*bound);
+                continue;
+            }
+            let LinearResiduals { upper, turned, .. } = &self.residuals;
+            return Some((step, turned.norm_squared() - (upper * step - turned).norm_squared()));
+        }
+    }
+
+    /// The step on which these bounds become zero, by rows of overwhelming weight.
+    fn solved(&self, damping: f64, fixed: &[Bound]) -> Option<Unknowns> {
+        const OVERWHELMING: f64 = 1e7;
+        if self.free == 0 {
+            return None;
+        }
+        let scales = self.norms.map(|norm| if norm > 0.0 { norm } else { 1.0 });
+        let mut system = DMatrix::zeros(fixed.len() + 2 * UNKNOWNS, UNKNOWNS);
+        let mut target = DVector::zeros(system.nrows());
+        for (row, (value, by)) in fixed.iter().enumerate() {
+            let weight = OVERWHELMING / by.component_div(&scales).amax().max(f64::MIN_POSITIVE);
+            system.row_mut(row).copy_from(&(weight * by.transpose()));
+            target[row] = -weight * value;
+        }
+        let LinearResiduals { upper, turned, .. } = &self.residuals;
+        system.rows_mut(fixed.len(), UNKNOWNS).copy_from(upper);
+        target.rows_mut(fixed.len(), UNKNOWNS).copy_from(turned);
+        let damped = UnknownsMatrix::from_diagonal(&(damping.sqrt() * scales));
+        system.rows_mut(fixed.len() + UNKNOWNS, UNKNOWNS).copy_from(&damped);
+        let qr = system.qr();
+        let solution = qr.r().solve_upper_triangular(&(qr.q().transpose() * target))?;
+        let mut step = Unknowns::from_column_slice(solution.as_slice());
+        // Friction that is set to zero is exactly zero.
+        for (value, _) in fixed.iter().filter(|(_, by)| *by == direction(R)) {
+            step[R] = -value;
+        }
+        step.iter().all(|value| value.is_finite()).then_some(step)
+    }
 }

@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::{D, D2, D3, OFFSET, R, UNKNOWNS, Unknowns, least_squares, median, robust_deviation};
+use super::{D, D2, D3, OFFSET, R, Unknowns, least_squares, median, robust_deviation};
 use crate::model::Parameters;
 use crate::numerics::{atan2, hypot, powi, real, sin_cos};
 
@@ -246,7 +246,7 @@ pub fn regressions(extremes: &[Extreme]) -> Vec<Unknowns> {
     for terms in TERMS {
         let Some([r, d, d3]) = damping(&unit, terms) else { continue };
         let Some((offset, d2)) = middle(&unit, d) else { continue };
-        let mut p = [0.0; UNKNOWNS];
+        let mut p = Unknowns::zeros();
         (p[D], p[D2], p[D3]) = (d, d2 / largest, d3 / (largest * largest));
         (p[R], p[OFFSET]) = (r * largest, extremes[0].x + offset * largest);
         found.push(p);
@@ -262,7 +262,7 @@ fn of_one_swing(begin: f64, end: f64) -> Vec<Unknowns> {
     const DAMPING: f64 = 0.02;
     let of = |part: f64| {
         let right = 0.5 * part * (begin - end);
-        let mut p = [0.0; UNKNOWNS];
+        let mut p = Unknowns::zeros();
         (p[D], p[R], p[OFFSET]) = (DAMPING, right.abs(), 0.5 * (begin + end) - right);
         p
     };

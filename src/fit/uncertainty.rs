@@ -1,19 +1,19 @@
 //! The covariance of the unknowns, also for correlated noise.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
-use super::{IMPOSSIBLE, Optimum, Task, Unknowns, mean_square, scattered};
+use super::{IMPOSSIBLE, Optimum, Task, UNKNOWNS, Unknowns, UnknownsMatrix, mean_square};
 use crate::numerics::{powi, real};
 
 /// The covariance of the free unknowns about a minimum.
 #[derive(Clone, Debug)]
 pub struct Covariance {
-    /// The free unknowns.
-    pub columns: Vec<usize>,
+    /// Which unknowns are free.
+    free: [bool; UNKNOWNS],
     /// Their covariance for the noise of the record.
-    pub matrix: DMatrix<f64>,
+    pub matrix: UnknownsMatrix,
     /// Their covariance for white noise of the same size: the inverse curvature of the loss.
-    pub white: DMatrix<f64>,
+    pub white: UnknownsMatrix,
     /// Standard deviation of the noise.
     pub deviation: f64,
     /// Its variance as it acts on the unknowns: a unit of chi-squared.
@@ -22,8 +22,8 @@ pub struct Covariance {
     pub freedom: f64,
     /// The noise absorbed by the unknowns, in residuals.
     absorbed: f64,
-    /// For each column, the degrees of freedom of its variance if all residuals are independent.
-    freedoms: Vec<f64>,
+    /// For each unknown, the degrees of freedom of its variance if all residuals are independent.
+    freedoms: Unknowns,
 }
 
 impl Covariance {
@@ -37,18 +37,17 @@ impl Covariance {
     /// With correlated noise `cov(J'e) = s^2 sum_l rho_l J_t' J_(t+l)`, which is multiplied by the inverse of
     /// `J'J` from both sides. `None` if an unknown has no influence at all.
     pub fn at(task: &Task, optimum: &Optimum, autocorrelation: &[f64]) -> Option<Self> {
-        let columns = task.columns();
-        let width = columns.len();
-        let upper = task.upper(&optimum.seen);
-        let inverse = upper.solve_upper_triangular(&DMatrix::identity(width, width))?;
-        let bread = &inverse * inverse.transpose();
+        let upper = task.factor(&optimum.seen).upper;
+        let free = UnknownsMatrix::identity() - task.held();
+        let inverse = upper.solve_upper_triangular(&free)?;
+        let bread = inverse * inverse.transpose();
         let directions = || task.directions(&optimum.seen);
         // Each unknown absorbs the noise along its gradient, which for white noise is that of one residual.
         let (spread, absorbed) = if autocorrelation.is_empty() {
-            (bread.clone(), real(width))
+            (bread, free.trace())
         } else {
-            let along = correlated(&directions(), autocorrelation, width);
-            (&inverse * &along * inverse.transpose(), along.trace())
+            let along = correlated(&directions(), autocorrelation);
+            (inverse * along * inverse.transpose(), along.trace())
         };
         let values = task.values(&optimum.seen);
         let freedom = real(values.len()) - absorbed;
@@ -65,10 +64,10 @@ impl Covariance {
         let freedoms = if data.residuals() > data.x.len() {
             of_two_kinds(&directions(), data.x.len(), &inverse)
         } else {
-            vec![freedom; width]
+            Unknowns::repeat(freedom)
         };
         Some(Covariance {
-            columns,
+            free: task.free,
             matrix: spread * variance,
             white: bread * variance,
             deviation: (sum / freedom).sqrt(),
@@ -82,19 +81,13 @@ impl Covariance {
     /// Whether noise can have the autocorrelations: then all variances are positive, and the unknowns absorb
     /// some of the noise.
     pub fn is_possible(&self) -> bool {
-        self.absorbed > 0.0 && self.matrix.diagonal().iter().all(|variance| *variance > 0.0)
-    }
-
-    fn place(&self, unknown: usize) -> Option<usize> {
-        self.columns.iter().position(|&column| column == unknown)
+        let is_known = |(free, variance): (&bool, &f64)| !free || *variance > 0.0;
+        self.absorbed > 0.0 && self.free.iter().zip(&self.matrix.diagonal()).all(is_known)
     }
 
     /// Covariance of two unknowns; 0 if one is held.
     pub fn of(&self, one: usize, other: usize) -> f64 {
-        match (self.place(one), self.place(other)) {
-            (Some(one), Some(other)) => self.matrix[(one, other)],
-            _ => 0.0,
-        }
+        self.matrix[(one, other)]
     }
 
     /// Standard error of an unknown; 0 if it is held.
@@ -117,7 +110,8 @@ impl Covariance {
 
     /// The ratio of the variance of an unknown to that with white noise of the same size.
     pub fn inflation(&self, unknown: usize) -> f64 {
-        self.place(unknown).map_or(1.0, |at| self.matrix[(at, at)] / self.white[(at, at)])
+        let at = (unknown, unknown);
+        if self.free[unknown] { self.matrix[at] / self.white[at] } else { 1.0 }
     }
 
     /// The number of independent residuals that would determine the variance of an unknown as well
@@ -129,17 +123,17 @@ impl Covariance {
     pub fn independent(&self, unknown: usize) -> f64 {
         let inflation = self.inflation(unknown);
         let repeated = if inflation == 1.0 { 1.0 } else { 1.0 + 2.0 * inflation.max(1.0) };
-        self.place(unknown).map_or(self.freedom, |at| self.freedoms[at]) / repeated
+        let freedom = if self.free[unknown] { self.freedoms[unknown] } else { self.freedom };
+        freedom / repeated
     }
 
     /// The changes of all unknowns after changes of some of them, with the loss kept as small as possible.
     pub fn following(&self, changes: &[(usize, f64)]) -> Unknowns {
-        let free = changes.iter().filter_map(|(place, by)| Some((self.place(*place)?, *by)));
+        let free = changes.iter().filter(|(place, _)| self.free[*place]).copied();
         let (places, by): (Vec<usize>, Vec<f64>) = free.unzip();
-        let among = self.white.select_rows(&places).select_columns(&places);
-        let weights = among.lu().solve(&DVector::from_vec(by));
-        let weights = weights.unwrap_or_else(|| DVector::zeros(places.len()));
-        let mut all = scattered(&self.columns, &(self.white.select_columns(&places) * weights));
+        let leading = self.white.select_columns(&places);
+        let weights = leading.select_rows(&places).lu().solve(&DVector::from_vec(by));
+        let mut all = weights.map_or(Unknowns::zeros(), |weights| leading * weights);
         for (place, by) in changes {
             all[*place] = *by;
         }
@@ -165,25 +159,21 @@ fn widening(task: &Task, optimum: &Optimum, variance: f64) -> f64 {
 
 /// The degrees of freedom of each unknown's variance if the first `count` residuals and the others are of two kinds,
 /// displacements and times of peaks, the errors of which are estimated separately (Welch and Satterthwaite).
-fn of_two_kinds(directions: &[DVector<f64>], count: usize, inverse: &DMatrix<f64>) -> Vec<f64> {
-    let width = inverse.nrows();
+fn of_two_kinds(directions: &[Unknowns], count: usize, inverse: &UnknownsMatrix) -> Unknowns {
     // For each kind: its degrees of freedom, and the variance of each unknown that is due to it.
     let kinds = [&directions[..count], &directions[count..]].map(|kind| {
         let freedom = kind.iter().map(|row| 1.0 - row.norm_squared()).sum::<f64>();
         let influences = kind.iter().map(|row| inverse * row);
-        let variances = influences.fold(DVector::zeros(width), |sum: DVector<f64>, influence| {
-            sum + influence.component_mul(&influence)
-        });
+        let variances: Unknowns = influences.map(|it| it.component_mul(&it)).sum();
         (freedom.max(f64::MIN_POSITIVE), variances)
     });
-    let of = |unknown: usize| {
+    Unknowns::from_fn(|unknown, _| {
         let parts = kinds.iter().map(|(freedom, variances)| (freedom, variances[unknown]));
         let (sum, spread) = parts.fold((0.0, 0.0), |(sum, spread), (freedom, variance)| {
             (sum + variance, spread + variance * variance / freedom)
         });
         sum * sum / spread
-    };
-    (0..width).map(of).collect()
+    })
 }
 
 /// The ratio of the errors of the second kind of residuals, those from `count` on, to those of the first kind. Each is
@@ -200,21 +190,21 @@ pub fn ratio_of_kinds(task: &Task, optimum: &Optimum, count: usize) -> f64 {
 }
 
 /// The sum of the outer products of all pairs of rows, weighted by their correlation.
-fn correlated(rows: &[DVector<f64>], autocorrelation: &[f64], width: usize) -> DMatrix<f64> {
-    let mut meat = DMatrix::<f64>::zeros(width, width);
+fn correlated(rows: &[Unknowns], autocorrelation: &[f64]) -> UnknownsMatrix {
+    let mut meat = UnknownsMatrix::zeros();
     for (row, ahead) in rows.iter().zip(blurred(rows, autocorrelation)) {
         meat.ger(1.0, row, &ahead, 1.0);
     }
-    &meat + meat.transpose()
+    meat + meat.transpose()
 }
 
 /// For each row, half of it plus all later rows, weighted by their correlation with it.
 fn blurred(
-    rows: &[DVector<f64>],
+    rows: &[Unknowns],
     autocorrelation: &[f64],
-) -> impl DoubleEndedIterator<Item = DVector<f64>> {
+) -> impl DoubleEndedIterator<Item = Unknowns> {
     (0..rows.len()).map(|index| {
-        let mut ahead = 0.5 * &rows[index];
+        let mut ahead = 0.5 * rows[index];
         for (rho, later) in autocorrelation.iter().zip(&rows[index + 1..]) {
             ahead.axpy(*rho, later, 1.0);
         }
@@ -225,17 +215,16 @@ fn blurred(
 /// The mean autocorrelations at lags 1, 2, .. of the residuals of a fit to noise with these autocorrelations.
 /// The unknowns absorb the projection `H = Q Q'` of the noise, so the residuals have the covariance
 /// `(1 - H) S (1 - H)`.
-pub fn left_over(q: &[DVector<f64>], noise: &[f64], lags: usize) -> Vec<f64> {
-    let width = q.first().map_or(0, DVector::len);
-    let reversed: Vec<DVector<f64>> = q.iter().rev().cloned().collect();
+pub fn left_over(q: &[Unknowns], noise: &[f64], lags: usize) -> Vec<f64> {
+    let reversed: Vec<Unknowns> = q.iter().rev().copied().collect();
     // S Q and Q' S Q.
     let both = blurred(q, noise).zip(blurred(&reversed, noise).rev());
-    let sq: Vec<DVector<f64>> = both.map(|(ahead, behind)| ahead + behind).collect();
-    let mut qsq = DMatrix::<f64>::zeros(width, width);
+    let sq: Vec<Unknowns> = both.map(|(ahead, behind)| ahead + behind).collect();
+    let mut qsq = UnknownsMatrix::zeros();
     for (one, other) in q.iter().zip(&sq) {
         qsq.ger(1.0, one, other, 1.0);
     }
-    let twice: Vec<DVector<f64>> = q.iter().map(|row| qsq.tr_mul(row)).collect();
+    let twice: Vec<Unknowns> = q.iter().map(|row| qsq.tr_mul(row)).collect();
     let at = |lag: usize| -> f64 {
         let rho = if lag == 0 { 1.0 } else { noise.get(lag - 1).copied().unwrap_or(0.0) };
         let mut sum = rho * real(q.len() - lag);

@@ -7,11 +7,9 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use nalgebra::DVector;
-
 use super::{
     Bound, Covariance, D2, D3, FitVerdict, Optimum, R, Region, Runs, Task, Unfit, Unknowns,
-    interrupted, moved, scattered,
+    interrupted,
 };
 
 impl Task<'_> {
@@ -117,21 +115,19 @@ fn beyond_the_rim(
     /// Largest distance of a rim, in its standard errors.
     const FAR: f64 = 100.0;
     let step = |(value, by): Bound| {
-        let columns = &covariance.columns;
-        let by = DVector::from_iterator(columns.len(), columns.iter().map(|&column| by[column]));
-        let lean = &covariance.white * &by;
+        let lean = covariance.white * by;
         let variance = by.dot(&lean);
         let error = variance.sqrt();
         let is_near = verdict != FitVerdict::Noise || value <= FAR * error;
         let size = (value * (1.0 + BEYOND) + ERRORS * error) / variance;
-        is_near.then(|| scattered(columns, &(-size * lean)))
+        is_near.then(|| -size * lean)
     };
     let is_possible = |p: &Unknowns| p[R] > 0.0 && p.iter().all(|value| value.is_finite());
     let rims = optimum.seen.clearances(&optimum.p, task.data, task.start);
     let mut found = Vec::new();
     for step in rims.into_iter().filter_map(step) {
         for further in FURTHER {
-            let p = moved(&optimum.p, further, &step);
+            let p = optimum.p + further * step;
             if !is_possible(&p) {
                 break;
             }
@@ -166,7 +162,7 @@ fn along_the_valley(
     let errors = (1..=ERRORS).map(|k| f64::from(k) * error);
     let mut closest = Closest::default();
     for step in parts.chain(errors).flat_map(|step| [step, -step]) {
-        let p = moved(&optimum.p, step, &along);
+        let p = optimum.p + step * along;
         if p[R] > 0.0
             && let Some(seen) = interrupted(task.evaluated(&p, false, runs))?
         {

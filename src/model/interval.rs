@@ -1,11 +1,26 @@
 //! Parameters that are known to lie between two numbers.
 
+use serde::Serialize;
+
 use super::knob::{Knob, KnobSpec};
 use super::parameters::Parameters;
 pub use crate::numerics::Interval;
 
 /// The parameters of equation (4), each in an interval of its own.
-pub type ParameterBox = Parameters<Interval>;
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ParameterBox {
+    /// Linear damping D.
+    #[serde(rename = "D")]
+    pub d: Interval,
+    /// Asymmetric damping D2.
+    #[serde(rename = "D2")]
+    pub d2: Interval,
+    /// Cubic damping D3.
+    #[serde(rename = "D3")]
+    pub d3: Interval,
+    /// Dry friction r.
+    pub r: Interval,
+}
 
 impl From<&Parameters> for ParameterBox {
     /// The parameters as the doubles that they are.

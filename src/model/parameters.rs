@@ -5,21 +5,20 @@ use serde::{Deserialize, Serialize};
 use crate::numerics::scaling::times_power;
 
 /// The parameters of equation (4): damping, asymmetry, cubic damping, friction. All dimensionless, and each 0 or
-/// within 1e-150 .. 1e150 in magnitude ([`KNOBS`](super::KNOBS)): beyond that, nothing is promised. They are numbers, or
-/// the intervals in which these lie.
+/// within 1e-150 .. 1e150 in magnitude ([`KNOBS`](super::KNOBS)): beyond that, nothing is promised.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Parameters<N = f64> {
+pub struct Parameters {
     /// Effective linear damping D; negative means self-excited, `abs(D) < 1` oscillatory.
     #[serde(rename = "D")]
-    pub d: N,
+    pub d: f64,
     /// Asymmetric (quadratic) damping D2.
     #[serde(rename = "D2")]
-    pub d2: N,
+    pub d2: f64,
     /// Cubic damping D3.
     #[serde(rename = "D3")]
-    pub d3: N,
+    pub d3: f64,
     /// Intensity r of the dry friction, not negative.
-    pub r: N,
+    pub r: f64,
 }
 
 /// A point of the phase plane.

@@ -8,7 +8,14 @@ use crate::numerics::{Interval, powi};
 
 /// Exponents of kilogram, metre and second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Dimension(pub [i8; 3]);
+pub struct Dimension {
+    /// Exponent of the kilogram.
+    pub kg: i8,
+    /// Exponent of the metre.
+    pub m: i8,
+    /// Exponent of the second.
+    pub s: i8,
+}
 
 impl Dimension {
     /// A pure number.
@@ -25,7 +32,7 @@ impl Dimension {
     /// From the exponents.
     #[must_use]
     pub const fn new(kg: i8, m: i8, s: i8) -> Self {
-        Dimension([kg, m, s])
+        Dimension { kg, m, s }
     }
 
     /// That of an SI unit, such as `N s/m`; that of a pure number for the empty text.
@@ -40,11 +47,12 @@ impl Dimension {
     /// The dimension of a product with a power of another one; `None` beyond all sense.
     #[must_use]
     pub fn times(self, other: Self, power: i8) -> Option<Self> {
-        let mut product = self;
-        for (own, other) in product.0.iter_mut().zip(other.0) {
-            *own = own.checked_add(other.checked_mul(power)?)?;
-        }
-        Some(product)
+        let sum = |own: i8, other: i8| own.checked_add(other.checked_mul(power)?);
+        Some(Dimension {
+            kg: sum(self.kg, other.kg)?,
+            m: sum(self.m, other.m)?,
+            s: sum(self.s, other.s)?,
+        })
     }
 }
 

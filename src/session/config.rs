@@ -11,18 +11,18 @@
 
 use std::collections::BTreeMap;
 
-use serde::de::Error;
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 use toml::Spanned;
 
 use crate::numerics::similar::most_similar;
 use crate::scene::library::names;
 use crate::scene::misread::Complaint;
 use crate::scene::{Misread, misread};
-use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, named};
+use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, choices};
 use crate::session::state::keymap::contexts;
 use crate::session::state::keymap::full_name;
 use crate::session::{Command, Context, Key, Keymap};
+use crate::words;
 
 /// The content of a settings file; whatever is missing keeps its default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,12 +51,9 @@ type Keys = BTreeMap<Spanned<String>, Spanned<Vec<Spanned<String>>>>;
 #[serde(deny_unknown_fields)]
 struct SettingsFile {
     scene: Option<Spanned<String>>,
-    #[serde(default, deserialize_with = "by_name")]
-    glyphs: Option<Glyphs>,
-    #[serde(default, deserialize_with = "by_name")]
-    color: Option<Colors>,
-    #[serde(default, deserialize_with = "by_name")]
-    theme: Option<Theme>,
+    glyphs: Option<Spanned<String>>,
+    color: Option<Spanned<String>>,
+    theme: Option<Spanned<String>>,
     #[serde(default)]
     mouse: bool,
     #[serde(default)]
@@ -83,21 +80,21 @@ fn config(read: &SettingsFile) -> Result<Config, Complaint> {
     });
     Ok(Config {
         scene: scene.transpose()?,
-        glyphs: read.glyphs,
-        colors: read.color,
-        theme: read.theme,
+        glyphs: one_of(read.glyphs.as_ref())?,
+        colors: one_of(read.color.as_ref())?,
+        theme: one_of(read.theme.as_ref())?,
         mouse: read.mouse,
         keymap: keymap(&read.keys)?,
     })
 }
 
-/// The value with the name that is given.
-fn by_name<'de, T: NamedValue, D>(deserializer: D) -> Result<Option<T>, D::Error>
-where
-    D: Deserializer<'de>,
-{
-    let name = String::deserialize(deserializer)?;
-    named(&name).map(Some).map_err(D::Error::custom)
+/// The value with this name.
+fn one_of<T: NamedValue>(given: Option<&Spanned<String>>) -> Result<Option<T>, Complaint> {
+    let find = |given: &Spanned<String>| {
+        let refused = |message| Complaint { at: given.span(), message };
+        words::one_of("", given.get_ref(), choices()).map_err(refused)
+    };
+    given.map(find).transpose()
 }
 
 /// A complaint about an unknown name, with the most similar known one.

@@ -246,10 +246,14 @@ pub fn signed(fitted: &Fitted) -> Statement {
 }
 
 fn sentence(fitted: &Fitted, statement: &Statement) -> String {
+    const SURVIVED: &str = " is survived";
     let confidence = format!("{} % confidence", significant(100.0 * statement.confidence, 6));
-    let amount = |value: f64, unit: &str| match fitted.inertia() {
-        Some(_) => with_unit(rounded_down(value, 3), 3, unit),
-        None => format!("{} {unit}", significant(rounded_down(value, 3), 3)),
+    let has_mass = fitted.inertia().is_some();
+    let below = |what: &str, value: f64, unit: &str| {
+        let value = rounded_down(value, 3);
+        let plain = || in_unit(&significant(value, 3), unit);
+        let amount = if has_mass { with_unit(value, 3, unit) } else { plain() };
+        format!("{what} below {amount}")
     };
     let StatementUnits { impulse: impulse_unit, displacement: length, .. } = &statement.units;
     let force = force(fitted, statement);
@@ -259,49 +263,33 @@ fn sentence(fitted: &Fitted, statement: &Statement) -> String {
             lost(fitted, force)
         );
     }
+    let change = "a change of velocity";
     let kicks = match (statement.impulse, statement.velocity, statement.displacement) {
         (None, _, None) => "every kick is survived".to_owned(),
-        (None, _, Some(shift)) => format!(
-            "every impulse is survived, and every sudden change of position below {}",
-            amount(shift, length)
-        ),
-        (Some(_), Some(velocity), _) => {
-            format!(
-                "a change of velocity below {} is survived",
-                amount(velocity, &format!("{length}/s"))
-            )
+        (None, _, Some(shift)) => {
+            let shift = below("every sudden change of position", shift, length);
+            format!("every impulse is survived, and {shift}")
         }
-        (Some(impulse), None, _) if fitted.inertia().is_some() => {
-            format!("an impulse below {} is survived", amount(impulse, impulse_unit))
-        }
-        (Some(impulse), None, _) => {
-            format!(
-                "a change of velocity below {} times omega0 is survived",
-                amount(impulse, length)
-            )
-        }
+        (Some(_), Some(velocity), _) => below(change, velocity, &format!("{length}/s")) + SURVIVED,
+        (Some(it), ..) if has_mass => below("an impulse", it, impulse_unit) + SURVIVED,
+        (Some(it), ..) => below(change, it, &format!("{length} times omega0")) + SURVIVED,
     };
     let whatever = match force {
         Some(force) => format!(", whatever {force} does{}", changes(fitted)),
         None => format!("{}, provided that no other force acts", changes(fitted)),
     };
     let sentence = format!("From any rest position, with {confidence}, {kicks}{whatever}.");
-    match amplitudes(fitted, statement.reach) {
-        beyond if !beyond.holds => {
-            format!("{sentence} Extrapolated by the model: {}.", beyond.detail)
-        }
-        _ => sentence,
-    }
+    let Condition { holds, detail, .. } = amplitudes(fitted, statement.reach);
+    if holds { sentence } else { format!("{sentence} Extrapolated by the model: {detail}.") }
 }
 
 /// `a force of at most 0.5 N`.
 fn force(fitted: &Fitted, statement: &Statement) -> Option<String> {
     let Statement { disturbance, units, .. } = statement;
+    let plain = || format!("{} {}", significant(*disturbance, 6), units.disturbance);
     let size = match fitted.inertia() {
         Some(_) => with_unit(*disturbance, 6, "N"),
-        None => {
-            format!("{} {} times the stiffness", significant(*disturbance, 6), units.disturbance)
-        }
+        None => plain() + " times the stiffness",
     };
     (*disturbance > 0.0).then(|| format!("a force of at most {size}"))
 }

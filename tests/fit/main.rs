@@ -31,8 +31,8 @@ const NUMBERS: [&str; 6] = ["omega0", "offset", "D", "D2", "D3", "r"];
 /// The unknowns of a motion, without a drift.
 type Unknowns = [f64; 8];
 
-fn without_drift(p: &Unknowns) -> [f64; UNKNOWNS] {
-    std::array::from_fn(|place| p.get(place).copied().unwrap_or(0.0))
+fn without_drift(p: &Unknowns) -> hopfscope::fit::Unknowns {
+    hopfscope::fit::Unknowns::from_fn(|place, _| p.get(place).copied().unwrap_or(0.0))
 }
 
 fn path(name: &str) -> String {

@@ -25,7 +25,7 @@ use crate::portrait::closing::pair::{Closing, share};
 use crate::portrait::portrait::Portrait;
 use crate::portrait::{Border, Cycle, CycleErrors, Edge, Margin};
 
-/// How far a separatrix is followed for a picture, or where nothing else says how far it matters.
+/// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
 pub(crate) fn picture_reach(d2: f64) -> f64 {
     20.0 / d2.abs().max(f64::MIN_POSITIVE)
 }

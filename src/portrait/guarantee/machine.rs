@@ -119,23 +119,24 @@ pub const MOST: usize = 5;
 
 /// The machines that all others lie between, each with the smallest damping and friction: three values of
 /// each further number that is uncertain.
-struct Corners {
+#[derive(Debug)]
+pub struct Corners {
     /// The machines; those next to each other in number k are `3^k` apart.
-    belts: Vec<Belt>,
+    pub belts: Vec<Belt>,
     /// Their models.
-    models: Vec<Model>,
+    pub models: Vec<Model>,
     /// How many numbers vary.
-    numbers: u32,
+    pub numbers: u32,
     /// What the disturbance leaves of the guide's smallest friction, in N.
-    friction: f64,
+    pub friction: f64,
     /// The same at rest.
-    at_rest: f64,
+    pub at_rest: f64,
     /// The largest stiffness, in N/m.
-    stiffest: f64,
+    pub stiffest: f64,
     /// How far out one of the machines may rest before a kick, in m: pushed there by the disturbance, and held by
     /// the largest static friction; by the smallest if it is that of the moving mass, because the gap to the border
     /// only grows with friction.
-    farthest_rest: f64,
+    pub farthest_rest: f64,
 }
 
 impl Corners {
@@ -143,7 +144,7 @@ impl Corners {
     ///
     /// # Errors
     /// [`Reason`] where one of them has no model.
-    fn new(belt: &Belt, known: &Tolerances) -> Result<Option<Self>, Reason> {
+    pub fn new(belt: &Belt, known: &Tolerances) -> Result<Option<Self>, Reason> {
         let mut worst = belt.clone();
         let (monotone, others): (Vec<_>, Vec<_>) =
             known.intervals(belt).into_iter().partition(|(varied, _)| MONOTONE.contains(varied));
@@ -190,7 +191,8 @@ impl Corners {
     }
 
     /// The machine at a corner with the least friction of all, and less by `less` (a length).
-    fn worst(&self, corner: usize, less: f64) -> Belt {
+    #[must_use]
+    pub fn worst(&self, corner: usize, less: f64) -> Belt {
         let belt = &self.belts[corner];
         let scale = belt.stiffness / self.stiffest;
         let friction = self.friction * scale - less * belt.stiffness;
@@ -199,12 +201,14 @@ impl Corners {
     }
 
     /// The speed of the slowest belt.
-    fn slowest(&self) -> f64 {
+    #[must_use]
+    pub fn slowest(&self) -> f64 {
         self.models.iter().map(|model| model.speed).fold(f64::INFINITY, f64::min)
     }
 
     /// The smallest `m omega_0`: an impulse less than this times a velocity starts no machine faster.
-    fn lightest(&self) -> f64 {
+    #[must_use]
+    pub fn lightest(&self) -> f64 {
         let inertia = |model: &Model| model.mass * model.omega_0;
         self.models.iter().map(inertia).fold(f64::INFINITY, f64::min)
     }
@@ -214,7 +218,8 @@ impl Corners {
     ///
     /// Between the corners and between the velocities forces are taken to bend by no more than twice what
     /// their second differences say.
-    fn bound(&self, low: f64, high: f64) -> (usize, f64) {
+    #[must_use]
+    pub fn bound(&self, low: f64, high: f64) -> (usize, f64) {
         const VELOCITIES: u32 = 200;
         let sides = [(Phase::Below, low), (Phase::Between, high)];
         // For each corner the forces along the motion, at velocities of both signs.

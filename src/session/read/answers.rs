@@ -39,7 +39,7 @@ macro_rules! last {
     };
 }
 
-/// The last answers, stale or not, for the plot in use or for any plot; and the fit of the record on show.
+/// The last answers, stale or not: for the plot in use, or for any plot.
 impl Session {
     pub fn trajectory(&self) -> Option<&Trajectory> {
         last!(self, Trajectory, self.plot)

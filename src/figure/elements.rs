@@ -1,0 +1,46 @@
+//! The elements of SVG that a figure is made of.
+
+use std::fmt::Write;
+
+use super::paper::Spot;
+use crate::words::printable::xml;
+
+/// Writes a path with these commands and attributes.
+pub(super) fn path(out: &mut String, commands: &str, attributes: &str) {
+    let _ = writeln!(out, "<path d=\"{commands}\" {attributes}/>");
+}
+
+/// Writes an upright rectangle: its upper left corner, and its width and height.
+pub(super) fn rectangle(out: &mut String, (x, y): Spot, (width, height): Spot, attributes: &str) {
+    let _ = writeln!(
+        out,
+        "<rect x=\"{x:.3}\" y=\"{y:.3}\" width=\"{width}\" height=\"{height}\" {attributes}/>"
+    );
+}
+
+/// Writes a circle around a spot.
+pub(super) fn circle(out: &mut String, (x, y): Spot, radius: f64, attributes: &str) {
+    let _ = writeln!(out, "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"{radius}\" {attributes}/>");
+}
+
+/// Where a text stands, seen from its spot.
+#[derive(Clone, Copy)]
+pub(super) enum Anchor {
+    Right,
+    Around,
+    Left,
+}
+
+/// Writes a text at a spot on its base line.
+pub(super) fn text(out: &mut String, (x, y): Spot, anchor: Anchor, attributes: &str, text: &str) {
+    let anchor = match anchor {
+        Anchor::Right => "start",
+        Anchor::Around => "middle",
+        Anchor::Left => "end",
+    };
+    let text = xml(text);
+    let _ = writeln!(
+        out,
+        "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\" {attributes}>{text}</text>"
+    );
+}
