@@ -44,8 +44,8 @@ pub(super) const CHECKS: &[Check] = &[
         Ok((1.0, cycle.known(cycle.v_max / cycle.q_max, |it| it.v_max / it.q_max)))
     }),
     worst("mean displacement", |it| {
-        let formula = harmonic_mean(it.d2, largest_amplitude(it)?);
-        Ok(Evidence::near(formula, it.mean(&*it.largest()?)?))
+        let (cycle, amplitude) = (it.largest()?, largest_amplitude(it)?);
+        Ok(Evidence::near(harmonic_mean(it.d2, amplitude), it.mean(&cycle)?))
     }),
     worst("slow change of amplitude", |it| {
         let size = it.more;

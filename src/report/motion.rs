@@ -171,11 +171,6 @@ fn dial_columns<'a>() -> Columns<'a, &'a TradePoint> {
     })
 }
 
-/// Why a row has no error.
-fn reason(row: &&TradePoint) -> Option<String> {
-    row.deviation.err().map(|reason| reason.to_string())
-}
-
 /// The columns of rows, most of which are empty for one without an error. The best choices by their time are marked with
 /// `*`, the method in use with `<`.
 fn columns_of_trade(trade: &Trade) -> Columns<'_, &TradePoint> {
@@ -245,6 +240,7 @@ pub fn trade<'a>(about: &About, trade: &'a Trade, plot: impl FnOnce() -> String)
     let Trade { problem, reference: known, rows } = trade;
     let until = format!("{}; until tau = {}", from(problem), significant(problem.until, 6));
     let has_error = |row: &&TradePoint| row.deviation.is_ok();
+    let reason = |row: &&TradePoint| row.deviation.err().map(|reason| reason.to_string());
     let (answered, unanswered): (Vec<_>, Vec<_>) = rows.iter().partition(has_error);
     let is_in_use = answered.iter().any(|row| trade.is_own(row));
     let in_use = if is_in_use { "; <: the method in use" } else { "" };
