@@ -216,35 +216,29 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     fn handle(&mut self, event: Event) -> io::Result<Option<LoopEnd>> {
         match event {
-            Event::Session(msg) if is_users(&msg) => self.users(msg),
+            Event::Session(msg) if is_users(&msg) => return self.users(msg),
             Event::Session(msg) => {
                 if let Msg::Written(notice) = &msg {
                     self.writing = false;
                     self.note_unwritten(notice);
                 }
                 self.workers.arrived(&msg);
-                self.update(msg)
+                return self.update(msg);
             }
             Event::Mouse { gesture, column, row } => {
-                let place = self.application.place(self.screen.size(), column, row);
-                let pointed = place.map(|place| Msg::Pointed(Pointed { gesture, place }));
-                pointed.map_or(Ok(None), |msg| self.handle(Event::Session(msg)))
+                if let Some(place) = self.application.place(self.screen.size(), column, row) {
+                    return self.users(Msg::Pointed(Pointed { gesture, place }));
+                }
             }
-            Event::Shown => {
-                self.screen.pacing.answered(Instant::now());
-                Ok(None)
-            }
+            Event::Shown => drop(self.screen.pacing.answered(Instant::now())),
             Event::Background { is_light } => {
                 self.application.background(is_light);
                 self.changed.get_or_insert_with(Instant::now);
-                Ok(None)
             }
-            Event::Resized => {
-                self.resized();
-                Ok(None)
-            }
-            Event::End(end) => Ok(Some(end)),
+            Event::Resized => self.resized(),
+            Event::End(end) => return Ok(Some(end)),
         }
+        Ok(None)
     }
 
     /// Follows the size of the terminal, and draws everything again even if that is the size it was: in between
