@@ -52,12 +52,13 @@ impl Canvas<'_> {
             let mut tries = tries.into_iter().take(if name.long.is_empty() { 3 } else { 5 });
             let found = tries.find_map(|(over, far)| {
                 let clearance = |place| far_from(&others, place, &name.short).min(CLEAR);
-                let is_own = |place| clearance(place) > far_from(&own, place, &name.short);
-                let all = self.places(&own, &name.short, over);
-                let far = all.filter(|at| far == 0 || (clearance(*at) >= far && is_own(*at)));
-                far.reduce(|best, next| if clearance(next) > clearance(best) { next } else { best })
+                let all = self.places(&own, &name.short, over).map(|at| (clearance(at), at));
+                let is_own = |clear, at| clear > far_from(&own, at, &name.short);
+                let far =
+                    all.filter(|(clear, at)| far == 0 || (*clear >= far && is_own(*clear, *at)));
+                far.reduce(|best, next| if next.0 > best.0 { next } else { best })
             });
-            if let Some((column, row)) = found {
+            if let Some((_, (column, row))) = found {
                 self.letters(column, row, &name.short, name.role);
             }
         }
