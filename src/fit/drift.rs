@@ -83,17 +83,16 @@ fn independent(residuals: &[f64]) -> f64 {
 pub fn drift_of_swings(t: &[f64], extremes: &[Extreme]) -> [f64; 2] {
     /// Fewest middles that show a parabola.
     const FEWEST: usize = 6;
-    let rows: Vec<(Vec<f64>, f64)> = extremes
+    let rows: Vec<([f64; 3], f64)> = extremes
         .windows(3)
         .map(|three| {
             let [slope, bend] = drift(t, three[1].t);
-            (vec![1.0, slope, bend], middle_of(three))
+            ([1.0, slope, bend], middle_of(three))
         })
         .collect();
-    let width = if rows.len() < FEWEST { 2 } else { 3 };
-    let rows: Vec<_> = rows.iter().map(|(row, middle)| (row[..width].to_vec(), *middle)).collect();
-    let found = Some(rows).filter(|rows| rows.len() > 2).and_then(|rows| robust(&rows));
-    found.map_or([0.0; 2], |it| [it[1], it.get(2).copied().unwrap_or(0.0)])
+    let columns: &[usize] = if rows.len() < FEWEST { &[0, 1] } else { &[0, 1, 2] };
+    let found = (rows.len() > 2).then(|| robust(&rows, columns)).flatten();
+    found.map_or([0.0; 2], |[_, slope, bend]| [slope, bend])
 }
 
 /// Takes a drift off a record.

@@ -86,7 +86,7 @@ pub(crate) use {
     curves::{Curves, PlotPoint, memory},
     drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
     estimate::{LeftOut, RISES, contour, held, judged, left_out},
-    fitted::{Combination, EstimatedNumber, combinations, rows},
+    fitted::{Combination, combinations, rows},
     guess::{Beginning, Guess, guess, period_of},
     margin::MarginSpread,
     motion::{FittedTurn, MotionLost, follow},

@@ -245,7 +245,7 @@ pub fn regressions(extremes: &[Extreme]) -> Vec<Unknowns> {
     let mut found = Vec::new();
     for terms in TERMS {
         let Some([r, d, d3]) = damping(&unit, terms) else { continue };
-        let Some((offset, d2)) = middle(&unit, d) else { continue };
+        let Some([offset, d2]) = middle(&unit, d) else { continue };
         let mut p = Unknowns::zeros();
         (p[D], p[D2], p[D3]) = (d, d2 / largest, d3 / (largest * largest));
         (p[R], p[OFFSET]) = (r * largest, extremes[0].x + offset * largest);
@@ -272,58 +272,47 @@ fn of_one_swing(begin: f64, end: f64) -> Vec<Unknowns> {
 /// r, D and D3 from the decrements; `None` for fewer decrements than terms, or if the friction is negative.
 fn damping(extremes: &[Extreme], terms: &[usize]) -> Option<[f64; 3]> {
     let row = |a: f64| [2.0, PI * a, 0.375 * PI * a * a * a];
-    let rows: Vec<(Vec<f64>, f64)> = amplitudes(extremes)
+    let rows: Vec<([f64; 3], f64)> = amplitudes(extremes)
         .windows(2)
-        .map(|two| {
-            let row = row(0.5 * (two[0] + two[1]));
-            (terms.iter().map(|&term| row[term]).collect(), two[0] - two[1])
-        })
+        .map(|two| (row(0.5 * (two[0] + two[1])), two[0] - two[1]))
         .collect();
-    if rows.len() < terms.len() {
-        return None;
-    }
-    let mut found = [0.0; 3];
-    for (&term, value) in terms.iter().zip(robust(&rows)?.iter()) {
-        found[term] = *value;
-    }
-    (found[0] >= 0.0).then_some(found)
+    let found = (rows.len() >= terms.len()).then(|| robust(&rows, terms)).flatten();
+    found.filter(|found| found[0] >= 0.0)
 }
 
 /// Offset and D2 from the midpoints. Strong damping itself shifts the midpoints; D2 is then 0.
-fn middle(extremes: &[Extreme], d: f64) -> Option<(f64, f64)> {
-    let rows: Vec<(Vec<f64>, f64)> = extremes
+fn middle(extremes: &[Extreme], d: f64) -> Option<[f64; 2]> {
+    let rows: Vec<([f64; 2], f64)> = extremes
         .windows(3)
         .map(|three| {
             let amplitude = 0.25 * (2.0 * three[1].x - three[0].x - three[2].x).abs();
-            (vec![1.0, -2.0 / 3.0 * amplitude * amplitude], middle_of(three))
+            ([1.0, -2.0 / 3.0 * amplitude * amplitude], middle_of(three))
         })
         .collect();
-    if rows.len() >= 4 && d.abs() < 0.1 {
-        let found = robust(&rows)?;
-        return Some((found[0], found[1]));
-    }
-    let narrow: Vec<_> = rows.iter().map(|(row, middle)| (vec![row[0]], *middle)).collect();
-    Some((robust(&narrow)?[0], 0.0))
+    let both = rows.len() >= 4 && d.abs() < 0.1;
+    robust(&rows, if both { &[0, 1] } else { &[0] })
 }
 
-/// Linear regression with iterated Cauchy weights, since one wrong extreme spoils three decrements.
-pub fn robust(rows: &[(Vec<f64>, f64)]) -> Option<DVector<f64>> {
+/// Linear regression on some of the columns, with zero for the others, by iterated Cauchy weights, since one wrong extreme
+/// spoils three decrements.
+pub fn robust<const N: usize>(rows: &[([f64; N], f64)], columns: &[usize]) -> Option<[f64; N]> {
     const ROUNDS: usize = 12;
-    let width = rows.first()?.0.len();
+    if rows.is_empty() {
+        return None;
+    }
     let mut weights = vec![1.0; rows.len()];
-    let mut solution = None;
+    let mut all = [0.0; N];
     for _ in 0..ROUNDS {
-        let matrix = DMatrix::from_fn(rows.len(), width, |i, j| weights[i] * rows[i].0[j]);
+        let cell = |i: usize, j: usize| weights[i] * rows[i].0[columns[j]];
+        let matrix = DMatrix::from_fn(rows.len(), columns.len(), cell);
         let right = DVector::from_fn(rows.len(), |i, _| weights[i] * rows[i].1);
         let found = matrix.svd(true, true).solve(&right, 1e-12).ok()?;
-        let left: Vec<f64> = rows
-            .iter()
-            .map(|(row, value)| {
-                value - row.iter().zip(found.iter()).map(|(a, b)| a * b).sum::<f64>()
-            })
-            .collect();
+        for (column, value) in columns.iter().zip(found.iter()) {
+            all[*column] = *value;
+        }
+        let told = |row: &[f64; N]| row.iter().zip(&all).map(|(a, b)| a * b).sum::<f64>();
+        let left: Vec<f64> = rows.iter().map(|(row, value)| value - told(row)).collect();
         let scale = 2.385 * robust_deviation(left.iter().copied());
-        solution = Some(found);
         if scale <= 0.0 {
             break;
         }
@@ -331,7 +320,7 @@ pub fn robust(rows: &[(Vec<f64>, f64)]) -> Option<DVector<f64>> {
             *weight = (1.0 / (1.0 + powi(left / scale, 2))).sqrt();
         }
     }
-    solution
+    Some(all)
 }
 
 #[cfg(test)]

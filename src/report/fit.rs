@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
-    Combination, Condition, Dropped, EstimatedNumber, Fitted, LAST, LeftOut, MarginSpread, Margins,
-    NAMES, NameSpec, OMEGA0, Q0, Record, StartKind, combinations, left_out, rows,
+    Combination, Condition, Dropped, Fitted, LAST, LeftOut, MarginSpread, Margins, NAMES, NameSpec,
+    OMEGA0, ProfileInterval, Q0, Record, StartKind, combinations, left_out, rows,
 };
 use crate::portrait::Kicks;
 use crate::words::fit::{left_out as counts, remarks, sentences, signed};
@@ -21,7 +21,11 @@ pub fn fit(fitted: &Fitted) -> Answer<'_> {
     let seconds = fitted.seconds;
     let name = Columns::default().file("name", |row: &EstimateRow| row.name.clone());
     let numbers = || fitted.estimate.wanted().map(|row| EstimateRow::of_number(fitted, row));
-    let physical = || rows(fitted).into_iter().map(EstimateRow::physical);
+    let physical = || {
+        rows(fitted)
+            .into_iter()
+            .map(|it| EstimateRow::known(it.name, it.value, it.standard_error, it.unit.to_owned()))
+    };
     Answer::new(&fitted.name, subject(fitted))
         .fields(move |all| document(all, fitted))
         .csv(name.and(estimate_columns()), numbers().chain(kick_rows(fitted)))
@@ -159,30 +163,17 @@ struct EstimateRow {
 impl EstimateRow {
     fn of_number(fitted: &Fitted, row: &NameSpec) -> Self {
         let estimate = &fitted.estimate;
-        let interval = estimate.intervals[row.place];
-        EstimateRow {
-            name: row.name.to_owned(),
-            value: Some(estimate.p[row.place]),
-            standard_error: Some(estimate.covariance.error(row.place)),
-            lower: interval.lower,
-            upper: interval.upper,
-            quadratic: interval.quadratic,
-            none: None,
-            unit: (1.0, fitted.unit_of(row)),
-        }
+        let ProfileInterval { lower, upper, quadratic } = estimate.intervals[row.place];
+        let (value, error) = (estimate.p[row.place], estimate.covariance.error(row.place));
+        let known = EstimateRow::known(row.name, value, error, fitted.unit_of(row));
+        EstimateRow { lower, upper, quadratic, ..known }
     }
 
-    /// A number in SI units.
-    fn physical(
-        EstimatedNumber { name, value, standard_error, unit, .. }: EstimatedNumber,
-    ) -> Self {
-        EstimateRow {
-            name: name.to_owned(),
-            value: Some(value),
-            standard_error: Some(standard_error),
-            unit: (1.0, unit.to_owned()),
-            ..EstimateRow::default()
-        }
+    /// A number with its standard error.
+    fn known(name: &str, value: f64, error: f64, unit: String) -> Self {
+        let (name, unit) = (name.to_owned(), (1.0, unit));
+        let (value, standard_error) = (Some(value), Some(error));
+        EstimateRow { name, value, standard_error, unit, ..EstimateRow::default() }
     }
 
     /// What follows from the numbers, from its draws.
