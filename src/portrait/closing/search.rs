@@ -19,6 +19,10 @@ const ROUNDED: f64 = 4.0 * f64::EPSILON;
 /// How far the cubic must stay from zero, in units of its error at the middle.
 const SAFETY: f64 = 8.0;
 
+/// Error of the cubic at the middle, as a fraction of the least value at both ends and there, that cannot hide a pair of
+/// roots.
+const PREDICTED: f64 = 0.05;
+
 /// Values of the two increasing functions, their difference, and its slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
@@ -64,7 +68,8 @@ pub struct RootSearch {
     /// Half of the length of intervals that are not halved any more.
     pub finest: f64,
     /// Values below this count as zero: where all do, roots cannot be told apart, and none is found. If it is above
-    /// 0, a function that rises or falls at both ends and in the middle is trusted to do so between, too.
+    /// 0, a function that rises or falls at both ends and in the middle is trusted to do so between, too, and one that a
+    /// cubic predicts to a few percent to hold no more roots than the cubic.
     pub nothing: f64,
     /// Brackets of the roots, in their order.
     pub found: Vec<Bracket>,
@@ -119,7 +124,10 @@ impl RootSearch {
         }
         // If all values have one sign and all slopes another, there is no room for roots, however rough the function.
         let one_way = low.slope * middle.slope > 0.0 && middle.slope * high.slope > 0.0;
-        let trusted = foretold <= self.nothing || (one_way && foretold < 0.5 * width);
+        let least =
+            [low, middle, high].iter().fold(f64::INFINITY, |it, node| it.min(node.value().abs()));
+        let predicted = foretold <= self.nothing.max(PREDICTED * least);
+        let trusted = predicted || (one_way && foretold < 0.5 * width);
         let settled = self.nothing > 0.0 && trusted;
         let is_finest = width <= 2.0 * self.finest;
         if is_finest && !settled {
