@@ -37,11 +37,14 @@ pub fn polish(equation: &mut Equation, bracket: Bracket) -> Result<Closing, Reas
     polish_from(equation, start, bracket, SHARP)
 }
 
+/// A place to begin with, and whether the residual is so flat there that it is weighed as energy.
+type Guess = (f64, bool);
+
 /// The same by Newton's method from `start`, to more digits only where doubles leave a larger relative error than
 /// `sharp`.
 fn polish_from(
     equation: &mut Equation,
-    start: f64,
+    start: Guess,
     bracket: Bracket,
     sharp: f64,
 ) -> Result<Closing, Reason> {
@@ -65,16 +68,17 @@ pub fn polish_near(
     const WIDTHS: (f64, f64) = (0.05, 0.5);
     let width = if log_multiplier.abs() < 1.0 { WIDTHS.0 } else { WIDTHS.1 };
     let sign = log_multiplier.signum();
-    let end = |side| Node::new(u + side * width, sign * side * width, 0.0, log_multiplier);
+    let end = |side| Node::new(u + side * width, sign * side * width, 0.0, sign);
     equation.want_fastest(true);
-    let closing = polish_from(equation, u, (end(-1.0), end(1.0)), sharp)?;
+    let start = (u, log_multiplier.abs() < FLAT);
+    let closing = polish_from(equation, start, (end(-1.0), end(1.0)), sharp)?;
     let moved = (closing.node.at - u).abs();
     Ok(Some(closing)
         .filter(|it| it.uncertainty <= VAGUE && moved < 0.9 * width && it.duration.is_finite()))
 }
 
 /// Newton's method on the contracting route, inside the bracket.
-fn newton(equation: &mut Equation, start: f64, bracket: Bracket) -> Result<Closing, Reason> {
+fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<Closing, Reason> {
     /// How far off coarse steps may put a cliff of the residual, such as the edge of an escape, and its slope.
     const SLACK: f64 = 1e-6;
     const STEEP: f64 = 1e3;
@@ -87,12 +91,12 @@ fn newton(equation: &mut Equation, start: f64, bracket: Bracket) -> Result<Closi
     let mut steps = Steps {
         equation,
         route: beyond_the_end(&[bracket.0, bracket.1]),
-        weigh: bracket.0.slope.abs().min(bracket.1.slope.abs()) < FLAT,
+        weigh: start.1,
         change: f64::INFINITY,
         stalls: 0,
         settled: None,
     };
-    let found = try_newton(ends, start, PlaceTolerance::Absolute(NEVER), |u| steps.at(u));
+    let found = try_newton(ends, start.0, PlaceTolerance::Absolute(NEVER), |u| steps.at(u));
     let Steps { settled, change, .. } = steps;
     let lost = Reason::NoConvergence { sought: "a limit cycle", change };
     match found {
@@ -261,14 +265,14 @@ fn sharpen(
 
 /// A place near the root in a bracket, by Newton's method with integration steps that are coarser than those of the
 /// equation and cost half as much.
-fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<f64, Reason> {
+fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<Guess, Reason> {
     /// Tolerance of the coarse steps, how many of them, and the change of the unknown that is theirs.
     const COARSE: f64 = 1e-8;
     const STEPS: usize = 3;
     const SETTLED: f64 = 1e-4;
-    let mut u = secant(bracket);
+    let (mut u, mut flat) = (secant(bracket), false);
     if !is_exact(equation) {
-        return Ok(u);
+        return Ok((u, flat));
     }
     let (mut coarse, route) = (equation.again(COARSE), beyond_the_end(&[bracket.0, bracket.1]));
     for _ in 0..STEPS {
@@ -279,12 +283,13 @@ fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<f64, Reason> 
             break;
         }
         u += change;
+        flat = node.slope.abs() < FLAT;
         if change.abs() <= SETTLED {
             break;
         }
     }
     equation.charge(coarse.cost());
-    Ok(u)
+    Ok((u, flat))
 }
 
 /// The places of a bracket.
