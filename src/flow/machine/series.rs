@@ -166,22 +166,24 @@ impl PhaseSeries {
         if self.step.place == ContactState::Sticks {
             return 0.0;
         }
-        if self.local.len() > 2 || self.falling.is_some_and(|fall| fall.exponent != 1.0) {
-            return duration * gauss(|part| self.force_slope(part * duration));
-        }
-        // The slope is constant but for a multiple of the exponential.
-        let rigid = duration * self.local.get(1).unwrap_or(&0.0);
-        let fall =
-            self.falling.map(|fall| fall.sign() / fall.velocity * integral(&self.fall, duration));
-        rigid + fall.unwrap_or(0.0)
-    }
-
-    /// The derivative of the force by the velocity. The exponential is that of the series.
-    fn force_slope(&self, t: f64) -> f64 {
-        let y = value(&self.step.y, t);
-        let (_, slope) = value_and_slope(&self.local, y - self.step.y[0]);
-        let fall = self.falling.map(|fall| fall.sign() * value(&self.fall, t) * fall.steepness(y));
-        slope + fall.unwrap_or(0.0)
+        let velocity = |part: f64| value(&self.step.y, part * duration);
+        let polynomial = match self.local[..] {
+            [] | [_] => 0.0,
+            [_, slope] => duration * slope,
+            _ => {
+                let distance = |part| velocity(part) - self.step.y[0];
+                duration * gauss(|part| value_and_slope(&self.local, distance(part)).1)
+            }
+        };
+        let fall = self.falling.map(|fall| {
+            if fall.exponent == 1.0 {
+                // Its slope is a multiple of itself.
+                return fall.sign() / fall.velocity * integral(&self.fall, duration);
+            }
+            let slope = |part| value(&self.fall, part * duration) * fall.steepness(velocity(part));
+            fall.sign() * duration * gauss(slope)
+        });
+        polynomial + fall.unwrap_or(0.0)
     }
 }
 
