@@ -63,11 +63,11 @@ pub fn fold_within(
     };
     let limits = &limits.up_to(BUDGET);
     let mut cost = Cost::default();
-    if let Some(guess) = FoldGuess::in_damping(parameters) {
-        if let Some(found) = cost.spend(fold_near(&guess, Knob::D, tolerance, limits)?) {
-            let FoldCycle { closing, parameters, side, .. } = found;
-            return Ok((Some(FoldPoint::of(&closing, &parameters, side)), cost));
-        }
+    if let Some(guess) = FoldGuess::in_damping(parameters)
+        && let Some(found) = cost.spend(fold_near(&guess, Knob::D, tolerance, limits)?)
+    {
+        let FoldCycle { closing, parameters, side, .. } = found;
+        return Ok((Some(FoldPoint::of(&closing, &parameters, side)), cost));
     }
     // A rough fold, one of many on a map, need not be found at any cost.
     let thorough = tolerance <= TOLERANCE;

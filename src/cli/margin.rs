@@ -48,7 +48,9 @@ impl MarginCommand {
         let timed = self.output.timed("the margin could not be computed", ask)?;
         let ((nominal, certain), seconds) = timed;
         let mut cost = nominal.cost;
-        certain.iter().for_each(|(worst, _)| cost += worst.cost);
+        if let Ok((worst, _)) = &certain {
+            cost += worst.cost;
+        }
         let certain = certain.map(|(_, margin)| margin);
         let answer = margins(&About::boxed(&known), nominal.margin, certain, bound);
         self.output.print(answer.cost(cost, seconds))

@@ -59,7 +59,7 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
     let scales = scales(session, index);
     let mut picture = Picture { scales, cursor, ..Picture::new(view.spec().title, "", "", window) };
     let fitted = |draw: fn(&Fitted) -> Option<Picture<'static>>| {
-        let drawn = session.fitted().and_then(|found| draw(found))?;
+        let drawn = session.fitted().and_then(draw)?;
         Some(Picture { scales, window, cursor, ..drawn })
     };
     match view {

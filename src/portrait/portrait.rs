@@ -118,19 +118,16 @@ impl Portrait {
             return Margin::ZERO;
         }
         let ends = [farthest, -farthest];
-        let (gap, [one, other]) = match self.edge() {
-            Some(edge) => {
-                let left = match edge {
-                    // Of a border next to the places of rest, the clearance has digits that its place has not.
-                    Edge::Orbit(orbit) => orbit.clearance() - (farthest - self.model.guide),
-                    Edge::Curve(_) => reach.displacement.0.min(reach.displacement.1) - farthest,
-                };
-                (left.max(0.0), ends.map(|x| self.kept_within(edge, x)))
-            }
-            None => {
-                let [right, left] = ends.map(|x| self.covered(x));
-                (right.displacement.0.min(left.displacement.1), [right.velocity, left.velocity])
-            }
+        let (gap, [one, other]) = if let Some(edge) = self.edge() {
+            let left = match edge {
+                // Of a border next to the places of rest, the clearance has digits that its place has not.
+                Edge::Orbit(orbit) => orbit.clearance() - (farthest - self.model.guide),
+                Edge::Curve(_) => reach.displacement.0.min(reach.displacement.1) - farthest,
+            };
+            (left.max(0.0), ends.map(|x| self.kept_within(edge, x)))
+        } else {
+            let [right, left] = ends.map(|x| self.covered(x));
+            (right.displacement.0.min(left.displacement.1), [right.velocity, left.velocity])
         };
         let lowest = one.0.min(one.1).min(other.0).min(other.1);
         let impulse = if gap > 0.0 { mass * lowest } else { 0.0 };

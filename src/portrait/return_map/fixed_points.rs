@@ -349,7 +349,7 @@ impl Flow<'_> {
         let rides = || curve.steps.iter().filter(|step| step.place == ContactState::Sticks);
         let riding: f64 = rides().map(|step| step.duration).sum();
         // The last of them, with the time spent on all.
-        let ride = rides().last().map(|step| {
+        let ride = rides().next_back().map(|step| {
             let [from, to] = [0.0, step.duration].map(|t| step.at(t).0);
             Ride { from, to, duration: riding / omega_0 }
         });

@@ -108,7 +108,9 @@ impl Divider {
             [ESCAPE] => send(Event::Key(KeyCode::Escape.into())),
             [ESCAPE, second, ref rest @ ..] if is_typed(&open) => {
                 send(Event::Key(KeyEvent::new(KeyCode::Char(second.into()), Modifiers::ALT)));
-                rest.iter().for_each(|byte| self.add(*byte, send));
+                for byte in rest {
+                    self.add(*byte, send);
+                }
             }
             _ => {
                 if let Some(text) = open.strip_prefix(PASTE_BEGIN) {

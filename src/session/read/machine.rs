@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use crate::fit::Fitted;
 use crate::flow::Problem;
 use crate::model::{Belt, Body, Knob, Parameters};
 use crate::question::whole::{WholeCycles, WholeMotion};
@@ -102,7 +103,7 @@ impl Session {
     /// The unit of r and w, in newtons. Fails with one line if there is no machine and no record with a known
     /// mass.
     pub(crate) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
-        let fitted = self.fitted().and_then(|fitted| fitted.units());
+        let fitted = self.fitted().and_then(Fitted::units);
         if let Some(units) = fitted {
             let known = Some(units.force).filter(|force| force.is_finite());
             return known.ok_or_else(|| {

@@ -41,7 +41,7 @@ impl Canvas<'_> {
             if inside(self.world(column, row)) {
                 // The blanks belong to the texture: to write them is shorter than to skip them.
                 let shade = self.look.symbols().shade;
-                let symbol = if (column + row) % 2 == 0 { shade } else { ' ' };
+                let symbol = if (column + row).is_multiple_of(2) { shade } else { ' ' };
                 self.dots.texture(column, row, symbol, role);
             }
         }
