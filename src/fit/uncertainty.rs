@@ -131,9 +131,13 @@ impl Covariance {
     pub fn following(&self, changes: &[(usize, f64)]) -> Unknowns {
         let free = changes.iter().filter(|(place, _)| self.free[*place]).copied();
         let (places, by): (Vec<usize>, Vec<f64>) = free.unzip();
-        let leading = self.white.select_columns(&places);
-        let weights = leading.select_rows(&places).lu().solve(&DVector::from_vec(by));
-        let mut all = weights.map_or(Unknowns::zeros(), |weights| leading * weights);
+        let mut all = Unknowns::zeros();
+        // Held numbers move no others.
+        if !places.is_empty() {
+            let leading = self.white.select_columns(&places);
+            let weights = leading.select_rows(&places).lu().solve(&DVector::from_vec(by));
+            all = weights.map_or(all, |weights| leading * weights);
+        }
         for (place, by) in changes {
             all[*place] = *by;
         }

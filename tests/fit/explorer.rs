@@ -184,6 +184,15 @@ fn what_is_free_held_and_how_residuals_count_may_stand_behind_the_file() {
 }
 
 #[test]
+fn a_number_that_was_not_free_can_be_held_at_another_value() {
+    let mut trial = opened(record(), "free=D");
+    trial.press("<run \"set r=0.06\">");
+    let found = trial.session.fitted().unwrap();
+    assert!(found.holds(Knob::R) && !found.holds(Knob::D));
+    assert_eq!(trial.session.problem.parameters.r, 0.06);
+}
+
+#[test]
 fn a_saved_session_keeps_what_is_held() {
     let mut trial = fitted();
     trial.press("<run \"set r=0.06\">");
