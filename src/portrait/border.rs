@@ -145,6 +145,7 @@ impl Edge {
         let [one, other] = ends.map(|index| curve[index].q);
         let (low, high) = (one.min(other), one.max(other));
         let (low, high) = maximum(low, high, FLAT * (high - low), |q| -distance(q));
-        Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])))
+        let upright = self.span_at(0.0).map_or(f64::INFINITY, |(low, high)| high.min(-low));
+        Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])).min(upright))
     }
 }
