@@ -38,14 +38,14 @@ impl MotionOptions {
     /// followed by the method and to the tolerance that are asked for or else its own.
     fn asked(&self, named: Option<&str>) -> Result<AskedMotion, Failure> {
         let start = &self.source.start;
-        let end = number("--until", self.until.as_ref(), self.source.numbers().until)?;
+        let end = || number("--until", self.until.as_ref(), self.source.numbers().until);
         let Some(mut case) = self.source.machine()? else {
             let problem = start.scene(named)?.problem;
-            let problem = Problem { until: end.unwrap_or(problem.until), ..problem };
+            let problem = Problem { until: end()?.unwrap_or(problem.until), ..problem };
             let about = About::oscillator(&problem.parameters);
             return Ok(AskedMotion { about, problem, model: None });
         };
-        case.described.problem.until = end.unwrap_or(case.described.problem.until);
+        case.described.problem.until = end()?.unwrap_or(case.described.problem.until);
         let case = case.checked()?;
         let MachineProblem { subject, start: (q, v), until, .. } = &case.described.problem;
         let model = subject.model().map_err(troubled)?;

@@ -69,7 +69,7 @@ impl SourceOptions {
             let parameters = self.start.scene(None)?.problem.parameters;
             let reach = reach(parameters.r);
             let ask = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
-            (About::oscillator(&parameters), output.timed("its basin could not be found", ask)?)
+            (About::oscillator(&parameters), output.timed("the basin could not be found", ask)?)
         };
         Ok(Portrayed { about, portrait, seconds })
     }
