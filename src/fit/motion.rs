@@ -21,7 +21,7 @@ use crate::numerics::{hypot, real};
 /// Order of the Taylor series.
 const ORDER: usize = 18;
 
-/// Largest truncation error of a step, relative to the state.
+/// Relative truncation error of a step, as [`Taylor`] understands it.
 const TOLERANCE: f64 = 1e-13;
 
 /// Solutions of the variational equation: across the flow, and by D, D2 (in the frame of the half plane) and D3.

@@ -32,7 +32,7 @@ pub const BEND: usize = 9;
 /// velocity as `velocity/omega0`.
 pub type Unknowns = SVector<f64, UNKNOWNS>;
 
-/// A linear map of the unknowns. Those that are held have zeros in it.
+/// A linear map of the unknowns; each says what it has for those that are held.
 pub type UnknownsMatrix = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 
 /// How the recorded motion begins.

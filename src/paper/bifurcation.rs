@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use super::harmonic::found_fold;
-use super::measure::{ClaimCase, at_rest, missing, oscillator};
+use super::measure::{ClaimCase, at_rest, missing};
 use super::{Certain, Check, Evidence, Known, always, tends, worst};
 use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::flow::Reason;
@@ -15,7 +15,7 @@ use crate::portrait::{Border, cycles};
 pub(super) const CHECKS: &[Check] = &[
     worst("exponent of the mean", |it| {
         let at = |d: f64| {
-            let it = it.of(oscillator(d, 0.2, 0.0, 0.01));
+            let it = it.of(Parameters { d, ..**it });
             let cycle = it.smallest()?;
             Ok((it.mean(&cycle)?, cycle.amplitude()))
         };

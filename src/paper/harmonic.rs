@@ -72,7 +72,8 @@ pub(super) const CHECKS: &[Check] = &[
     worst("amplitude below extents", |it| harmonic_against_extents(it, |a, low, _| a < low)),
     tends("A_v at D = -1", |it| Ok((2.0 / E, it.smallest()?.speed()))),
     worst("unstable amplitude", |it| {
-        Ok(Evidence::near(amplitudes(it)[0].amplitude, it.smallest()?.amplitude()))
+        let unstable = amplitudes(it).first().ok_or(missing("a stationary amplitude"))?.amplitude;
+        Ok(Evidence::near(unstable, it.smallest()?.amplitude()))
     }),
     worst("stable amplitude", |it| {
         Ok(Evidence::near(largest_amplitude(it)?, it.largest()?.amplitude()))
@@ -213,7 +214,7 @@ fn printed_fold(d3: f64, r: f64) -> f64 {
 }
 
 /// The fold of the cycles.
-pub(crate) fn found_fold(it: &ClaimCase) -> Result<FoldPoint, Reason> {
+pub(super) fn found_fold(it: &ClaimCase) -> Result<FoldPoint, Reason> {
     fold(it, &it.limits)?.0.ok_or(missing("the fold"))
 }
 

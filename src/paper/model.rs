@@ -200,7 +200,7 @@ fn at(speed: f64) -> Result<ReducedBelt, Reason> {
 
 /// Whether the vibrations at a speed of the belt stay below it: the stable cycle, and a motion that
 /// comes to it from just outside of the unstable one. Fails with the [`Reason`] why a cycle was not found.
-pub fn stays_slower(case: &ClaimCase) -> Result<Certain<bool>, Reason> {
+fn stays_slower(case: &ClaimCase) -> Result<Certain<bool>, Reason> {
     let ReducedBelt { parameters, sticking_velocity, .. } = at(case.more)?;
     let case = case.of(parameters);
     let below = case.largest()?.v_max < sticking_velocity;

@@ -5,7 +5,7 @@
 //! of the turning point where damping is nearly critical.
 
 use super::basin::arc::Arc;
-use super::basin::cycle::described;
+use super::basin::cycle::{described, picture_reach};
 use super::basin::orbit::Orbit;
 use super::closing::all::{STEP, all_closings};
 use super::closing::equation::Equation;
@@ -129,8 +129,6 @@ impl Portrait {
 /// than the third, with a family of periodic motions, or whose static friction holds what kinetic friction alone does
 /// not: a turning point of a cycle, or a node that repels.
 fn without_belt(model: &Model) -> Option<Portrait> {
-    /// How far a separatrix is followed, in units of `1/abs(D2)`.
-    const REACH: f64 = 20.0;
     let parameters = model.parameters()?;
     let node = parameters.d <= -1.0;
     if is_centre(&parameters) || (node && model.holds_more_at_rest()) {
@@ -143,7 +141,7 @@ fn without_belt(model: &Model) -> Option<Portrait> {
     if model.holds_more_at_rest() && least.into_iter().any(held) {
         return None;
     }
-    let reach = REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
+    let reach = picture_reach(parameters.d2);
     let limits = &Limits::PATIENT;
     let mut portrait = Portrait::of_closings(model, &parameters, &found, reach, limits).ok()?;
     portrait.cost += equation.cost();

@@ -1,5 +1,5 @@
-//! A machine by the whole model, drawn in the units of the paper's oscillator, so that every view that draws a
-//! motion or cycles draws these as well.
+//! Motions and cycles, of the paper's oscillator or of a machine by the whole model, drawn in the units of the former,
+//! so that every view that draws the one draws the other.
 
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};

@@ -1,7 +1,7 @@
 //! What can be measured at a point of a scan.
 //!
-//! [`MEASURES`] is the one table: what a measure is called, what it means, which columns it fills and
-//! with which other it is computed. Each computation is done at most once for a point, however many measures rest on it.
+//! [`MEASURES`] is the one table: what a measure is called, what it means and which columns it fills;
+//! [`Measure::with`] says with which other it is computed. Each computation is done at most once for a point, however many measures rest on it.
 
 mod point;
 mod row;

@@ -34,7 +34,7 @@ pub(super) struct Cells<'a> {
     pub cost: Cost,
     /// The cycles of the oscillator, once they are known.
     pub known: Option<(Cycles, Vec<Closing>)>,
-    /// All motions of a machine, once they are known.
+    /// All motions, once they are known; of the oscillator for repeated kicks only.
     pub portrait: Option<Portrait>,
 }
 
