@@ -1,7 +1,7 @@
 //! The keyboard: converts bytes from the terminal to events.
 //!
-//! A separate thread blocks in `read` and sends the events that it recognizes. It reads the terminal itself and
-//! hands the bytes to termina's parser, because crossterm's reader keeps cursor position reports to itself,
+//! A separate thread blocks in `read` and sends the events that it recognizes. It reads the terminal itself,
+//! divides the bytes into sequences and hands each of them to termina's parser, because crossterm's reader keeps cursor position reports to itself,
 //! leaves everything beyond 1,024 bytes unread until the next key (crossterm#1057), and spins when the terminal
 //! hangs up (crossterm#793).
 
@@ -13,6 +13,7 @@ use std::time::Duration;
 use crossbeam_channel::Sender;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::{Errno, retry_on_intr};
+use termina::Parser;
 use termina::escape::csi::{Csi, Cursor};
 use termina::escape::osc::{ColorOrQuery, DynamicColorNumber, Osc};
 use termina::event::{
@@ -26,7 +27,7 @@ use crate::session::{Code, Gesture, Key, Msg};
 
 mod sequences;
 
-use sequences::Divider;
+use sequences::{Divider, Sequence};
 
 /// Bytes per read.
 const BUFFER: usize = 4096;
@@ -51,7 +52,7 @@ fn listen(terminal: &impl AsFd, events: &Sender<Event>) {
 fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
     let mut divider = Divider::default();
     let mut buffer = [0; BUFFER];
-    let mut send = |heard: termina::Event| event(heard).into_iter().for_each(&mut send);
+    let mut send = |sequence: Sequence| event(sequence).into_iter().for_each(&mut send);
     loop {
         if divider.patience().is_some_and(|time| !more(terminal, Some(time))) {
             divider.pause(&mut send);
@@ -74,14 +75,30 @@ fn more(terminal: &impl AsFd, time: Option<Duration>) -> bool {
     retry_on_intr(|| poll(&mut waiting, time.as_ref())).is_ok_and(|ready| ready > 0)
 }
 
-/// The event for a parsed sequence; none for releases of keys and for anything that was not asked for.
-fn event(heard: termina::Event) -> Option<Event> {
-    match heard {
-        termina::Event::Key(pressed) => key(pressed).map(|key| Event::Session(Msg::Key(key))),
-        termina::Event::Paste(text) => {
+/// The event for a sequence; none for what is not understood or was not asked for.
+fn event(sequence: Sequence) -> Option<Event> {
+    match sequence {
+        Sequence::Whole(bytes) => {
+            let mut parser = Parser::default();
+            parser.parse(&bytes, false);
+            parser.pop().and_then(understood)
+        }
+        Sequence::Alt(byte) => {
+            let key = Key { alt: true, ..Key::plain(Code::Char(byte.into())) };
+            Some(Event::Session(Msg::Key(key)))
+        }
+        Sequence::Paste(bytes) => {
+            let text = String::from_utf8_lossy(&bytes);
             let lines = text.replace("\r\n", "\n").replace('\r', "\n");
             Some(Event::Session(Msg::Paste(lines)))
         }
+    }
+}
+
+/// The event for a parsed sequence; none for releases of keys and for anything that was not asked for.
+fn understood(parsed: termina::Event) -> Option<Event> {
+    match parsed {
+        termina::Event::Key(pressed) => key(pressed).map(|key| Event::Session(Msg::Key(key))),
         termina::Event::Mouse(MouseEvent { kind, column, row, .. }) => {
             let gesture = match kind {
                 MouseEventKind::Down(MouseButton::Left) => Gesture::Click,

@@ -1,4 +1,4 @@
-//! Divides the bytes of the terminal into what termina's parser understands: keys, reports, pastes.
+//! Divides the bytes of the terminal into sequences: keys, reports, pastes.
 //!
 //! Some keys begin like a longer sequence: Esc, and Alt with `[`, `]`, `P` or `O`. Only time tells them apart,
 //! so a sequence whose end does not come is given up: after [`ESCAPE_TIME`] it is the keys that a person can
@@ -9,9 +9,6 @@
 //! it. A single byte is a key, unless it ends such a reply.
 
 use std::time::Duration;
-
-use termina::event::{KeyCode, KeyEvent, Modifiers};
-use termina::{Event, Parser};
 
 /// How long an unfinished sequence may wait for its rest: over a slow line, `ESC` and `[A` can arrive separately
 /// (crossterm#993).
@@ -24,111 +21,145 @@ const PASTE_TIME: Duration = Duration::from_secs(1);
 const INTERRUPT: &[u8] = b"\x03";
 
 const PASTE_BEGIN: &[u8] = b"\x1b[200~";
+const PASTE_END: &[u8] = b"\x1b[201~";
 
 const ESCAPE: u8 = 0x1b;
 const BELL: u8 = 0x07;
 
+/// A part of the input that has a meaning of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Sequence {
+    /// A character or a whole control sequence.
+    Whole(Vec<u8>),
+    /// Alt with this character, which otherwise begins a longer sequence.
+    Alt(u8),
+    /// Pasted bytes.
+    Paste(Vec<u8>),
+}
+
 /// The bytes that wait for their rest.
 #[derive(Debug, Default)]
 pub struct Divider {
-    parser: Parser,
-    /// What the parser has got since the last event: the beginning of a sequence, or what it has refused.
+    /// The beginning of a sequence.
     open: Vec<u8>,
+    /// A paste whose end has not come.
+    paste: Option<Vec<u8>>,
     /// What a pause has cut off.
     cut: Vec<u8>,
+}
+
+/// What the first bytes of some input are, and their number.
+enum First {
+    Whole(usize),
+    /// Two bytes: Alt with the second one.
+    Alt,
+    PasteBegin,
+    /// Nothing that has a meaning.
+    Noise(usize),
+    /// The beginning of a sequence, as far as it has arrived.
+    Unfinished,
 }
 
 impl Divider {
     /// How long to wait for the rest of what has arrived; `None` if nothing is unfinished.
     pub fn patience(&self) -> Option<Duration> {
-        let time = if self.open.starts_with(PASTE_BEGIN) { PASTE_TIME } else { ESCAPE_TIME };
-        (!self.open.is_empty()).then_some(time)
+        if self.paste.is_some() {
+            Some(PASTE_TIME)
+        } else {
+            (!self.open.is_empty()).then_some(ESCAPE_TIME)
+        }
     }
 
-    /// Takes the bytes of one read and sends the events that they complete.
-    pub fn take(&mut self, bytes: &[u8], send: &mut impl FnMut(Event)) {
+    /// Takes the bytes of one read and sends the sequences that they complete.
+    pub fn take(&mut self, bytes: &[u8], send: &mut impl FnMut(Sequence)) {
         if bytes == INTERRUPT {
             // It also gets the user out of a paste that does not end.
-            self.forget();
+            self.paste = None;
         }
         let cut = std::mem::take(&mut self.cut);
         let joined = [&cut, bytes].concat();
-        let continues = match reply(&joined).filter(|_| !cut.is_empty()) {
-            Some(whole) => whole || bytes.len() > 1,
-            None => cut == PASTE_BEGIN && is_several(bytes),
-        };
-        for byte in if continues { &joined } else { bytes } {
-            self.add(*byte, send);
+        match reply(&joined) {
+            _ if cut.is_empty() => self.open.extend_from_slice(bytes),
+            Some(whole) if whole || bytes.len() > 1 => self.open = joined,
+            Some(_) => {
+                self.cut = joined;
+                self.open.extend_from_slice(bytes);
+            }
+            None if cut == PASTE_BEGIN && is_several(bytes) => self.open = joined,
+            None => self.open.extend_from_slice(bytes),
         }
-        if !continues && !cut.is_empty() && reply(&joined).is_some() {
-            self.cut = joined;
-        }
+        self.divide(send);
     }
 
     /// Gives up waiting for the rest of what has arrived.
-    pub fn pause(&mut self, send: &mut impl FnMut(Event)) {
-        if self.open.starts_with(PASTE_BEGIN) {
+    pub fn pause(&mut self, send: &mut impl FnMut(Sequence)) {
+        if let Some(text) = self.paste.take() {
+            send(Sequence::Paste(text));
             self.cut = PASTE_BEGIN.to_vec();
-        } else if self.cut.is_empty() {
+        }
+        if self.cut.is_empty() {
             self.cut.clone_from(&self.open);
         }
-        while !self.open.is_empty() {
-            self.give_up(send);
-        }
-    }
-
-    fn forget(&mut self) -> Vec<u8> {
-        self.parser = Parser::default();
-        std::mem::take(&mut self.open)
-    }
-
-    /// Adds a byte. An escape begins a sequence, whatever has begun before it, except at the end of a control string and in
-    /// a paste.
-    fn add(&mut self, byte: u8, send: &mut impl FnMut(Event)) {
-        let is_string = matches!(self.open[..], [ESCAPE, b']' | b'P', ..]);
-        if is_string && byte != b'\\' && self.open.ends_with(&[ESCAPE]) {
-            self.open.pop();
-            self.give_up(send);
-            self.add(ESCAPE, send);
-        } else if byte == ESCAPE && !is_string && !self.open.starts_with(PASTE_BEGIN) {
-            self.give_up(send);
-        }
-        self.open.push(byte);
-        self.parser.parse(&[byte], true);
-        if let Some(event) = self.parser.pop() {
-            self.open.clear();
-            send(event);
-        }
-    }
-
-    /// Sends what the beginning of a sequence is without its rest.
-    fn give_up(&mut self, send: &mut impl FnMut(Event)) {
-        let open = self.forget();
-        match open[..] {
-            [ESCAPE] => send(Event::Key(KeyCode::Escape.into())),
-            [ESCAPE, second, ref rest @ ..] if is_typed(&open) => {
-                send(Event::Key(KeyEvent::new(KeyCode::Char(second.into()), Modifiers::ALT)));
-                for byte in rest {
-                    self.add(*byte, send);
+        while let Some(&first) = self.open.first() {
+            match self.open.get(1) {
+                None if first == ESCAPE => send(Sequence::Whole(std::mem::take(&mut self.open))),
+                Some(&second) if is_typed(&self.open) => {
+                    send(Sequence::Alt(second));
+                    self.open.drain(..2);
+                    self.divide(send);
                 }
-            }
-            _ => {
-                if let Some(text) = open.strip_prefix(PASTE_BEGIN) {
-                    send(Event::Paste(String::from_utf8_lossy(text).into_owned()));
-                }
+                _ => self.open.clear(),
             }
         }
+    }
+
+    /// Sends all sequences that are complete.
+    fn divide(&mut self, send: &mut impl FnMut(Sequence)) {
+        let bytes = std::mem::take(&mut self.open);
+        let mut rest = &bytes[..];
+        while !rest.is_empty() {
+            if self.paste.is_some() {
+                rest = self.pasted(rest, send);
+                continue;
+            }
+            let length = match first(rest) {
+                First::Unfinished => break,
+                First::Noise(length) => length,
+                First::Whole(length) => {
+                    send(Sequence::Whole(rest[..length].to_vec()));
+                    length
+                }
+                First::Alt => {
+                    send(Sequence::Alt(rest[1]));
+                    2
+                }
+                First::PasteBegin => {
+                    self.paste = Some(Vec::new());
+                    PASTE_BEGIN.len()
+                }
+            };
+            rest = &rest[length..];
+        }
+        self.open = rest.to_vec();
+    }
+
+    /// Adds bytes to the paste and returns those behind its end.
+    fn pasted<'a>(&mut self, bytes: &'a [u8], send: &mut impl FnMut(Sequence)) -> &'a [u8] {
+        let Some(text) = &mut self.paste else { return bytes };
+        let before = text.len();
+        text.extend_from_slice(bytes);
+        let searched = before.saturating_sub(PASTE_END.len() - 1);
+        let found = text[searched..].windows(PASTE_END.len()).position(|it| it == PASTE_END);
+        let Some(end) = found.map(|at| searched + at) else { return &[] };
+        text.truncate(end);
+        send(Sequence::Paste(self.paste.take().unwrap_or_default()));
+        &bytes[end + PASTE_END.len() - before..]
     }
 }
 
 /// Whether these bytes are more than one key.
 fn is_several(bytes: &[u8]) -> bool {
-    let mut parser = Parser::default();
-    let ends = |byte: &u8| {
-        parser.parse(&[*byte], true);
-        parser.pop().is_some()
-    };
-    bytes.iter().position(ends).is_some_and(|end| end + 1 < bytes.len())
+    matches!(first(bytes), First::Whole(length) | First::Noise(length) if length < bytes.len())
 }
 
 /// Whether an unfinished sequence can be what a person has pressed: it has no parameters.
@@ -163,5 +194,85 @@ fn reply(bytes: &[u8]) -> Option<bool> {
         [] | [ESCAPE] => Some(false),
         [BELL, ..] | [ESCAPE, b'\\', ..] => is_color.then_some(true),
         _ => None,
+    }
+}
+
+/// What some input begins with.
+fn first(bytes: &[u8]) -> First {
+    match bytes {
+        [ESCAPE] | [ESCAPE, b'O' | b'[' | b']' | b'P'] => First::Unfinished,
+        // The first one is the key. The second one may begin a sequence, such as a report that arrives while
+        // the key is pressed.
+        [ESCAPE, ESCAPE, ..] => First::Whole(1),
+        [ESCAPE, b'O', b'@'..=b'~', ..] => First::Whole(3),
+        [ESCAPE, b'O', ..] => First::Alt,
+        [ESCAPE, b'[', rest @ ..] => control(rest),
+        [ESCAPE, b']' | b'P', ..] => string(bytes),
+        [ESCAPE, rest @ ..] => match character(rest) {
+            First::Whole(length) => First::Whole(1 + length),
+            First::Unfinished => First::Unfinished,
+            _ => First::Whole(1),
+        },
+        _ => character(bytes),
+    }
+}
+
+/// A control sequence without its `ESC[`.
+fn control(rest: &[u8]) -> First {
+    match rest {
+        // The function keys of the Linux console.
+        [b'['] => return First::Unfinished,
+        [b'[', b'A'..=b'E', ..] => return First::Whole(4),
+        // A report of the mouse, as terminals send it that know no decimal coordinates.
+        [b'M', places @ ..] if places.iter().take(3).all(|place| *place >= b' ') => {
+            return if places.len() < 3 { First::Unfinished } else { First::Whole(6) };
+        }
+        _ => {}
+    }
+    let parameters = rest.iter().take_while(|byte| (b' '..=b'?').contains(byte)).count();
+    let length = 2 + parameters + 1;
+    match (rest.first(), rest.get(parameters)) {
+        (_, None) => First::Unfinished,
+        (_, Some(b'~')) if rest[..parameters] == *b"200" => First::PasteBegin,
+        (
+            Some(b'0'..=b'9' | b'<' | b'>' | b'?' | b'@'..=b'Z' | b'\\'..=b'~'),
+            Some(b'@'..=b'~'),
+        ) => First::Whole(length),
+        (Some(_), Some(b'@'..=b'~')) if parameters > 0 => First::Noise(length),
+        (Some(_), Some(_)) if parameters > 0 => First::Noise(length - 1),
+        _ => First::Alt,
+    }
+}
+
+/// A control string: an operating system command or a device control string.
+fn string(bytes: &[u8]) -> First {
+    let is_command = bytes[1] == b']';
+    if is_command && !bytes[2].is_ascii_digit() {
+        return First::Alt;
+    }
+    let text = bytes.iter().skip(2).take_while(|byte| **byte >= b' ').count();
+    match &bytes[2 + text..] {
+        [] | [ESCAPE] => First::Unfinished,
+        [BELL, ..] if is_command => First::Whole(2 + text + 1),
+        [ESCAPE, b'\\', ..] => First::Whole(2 + text + 2),
+        _ if is_command => First::Noise(2 + text),
+        _ => First::Alt,
+    }
+}
+
+/// A character in UTF-8.
+fn character(bytes: &[u8]) -> First {
+    let length = match bytes[0] {
+        0x00..=0x7f => 1,
+        0xc2..=0xdf => 2,
+        0xe0..=0xef => 3,
+        0xf0..=0xf4 => 4,
+        _ => return First::Noise(1),
+    };
+    let end = bytes.len().min(length);
+    match bytes[1..end].iter().position(|byte| !(0x80..0xc0).contains(byte)) {
+        Some(broken) => First::Noise(1 + broken),
+        None if end < length => First::Unfinished,
+        None => First::Whole(length),
     }
 }

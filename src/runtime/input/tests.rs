@@ -169,7 +169,7 @@ fn with_pauses(pieces: &[&[u8]]) -> Vec<String> {
     let mut divider = Divider::default();
     let mut heard = Vec::new();
     for piece in pieces {
-        let mut send = |parsed| heard.extend(event(parsed).iter().map(name));
+        let mut send = |sequence| heard.extend(event(sequence).iter().map(name));
         divider.take(piece, &mut send);
         divider.pause(&mut send);
     }
