@@ -128,6 +128,19 @@ fn the_explicit_pair_closes_it_to_eleven_digits_of_what_went_through() {
     }
 }
 
+/// Where a long displacement swallows a short way, the work of friction still has all its digits.
+#[test]
+fn friction_takes_the_energy_of_a_light_push_far_out() {
+    let (r, q, v) = (1e6, 50.0, 1e-3);
+    let parameters = Parameters { d: 0.1, d2: 0.0, d3: 0.5, r };
+    let problem = Problem { parameters, initial: State { q, v }, ..Problem::default() };
+    let detail = Detail { energy: true, ..Detail::default() };
+    let ledger = trajectory(&problem, detail, &Limits::PATIENT).ledger.unwrap();
+    let friction = ledger.works.last().unwrap();
+    let exact = -r * v * v / (2.0 * (q + r));
+    assert!((friction.amount / exact - 1.0).abs() < 1e-8, "{friction:?}, exactly {exact}");
+}
+
 fn relative(found: f64, expected: f64) -> f64 {
     (found / expected - 1.0).abs()
 }

@@ -24,6 +24,8 @@ pub struct MotionRun<'a, N = f64> {
     time: Sum<N>,
     /// Work of the linear, the quadratic and the cubic damping.
     works: [f64; 3],
+    /// Length of the path, half swing by half swing: a short way has digits that the places of its ends have not.
+    path: f64,
 }
 
 impl<'a, N: Scalar> MotionRun<'a, N> {
@@ -34,7 +36,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         if detail.samples_per_step > 0 {
             found.samples.push(Sample { tau: 0.0, q, v });
         }
-        MotionRun { detail, limits, found, time: Sum::default(), works: [0.0; 3] }
+        MotionRun { detail, limits, found, time: Sum::default(), works: [0.0; 3], path: 0.0 }
     }
 
     /// Ends the run without an answer.
@@ -67,12 +69,8 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             && let Some((q, v)) = outcome.state()
         {
             let end = State { q: q.value(), v: v.value() };
-            // Between its turns a motion goes one way.
-            let places = self.found.crossings.iter().map(|turn| turn.q.value()).chain([end.q]);
-            let way = |from: &mut f64, q: f64| Some((q - std::mem::replace(from, q)).abs());
-            let path: f64 = places.scan(initial.q, way).sum();
             let [linear, quadratic, cubic] = self.works;
-            let works = [linear, quadratic, cubic, -parameters.r * path];
+            let works = [linear, quadratic, cubic, -parameters.r * self.path];
             let energies = (energy(initial), energy(end));
             let ledger = Ledger::of_terms(&parameters, energies, works);
             // Energies may overflow where states do not.
@@ -136,6 +134,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             let q;
             if let Some(stop) = stop.filter(|stop| N::of(stop.duration) < remaining) {
                 self.time.add(N::of(stop.duration));
+                self.path += stop.way();
                 q = last.x + sign * N::of(stop.way());
                 let (beyond, of) = stop.beyond((sign * last.x - N::of(r)).value());
                 (point.x, unit) = (N::of(-beyond), of);
@@ -144,6 +143,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
                 let (end, crossed) =
                     self.piece(stepper, &field, (side, r), from, bound, |_, _, _| false);
                 let StepPoint { x, v } = end?;
+                self.path += (x - point.x).value();
                 q = side.displacement(x, r);
                 if !crossed {
                     return self.stopped(StepPoint { x: q, v: sign * v });
@@ -219,16 +219,19 @@ impl MotionRun<'_> {
         sticks: bool,
     ) -> Trajectory {
         let Problem { parameters, initial, .. } = self.found.problem;
-        let mut crossings = Vec::new();
+        let (mut crossings, mut path) = (Vec::new(), 0.0);
         let mut from = StepPoint { x: initial.q, v: initial.v };
         let see = |at: f64, unit: i32, step: &Step| {
             let end = step.end.times_power(unit);
             let (tau, start) = (at + step.duration, std::mem::replace(&mut from, end));
+            let mut turn = start.x;
             if start.v != 0.0 && start.v.signum() * end.v <= 0.0 {
                 let part = start.v / (start.v - end.v);
-                let q = start.x + 0.5 * part * step.duration * start.v;
-                crossings.push(Crossing { tau: at + part * step.duration, q });
+                turn = start.x + 0.5 * part * step.duration * start.v;
+                crossings.push(Crossing { tau: at + part * step.duration, q: turn });
             }
+            // The path within the step, out and back where the velocity changes sign.
+            path += (turn - start.x).abs() + (end.x - turn).abs();
             if tau == at {
                 return Some(Err(Reason::StepTooSmall { step: step.duration }));
             }
@@ -243,7 +246,7 @@ impl MotionRun<'_> {
         } else {
             self.glide(stepper, field, see)
         };
-        self.found.crossings = crossings;
+        (self.found.crossings, self.path) = (crossings, path);
         self.close(outcome, stepper.cost())
     }
 }
