@@ -4,7 +4,6 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason, Trajectory};
 use hopfscope::model::{Parameters, State};
 use hopfscope::numerics::elementary::{hypot, pow};
-
 use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::basin::cycle::cycles_drawn;
 use hopfscope::portrait::{Border, Edge, Portrait};

@@ -70,6 +70,27 @@ fn ctrl_c_is_heard_behind_whatever_was_broken_off() {
 }
 
 #[test]
+fn a_key_is_heard_behind_what_breaks_off_or_is_unknown_in_the_same_read() {
+    let cases: [(&[u8], &[&str]); 8] = [
+        (b"\x1b[12;\x03", &["C-Char('c')"]),
+        (b"\x1b]11;rgb:\x03", &["C-Char('c')"]),
+        (b"\x1b[<0;3\x03", &["C-Char('c')"]),
+        (b"\xe9q", &["Char('q')"]),
+        (b"\x1b[>41;354;0cq", &["Char('q')"]),
+        (b"\x1b[?1hq", &["Char('q')"]),
+        // Keys of a keypad that have no name are no text.
+        (b"\x1bOq", &[]),
+        (b"\x1bOM", &[]),
+    ];
+    for (bytes, heard) in cases {
+        let mut keyboard = keyboard();
+        keyboard.types(bytes);
+        thread::sleep(2 * sequences::ESCAPE_TIME);
+        assert_eq!(keyboard.all(), [heard, &["Closed"]].concat(), "{bytes:?}");
+    }
+}
+
+#[test]
 fn keys_have_their_names() {
     let cases: [(&[u8], &str); 14] = [
         (b"a", "Char('a')"),
