@@ -102,7 +102,7 @@ impl Edge {
         }
     }
 
-    /// Its points in the order of time, `count` on each integration step; a closed one ends with its first point.
+    /// Its points, `count` on each integration step, of an orbit in the order of time; a closed one ends with its first.
     #[must_use]
     pub fn curve(&self, count: u16) -> Vec<State> {
         match self {

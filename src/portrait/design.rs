@@ -205,11 +205,12 @@ pub fn friction_of_guide(
     };
     let mut margin = |held: f64| -> Result<Margin, Reason> {
         let machine = subject.with_friction(held * model.stiffness);
-        // Only belts have tolerances.
-        match machine.of_belt().filter(|_| !known.is_none()) {
-            Some(belt) => Ok(guaranteed(belt, known)?.map_or(Margin::ZERO, |(_, margin)| margin)),
-            None => Ok(machine.portrait()?.margin),
+        if known.is_none() {
+            return Ok(machine.portrait()?.margin);
         }
+        // Only belts have tolerances.
+        let Some(belt) = machine.of_belt() else { return Ok(Margin::ZERO) };
+        Ok(guaranteed(belt, known)?.map_or(Margin::ZERO, |(_, margin)| margin))
     };
     if !known.is_none() {
         // As much friction holds a displacement by itself; where even that guarantees nothing, no friction does.

@@ -138,7 +138,8 @@ impl Portrait {
     /// how conservative it is, or by how much it is wrong, because it leaves out D2 and D3. `None` on a belt.
     #[must_use]
     pub fn lyapunov_share(&self) -> Option<f64> {
-        let margin = self.margin.displacement?.min(self.margin.impulse?);
+        let Margin { displacement, impulse, .. } = self.in_drawing(&self.margin);
+        let margin = displacement?.min(impulse?);
         lyapunov::radius(&self.model.parameters()?).map(|radius| radius / margin)
     }
 

@@ -1,7 +1,7 @@
 //! The commands: one table that feeds the keys, the command line, the help and the footer, and decides what a key does.
 //!
-//! A command is a line of `assets/commands.txt`, which says its name, its keys and what it does, a row here, and one small
-//! function in `session::act`. Every command of a key can also be typed by its name. A line is run completely or not at
+//! A command is a line of `assets/commands.txt`, which says its name, its keys and what it does, with a row here and one
+//! small function in `session::act` for what no other command does. Every command of a key can also be typed by its name. A line is run completely or not at
 //! all, and a refused line says what is allowed.
 
 use std::sync::{Arc, LazyLock};

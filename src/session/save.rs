@@ -26,7 +26,7 @@ use crate::session::settings::{DisplaySettings, NamedValue};
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{
     Before, Bookmark, Bookmarks, History, Instruction, Msg, Overlay, Pane, Plot, Prompt, Row,
-    ScreenSetup, Session, Setup, Snapshot, Uncertainty, save,
+    ScreenSetup, Session, Setup, Snapshot, Uncertainty,
 };
 
 /// The format that this program writes; it reads this and all earlier formats.
@@ -300,14 +300,14 @@ const CARRIED: &str = "start.toml";
 /// be saved; no such session is known.
 pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
     let mut steps: Vec<Instruction> = display_lines(session.display);
-    let text = save::text(session)?;
+    let saved = text(session)?;
     let new = Session::new(session.scene.clone(), session.size);
-    let is_new = save::text(&new)? == text;
+    let is_new = text(&new)? == saved;
     if let Some((lines, names)) = scene(&session.scene).filter(|_| is_new) {
         steps.extend(lines);
         steps.push(Instruction::Give(Msg::Start(names)));
     } else {
-        steps.push(Instruction::File { name: CARRIED.to_owned(), text });
+        steps.push(Instruction::File { name: CARRIED.to_owned(), text: saved });
         steps.push(run(format!("open {CARRIED}")));
         // The scene opens with these numbers, so they are no change; an earlier change can still be undone.
         steps.extend(is_new.then(|| Instruction::Give(Msg::Start(Vec::new()))));

@@ -54,7 +54,7 @@ const ESCAPED: f64 = 1e60;
 pub struct Flow<'a> {
     /// The model.
     pub model: &'a Model,
-    /// The last step, and for how long a motion is still to be followed.
+    /// The last step, and the time left.
     pub series: PhaseSeries,
     /// Whether a motion that turns no more is to be followed to its end nevertheless.
     pub follows: bool,

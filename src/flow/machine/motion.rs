@@ -141,7 +141,7 @@ impl MotionRecorder {
     /// A state with this much time left.
     fn sample(&self, left: f64, (x, y): (f64, f64)) -> Sample {
         let MotionUnits { length, omega_0, .. } = self.units;
-        let tau = (self.whole - left) / omega_0;
+        let tau = (self.whole - left.max(0.0)) / omega_0;
         Sample { tau, q: x / length, v: y * omega_0 / length }
     }
 

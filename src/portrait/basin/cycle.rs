@@ -107,6 +107,7 @@ impl Portrait {
         let border = self.edge().map(|edge| self.places(edge, points)).unwrap_or_default();
         let lyapunov_share = self.lyapunov_share();
         let area = self.area().filter(|_| !self.fates.is_empty());
+        let area = area.map(|area| area / (unit * unit * model.omega_0));
         let margin = self.in_drawing(&self.margin);
         let cycle = |cycle: &Cycle| cycle.scaled(1.0 / unit, 1.0 / model.omega_0);
         Ok(Cycles {

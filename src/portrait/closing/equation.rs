@@ -182,7 +182,7 @@ impl<'a> Equation<'a> {
         start: Length,
     ) -> Result<HalfSwing, Reason> {
         if start.log.is_infinite() {
-            return Ok(HalfSwing::lost(start, start));
+            return Ok(HalfSwing::between(start, start));
         }
         let limits = self.limits;
         self.map(index, direction).swing(start, &limits)
@@ -285,7 +285,7 @@ impl<'a> Equation<'a> {
         match map.swing(start, &Limits { evaluations, interrupted: limits.interrupted }) {
             Ok(swing) if swing.arrives() => Ok(swing),
             Err(Reason::Interrupted) => Err(Reason::Interrupted),
-            _ => Ok(HalfSwing::lost(start, Length { log: f64::MAX, ..Length::INFINITE })),
+            _ => Ok(HalfSwing::between(start, Length { log: f64::MAX, ..Length::INFINITE })),
         }
     }
 }

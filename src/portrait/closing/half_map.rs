@@ -113,8 +113,8 @@ pub struct HalfSwing {
 }
 
 impl HalfSwing {
-    /// A swing that never arrives anywhere but at this `end`, zero or infinite; of one that arrives, no numbers yet.
-    pub(crate) fn lost(start: Length, end: Length) -> Self {
+    /// A swing of which only its ends are known: all there is of one that never arrives, whose end is zero or infinite.
+    pub(crate) fn between(start: Length, end: Length) -> Self {
         HalfSwing {
             start,
             end,
@@ -216,7 +216,7 @@ impl HalfMap {
                 Ok((end, duration)) => {
                     let fastest = spiral.fastest(start);
                     let errors = Roundoff::closed(end.log, duration, fastest);
-                    let swing = HalfSwing::lost(start, end);
+                    let swing = HalfSwing::between(start, end);
                     return Ok(self.finish(HalfSwing { duration, fastest, errors, ..swing }));
                 }
                 Err(grown) => reached = grown,
@@ -257,7 +257,7 @@ impl HalfMap {
         let done = swing(stepper, &self.field, (from, 0), (LONGEST, true), limits, &mut see);
         self.steps += done.steps;
         let duration = skipped + done.duration;
-        let lost = |end| Ok(HalfSwing::lost(start, end));
+        let lost = |end| Ok(HalfSwing::between(start, end));
         let point = match done.end {
             Err(Reason::Escapes) => return lost(Length::INFINITE),
             end => end?,
@@ -278,7 +278,7 @@ impl HalfMap {
         };
         let errors = roundoff.map(|roundoff| roundoff.done(&self.field, end.log, rest));
         let errors = errors.unwrap_or_default();
-        let (swing, duration) = (HalfSwing::lost(start, end), duration + rest);
+        let (swing, duration) = (HalfSwing::between(start, end), duration + rest);
         Ok(self.finish(HalfSwing { duration, square, fastest, errors, ..swing }))
     }
 
@@ -381,7 +381,7 @@ impl Errors {
 
 /// The errors of a half swing so far.
 #[derive(Clone, Copy, Debug)]
-pub struct Roundoff {
+struct Roundoff {
     field: HalfPlane,
     tolerance: f64,
     unit: i32,
@@ -392,11 +392,10 @@ pub struct Roundoff {
 }
 
 impl Roundoff {
-    /// Before the first step from a point that a closed form reached after `skipped`, along a motion whose
-    /// size grew by `log_growth` there.
+    /// Before the first step from a point that a closed form reached after `skipped`.
     ///
     /// `log_start` is the logarithm of the clearance c at which the swing started.
-    pub fn new(
+    fn new(
         field: HalfPlane,
         tolerance: f64,
         (log_start, from, skipped): (f64, StepPoint, f64),
@@ -414,7 +413,7 @@ impl Roundoff {
     }
 
     /// The errors of a swing in closed form.
-    pub fn closed(log_end: f64, duration: f64, fastest: f64) -> [Errors; 2] {
+    fn closed(log_end: f64, duration: f64, fastest: f64) -> [Errors; 2] {
         let rounding = UNIT * log_end.abs().max(1.0);
         let gain = Errors { length: 1.0, fastest, ..Errors::default() };
         let duration = Errors { duration, ..Errors::default() };
@@ -423,7 +422,7 @@ impl Roundoff {
 
     /// Carries the errors over a step measured in units of `2^unit`; `square` and `fastest` are its integral
     /// of `v^2` and its largest v, in the same units.
-    pub fn step(&mut self, unit: i32, step: &Step, square: f64, fastest: Option<f64>) {
+    fn step(&mut self, unit: i32, step: &Step, square: f64, fastest: Option<f64>) {
         let shift = self.unit - unit;
         if shift != 0 {
             let scaled = |value| times_power(value, shift);
@@ -466,7 +465,7 @@ impl Roundoff {
 
     /// The errors at the end, which a closed form reaches after another `rest`: of rounding, and of a
     /// relative error 1 of the start.
-    pub fn done(mut self, field: &HalfPlane, log_end: f64, rest: f64) -> [Errors; 2] {
+    fn done(mut self, field: &HalfPlane, log_end: f64, rest: f64) -> [Errors; 2] {
         let log_size = f64::from(self.unit) * std::f64::consts::LN_2;
         let log_growth = 2.0 * (log_size - field.d * rest - log_end);
         for (errors, area) in self.errors.iter_mut().zip(self.area) {

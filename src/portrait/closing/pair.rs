@@ -92,7 +92,7 @@ impl Closing {
             square: UNIT * square,
             fastest: UNIT * fastest,
         });
-        let lost = HalfSwing::lost(clearances[0], clearances[1]);
+        let lost = HalfSwing::between(clearances[0], clearances[1]);
         let swing = HalfSwing { duration, square, fastest, ..lost };
         let errors = own.map(|own| [own, Errors::default()]);
         let uncertainty = own[0].length;

@@ -150,7 +150,9 @@ impl RootSearch {
         high: Node,
         function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
     ) -> Result<(), E> {
-        if low.value().abs() < self.nothing && high.value().abs() < self.nothing {
+        /// What rounding makes of a value of zero, as a part of what counts as zero.
+        const ROUNDING: f64 = 0.01;
+        if low.value().abs().max(high.value().abs()) < ROUNDING * self.nothing {
             return Ok(());
         }
         if (low.value() > 0.0) != (high.value() > 0.0) {

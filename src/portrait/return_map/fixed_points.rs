@@ -222,8 +222,9 @@ impl FixedPointSearch<'_, '_> {
         let mut search = RootSearch { finest, nothing: NOTHING, ..RootSearch::default() };
         let mut left = first;
         while left.at < last.at {
-            let near_end = left.at + 1.5 * part > last.at;
-            let right = if near_end { last } else { self.growth(left.at + part)? };
+            let next = left.at + part;
+            let near_end = left.at + 1.5 * part > last.at || next <= left.at;
+            let right = if near_end { last } else { self.growth(next)? };
             search.between(left, right, 0.0, &mut |u, _| self.growth(u))?;
             left = right;
         }

@@ -1,7 +1,7 @@
 //! Everything that can be run by name, commands of keys and commands that take words, and the bindings of keys to
 //! commands, by context.
 //!
-//! This file describes commands; their table is in `session::commands`. A [`Keymap`] is built from the default keys of
+//! This file describes commands: their lines are in `assets/commands.txt`, what they do in `session::commands`. A [`Keymap`] is built from the default keys of
 //! all commands. Several contexts, in which keys have their meanings, hold at once (a plot, the phase plane, everywhere); no
 //! key may have two meanings in contexts that can hold together.
 
