@@ -170,6 +170,11 @@ impl PhaseSeries {
         let polynomial = match self.local[..] {
             [] | [_] => 0.0,
             [_, slope] => duration * slope,
+            // With d = y - y(0), the slope of a cubic P is 3 (P - P(0))/d - c_2 d - 2 c_1.
+            [_, slope, bend] | [_, slope, bend, _] => {
+                let way = integral(&self.step.y, duration) - duration * self.step.y[0];
+                3.0 * integral(&self.rows[0], duration) - bend * way - 2.0 * duration * slope
+            }
             _ => {
                 let distance = |part| velocity(part) - self.step.y[0];
                 duration * gauss(|part| value_and_slope(&self.local, distance(part)).1)
