@@ -224,7 +224,7 @@ impl FittedSwing {
     ) -> Result<Option<FittedTurn>, MotionLost> {
         let Way { with_derivatives, reach, signal, .. } = way;
         let (mut start, mut from) = (self.start, self.tau);
-        let mut derivatives = Derivatives::default();
+        let mut derivatives = Sensitivities::default();
         stepper.begin(&self.field);
         for _ in 0..STEPS {
             let step = stepper.advance(start.at, f64::INFINITY, true).map_err(|_| MotionLost)?;
@@ -306,13 +306,13 @@ impl FittedSwing {
 
 /// The derivatives along one step.
 #[derive(Default)]
-struct Derivatives {
+struct Sensitivities {
     /// The Taylor coefficients of those of the position, in powers of a unit of time.
     terms: [Ways; ORDER + 1],
     unit: f64,
 }
 
-impl Derivatives {
+impl Sensitivities {
     /// Those along the step from `start`, from the coefficients of its velocity in powers of a unit of time.
     fn expand(&mut self, field: &HalfPlane, start: &Jet, (v, unit): (&[f64], f64)) {
         let HalfPlane { d, d2, d3 } = *field;

@@ -1,12 +1,12 @@
 //! Arithmetic used by every other ring, independent of oscillators.
 //!
 //! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`scalar`] says what both have in
-//!   common with doubles, [`scaling`] multiplies by powers
-//!   of two without error, [`sum`] compensates rounding, [`mod@count`] converts between counts and real numbers,
-//!   [`random`] simulates noise.
+//!   common with doubles, [`scaling`] multiplies by powers of two without error, [`sum`] compensates rounding,
+//!   [`mod@count`] converts between counts and real numbers, [`random`] simulates noise.
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
 //!   integrates, [`polynomial`] evaluates and interpolates by cubics, [`spline`] smooths measured points.
-//! - Texts: [`decimal`] writes numbers and steps from one round number to the next, [`similar`] finds the name that was meant.
+//! - Texts: [`mod@decimal`] writes numbers and steps from one round number to the next, [`similar`] finds the name that was
+//!   meant.
 
 pub(crate) mod count;
 pub(crate) mod decimal;
