@@ -36,6 +36,7 @@
 mod cells;
 mod conditions;
 mod curves;
+mod descent;
 mod drift;
 mod estimate;
 mod fitted;
