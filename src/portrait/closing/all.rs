@@ -5,10 +5,11 @@
 //! ([`super::polish`]).
 
 use super::balance::weighed_closing;
-use super::equation::{Equation, FINER, Route};
+use super::equation::{Equation, Route};
 use super::half_map::Length;
 use super::pair::Closing;
 use super::polish::{VAGUE, is_exact, polish};
+use super::precise::FINER;
 use super::search::{Bracket, Node, RootSearch};
 use super::weak::{has_cycle, is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;

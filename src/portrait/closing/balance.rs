@@ -10,8 +10,9 @@
 //! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
 
 use super::equation::Equation;
-use super::half_map::{Direction, HalfMap, HalfSwing, Length, UNIT};
+use super::half_map::{Direction, HalfMap, HalfSwing, Length};
 use super::pair::Closing;
+use super::roundoff::UNIT;
 use crate::flow::step::Stepper;
 use crate::flow::{Limits, Reason};
 use crate::model::HalfPlane;

@@ -10,6 +10,8 @@ pub mod equation;
 pub mod half_map;
 pub(crate) mod pair;
 pub mod polish;
+pub(crate) mod precise;
 pub(crate) mod return_map;
+mod roundoff;
 pub(crate) mod search;
 pub(crate) mod weak;

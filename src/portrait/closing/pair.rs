@@ -1,6 +1,7 @@
 //! A pair of half swings, whether it closes or not, and the errors of its numbers.
 
-use super::half_map::{Errors, HalfSwing, Length, UNIT};
+use super::half_map::{HalfSwing, Length};
+use super::roundoff::{Errors, UNIT};
 use super::search::Node;
 use crate::model::Parameters;
 use crate::numerics::elementary::{ln, ln_1p};

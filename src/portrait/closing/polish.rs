@@ -5,9 +5,10 @@
 //! ([`Equation::precisely_at`]) where doubles leave too few digits.
 
 use super::balance::{Weighed, weighed_closing};
-use super::equation::{Equation, FINER, PreciseClosing, Route};
+use super::equation::{Equation, Route};
 use super::half_map::Length;
 use super::pair::Closing;
+use super::precise::{FINER, PreciseClosing};
 use super::search::{Bracket, Node};
 use crate::flow::Reason;
 use crate::numerics::root;

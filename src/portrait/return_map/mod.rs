@@ -2,5 +2,5 @@
 //! read off the next turning point.
 
 pub(crate) mod fixed_points;
-pub(crate) mod gaps;
 pub mod machine_return;
+pub(crate) mod portrait;

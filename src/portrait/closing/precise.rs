@@ -1,0 +1,84 @@
+//! The closing equation in numbers of twice the working precision, for where doubles cannot decide.
+//!
+//! Next to a fold two cycles nearly cancel the residual between them; next to the escape point swings from
+//! and to infinity differ by as little as the parameter does; beyond critical negative damping a cycle
+//! may graze the sticking set. There the residual is smaller than the rounding of a double. Thirty digits tell
+//! on which side of each such place a double lies, and fix the cycle itself to all digits of a double.
+
+use super::equation::{Equation, Route};
+use super::half_map::Direction;
+use crate::flow::precise::{Grain, half_swing};
+use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::{Twofold, ln_1p};
+
+/// Rounding and truncation here, as a fraction of those of a double, with a few digits to spare.
+pub const FINER: f64 = 1e-12;
+
+/// How far two swings are from closing.
+#[derive(Clone, Copy, Debug)]
+pub struct PreciseClosing {
+    /// The residual of the route, as a closing in doubles has it.
+    pub residual: f64,
+    /// Clearance at which the second swing starts.
+    pub second: f64,
+    /// Duration of both.
+    pub duration: f64,
+}
+
+impl Equation<'_> {
+    /// The two swings at a clearance of the first one; an error without a reason where one of them escapes or is
+    /// captured. An evaluation counts as a hundred in doubles.
+    pub fn precisely_at(
+        &mut self,
+        route: Route,
+        start: Twofold,
+    ) -> Result<PreciseClosing, Option<Reason>> {
+        use Direction::{Backward, Forward};
+        let gap = Twofold::of(2.0 * self.parameters.r);
+        let positive = |length: Twofold| Some(length).filter(|it| it.high > 0.0).ok_or(None);
+        let (second, times, difference, unit) = match route {
+            Route::Forward => {
+                let (end, time) = self.precise_swing(0, Forward, start)?;
+                let second = positive(end - gap)?;
+                let (end, other) = self.precise_swing(1, Forward, second)?;
+                let end = positive(end - gap)?;
+                (second, [time, other], end - start, start)
+            }
+            Route::Mixed => {
+                let (second, time) = self.precise_swing(1, Backward, start + gap)?;
+                let (end, other) = self.precise_swing(0, Forward, start)?;
+                let target = second + gap;
+                (second, [time, other], end - target, target)
+            }
+            Route::Backward => {
+                let (second, time) = self.precise_swing(1, Backward, start + gap)?;
+                let (end, other) = self.precise_swing(0, Backward, second + gap)?;
+                (second, [time, other], start - end, end)
+            }
+        };
+        let residual = ln_1p(difference.over(unit).value());
+        let (second, duration) = (second.value(), (times[0] + times[1]).value());
+        let sound = residual.is_finite() && second > 0.0;
+        sound.then_some(PreciseClosing { residual, second, duration }).ok_or(None)
+    }
+
+    /// Where a swing ends, and when; an error without a reason where it escapes.
+    fn precise_swing(
+        &mut self,
+        index: usize,
+        direction: Direction,
+        start: Twofold,
+    ) -> Result<(Twofold, Twofold), Option<Reason>> {
+        /// Truncation well below rounding.
+        const GRAIN: Grain = Grain { order: 30, tolerance: 1e-29 };
+        /// Maximum number of evaluations of one swing, and what one costs in units of one in doubles.
+        const BUDGET: u64 = 20_000;
+        const COSTLIER: u64 = 100;
+        let field = *self.map(index, direction).field();
+        let limits = Limits { evaluations: BUDGET, interrupted: self.limits.interrupted };
+        let mut cost = Cost::default();
+        let found = half_swing(field, start, GRAIN, &mut cost, &limits);
+        self.charge(Cost { evaluations: COSTLIER * cost.evaluations, ..cost });
+        found.map_err(Some)?.ok_or(None)
+    }
+}
