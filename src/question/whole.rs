@@ -4,6 +4,7 @@
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
 use crate::model::{Belt, Parameters};
+use crate::portrait::basin::cycle::cycles_drawn;
 use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, picture_reach, survey};
 
 /// What is known of a machine's motion beside its course.
@@ -74,9 +75,10 @@ pub fn cycles(
     points: u16,
     limits: &Limits,
 ) -> Result<(Cycles, Option<Box<WholeCycles>>), Reason> {
-    let reach = picture_reach(parameters.d2);
-    let expansion = Portrait::of_oscillator(parameters, reach, limits);
-    let Some(belt) = machine else { return Ok((expansion?.drawn(parameters, points)?, None)) };
+    let Some(belt) = machine else {
+        return Ok((cycles_drawn(parameters, points, limits)?, None));
+    };
+    let expansion = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
     let found = survey::portrait(belt);
     let expanded = expansion.as_ref().map_or(Margin::ENDLESS, |found| found.margin);
     let kinds = found.as_ref().ok().map(|found| {
