@@ -103,3 +103,17 @@ fn margins_are_those_of_motions_or_there_is_no_answer() {
         complaints.join("\n")
     );
 }
+
+/// Where friction dwarfs all else, quadratic damping drives a kick away once it exceeds friction: `D2 v^2 = r`. No other
+/// start that is lost lies nearer to the origin.
+#[test]
+fn with_huge_friction_the_largest_circle_of_the_basin_ends_where_quadratic_damping_exceeds_it() {
+    for r in [1e20_f64, 1e60, 1e100] {
+        let parameters = Parameters { d: -0.3, d2: 0.5, d3: 0.0, r };
+        let found = Portrait::of_oscillator(&parameters, r, &Limits::PATIENT).unwrap();
+        let (radius, kick) = (found.inner_radius().unwrap(), found.margin.impulse.unwrap());
+        let exact = (r / parameters.d2).sqrt();
+        assert!(radius <= kick, "r = {r:e}: {radius:e} > {kick:e}");
+        assert!((radius / exact - 1.0).abs() < 1e-8, "r = {r:e}: {radius:e}, exactly {exact:e}");
+    }
+}
