@@ -65,32 +65,42 @@ fn free() -> SocketAddr {
 }
 
 fn server() -> Server {
+    /// How often a port is tried: another program may take a free one before the server does.
+    const PORTS: usize = 5;
     let files = TempDir::new().unwrap();
     let file = |name: &str| files.path().join(name);
     key(&file("host"));
     key(&file("user"));
     fs::copy(file("user.pub"), file("authorized")).unwrap();
-    let address = free();
-    let settings = [
-        format!("ListenAddress {address}"),
-        format!("HostKey {}", file("host").display()),
-        format!("AuthorizedKeysFile {}", file("authorized").display()),
-        format!("PidFile {}", file("pid").display()),
-        "StrictModes no\nUsePAM no\nPermitRootLogin yes\nPasswordAuthentication no".to_owned(),
-        "KbdInteractiveAuthentication no\nUseDNS no\nPrintMotd no\nPrintLastLog no".to_owned(),
-    ];
-    fs::write(file("settings"), settings.join("\n")).unwrap();
     // A server run by root needs this folder, which is normally made by the system's start script.
     drop(fs::create_dir_all("/run/sshd"));
-    let process = Command::new(program("sshd"))
-        .args(["-D", "-e", "-f"])
-        .arg(file("settings"))
-        .stderr(fs::File::create(file("log")).unwrap())
-        .stdin(Stdio::null())
-        .spawn()
-        .unwrap();
-    support::poll("an SSH server", || TcpStream::connect(address).is_ok());
-    Server { process, files, address }
+    let log = || fs::read_to_string(file("log")).unwrap_or_default();
+    // Connections are no test: many of them to a port that nobody holds yet may meet themselves there, and keep the server out.
+    let listens = || log().contains("Server listening");
+    for _ in 0..PORTS {
+        let address = free();
+        let settings = [
+            format!("ListenAddress {address}"),
+            format!("HostKey {}", file("host").display()),
+            format!("AuthorizedKeysFile {}", file("authorized").display()),
+            format!("PidFile {}", file("pid").display()),
+            "StrictModes no\nUsePAM no\nPermitRootLogin yes\nPasswordAuthentication no".to_owned(),
+            "KbdInteractiveAuthentication no\nUseDNS no\nPrintMotd no\nPrintLastLog no".to_owned(),
+        ];
+        fs::write(file("settings"), settings.join("\n")).unwrap();
+        let mut process = Command::new(program("sshd"))
+            .args(["-D", "-e", "-f"])
+            .arg(file("settings"))
+            .stderr(fs::File::create(file("log")).unwrap())
+            .stdin(Stdio::null())
+            .spawn()
+            .unwrap();
+        support::poll("an SSH server", || listens() || process.try_wait().unwrap().is_some());
+        if listens() {
+            return Server { process, files, address };
+        }
+    }
+    panic!("no SSH server on {PORTS} ports: {}", log());
 }
 
 /// A slow line to an address; returns the address to connect to instead.

@@ -61,7 +61,7 @@ pub struct Terminal {
 }
 
 /// Polls a condition until it holds.
-pub fn poll(what: &str, condition: impl Fn() -> bool) {
+pub fn poll(what: &str, mut condition: impl FnMut() -> bool) {
     let deadline = Instant::now() + DEADLINE;
     while !condition() {
         assert!(Instant::now() < deadline, "no {what} in time");
