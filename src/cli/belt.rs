@@ -8,13 +8,17 @@ use super::figure::completed;
 use super::input::{self, MACHINE, page_file, tolerance};
 use super::{Failure, MachineCase, Output, second, timed, troubled, write};
 use crate::figure::panels;
-use crate::flow::{Limits, Method, Reason};
+use crate::flow::{
+    Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, follow, follow_by_series,
+};
 use crate::model::unit::WithTolerance;
-use crate::model::{Belt, Knob, MachineProblem, Source, Tolerances};
+use crate::model::{Knob, MachineProblem, Source, Tolerances};
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::{Course, CubicExpansion, Kick, Portrait, StartWindow, friction_of_guide};
+use crate::portrait::{Kick, Portrait, StartWindow, friction_of_guide};
 use crate::report::About;
-use crate::report::machine::{DesignAnswer, MachineAnswer, OnBelt, RestShare, machine, page};
+use crate::report::machine::{
+    CubicExpansion, DesignAnswer, MachineAnswer, RestShare, machine, page,
+};
 use crate::runtime::print::figure;
 use crate::runtime::provenance_file;
 use crate::scene::machine::library::{TEXTBOOK, machines};
@@ -102,7 +106,7 @@ impl BeltCommand {
             write(path, page.as_bytes(), self.force)?;
         }
         self.output.print(machine(&answer))?;
-        let incomplete = answer.course.portrait.incomplete();
+        let incomplete = answer.portrait.incomplete();
         incomplete.map_or(Ok(()), |stop| Err(troubled(stop)))
     }
 
@@ -113,27 +117,35 @@ impl BeltCommand {
         about: &'a About,
         second: Option<Method>,
     ) -> Result<MachineAnswer<'a>, Reason> {
-        let MachineProblem { subject, tolerances, start, until } = problem;
-        let on_belt = |belt: &Belt| {
-            let expansion = CubicExpansion::new(belt, &Limits::PATIENT)?;
-            let certain = (!tolerances.is_none()).then(|| guaranteed(belt, tolerances));
-            let certain = certain.transpose()?.map(|found| found.map(|(_, margin)| margin));
-            Ok::<_, Reason>(OnBelt { expansion, tolerances, certain })
-        };
-        let on_belt = subject.of_belt().map(on_belt).transpose()?;
-        let mut course = Course::new(&subject.model()?, *start, *until)?;
-        if let Some(way) = second {
-            course.follow_by(way, self.tol.unwrap_or(Knob::Tolerance.usual()));
-        }
-        let rest_share = self.share(&course.portrait);
-        let design = self.designed(subject, tolerances)?;
+        let MachineProblem { subject, tolerances, start: (x, v), until } = problem;
+        let (limits, belt) = (&Limits::PATIENT, subject.of_belt());
+        let expansion = belt.map(|belt| CubicExpansion::new(belt, limits)).transpose()?;
+        let uncertain = belt.filter(|_| !tolerances.is_none());
+        let certain = uncertain.map(|belt| guaranteed(belt, tolerances)).transpose()?;
+        let portrait = subject.portrait()?;
+        let model = &portrait.model;
+        let fate = portrait.told_fate(*x, *v)?;
+        let rests = (fate == Fate::Rest)
+            .then(|| Flow::new(model).rest_of(*x, model.scaled_velocity(*v), limits));
+        let rest = rests.transpose()?;
+        let motion = follow_by_series(model, (*x, *v), *until);
+        let second = second.map(|method| {
+            let tolerance = self.tol.unwrap_or(Knob::Tolerance.usual());
+            let problem = Problem { method, tolerance, ..motion.problem };
+            follow(model, &problem, MotionUnits::physical(model), Detail::default())
+        });
         Ok(MachineAnswer {
             about,
-            start: *start,
-            course,
-            rest_share,
-            design,
-            on_belt,
+            problem,
+            rest_share: self.share(&portrait),
+            design: self.designed(subject, tolerances)?,
+            portrait,
+            motion,
+            fate,
+            rest,
+            second,
+            expansion,
+            certain: certain.map(|found| found.map(|(_, margin)| margin)),
             seconds: 0.0,
         })
     }
@@ -152,9 +164,7 @@ impl BeltCommand {
     ) -> Result<Option<DesignAnswer>, Reason> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
         let needed = friction_of_guide(subject, known, kick, wanted)?;
-        let at = subject.of_belt().map(|belt| belt.belt_speed);
-        let has = subject.get(Knob::Friction).unwrap_or(0.0);
-        Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed, at, has }))
+        Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed }))
     }
 }
 

@@ -38,8 +38,6 @@ pub(crate) mod on_belt;
 pub mod proved;
 #[doc(hidden)]
 pub mod return_map;
-#[doc(hidden)]
-pub mod survey;
 
 mod border;
 mod cycle;
@@ -69,4 +67,3 @@ pub(crate) use kicks::RandomKick;
 pub(crate) use kicks::repeated::Repeated;
 pub use margin::{Kicks, Margin, Reach, RestMargin};
 pub use portrait::Portrait;
-pub use survey::{Course, CubicExpansion};

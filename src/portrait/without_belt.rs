@@ -14,7 +14,7 @@ use super::portrait::Portrait;
 use super::{Border, Cycle, Edge, Reach};
 use crate::closed_form::harmonic::is_centre;
 use crate::flow::{Fate, Limits, Reason};
-use crate::model::{Model, Parameters};
+use crate::model::{Belt, Model, Parameters, Source};
 
 impl Portrait {
     /// The portrait of a machine: by half swings that close where there is no belt, else by the return map.
@@ -23,6 +23,14 @@ impl Portrait {
     /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
     pub fn of(model: &Model) -> Result<Self, Reason> {
         without_belt(model).map_or_else(|| Portrait::by_return_map(model), Ok)
+    }
+
+    /// The portrait of a mass on a belt whose friction law reaches as far as its motions do.
+    ///
+    /// # Errors
+    /// [`Reason`] where it has no model, or where motions leave the law before the border of rest is known.
+    pub fn of_belt(belt: &Belt) -> Result<Self, Reason> {
+        Portrait::of(&Model::new(belt)?)
     }
 
     /// The portrait of the oscillator of the paper; `reach` is the largest displacement of interest, as far as which a
@@ -122,6 +130,16 @@ impl Portrait {
         };
         let displacement = (turn(&orbit.lower), turn(&orbit.upper));
         Some(Reach { displacement, velocity: self.kept_within(edge, 0.0) })
+    }
+}
+
+impl Source {
+    /// What it does.
+    ///
+    /// # Errors
+    /// [`Reason`] where it has no model, or where motions leave the law before the border of rest is known.
+    pub fn portrait(&self) -> Result<Portrait, Reason> {
+        Portrait::of(&self.model()?)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
 use crate::model::{Belt, Parameters};
 use crate::portrait::basin::cycle::cycles_drawn;
-use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, picture_reach, survey};
+use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, picture_reach};
 
 /// What is known of a machine's motion beside its course.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +42,7 @@ pub fn motion(
         let detail = Detail { crossings, samples_per_step: between.into(), energy: true };
         return Ok((trajectory(problem, detail, limits), None));
     };
-    let portrait = survey::portrait(belt)?;
+    let portrait = Portrait::of_belt(belt)?;
     let mut model = portrait.model.clone();
     model.tolerance = problem.tolerance;
     if !problem.method.follows_machines() {
@@ -79,7 +79,7 @@ pub fn cycles(
         return Ok((cycles_drawn(parameters, points, limits)?, None));
     };
     let expansion = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
-    let found = survey::portrait(belt);
+    let found = Portrait::of_belt(belt);
     let expanded = expansion.as_ref().map_or(Margin::ENDLESS, |found| found.margin);
     let kinds = found.as_ref().ok().map(|found| {
         let margins = [found.in_drawing(&found.margin), expanded];

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Belt, ParameterBox, State, Tolerances};
 use crate::portrait::guarantee::{Uncertain, machine, oscillator};
-use crate::portrait::{Margin, Portrait, picture_reach, survey};
+use crate::portrait::{Margin, Portrait, picture_reach};
 
 /// What is not known exactly, and disturbed.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ impl UncertainSubject {
     pub fn nominal(&self, limits: &Limits) -> Result<Portrait, Reason> {
         match self {
             UncertainSubject::Parameters { known, .. } => oscillator::nominal(known, limits),
-            UncertainSubject::Machine { belt, .. } => survey::portrait(belt),
+            UncertainSubject::Machine { belt, .. } => Portrait::of_belt(belt),
         }
     }
 

@@ -3,8 +3,8 @@
 use crate::program::{json, run};
 use hopfscope::model::{Belt, Group, Knob, Tolerances};
 use hopfscope::portrait::Margin;
+use hopfscope::portrait::Portrait;
 use hopfscope::portrait::guarantee::{Uncertain, machine::guaranteed};
-use hopfscope::portrait::survey::portrait;
 use hopfscope::scene::machine::library::find;
 
 fn machine(name: &str) -> Belt {
@@ -53,7 +53,7 @@ fn no_draw_is_below(draws: u32) {
     for (belt, known) in cases() {
         let found = guaranteed(&belt, &known).unwrap();
         let (_, found) = found.unwrap_or_else(|reason| panic!("{known:?}: {reason}"));
-        let (found, nominal) = (kicks(&found), kicks(&portrait(&belt).unwrap().margin));
+        let (found, nominal) = (kicks(&found), kicks(&Portrait::of_belt(&belt).unwrap().margin));
         // A guarantee of nothing would also hold.
         let says = found.iter().zip(nominal).all(|(found, nominal)| *found > 0.3 * nominal);
         assert!(says, "{known:?}: {found:?} of {nominal:?}");
@@ -66,7 +66,7 @@ fn no_draw_is_below(draws: u32) {
             }
             // The worst disturbance acts like reduced friction.
             drawn.friction -= known.disturbance;
-            let mut own = kicks(&portrait(&drawn).unwrap().margin);
+            let mut own = kicks(&Portrait::of_belt(&drawn).unwrap().margin);
             // Before the kick it may have pushed the other way.
             own[2] -= 2.0 * known.disturbance / drawn.stiffness;
             let kept = own.iter().zip(found).all(|(own, found)| *own >= found * (1.0 - 1e-9));
@@ -93,7 +93,7 @@ fn tolerances_of_friction_and_damping_and_a_disturbance_are_those_of_one_machine
     let (_, found) = guaranteed(&belt, &known).unwrap().unwrap();
     let friction = 0.8 * belt.friction - 0.1;
     let worst = Belt { friction, damping: 0.9 * belt.damping, ..belt.clone() };
-    let portrait = portrait(&worst).unwrap();
+    let portrait = Portrait::of_belt(&worst).unwrap();
     let [displacement, impulse, shift, push] = kicks(&found);
     let [exact, exact_impulse, ..] = kicks(&portrait.margin);
     assert!((displacement / exact - 1.0).abs() < 1e-12);

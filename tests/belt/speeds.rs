@@ -8,7 +8,7 @@ use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, Group, Knob, Source};
 use hopfscope::picture::Item;
 use hopfscope::portrait::Cycle;
-use hopfscope::portrait::survey::portrait;
+use hopfscope::portrait::Portrait;
 use hopfscope::question::answer;
 use hopfscope::scene::machine::library::machines;
 use hopfscope::scene::{Finding, Topic, View, find};
@@ -38,7 +38,7 @@ fn rest_and_stick_slip_end_at_different_speeds() {
         };
         // The stick-slip cycle at that speed.
         let there = Belt { belt_speed: hopf.value, ..machine("bstab") };
-        let cycles = portrait(&there).unwrap().cycles;
+        let cycles = Portrait::of_belt(&there).unwrap().cycles;
         let stuck = cycles.iter().find(|cycle| cycle.sticks()).unwrap();
         assert!((x_max / stuck.q_max - 1.0).abs() < 1e-6, "{x_max} {stuck:?}");
         let Some(Jump { from, to: Fate::Rest, .. }) = end.jumps.unwrap().up else {
@@ -170,7 +170,8 @@ fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
         let belt = &find(scene).unwrap().machine.clone().unwrap().machine.belt;
         let mut compared = 0;
         for at in &draft.points {
-            let exact = portrait(&Belt { belt_speed: at.value, ..belt.clone() }).unwrap().cycles;
+            let exact =
+                Portrait::of_belt(&Belt { belt_speed: at.value, ..belt.clone() }).unwrap().cycles;
             let kinds = |cycles: &[Cycle]| -> Vec<_> {
                 cycles.iter().map(|cycle| (cycle.sticks(), cycle.stable)).collect()
             };

@@ -14,7 +14,6 @@ use crate::flow::Reason;
 use crate::model::source::{MONOTONE, set};
 use crate::model::{Belt, Knob, Model, Phase, Tolerances};
 use crate::numerics::root::try_bisect;
-use crate::portrait::survey::portrait;
 use crate::portrait::{Margin, Portrait};
 
 /// The portrait of a machine whose basin lies within those of all others, and the kicks, in m and N s, that every one
@@ -31,7 +30,7 @@ pub fn guaranteed(
         return Ok(Err(Uncertain::Disturbance { disturbance, friction, unit: " N" }));
     }
     let found = if corners.numbers == 0 {
-        Ok(portrait(&corners.worst(0, 0.0))?)
+        Ok(Portrait::of_belt(&corners.worst(0, 0.0))?)
     } else {
         corners.bounded(belt)?
     };
@@ -45,7 +44,7 @@ pub fn guaranteed(
 /// The portrait of the machine outside of whose basin nothing comes to rest: with the largest friction and damping.
 /// `None` where other numbers are uncertain.
 pub fn hopeful(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Reason> {
-    known.best(belt).map(|best| portrait(&best)).transpose()
+    known.best(belt).map(|best| Portrait::of_belt(&best)).transpose()
 }
 
 /// A portrait whose basin of rest is bordered by a cycle of slip, and the velocities along it, divided by the natural
@@ -66,7 +65,7 @@ impl Corners {
         const ROUNDS: usize = 8;
         const ROOM: f64 = 1.2;
         let slowest = self.slowest();
-        let middle = slip_border(&portrait(belt)?).unwrap_or((-slowest, slowest));
+        let middle = slip_border(&Portrait::of_belt(belt)?).unwrap_or((-slowest, slowest));
         let mut range = (ROOM * middle.0, (ROOM * middle.1).min(slowest));
         for _ in 0..ROUNDS {
             if self.models.iter().any(|model| model.least_velocity() > range.0) {
@@ -94,7 +93,7 @@ impl Corners {
         const HALVINGS: u32 = 24;
         let slowest = self.slowest();
         let at = |less: f64| -> Result<Option<SlipBorder>, Reason> {
-            let portrait = portrait(&self.worst(corner, less))?;
+            let portrait = Portrait::of_belt(&self.worst(corner, less))?;
             let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
             Ok(border.map(|velocities| (portrait, velocities)))
         };

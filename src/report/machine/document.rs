@@ -2,40 +2,44 @@
 
 use std::collections::BTreeMap;
 
-use super::{DesignAnswer, MachineAnswer, OnBelt, excess, in_units};
+use super::{CubicExpansion, MachineAnswer};
 use crate::flow::{Fate, Sample, Trajectory};
 use crate::model::Group;
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::guarantee::Uncertain;
-use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
+use crate::portrait::{Cycle, Margin, Portrait};
 use crate::report::cycle_numbers::of_machine;
 use crate::report::motion::{energy, phases};
 use crate::report::{Columns, Document};
 
 /// The whole answer about a machine as a document.
 pub(super) fn document(all: Document, answer: &MachineAnswer) -> Document {
-    let MachineAnswer { course, on_belt, rest_share, .. } = answer;
-    let on_belt = on_belt.as_ref();
-    let certain = |belt: &OnBelt| Some(guaranteed(belt, belt.certain.as_ref()?));
-    let expanded = |belt: &OnBelt| expansion(&belt.expansion, &course.portrait);
-    let quantities = on_belt.map(|belt| quantities(&belt.expansion));
+    let MachineAnswer { portrait, expansion, .. } = answer;
+    let design = answer.design.map(|designed| {
+        Document::default()
+            .with("kick", designed.kick)
+            .with("margin", designed.wanted)
+            .with("R", designed.needed.least())
+            .with("needed", designed.needed)
+            .with("message", designed.sentence(&answer.problem.subject))
+    });
     all.with("model", "whole")
-        .and(&quantities.unwrap_or_default())
-        .and(&motions(&course.portrait))
-        .with("motion", motion(answer.start, course))
-        .with_any("guaranteed", on_belt.and_then(certain))
-        .with_any("rest_share", *rest_share)
-        .with_any("design", answer.design.as_ref().map(design))
-        .with_any("expansion", on_belt.map(expanded))
+        .and(&expansion.as_ref().map(quantities).unwrap_or_default())
+        .and(&motions(portrait))
+        .with("motion", motion(answer))
+        .with_any("guaranteed", answer.certain.map(|certain| guaranteed(answer, certain)))
+        .with_any("rest_share", answer.rest_share)
+        .with_any("design", design)
+        .with_any("expansion", expansion.as_ref().map(|it| it.document(portrait)))
 }
 
 /// The numbers of a mass on a belt, and its dimensionless form.
-fn quantities(CubicExpansion { belt, reduced, .. }: &CubicExpansion) -> Document {
+fn quantities(expansion: &CubicExpansion) -> Document {
+    let CubicExpansion { belt, reduced, .. } = expansion;
     let knobs = Group::Machine.knobs();
     let numbers = knobs.filter_map(|knob| Some((knob.spec().name, knob.of_belt(belt)?)));
-    let held = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
-    let both = |dimensionless: f64, physical: f64| {
-        Document::default().with("dimensionless", dimensionless).with("physical", physical)
+    let both = |physical: f64, one: f64| {
+        Document::default().with("dimensionless", physical / one).with("physical", physical)
     };
     let Derivatives { value, first, second, third } = reduced.mu;
     // Root mean square distance of a table's points from the law.
@@ -56,18 +60,18 @@ fn quantities(CubicExpansion { belt, reduced, .. }: &CubicExpansion) -> Document
         .with("friction", friction)
         .with("units", reduced.units)
         .with("parameters", reduced.parameters)
-        .with("sticking_velocity", both(reduced.sticking_velocity, belt.belt_speed))
-        .with("rest_band", both(held / reduced.units.displacement, held))
+        .with("sticking_velocity", both(belt.belt_speed, reduced.units.velocity))
+        .with("rest_band", both(expansion.held(), reduced.units.displacement))
 }
 
 /// The kicks that are survived for certain, with what they allow for: the disturbance in N, and the intervals of the
 /// numbers that are not known exactly. Null if every kick is survived or nothing is certain.
-fn guaranteed(belt: &OnBelt, certain: &Result<Margin, Uncertain>) -> Document {
-    let tolerances = belt.uncertain().into_iter().map(|(knob, value)| (knob.spec().name, value));
+fn guaranteed(answer: &MachineAnswer, certain: Result<Margin, Uncertain>) -> Document {
+    let tolerances = answer.uncertain().into_iter().map(|(knob, value)| (knob.spec().name, value));
     Document::default()
         .and(&certain.unwrap_or(Margin::ENDLESS))
         .with("reason", certain.err().map(|reason| reason.to_string()))
-        .with("disturbance", belt.tolerances.disturbance)
+        .with("disturbance", answer.problem.tolerances.disturbance)
         .with("tolerances", tolerances.collect::<BTreeMap<_, _>>())
 }
 
@@ -93,22 +97,21 @@ fn motions(portrait: &Portrait) -> Document {
         .with("unresolved", &portrait.unresolved)
 }
 
-/// The motion from a start.
-fn motion((x, v): (f64, f64), course: &Course) -> Document {
-    let motion = &course.motion;
+/// The motion from the start.
+fn motion(answer: &MachineAnswer) -> Document {
+    let (motion, (x, v)) = (&answer.motion, answer.problem.start);
     let end = motion.end();
-    let second = course.second.as_ref().map(|second| by_second(second, end));
     let [displacement, velocity] = motion.extremes.unwrap_or_default();
     Document::default()
         .with("start", Document::default().with("x", x).with("v", v))
-        .with("outcome", outcome(course))
+        .with("outcome", outcome(answer))
         .with("until", end.tau)
         .with("displacement", displacement)
         .with("velocity", velocity)
         .with("phases", phases(&motion.legs, ["t", "x"]))
         .with("energy", motion.ledger.as_ref().map(|ledger| energy(ledger, true)))
         .with("end", state(end))
-        .with_any("second", second)
+        .with_any("second", answer.second.as_ref().map(|second| by_second(second, end)))
 }
 
 /// A moment of a motion in SI units.
@@ -117,7 +120,7 @@ fn state(Sample { tau, q, v }: Sample) -> Document {
 }
 
 /// What becomes of the motion: the index of its cycle, or where it rests, and when, if that is within the time followed.
-fn outcome(Course { motion, fate, rest, .. }: &Course) -> Document {
+fn outcome(MachineAnswer { motion, fate, rest, .. }: &MachineAnswer) -> Document {
     let named = |kind: &str| Document::default().with("kind", kind);
     match fate {
         Fate::Rest => {
@@ -143,72 +146,6 @@ fn by_second(second: &Trajectory, first: Sample) -> Document {
         .with_any("end", end.ok().map(state))
         .with_any("difference", end.ok().map(less).map(state))
         .with_any("reason", end.err().map(|stop| stop.to_string()))
-}
-
-/// The friction needed for a margin, in N, and the margin in m or N s.
-fn design(designed: &DesignAnswer) -> Document {
-    Document::default()
-        .with("kick", designed.kick)
-        .with("margin", designed.wanted)
-        .with("R", designed.needed.least())
-        .with("needed", designed.needed)
-        .with("message", designed.sentence())
-}
-
-/// The answer of the expansion, for a document.
-fn expansion(expansion: &CubicExpansion, portrait: &Portrait) -> Document {
-    let found = expansion.portrait.as_ref();
-    let cycles = found.iter().flat_map(|found| &found.cycles);
-    let cycles: Vec<_> = cycles.map(|cycle| expanded(cycle, expansion, portrait)).collect();
-    let margin = |own: &Portrait| expanded_margin(&own.margin, expansion, &portrait.margin);
-    Document::default()
-        .with("parameters", expansion.reduced.parameters)
-        .with_any("reason", found.err().map(ToString::to_string))
-        .with("cycles", cycles)
-        .with("edge", found.ok().map(|found| found.border))
-        .with("margin", found.ok().map(margin))
-}
-
-/// A cycle of the expansion in SI units, with the differences to the nearest cycle of the same stability of the whole
-/// model, and the error of the cubic over its velocities.
-fn expanded(cycle: &Cycle, expansion: &CubicExpansion, portrait: &Portrait) -> Document {
-    let CubicExpansion { belt, reduced, .. } = expansion;
-    let units = &reduced.units;
-    let physical = cycle.scaled(units.displacement, units.omega_0);
-    let alike = portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
-    let distance = |whole: &Cycle| (whole.q_max - physical.q_max).abs();
-    let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
-    let taylor = belt.taylor_error((physical.v_min, physical.v_max));
-    Document::default()
-        .with("stable", cycle.stable)
-        .and(&numbers(&physical, &Cycle::default()))
-        // There the expansion does not hold.
-        .with("reaches_belt", cycle.v_max >= reduced.sticking_velocity)
-        .with("taylor", taylor.filter(|error| error.force.is_finite()))
-        .with("error", nearest.map(|whole| numbers(&physical, whole)))
-        .with("dimensionless", cycle)
-}
-
-/// The extremes and the period of a cycle, less those of another.
-fn numbers(cycle: &Cycle, other: &Cycle) -> Document {
-    of_machine().take(5).fold(Document::default(), |all, number| {
-        let both = (number.value)(cycle).zip((number.value)(other));
-        all.with(&number.physical_name(), both.map(|(own, other)| own - other))
-    })
-}
-
-/// A margin of the expansion with its differences to that of the whole model, in SI units and dimensionless.
-fn expanded_margin(own: &Margin, expansion: &CubicExpansion, whole: &Margin) -> Document {
-    let physical = in_units(own, expansion);
-    let error = Document::default()
-        .with("displacement", excess(physical.displacement, whole.displacement))
-        .with("impulse", excess(physical.impulse, whole.impulse));
-    let velocity = own.impulse.map(|impulse| impulse * expansion.reduced.units.velocity);
-    Document::default()
-        .and(&physical)
-        .with("velocity", velocity)
-        .with("dimensionless", own)
-        .with("error", error)
 }
 
 /// The columns of a cycle, beside which `x` is the displacement.
