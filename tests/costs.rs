@@ -317,7 +317,7 @@ fn what_a_scene_does_not_need_costs_nothing() {
         let Some(request) = trial.session.request(Topic::Trajectory, 0) else {
             panic!("no motion")
         };
-        let Ok(Finding::Trajectory(found, _)) = answer(&request, &Limits::PATIENT) else {
+        let Ok(Finding::Trajectory(found)) = answer(&request, &Limits::PATIENT) else {
             panic!("no motion")
         };
         found

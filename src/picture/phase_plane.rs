@@ -175,7 +175,7 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
         found.reverse();
     }
     for (variant, answer) in found {
-        if let Finding::Trajectory(found, _) = answer {
+        if let Finding::Trajectory(found) = answer {
             let place = variant.index;
             let (line, variant) = if family {
                 (LineStyle::new("motion", Role::Trajectory, Dash::Solid), variant)
@@ -317,7 +317,7 @@ fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, whole: bo
 fn ghost(picture: &mut Picture, session: &Session) {
     for answer in session.answers_left() {
         match answer {
-            Finding::Trajectory(found, _) => {
+            Finding::Trajectory(found) => {
                 let samples = found.samples.iter().map(|sample| Point::from(sample.state()));
                 let line = LineStyle::new("motion left", Role::Ghost, Dash::Dotted);
                 picture.curve(line.briefly("the point left"), samples);
@@ -339,7 +339,7 @@ fn ghost(picture: &mut Picture, session: &Session) {
 fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMotion]) {
     let family = session.variants(index).is_some();
     for (VariantTag { index: place, .. }, answer) in session.found(Topic::Trajectory, index) {
-        if let Finding::Trajectory(found, _) = answer
+        if let Finding::Trajectory(found) = answer
             && session.contact_of(found).is_none()
             && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))
         {

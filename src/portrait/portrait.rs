@@ -64,6 +64,13 @@ pub struct Portrait {
     pub(super) gaps: Vec<Gap>,
 }
 
+impl PartialEq for Portrait {
+    /// Portraits of one model are equal as far as both were followed.
+    fn eq(&self, other: &Self) -> bool {
+        self.model == other.model && self.followed == other.followed
+    }
+}
+
 impl Portrait {
     /// The portrait of a model of which nothing is known yet.
     pub(crate) fn blank(model: &Model) -> Self {

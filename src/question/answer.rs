@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::fit::Fit;
 use super::request::Request;
-use super::whole::{self, WholeCycles, WholeMotion};
+use super::whole::{self, WholeCycles};
 use super::zones::{CertainZones, zones};
 use crate::accuracy::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::accuracy::reference::Reference;
@@ -27,8 +27,7 @@ use crate::scan::grid::{Scan, ScanRow};
 pub enum Finding {
     Fit(Fit),
     Refit(Fit),
-    /// A motion, and what else is known of that of a machine by its whole model.
-    Trajectory(Trajectory, Option<Box<WholeMotion>>),
+    Trajectory(Trajectory),
     /// Cycles, and what else is known of a machine; nothing where the whole model has no answer.
     Cycles(Cycles, Option<Box<WholeCycles>>),
     Zones(CertainZones),
@@ -54,7 +53,7 @@ impl Finding {
     /// Counted cost of the computation.
     pub fn cost(&self) -> Cost {
         match self {
-            Finding::Trajectory(found, _) => found.cost,
+            Finding::Trajectory(found) => found.cost,
             Finding::Cycles(found, _) => found.cost,
             Finding::Zones(found) => found.cost,
             Finding::Kicks(_, cost) | Finding::Capture(_, cost) => *cost,
@@ -192,8 +191,7 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason
         Request::Refit { fit, held, drawn } => Finding::Refit(fit.held(*held, *drawn, limits)?),
         Request::Trajectory { problem, machine } => {
             let points = fineness.points(16);
-            let (drawn, course) = whole::motion(problem, machine.as_deref(), points, limits)?;
-            Finding::Trajectory(drawn, course)
+            Finding::Trajectory(whole::motion(problem, machine.as_deref(), points, limits)?)
         }
         Request::Cycles { parameters, machine, whole } => {
             let machine = machine.as_deref();

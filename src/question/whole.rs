@@ -2,30 +2,19 @@
 //! so that every view that draws the one draws the other.
 
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Fate, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
-use crate::model::{Belt, Parameters};
+use crate::flow::{Detail, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
+use crate::model::{Belt, Model, Parameters};
 use crate::portrait::basin::cycle::cycles_drawn;
-use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, picture_reach};
-
-/// What is known of a machine's motion beside its course.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WholeMotion {
-    /// The fate.
-    pub fate: Fate,
-    /// The cycle to which it tends, in the units of the paper's oscillator.
-    pub cycle: Option<Cycle>,
-    /// Kind of the border of the basin.
-    pub border: Border,
-}
+use crate::portrait::{Cycles, Margin, Portrait, picture_reach};
 
 /// What is known of a machine beside its cycles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WholeCycles {
+    /// All of its motions, by the whole model.
+    pub portrait: Portrait,
     /// The kicks that are survived by the whole model and by the cubic expansion, without units; every kick where the
     /// expansion has no answer.
     pub margins: [Margin; 2],
-    /// Whether all slipping motions are periodic.
-    pub neutral: bool,
 }
 
 /// A motion with `between` points between the ends of each step: of the paper's oscillator, or of a machine by the whole
@@ -35,35 +24,29 @@ pub fn motion(
     machine: Option<&Belt>,
     between: u16,
     limits: &Limits,
-) -> Result<(Trajectory, Option<Box<WholeMotion>>), Reason> {
+) -> Result<Trajectory, Reason> {
     let Some(belt) = machine else {
         // Without friction, nothing happens at v = 0, so crossings are not located.
         let crossings = problem.parameters.r > 0.0;
         let detail = Detail { crossings, samples_per_step: between.into(), energy: true };
-        return Ok((trajectory(problem, detail, limits), None));
+        return Ok(trajectory(problem, detail, limits));
     };
-    let portrait = Portrait::of_belt(belt)?;
-    let mut model = portrait.model.clone();
-    model.tolerance = problem.tolerance;
+    let model = Model::new(belt)?;
     if !problem.method.follows_machines() {
         let needs =
             "to know both switching lines of a machine, as auto, taylor, dop853 and dopri5 do";
         return Err(Reason::NotApplicable { needs });
     }
+    let units = MotionUnits::of_paper(&model);
     let detail =
         Detail { samples_per_step: usize::from(between) + 1, energy: true, ..Detail::default() };
-    let mut found = follow(&model, problem, MotionUnits::of_paper(&model), detail);
+    let mut found = follow(&model, problem, units, detail);
     if found.ledger.is_none() {
         let by_series = Problem { method: Method::Taylor, ..*problem };
         let detail = Detail { samples_per_step: 0, ..detail };
-        found.ledger = follow(&model, &by_series, MotionUnits::of_paper(&model), detail).ledger;
+        found.ledger = follow(&model, &by_series, units, detail).ledger;
     }
-    let (x, v) = (problem.initial.q * model.pull, problem.initial.v * model.pull * model.omega_0);
-    let fate = portrait.told_fate(x, v)?;
-    let scaled = |it: &Cycle| it.scaled(1.0 / model.pull, 1.0 / model.omega_0);
-    let cycle = portrait.tends_to(fate).map(scaled);
-    let course = WholeMotion { fate, cycle, border: portrait.border };
-    Ok((found, Some(Box::new(course))))
+    Ok(found)
 }
 
 /// The cycles with their curves, `points` on each step, and the border of the basin: of the paper's oscillator, or of a
@@ -83,7 +66,7 @@ pub fn cycles(
     let expanded = expansion.as_ref().map_or(Margin::ENDLESS, |found| found.margin);
     let kinds = found.as_ref().ok().map(|found| {
         let margins = [found.in_drawing(&found.margin), expanded];
-        Box::new(WholeCycles { margins, neutral: found.neutral })
+        Box::new(WholeCycles { portrait: found.clone(), margins })
     });
     let shown = if whole { found } else { expansion };
     Ok((shown?.drawn(parameters, points)?, kinds))

@@ -312,7 +312,7 @@ fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<St
         Border::NoBasin => "rest repels",
         Border::Grazing => "border: touches the belt",
         Border::Capture => "border: where the guide holds",
-        Border::None | Border::Unknown(_) if kinds.is_some_and(|kinds| kinds.neutral) => {
+        Border::None | Border::Unknown(_) if kinds.is_some_and(|kinds| kinds.portrait.neutral) => {
             "all motions periodic"
         }
         Border::None | Border::Unknown(_) if kinds.is_some() => "all motions come to rest",

@@ -139,7 +139,7 @@ fn work(session: &Session, look: &Look, shorter: usize) -> String {
         let least = deviation.error.max(reference.error);
         let measured = if full { "measured error" } else { "measured" };
         parts.push(format!("{measured} {}", significant(least, 2)));
-    } else if let Some(ledger) = motion.ledger.as_ref().filter(|_| session.course().is_none()) {
+    } else if let Some(ledger) = motion.ledger.as_ref().filter(|_| !session.draws_whole()) {
         let largest = ledger.start.max(ledger.end);
         let error = if largest > 0.0 { (ledger.residual / largest).abs() } else { 0.0 };
         let why = why.map_or(String::new(), |why| format!(" ({why})"));

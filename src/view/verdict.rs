@@ -2,11 +2,10 @@
 
 use super::{Look, pane};
 use crate::branch::SpecialKind;
-use crate::flow::{Outcome, Trajectory};
+use crate::flow::{Fate, Outcome, Trajectory};
 use crate::model::belt::Units;
 use crate::picture::{Role, units};
-use crate::portrait::{Border, Cycle, Cycles};
-use crate::question::whole::WholeMotion;
+use crate::portrait::{Border, Cycle, Cycles, Portrait};
 use crate::scene::{Finding, Layer, Topic};
 use crate::session::fate::End;
 use crate::session::{BranchStop, Session};
@@ -56,7 +55,7 @@ fn held_motions(session: &Session) -> Option<String> {
     let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
     let mut ends = [(0, "come to rest"), (0, "still move"), (0, "escape"), (0, "given up")];
     for (_, answer) in plots.flat_map(|plot| session.found(Topic::Trajectory, plot)) {
-        if let Finding::Trajectory(found, _) = answer {
+        if let Finding::Trajectory(found) = answer {
             let end = match found.outcome {
                 Outcome::Captured { .. } => 0,
                 Outcome::Moving { .. } => 1,
@@ -108,8 +107,12 @@ fn verdict(end: End, among: Option<&Cycles>, motion: &Trajectory, writing: Writi
 }
 
 /// What becomes of the motion of a machine, in its own units, by the whole model.
-fn by_whole_model(course: &WholeMotion, units: &Units, motion: &Trajectory) -> String {
-    let within = match course.border {
+fn by_whole_model(
+    (portrait, fate): (&Portrait, Fate),
+    units: &Units,
+    motion: &Trajectory,
+) -> String {
+    let within = match portrait.border {
         Border::Cycle => " (inside the unstable cycle)",
         Border::Grazing => " (inside the motion that touches the belt)",
         Border::Capture => " (inside the motion that ends where the guide just holds)",
@@ -120,8 +123,7 @@ fn by_whole_model(course: &WholeMotion, units: &Units, motion: &Trajectory) -> S
         Outcome::Captured { tau, q } => [Some(q * units.displacement), Some(tau * units.time)],
         _ => [None; 2],
     };
-    let cycle = course.cycle.map(|cycle| cycle.scaled(units.displacement, units.omega_0));
-    of_machine(course.fate, rest, cycle.as_ref(), within, 4)
+    of_machine(fate, rest, portrait.tends_to(fate), within, 4)
 }
 
 /// Significant digits: as many as fit, at most as many as distinguish special points from others.

@@ -81,7 +81,7 @@ pub fn drawn_over(layer: Layer) -> bool {
 
 pub fn by_hand(request: &Request) -> Finding {
     match request {
-        Request::Trajectory { problem, .. } => Finding::Trajectory(spiral(*problem), None),
+        Request::Trajectory { problem, .. } => Finding::Trajectory(spiral(*problem)),
         Request::Cycles { parameters, .. } => {
             let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];

@@ -410,7 +410,7 @@ proptest! {
         for request in session.wants() {
             let mut answer = by_hand(&request);
             match &mut answer {
-                Finding::Trajectory(found, _) => {
+                Finding::Trajectory(found) => {
                     found.samples = curve.iter().map(|(q, v)| Sample { tau: 0.0, q: *q, v: *v }).collect();
                     found.outcome = Outcome::Moving { tau: value, q: low, v: high };
                 }

@@ -9,8 +9,7 @@ use std::ops::RangeBounds;
 use crate::flow::{Fate, Outcome, Sample, Trajectory};
 use crate::model::Parameters;
 use crate::numerics::elementary::hypot;
-use crate::portrait::{Border, Cycle, Cycles};
-use crate::question::whole::WholeMotion;
+use crate::portrait::{Border, Cycle, Cycles, Portrait};
 use crate::scene::said;
 use crate::scene::said::TextCondition;
 use crate::session::{Session, Setup};
@@ -124,15 +123,15 @@ fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<End> {
 }
 
 /// The fate by the whole model.
-fn of_course(course: &WholeMotion, motion: &Trajectory) -> Option<End> {
-    Some(match course.fate {
+fn of_course((portrait, fate): (&Portrait, Fate), motion: &Trajectory) -> Option<End> {
+    Some(match fate {
         Fate::Rest => End::Rests,
         Fate::Cycle(_) => {
-            let cycle = course.cycle?;
+            let cycle = portrait.tends_to(fate)?;
             let size = |sample: &Sample| hypot(sample.q, sample.v);
             let (first, last) = (motion.samples.first()?, motion.samples.last()?);
             let grows = cycle.stable && size(first) <= size(last);
-            End::Onto { q_max: cycle.q_max, grows }
+            End::Onto { q_max: cycle.q_max / portrait.model.drawing_length(), grows }
         }
         Fate::Escapes => End::Grows,
         Fate::Neutral | Fate::Moving | Fate::Unknown(_) => return None,
@@ -190,8 +189,8 @@ impl Session {
     /// that miss the turning points.
     pub fn fate(&self) -> Option<End> {
         let motion = self.trajectory()?;
-        if let Some(course) = self.course() {
-            return of_course(course, motion);
+        if self.draws_whole() {
+            return of_course(self.course()?, motion);
         }
         if !motion.problem.method.spec().events || self.contact().is_some() {
             return None;

@@ -51,10 +51,8 @@ impl Session {
             }
         }
         if self.layers.contains(&Layer::MotionWorks) {
-            for (place, found) in self
-                .motions()
-                .into_iter()
-                .filter(|(place, _)| !whole || *place == 0 && self.course().is_some())
+            for (place, found) in
+                self.motions().into_iter().filter(|(place, _)| !whole || *place == 0)
             {
                 let Some(ledger) = &found.ledger else { continue };
                 let head = self.head().filter(|_| place == 0 && !whole);

@@ -105,7 +105,7 @@ impl Session {
         let found = asked.filter_map(|(place, problem)| {
             let request = self.request_for(Topic::Trajectory, self.plot, problem)?;
             let answer = self.answers.standing(&request).answer()?;
-            let Finding::Trajectory(found, _) = answer else { return None };
+            let Finding::Trajectory(found) = answer else { return None };
             Some((place, found))
         });
         found.collect()
@@ -145,7 +145,7 @@ impl Session {
 
     /// The same for any motion on show.
     pub fn contact_of(&self, motion: &Trajectory) -> Option<(f64, f64)> {
-        if self.course().is_some() {
+        if self.draws_whole() {
             return None;
         }
         let sticking = self.running()?.reduced.sticking_velocity;

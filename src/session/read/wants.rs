@@ -107,7 +107,12 @@ impl Session {
     pub fn needs(&self, plot: usize) -> BTreeSet<Topic> {
         let shown = |layer: &&Layer| self.shows_in(**layer, plot);
         let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
-        needed.chain(self.tells_certain(plot).then_some(Topic::Zones)).collect()
+        let mut needed: BTreeSet<Topic> = needed.collect();
+        needed.extend(self.tells_certain(plot).then_some(Topic::Zones));
+        // What becomes of a motion by the whole model is told by its cycles.
+        let whole = needed.contains(&Topic::Trajectory) && self.draws_whole();
+        needed.extend(whole.then_some(Topic::Cycles));
+        needed
     }
 
     /// The questions on this topic for each problem that a plot shows, with its index among these.

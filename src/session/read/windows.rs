@@ -128,7 +128,7 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         }
     }
     for answer in answers(Layer::Trajectory, Topic::Trajectory) {
-        let Finding::Trajectory(found, _) = answer else { continue };
+        let Finding::Trajectory(found) = answer else { continue };
         let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
         let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
         let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });

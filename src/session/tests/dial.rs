@@ -39,7 +39,7 @@ fn the_dial_is_the_same_whatever_its_number_is_called() {
 fn costly(request: Request, evaluations: u64) -> Msg {
     let mut found = by_hand(&request);
     match &mut found {
-        Finding::Trajectory(motion, _) => motion.cost.evaluations = evaluations,
+        Finding::Trajectory(motion) => motion.cost.evaluations = evaluations,
         Finding::Branch(branch) => branch.cost.evaluations = evaluations,
         _ => {}
     }

@@ -40,9 +40,7 @@ fn between_two_marks_nothing_is_computed_twice_and_the_other_one_is_a_ghost() {
     trial
         .goes(&[("\"a <right*5> \"b", "D -0.05"), ("'a", "asked | D -0.1 | +ghost | ghost -0.05")]);
     let left: Vec<&Finding> = trial.session.answers_left().collect();
-    let [Finding::Trajectory(motion, _), Finding::Cycles(_, _)] = left[..] else {
-        panic!("{left:?}")
-    };
+    let [Finding::Trajectory(motion), Finding::Cycles(_, _)] = left[..] else { panic!("{left:?}") };
     assert_eq!(motion.problem, trial.session.marks.left.as_ref().unwrap().setup.problem);
     trial.goes(&[
         ("'b", "asked"),

@@ -223,21 +223,18 @@ pub fn by_hand(request: &Request) -> Finding {
     match request {
         Request::Trajectory { problem, .. } => {
             let Problem { initial: State { q, v }, until, .. } = *problem;
-            Finding::Trajectory(
-                Trajectory {
-                    problem: *problem,
-                    method: Method::Taylor,
-                    implicit_steps: 0,
-                    outcome: Outcome::Moving { tau: until, q, v },
-                    crossings: Vec::new(),
-                    legs: Vec::new(),
-                    extremes: None,
-                    ledger: None,
-                    samples: vec![Sample { tau: 0.0, q, v }],
-                    cost,
-                },
-                None,
-            )
+            Finding::Trajectory(Trajectory {
+                problem: *problem,
+                method: Method::Taylor,
+                implicit_steps: 0,
+                outcome: Outcome::Moving { tau: until, q, v },
+                crossings: Vec::new(),
+                legs: Vec::new(),
+                extremes: None,
+                ledger: None,
+                samples: vec![Sample { tau: 0.0, q, v }],
+                cost,
+            })
         }
         Request::Cycles { parameters, .. } => Finding::Cycles(
             Cycles {
