@@ -133,90 +133,64 @@ pub fn sign_changes(function: &Fourier) -> Vec<SignChange> {
     }
     let noise = f64::EPSILON * (function.bound(1) + function.mean().abs());
     let pieces = PIECES * function.degree();
-    let mut search = Search { function, rest, noise, found: Vec::new() };
-    let first = PieceEnd::of(function, 0.0);
-    let mut left = first;
-    for piece in 1..=pieces {
-        let right = if piece < pieces {
-            PieceEnd::of(function, TAU * (real(piece) / real(pieces)))
-        } else {
-            // The end of the turn is its beginning, and rounding must not make its sign another.
-            PieceEnd { angle: TAU, ..first }
-        };
-        search.piece(left, right);
+    // Zero counts as positive wherever a sign is asked for.
+    let end = |angle: f64| (angle, function.at::<1>(angle)[0] >= 0.0);
+    let mut left = end(0.0);
+    // The end of the turn is its beginning, and rounding must not make its sign another.
+    let mut ahead = vec![(TAU, left.1)];
+    ahead.extend((1..pieces).rev().map(|piece| end(TAU * (real(piece) / real(pieces)))));
+    let mut found = Vec::new();
+    while let Some(&right) = ahead.last() {
+        let (angle, half) = (0.5 * (left.0 + right.0), 0.5 * (right.0 - left.0));
+        let derivatives = function.at(angle);
+        // The middle of two neighbouring numbers is one of them.
+        let atom = angle <= left.0 || angle >= right.0;
+        if !(atom || ends_decide(&derivatives, rest, half, noise)) {
+            ahead.push((angle, derivatives[0] >= 0.0));
+            continue;
+        }
+        if left.1 != right.1 {
+            found.push(sign_change(
+                function,
+                Bracket { low: left.0, high: right.0, rising: right.1 },
+            ));
+        }
         left = right;
+        ahead.pop();
     }
-    search.found
+    found
 }
 
 /// Number of terms of Taylor's formula: with eight, a stretch that is flat to rounding is seen as such
 /// when a piece is a hundredth of the shortest wave long.
 const ORDER: usize = 8;
 
-#[derive(Clone, Copy)]
-struct PieceEnd {
-    angle: f64,
-    /// Zero counts as positive wherever a sign is asked for.
-    positive: bool,
-}
-
-impl PieceEnd {
-    fn of(function: &Fourier, angle: f64) -> Self {
-        let [value] = function.at(angle);
-        PieceEnd { angle, positive: value >= 0.0 }
-    }
-}
-
-struct Search<'a> {
-    function: &'a Fourier,
-    /// Bound of the derivative number [`ORDER`].
-    rest: f64,
-    /// What rounding makes of a value.
-    noise: f64,
-    found: Vec<SignChange>,
-}
-
-impl Search<'_> {
-    /// Finds the sign changes of a piece.
-    fn piece(&mut self, left: PieceEnd, right: PieceEnd) {
-        let angle = 0.5 * (left.angle + right.angle);
-        let half = 0.5 * (right.angle - left.angle);
-        let derivatives: [f64; ORDER] = self.function.at(angle);
-        let [value, slope, ..] = derivatives;
-        // By how much the value and the slope can differ on this piece from those in its middle.
-        let (mut value_range, mut slope_range, mut weight) = (0.0, 0.0, 1.0);
-        for (number, derivative) in (1..).zip(derivatives[1..].iter().chain([&self.rest])) {
-            if number > 1 {
-                slope_range += weight * derivative.abs();
-            }
-            weight *= half / real(number);
-            value_range += weight * derivative.abs();
+/// Whether the signs at the ends of a piece tell how often the function changes its sign there: it has no root, is
+/// monotone, or is nothing but `noise`. Given are its value and its derivatives in the middle, a bound of the next
+/// derivative, and half of the length.
+fn ends_decide(derivatives: &[f64; ORDER], rest: f64, half: f64, noise: f64) -> bool {
+    let [value, slope, ..] = *derivatives;
+    // By how much the value and the slope can differ on this piece from those in its middle.
+    let (mut value_range, mut slope_range, mut weight) = (0.0, 0.0, 1.0);
+    for (number, derivative) in (1..).zip(derivatives[1..].iter().chain([&rest])) {
+        if number > 1 {
+            slope_range += weight * derivative.abs();
         }
-        let rootless = value.abs() > value_range;
-        let monotone = slope.abs() > slope_range;
-        let flat = value.abs() + value_range <= self.noise;
-        // The middle of two neighbouring numbers is one of them.
-        let atom = angle <= left.angle || angle >= right.angle;
-        if rootless || monotone || flat || atom {
-            if left.positive != right.positive {
-                self.polish(left, right);
-            }
-        } else {
-            let middle = PieceEnd { angle, positive: value >= 0.0 };
-            self.piece(left, middle);
-            self.piece(middle, right);
-        }
+        weight *= half / real(number);
+        value_range += weight * derivative.abs();
     }
+    let rootless = value.abs() > value_range;
+    let monotone = slope.abs() > slope_range;
+    rootless || monotone || value.abs() + value_range <= noise
+}
 
-    /// Adds the sign change between two ends of different sign.
-    fn polish(&mut self, left: PieceEnd, right: PieceEnd) {
-        let bracket = Bracket { low: left.angle, high: right.angle, rising: right.positive };
-        let settled = PlaceTolerance::Relative(f64::EPSILON);
-        let at = |angle: f64| self.function.at(angle).into();
-        let angle = newton(bracket, bracket.middle(), settled, at).at;
-        let [_, slope] = self.function.at(angle);
-        self.found.push(SignChange { angle, rising: right.positive, slope });
-    }
+/// The sign change in a bracket.
+fn sign_change(function: &Fourier, bracket: Bracket) -> SignChange {
+    let settled = PlaceTolerance::Relative(f64::EPSILON);
+    let at = |angle: f64| function.at(angle).into();
+    let angle = newton(bracket, bracket.middle(), settled, at).at;
+    let [_, slope] = function.at(angle);
+    SignChange { angle, rising: bracket.rising, slope }
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@
 //! itself friction is set-valued, but a trigonometric polynomial stands there for single instants only,
 //! and these weigh nothing. Any number of sign changes is projected rightly; a cycle has two.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
 
@@ -29,18 +29,6 @@ pub struct Ansatz {
     pub frequency: f64,
     /// Displacement q over the angle, with `b_1 = 0`.
     pub q: Fourier,
-}
-
-/// Which harmonics are unknown.
-///
-/// For `D2 = 0` the oscillator is symmetric and its cycles have odd harmonics only; the others, and the
-/// mean, are then no unknowns at all and exactly zero.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Basis {
-    /// The highest harmonic N.
-    pub count: usize,
-    /// Whether there are odd harmonics only, and no mean.
-    pub odd: bool,
 }
 
 /// One unknown, and the equation of the same name.
@@ -64,86 +52,35 @@ impl Unknown {
     }
 }
 
-impl Basis {
-    /// The harmonics up to `count` that these parameters ask for.
-    pub fn new(parameters: &Parameters, count: usize) -> Self {
-        Basis { count, odd: parameters.d2 == 0.0 }
-    }
-
-    fn entries(self) -> impl Iterator<Item = Unknown> {
-        let mean = (!self.odd).then_some(Unknown { harmonic: 0, unit: Complex::from(1.0) });
-        let units = [Complex::from(0.5), Complex::new(0.0, -0.5)];
-        let harmonics = (1..=self.count).step_by(if self.odd { 2 } else { 1 });
-        let both = harmonics.flat_map(move |harmonic| units.map(|unit| Unknown { harmonic, unit }));
-        mean.into_iter().chain(both)
-    }
-
-    /// The ansatz, which has room for all harmonics, with `part` of a change of the unknowns added.
-    pub fn moved(self, from: &Ansatz, changes: &DVector<f64>, part: f64) -> Ansatz {
-        let mut to = from.clone();
-        for (entry, change) in self.entries().zip(changes.iter()) {
-            if entry.is_frequency() {
-                to.frequency += part * change;
-            } else {
-                to.q.coefficients[entry.harmonic] += entry.unit * (part * change);
-            }
-        }
-        to
-    }
-}
-
 /// The residual at one ansatz, taken apart into what the equations and their derivatives need.
 #[derive(Clone, Debug)]
 pub struct BalanceResidual {
     parameters: Parameters,
-    basis: Basis,
-    /// The ansatz, with room for the harmonics of the basis.
+    /// The ansatz, with room for all N harmonics.
     pub ansatz: Ansatz,
-    /// `p = q'(t)`.
-    p: Fourier,
-    /// `p^2`, up to harmonic `2 N`.
-    square: Fourier,
-    /// `p^3`, up to harmonic N.
-    cube: Fourier,
-    /// Where p changes its sign.
-    crossings: Vec<ChangeWaves>,
-}
-
-/// A sign change of p, with `e^(i k t)` there for every harmonic k.
-#[derive(Clone, Debug)]
-struct ChangeWaves {
-    change: SignChange,
-    waves: Vec<Complex<f64>>,
-}
-
-impl ChangeWaves {
-    fn new(change: SignChange, count: usize) -> Self {
-        let wave = |k| {
-            let (sin, cos) = sin_cos(real(k) * change.angle);
-            Complex::new(cos, sin)
-        };
-        ChangeWaves { change, waves: (0..=count).map(wave).collect() }
-    }
+    /// The powers of `p = q'(t)` from 0 to 3: the first as long as it is, the square up to harmonic `2 N`, the cube up
+    /// to harmonic N.
+    powers: [Fourier; 4],
+    /// Where p changes its sign, with `e^(i k t)` there for every harmonic k.
+    crossings: Vec<(SignChange, Vec<Complex<f64>>)>,
 }
 
 impl BalanceResidual {
-    /// The residual of an ansatz, in which harmonics that are new are zero.
-    pub fn new(parameters: &Parameters, basis: Basis, ansatz: &Ansatz) -> Self {
+    /// The residual of an ansatz with `count` harmonics, of which those that are new are zero.
+    pub fn new(parameters: &Parameters, count: usize, ansatz: &Ansatz) -> Self {
         let mut ansatz = ansatz.clone();
-        ansatz.q.coefficients.resize(basis.count + 1, Complex::default());
+        ansatz.q.coefficients.resize(count + 1, Complex::default());
         let p = ansatz.q.derivative();
-        let square = p.product(&p, 2 * basis.count);
-        let cube = square.product(&p, basis.count);
-        let crossing = |change| ChangeWaves::new(change, basis.count);
-        BalanceResidual {
-            parameters: *parameters,
-            basis,
-            crossings: sign_changes(&p).into_iter().map(crossing).collect(),
-            ansatz,
-            p,
-            square,
-            cube,
-        }
+        let square = p.product(&p, 2 * count);
+        let cube = square.product(&p, count);
+        let waves = |change: SignChange| {
+            let angles = (0..=count).map(|k| sin_cos(real(k) * change.angle));
+            (change, angles.map(|(sin, cos)| Complex::new(cos, sin)).collect())
+        };
+        let crossings = sign_changes(&p).into_iter().map(waves).collect();
+        let one = Fourier { coefficients: vec![Complex::from(1.0)] };
+        let powers = [one, p, square, cube];
+        BalanceResidual { parameters: *parameters, ansatz, powers, crossings }
     }
 
     /// Number of instants in a turn at which the ansatz stands on `v = 0`; two at a cycle.
@@ -151,51 +88,77 @@ impl BalanceResidual {
         self.crossings.len()
     }
 
+    /// The unknowns. For `D2 = 0` the oscillator is symmetric and its cycles have odd harmonics only; the others, and the
+    /// mean, are then no unknowns at all and exactly zero.
+    fn unknowns(&self) -> impl Iterator<Item = Unknown> {
+        let odd = self.parameters.d2 == 0.0;
+        let mean = (!odd).then_some(Unknown { harmonic: 0, unit: Complex::from(1.0) });
+        let units = [Complex::from(0.5), Complex::new(0.0, -0.5)];
+        let harmonics = (1..=self.ansatz.q.degree()).step_by(if odd { 2 } else { 1 });
+        let both = harmonics.flat_map(move |harmonic| units.map(|unit| Unknown { harmonic, unit }));
+        mean.into_iter().chain(both)
+    }
+
+    /// The ansatz with `part` of a change of the unknowns added.
+    fn moved(&self, changes: &DVector<f64>, part: f64) -> Ansatz {
+        let mut to = self.ansatz.clone();
+        for (unknown, change) in self.unknowns().zip(changes.iter()) {
+            if unknown.is_frequency() {
+                to.frequency += part * change;
+            } else {
+                to.q.coefficients[unknown.harmonic] += unknown.unit * (part * change);
+            }
+        }
+        to
+    }
+
     /// What every equation leaves.
-    pub fn values(&self) -> DVector<f64> {
-        let values = self.basis.entries().map(|entry| entry.of(self.coefficient(entry.harmonic)));
+    fn values(&self) -> DVector<f64> {
+        let values =
+            self.unknowns().map(|equation| equation.of(self.coefficient(equation.harmonic)));
         DVector::from_vec(values.collect())
     }
 
     /// The largest of what the equations leave, relative to the largest term in them.
     pub fn relative(&self) -> f64 {
-        let size = |(series, weight): (&Fourier, f64)| {
-            let largest = series.coefficients.iter().map(|c| c.norm()).fold(0.0, f64::max);
-            weight.abs() * largest
-        };
-        let spring = (&self.ansatz.q, 1.0);
-        let terms = std::iter::once(spring).chain(self.damping_terms());
-        self.values().amax() / terms.map(size).fold(self.parameters.r, f64::max)
+        let largest =
+            |series: &Fourier| series.coefficients.iter().map(|c| c.norm()).fold(0.0, f64::max);
+        let sizes = self.factors().into_iter().zip(&self.powers[1..]);
+        let sizes = sizes.map(|(factor, power)| factor.abs() * largest(power));
+        let terms = sizes.chain([largest(&self.ansatz.q)]);
+        self.values().amax() / terms.fold(self.parameters.r, f64::max)
     }
 
-    /// The powers of p, and their factors in the residual.
-    fn damping_terms(&self) -> [(&Fourier, f64); 3] {
+    /// The factors of p, its square and its cube in the damping.
+    fn factors(&self) -> [f64; 3] {
         let (Parameters { d, d2, d3, .. }, eta) = (self.parameters, self.ansatz.frequency);
-        [
-            (&self.p, 2.0 * d * eta),
-            (&self.square, d2 * eta * eta),
-            (&self.cube, d3 * eta * eta * eta),
-        ]
+        [2.0 * d * eta, d2 * eta * eta, d3 * eta * eta * eta]
+    }
+
+    /// Coefficient `k` of the damping, with each power of p lowered by this many and its factor weighted.
+    fn damping(&self, k: isize, lowered: usize, weight: impl Fn(usize) -> f64) -> Complex<f64> {
+        let terms = (1..).zip(self.factors());
+        let term = |(power, factor): (usize, f64)| {
+            self.powers[power - lowered].coefficient(k) * (weight(power) * factor)
+        };
+        terms.map(term).sum()
     }
 
     /// Derivatives of every equation (rows) by every unknown (columns).
-    pub fn jacobian(&self) -> DMatrix<f64> {
-        let damping = self.damping_slope();
-        let size = self.basis.entries().count();
+    fn jacobian(&self) -> DMatrix<f64> {
+        // The derivative of the damping by p: `2 D eta + 2 D2 eta^2 p + 3 D3 eta^3 p^2`.
+        let slope =
+            (0..=2 * self.ansatz.q.degree()).map(|k| self.damping(k.cast_signed(), 1, real));
+        let slope = Fourier { coefficients: slope.collect() };
+        let size = self.unknowns().count();
         let mut jacobian = DMatrix::zeros(size, size);
-        for (mut column, unknown) in jacobian.column_iter_mut().zip(self.basis.entries()) {
-            let change = |m: usize| {
-                if unknown.is_frequency() {
-                    self.by_frequency(m)
-                } else {
-                    self.by_coefficient(&damping, unknown, m)
-                }
-            };
+        for (mut column, unknown) in jacobian.column_iter_mut().zip(self.unknowns()) {
             // The equations weighted by cosine and sine stand together and read one coefficient.
             let mut last = (usize::MAX, Complex::default());
-            for (cell, equation) in column.iter_mut().zip(self.basis.entries()) {
-                if last.0 != equation.harmonic {
-                    last = (equation.harmonic, change(equation.harmonic));
+            for (cell, equation) in column.iter_mut().zip(self.unknowns()) {
+                let m = equation.harmonic;
+                if last.0 != m {
+                    last = (m, self.by_unknown(&slope, unknown, m));
                 }
                 *cell = equation.of(last.1);
             }
@@ -207,70 +170,48 @@ impl BalanceResidual {
     fn coefficient(&self, k: usize) -> Complex<f64> {
         let m = k.cast_signed();
         let spring = self.ansatz.q.coefficient(m) * spring_and_inertia(self.ansatz.frequency, k);
-        let damping = self.damping_terms().into_iter();
-        damping.fold(spring, |sum, (series, weight)| sum + series.coefficient(m) * weight)
-            + self.sign(k) * self.parameters.r
+        spring + self.damping(m, 0, |_| 1.0) + self.sign(k) * self.parameters.r
     }
 
     /// Coefficient `k` of `sign(p)`, which is constant between the sign changes.
     fn sign(&self, k: usize) -> Complex<f64> {
+        let Some((last, _)) = self.crossings.last() else {
+            // The mean of p is zero, so that it changes its sign unless it is zero everywhere: rest, where
+            // friction balances whatever it can and is given no preference here.
+            return Complex::default();
+        };
         if k == 0 {
-            return Complex::from(self.mean_sign());
+            // The sign before the first change is that after the last; from each change on it is another one.
+            let changes =
+                self.crossings.iter().map(|(change, _)| change.direction() * change.angle);
+            return Complex::from(last.direction() - changes.sum::<f64>() / PI);
         }
-        let jumps = self.crossings.iter().map(|at| at.waves[k].conj() * at.change.direction());
+        let jumps =
+            self.crossings.iter().map(|(change, waves)| waves[k].conj() * change.direction());
         jumps.sum::<Complex<f64>>() / Complex::new(0.0, PI * real(k))
     }
 
-    fn mean_sign(&self) -> f64 {
-        // The mean of p is zero, so that it changes its sign unless it is zero everywhere: rest, where
-        // friction balances whatever it can and is given no preference here.
-        let Some(first) = self.crossings.first() else { return 0.0 };
-        let starts = self.crossings.iter().map(|at| at.change);
-        let ends = starts.clone().skip(1).map(|at| at.angle).chain([first.change.angle + TAU]);
-        starts.zip(ends).map(|(start, end)| start.direction() * (end - start.angle)).sum::<f64>()
-            / TAU
-    }
-
-    /// The derivative of damping by p: `2 D eta + 2 D2 eta^2 p + 3 D3 eta^3 p^2`.
-    fn damping_slope(&self) -> Fourier {
-        let (Parameters { d, d2, d3, .. }, eta) = (self.parameters, self.ansatz.frequency);
-        let coefficient = |(k, square): (usize, &Complex<f64>)| {
-            let p = self.p.coefficient(k.cast_signed());
-            p * (2.0 * d2 * eta * eta) + square * (3.0 * d3 * eta * eta * eta)
-        };
-        let mut slope = Fourier {
-            coefficients: self.square.coefficients.iter().enumerate().map(coefficient).collect(),
-        };
-        slope.coefficients[0] += 2.0 * d * eta;
-        slope
-    }
-
-    /// Change of coefficient `m` of the residual when coefficient `k` of q changes by the unit of an unknown, and
-    /// coefficient `-k` by its conjugate.
-    fn by_coefficient(&self, damping: &Fourier, unknown: Unknown, m: usize) -> Complex<f64> {
+    /// Change of coefficient `m` of the residual with an unknown: coefficient `k` of q changes by its unit, and
+    /// coefficient `-k` by the conjugate; or the frequency.
+    fn by_unknown(&self, slope: &Fourier, unknown: Unknown, m: usize) -> Complex<f64> {
         let Unknown { harmonic: k, unit } = unknown;
         let (row, column) = (m.cast_signed(), k.cast_signed());
-        let speed = unit * Complex::new(0.0, real(k));
-        let mut change = damping.coefficient(row - column) * speed
-            + damping.coefficient(row + column) * speed.conj();
-        if m == k {
-            change += unit * spring_and_inertia(self.ansatz.frequency, k);
+        let eta = self.ansatz.frequency;
+        if unknown.is_frequency() {
+            let inertia = self.ansatz.q.coefficient(row) * (-2.0 * eta * real(m) * real(m));
+            return inertia + self.damping(row, 0, |power| real(power) / eta);
         }
-        let friction = self.crossings.iter().map(|at| {
-            let moved = 2.0 * (speed * at.waves[k]).re / at.change.slope.abs();
-            at.waves[m].conj() * moved
+        let speed = unit * Complex::new(0.0, real(k));
+        let mut change = slope.coefficient(row - column) * speed
+            + slope.coefficient(row + column) * speed.conj();
+        if m == k {
+            change += unit * spring_and_inertia(eta, k);
+        }
+        let friction = self.crossings.iter().map(|(change, waves)| {
+            let moved = 2.0 * (speed * waves[k]).re / change.slope.abs();
+            waves[m].conj() * moved
         });
         change + friction.sum::<Complex<f64>>() * (self.parameters.r / PI)
-    }
-
-    /// Change of coefficient `m` of the residual with the frequency.
-    fn by_frequency(&self, m: usize) -> Complex<f64> {
-        let Parameters { d, d2, d3, .. } = self.parameters;
-        let (eta, row) = (self.ansatz.frequency, m.cast_signed());
-        self.ansatz.q.coefficient(row) * (-2.0 * eta * real(m) * real(m))
-            + self.p.coefficient(row) * (2.0 * d)
-            + self.square.coefficient(row) * (2.0 * d2 * eta)
-            + self.cube.coefficient(row) * (3.0 * d3 * eta * eta)
     }
 }
 
@@ -283,7 +224,7 @@ fn spring_and_inertia(eta: f64, k: usize) -> f64 {
 /// A change of the unknowns below which Newton's next step is below rounding.
 const SETTLED: f64 = 1e-12;
 
-/// Solves the Galerkin equations of a basis near `start`.
+/// Solves the Galerkin equations of `count` harmonics near `start`.
 ///
 /// A step is damped until the next one, taken with the same Jacobian, is shorter (the natural
 /// monotonicity test, which does not depend on how the equations are scaled). Whether to stop is asked
@@ -298,7 +239,7 @@ const SETTLED: f64 = 1e-12;
 /// [`Reason`] says why it found no solution: [`Reason::Harmonics`] with a strength of 1 where the iteration does not settle.
 pub fn solve(
     parameters: &Parameters,
-    basis: Basis,
+    count: usize,
     start: &Ansatz,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<(BalanceResidual, bool), Reason> {
@@ -306,8 +247,8 @@ pub fn solve(
     const ITERATIONS: usize = 60;
     /// Smallest fraction of a step that is tried.
     const SMALLEST_PART: f64 = 1e-3;
-    let unsettled = Reason::Harmonics { count: basis.count, strength: 1.0 };
-    let mut residual = BalanceResidual::new(parameters, basis, start);
+    let unsettled = Reason::Harmonics { count, strength: 1.0 };
+    let mut residual = BalanceResidual::new(parameters, count, start);
     let mut part: f64 = 1.0;
     for _ in 0..ITERATIONS {
         if interrupted() {
@@ -319,8 +260,7 @@ pub fn solve(
         let change = step.amax() / residual.ansatz.q.cosine(1).abs().max(1.0);
         part = (4.0 * part).min(1.0);
         loop {
-            let next = basis.moved(&residual.ansatz, &step, part);
-            let next = BalanceResidual::new(parameters, basis, &next);
+            let next = BalanceResidual::new(parameters, count, &residual.moved(&step, part));
             let shorter = matches!(newton_step(&jacobian, &next), Ok(Some(next))
                 if next.amax() <= (1.0 - 0.25 * part) * step.amax());
             if shorter || change < SETTLED {
@@ -361,6 +301,8 @@ fn has_positive_determinant(decomposed: &LU<f64, Dyn, Dyn>) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use proptest::prelude::*;
 
     use super::*;
@@ -377,10 +319,6 @@ mod tests {
 
     const GENERAL: Parameters = Parameters { d: -0.3, d2: 0.4, d3: 0.25, r: 0.2 };
 
-    fn values(parameters: &Parameters, basis: Basis, ansatz: &Ansatz) -> DVector<f64> {
-        BalanceResidual::new(parameters, basis, ansatz).values()
-    }
-
     /// The residual of the differential equation at one angle.
     fn pointwise(parameters: &Parameters, ansatz: &Ansatz, angle: f64) -> f64 {
         let Parameters { d, d2, d3, r } = *parameters;
@@ -392,7 +330,7 @@ mod tests {
 
     #[test]
     fn projections_are_the_integrals_that_they_stand_for() {
-        let (ansatz, basis) = (ansatz(), Basis { count: 5, odd: false });
+        let ansatz = ansatz();
         let crossings = sign_changes(&ansatz.q.derivative());
         let [first, second] = crossings[..] else { panic!("two sign changes") };
         let weighted = |weight: &dyn Fn(f64) -> f64| {
@@ -400,8 +338,8 @@ mod tests {
             let turn = [(first.angle, second.angle), (second.angle, first.angle + TAU)];
             turn.map(|part| integrate(&density, part, 1e-13).value).iter().sum::<f64>()
         };
-        let got = values(&GENERAL, basis, &ansatz);
-        for (got, entry) in got.iter().zip(basis.entries()) {
+        let residual = BalanceResidual::new(&GENERAL, 5, &ansatz);
+        for (got, entry) in residual.values().iter().zip(residual.unknowns()) {
             let (k, wave) = (real(entry.harmonic), if entry.unit.im == 0.0 { cos } else { sin });
             let expected = weighted(&|t| wave(k * t)) / if k == 0.0 { TAU } else { PI };
             assert!((got - expected).abs() < 1e-12, "{entry:?}: {got} for {expected}");
@@ -415,7 +353,7 @@ mod tests {
         q.coefficients[3] = Complex::new(0.0, -1.0 / 6.0);
         let parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 1.0 };
         let ansatz = Ansatz { frequency: 1.0, q };
-        let residual = BalanceResidual::new(&parameters, Basis { count: 9, odd: false }, &ansatz);
+        let residual = BalanceResidual::new(&parameters, 9, &ansatz);
         assert_eq!(residual.crossings(), 6);
         for k in 0..=9 {
             let expected = match k {
@@ -432,7 +370,7 @@ mod tests {
         // Weighted by 1, cos and sin: (40), (39) and (42) times -eta, whatever A and A0.
         let (mean, amplitude, eta) = (0.3, 1.7, 0.8);
         let q = Fourier { coefficients: vec![mean.into(), Complex::from(0.5 * amplitude)] };
-        let got = values(&GENERAL, Basis { count: 1, odd: false }, &Ansatz { frequency: eta, q });
+        let got = BalanceResidual::new(&GENERAL, 1, &Ansatz { frequency: eta, q }).values();
         let Parameters { d, d2, d3, r } = GENERAL;
         let speed = eta * amplitude;
         let stationary = 4.0 * r / PI + 2.0 * d * speed + 0.75 * d3 * powi(speed, 3);
@@ -449,17 +387,18 @@ mod tests {
             d in -1.0..1.0, d2 in -1.0..1.0, d3 in -1.0..1.0, r in 0.0..1.0, odd: bool,
         ) {
             let parameters = Parameters { d, d2: if odd { 0.0 } else { d2 }, d3, r };
-            let basis = Basis { count: 5, odd };
             let mut ansatz = ansatz();
             if odd {
                 ansatz.q.coefficients.iter_mut().step_by(2).for_each(|c| *c = Complex::default());
             }
-            let jacobian = BalanceResidual::new(&parameters, basis, &ansatz).jacobian();
+            let residual = BalanceResidual::new(&parameters, 5, &ansatz);
+            let jacobian = residual.jacobian();
             let width = 1e-6;
             let size = jacobian.ncols();
             for column in 0..size {
                 let unit = DVector::from_fn(size, |row, _| f64::from(u8::from(row == column)));
-                let at = |part| values(&parameters, basis, &basis.moved(&ansatz, &unit, part));
+                let moved = |part| BalanceResidual::new(&parameters, 5, &residual.moved(&unit, part));
+                let at = |part| moved(part).values();
                 let slope = (at(width) - at(-width)) / (2.0 * width);
                 let error = (slope - jacobian.column(column)).amax();
                 prop_assert!(error < 1e-8, "column {column}: {error:e}");

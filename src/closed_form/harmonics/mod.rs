@@ -24,7 +24,7 @@ use nalgebra::Complex;
 use serde::Serialize;
 
 use self::fourier::{Fourier, sign_changes};
-use self::galerkin::{Ansatz, BalanceResidual, Basis, solve};
+use self::galerkin::{Ansatz, BalanceResidual, solve};
 use super::harmonic::Harmonic;
 use crate::model::{Parameters, Reason, State};
 use crate::numerics::{exponent, real, times_power};
@@ -104,25 +104,18 @@ const COARSE: usize = 7;
 
 impl<'a> Followed<'a> {
     fn new(parameters: &Parameters, first: &Harmonic, interrupted: &'a dyn Fn() -> bool) -> Self {
-        let Parameters { d, d2, d3, r } = *parameters;
         let unit = exponent(first.amplitude);
-        let scaled = Parameters {
-            d,
-            d2: times_power(d2, unit),
-            d3: times_power(times_power(d3, unit), unit),
-            r: times_power(r, -unit),
-        };
         let mean = Complex::from(times_power(first.mean, -unit));
         let wave = Complex::from(0.5 * times_power(first.amplitude, -unit));
         let first_order = Ansatz { frequency: 1.0, q: Fourier { coefficients: vec![mean, wave] } };
-        Followed { parameters: scaled, first: first_order, stable: first.stable, unit, interrupted }
+        let parameters = parameters.times_power(-unit);
+        Followed { parameters, first: first_order, stable: first.stable, unit, interrupted }
     }
 
     fn cycle(&self, count: usize) -> Result<HarmonicCycle, Reason> {
         if count == 1 {
-            let basis = Basis::new(&self.parameters, count);
-            return self
-                .describe(count, &BalanceResidual::new(&self.parameters, basis, &self.first));
+            let residual = BalanceResidual::new(&self.parameters, count, &self.first);
+            return self.describe(count, &residual);
         }
         let mut solution = match self.strengthened(count.min(COARSE)) {
             // The folds of few and of many harmonics differ a little.
@@ -145,15 +138,13 @@ impl<'a> Followed<'a> {
         const SMALLEST: f64 = 1.0 / 256.0;
         let Parameters { d, d2, d3, r } = self.parameters;
         let (mut here, mut step) = ((0.0, self.first.clone()), 1.0);
-        let mut before: Option<(f64, Ansatz)> = None;
+        here.1.q.coefficients[0] = Complex::default();
+        // Of the first-order answer only its mean (equation 40) depends on the strength, in proportion to it.
+        let mut before = Some((1.0, self.first.clone()));
         loop {
             let s = f64::min(here.0 + step, 1.0);
             let weaker = Parameters { d: s * d, d2: s * d2, d3: s * d3, r: s * r };
-            let start = match &before {
-                Some(before) => secant(before, &here, s),
-                None if here.0 == 0.0 => self.first_order_at(s),
-                None => here.1.clone(),
-            };
+            let start = before.as_ref().map_or(here.1.clone(), |before| secant(before, &here, s));
             match self.solve(&weaker, count, &start) {
                 Ok(solution) if s == 1.0 => return Ok(solution),
                 Ok(solution) => {
@@ -170,13 +161,6 @@ impl<'a> Followed<'a> {
         }
     }
 
-    /// The first-order answer at a strength: only its mean (equation 40) depends on it.
-    fn first_order_at(&self, strength: f64) -> Ansatz {
-        let mut ansatz = self.first.clone();
-        ansatz.q.coefficients[0] *= strength;
-        ansatz
-    }
-
     /// A solution on this branch, not on another one.
     fn solve(
         &self,
@@ -186,8 +170,7 @@ impl<'a> Followed<'a> {
     ) -> Result<BalanceResidual, Reason> {
         /// Part of the first-order amplitude below which a solution is the steady state.
         const VANISHED: f64 = 1e-6;
-        let basis = Basis::new(parameters, count);
-        let (solution, unstable) = solve(parameters, basis, start, self.interrupted)?;
+        let (solution, unstable) = solve(parameters, count, start, self.interrupted)?;
         let Ansatz { frequency, q } = &solution.ansatz;
         if unstable == self.stable || q.cosine(1) < VANISHED || *frequency <= 0.0 {
             return Err(Reason::Harmonics { count, strength: 1.0 });
@@ -433,8 +416,7 @@ mod tests {
                 // The equations agree that it is their solution, and with its stability.
                 prop_assert!(cycle.residual <= 16.0 * f64::EPSILON, "{}", cycle.residual);
                 let branch = Followed::new(&parameters, &first, &|| false);
-                let basis = Basis::new(&branch.parameters, 1);
-                if let Ok((_, unstable)) = solve(&branch.parameters, basis, &branch.first, &|| false) {
+                if let Ok((_, unstable)) = solve(&branch.parameters, 1, &branch.first, &|| false) {
                     prop_assert_eq!(unstable, !first.stable);
                 }
             }
