@@ -23,7 +23,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 use serde::Serialize;
 
 use crate::model::Parameters;
-use crate::numerics::elementary::{acos, acosh, asinh, atan2, cbrt, cos, cosh, sin, sinh};
+use crate::numerics::elementary::{atan2, cbrt, cos, sin};
 use crate::numerics::twofold::{self, Twofold};
 
 /// A stationary amplitude of the first-order harmonic approximation `q = A0 + A cos(tau)`.
@@ -159,32 +159,22 @@ fn supercritical(d: f64, d3: f64, r: f64) -> Vec<(f64, bool)> {
 
 /// The root for `D3 < 0`, `r > 0`.
 ///
-/// In units of `A_Z` it obeys `u^3 - delta u - 1 = 0` with `delta = pi D A_Z/(2 r)`; where delta is not
-/// small, the hyperbolic and the trigonometric formula in units of `A_1` and `A_2` keep all digits.
+/// In units of `A_Z` it obeys `u^3 - delta u - 1 = 0` with `delta = pi D A_Z/(2 r)`; where delta is far from 0, it is
+/// `A_1` or `A_2`. Newton's method begins above it, where the cubic is convex and increasing, and comes down to it.
 fn subcritical(d: f64, d3: f64, r: f64) -> f64 {
-    /// Up to here the expansion about `u = 1` is a good start for Newton's method.
-    const NEAR_ZERO: f64 = 1.5;
+    /// From here on the root differs from the asymptote by less than rounding.
+    const FAR: f64 = 1e12;
     let crossing = zero_crossing_root(d3, r);
     let delta = FRAC_PI_2 * d * crossing / r;
-    if delta.abs() <= NEAR_ZERO {
-        let mut u = 1.0 + delta / 3.0;
-        // Convex and increasing at the root, so Newton converges: quadratically, from an error < 0.2.
-        for _ in 0..6 {
-            u -= (u * (u * u - delta) - 1.0) / (3.0 * u * u - delta);
-        }
-        crossing * u
-    } else {
-        let (ratio, _) = distance_from_fold(d, d3, r);
-        let sine = ratio.sqrt();
-        if d < 0.0 {
-            let third = asinh(sine) / 3.0;
-            small_root(d, r) * triple_ratio(sinh(third), sine)
-        } else {
-            // Above 1 the arc cosine turns hyperbolic; the root itself does not notice.
-            let third = if sine <= 1.0 { cos(acos(sine) / 3.0) } else { cosh(acosh(sine) / 3.0) };
-            large_root(d, d3) * (SCALE * third)
-        }
+    if delta.abs() > FAR {
+        return if d < 0.0 { small_root(d, r) } else { large_root(d, d3) };
     }
+    let mut u = if delta < 0.0 { f64::min(1.0, -1.0 / delta) } else { 1.0 + delta.sqrt() };
+    // At most a factor of two away, and then quadratically.
+    for _ in 0..9 {
+        u -= (u * (u * u - delta) - 1.0) / (3.0 * u * u - delta);
+    }
+    crossing * u
 }
 
 /// `2/sqrt(3)`, which makes the large root tend to `A_2`.
