@@ -18,12 +18,11 @@ use std::sync::LazyLock;
 mod algebra;
 mod arrival;
 
-use algebra::{MOST, differences, interpolated, weighted};
-use nalgebra::{SMatrix, SVector};
+use algebra::{differences, interpolated};
 
 use super::motion::Cost;
 use super::step::{Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, stopping_time};
-use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
+use super::tableau::radau::{Collocation, FIVE, MOST, SEVEN, StageMatrix, Stages, THREE};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
 
@@ -53,8 +52,6 @@ const FORESEEN: f64 = 3.0;
 #[derive(Clone, Debug)]
 pub struct Stiff<F: Field = HalfPlane> {
     scheme: &'static Collocation,
-    /// The square of the matrix of the scheme.
-    square: [[f64; MOST]; MOST],
     field: F,
     /// Tolerance of a step for the embedded solution, where damping is not stiff.
     tolerance: f64,
@@ -68,8 +65,8 @@ pub struct Stiff<F: Field = HalfPlane> {
     end: StepPoint,
     duration: f64,
     /// Velocities and accelerations of the stages.
-    velocity: [f64; MOST],
-    acceleration: [f64; MOST],
+    velocity: Stages,
+    acceleration: Stages,
     /// Divided differences of x and v over the start and the nodes.
     dense: [[f64; MOST + 1]; 2],
     cost: Cost,
@@ -79,26 +76,18 @@ impl<F: Field> Stiff<F> {
     /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(field: F, tolerance: f64) -> Self {
         let scheme = SCHEMES.iter().find(|row| tolerance >= row.0).map_or(&SEVEN, |row| row.1);
-        let stages = scheme.nodes.len();
-        let mut square = [[0.0; MOST]; MOST];
-        for (i, row) in scheme.integrals.iter().enumerate() {
-            for (k, element) in square[i].iter_mut().enumerate().take(stages) {
-                *element = row.iter().zip(&scheme.integrals).map(|(a, next)| a * next[k]).sum();
-            }
-        }
         Stiff {
             scheme,
-            square,
             field,
-            tolerance: embedded_tolerance(tolerance, stages),
+            tolerance: embedded_tolerance(tolerance, scheme.nodes.len()),
             asked: tolerance,
             next: 0.0,
             start: StepPoint { x: 0.0, v: 0.0 },
             slope: 0.0,
             end: StepPoint { x: f64::NAN, v: f64::NAN },
             duration: 0.0,
-            velocity: [0.0; MOST],
-            acceleration: [0.0; MOST],
+            velocity: Stages::zeros(),
+            acceleration: Stages::zeros(),
             dense: [[0.0; MOST + 1]; 2],
             cost: Cost::default(),
         }
@@ -131,55 +120,48 @@ impl<F: Field> Stiff<F> {
         from.v == v && [x.next_down(), x, x.next_up()].contains(&from.x)
     }
 
+    /// A number for each stage of the scheme, and its position.
+    fn stages(&self, number: impl Fn(usize, f64) -> f64) -> Stages {
+        let node = |stage: usize| self.scheme.nodes.get(stage);
+        Stages::from_fn(|stage, _| node(stage).map_or(0.0, |node| number(stage, *node)))
+    }
+
     /// Initial guess of the stage velocities over a step of length `h`.
-    fn guess(&self, h: f64) -> [f64; MOST] {
-        let mut guess = [0.0; MOST];
+    fn guess(&self, h: f64) -> Stages {
         let rate = self.field.divergence(self.start.v).min(0.0);
-        for (guess, node) in guess.iter_mut().zip(&self.scheme.nodes) {
-            *guess = if self.duration > 0.0 && h <= FORESEEN * self.duration {
+        self.stages(|_, node| {
+            if self.duration > 0.0 && h <= FORESEEN * self.duration {
                 let after = 1.0 + node * h / self.duration;
                 interpolated(&self.scheme.nodes, &self.dense[1], after)
             } else {
                 // One linearly implicit Euler step.
                 let t = node * h;
                 self.start.v + t * self.slope / (1.0 - t * rate + t * t)
-            };
-        }
-        guess
+            }
+        })
     }
 
     /// Solves for the stages of a step of length `h`; `None` where Newton's method does not converge.
-    fn attempt(&mut self, h: f64, mut velocity: [f64; MOST]) -> Option<StepPoint> {
-        let Collocation { nodes, integrals, .. } = self.scheme;
-        let stages = nodes.len();
-        let mut acceleration = [0.0; MOST];
+    fn attempt(&mut self, h: f64, mut velocity: Stages) -> Option<StepPoint> {
+        let Collocation { integrals, square, .. } = self.scheme;
+        let StepPoint { x: start, v: first } = self.start;
         let mut before = f64::NAN;
         for _ in 0..ITERATIONS {
-            let mut rate = [0.0; MOST];
-            for j in 0..stages {
-                let x = self.start.x + h * weighted(&integrals[j], &velocity);
-                acceleration[j] = self.field.acceleration(x, velocity[j]);
-                rate[j] = self.field.divergence(velocity[j]);
-            }
-            self.cost.evaluations += stages as u64;
+            let way = integrals * velocity;
+            let slope = |j, _| self.field.acceleration(start + h * way[j], velocity[j]);
+            let mut acceleration = self.stages(slope);
+            let rate = self.stages(|j, _| self.field.divergence(velocity[j]));
+            let gain = integrals * acceleration;
+            let missing = self.stages(|j, _| first - velocity[j] + h * gain[j]);
+            self.cost.evaluations += self.scheme.nodes.len() as u64;
             // Beyond the stages of the scheme nothing changes.
-            let mut matrix = SMatrix::<f64, MOST, MOST>::identity();
-            let mut change = SVector::<f64, MOST>::zeros();
-            for i in 0..stages {
-                let row = &integrals[i];
-                change[i] = self.start.v - velocity[i] + h * weighted(row, &acceleration);
-                for k in 0..stages {
-                    matrix[(i, k)] += h * (h * self.square[i][k] - row[k] * rate[k]);
-                }
-            }
-            let change: [f64; MOST] = matrix.lu().solve(&change)?.into();
-            let mut size = self.start.v.abs();
-            let mut moved = 0.0_f64;
-            for (velocity, change) in velocity.iter_mut().zip(&change).take(stages) {
-                *velocity += change;
-                size = size.max(velocity.abs());
-                moved = moved.max(change.abs());
-            }
+            let matrix = StageMatrix::from_fn(|i, k| {
+                let one = if i == k { 1.0 } else { 0.0 };
+                one + h * (h * square[(i, k)] - integrals[(i, k)] * rate[k])
+            });
+            let change = matrix.lu().solve(&missing)?;
+            velocity += change;
+            let (moved, size) = (change.amax(), velocity.amax().max(first.abs()));
             if !(moved.is_finite() && size.is_finite()) {
                 return None;
             }
@@ -188,12 +170,11 @@ impl<F: Field> Stiff<F> {
             let settled = moved * shrunk * shrunk <= LEFT * self.asked * size;
             if settled || moved <= (f64::EPSILON * size).max(self.rounding(h)) {
                 // The effect of the last change on the accelerations needs no evaluation.
-                for j in 0..stages {
-                    acceleration[j] += rate[j] * change[j] - h * weighted(&integrals[j], &change);
-                }
+                acceleration += rate.component_mul(&change) - integrals * change * h;
                 (self.velocity, self.acceleration) = (velocity, acceleration);
-                let x = self.start.x + h * weighted(&integrals[stages - 1], &velocity);
-                return Some(StepPoint { x, v: velocity[stages - 1] });
+                let last = self.scheme.nodes.len() - 1;
+                let x = start + h * (integrals * velocity)[last];
+                return Some(StepPoint { x, v: velocity[last] });
             }
             if shrunk > 2.0 {
                 return None;
@@ -234,8 +215,8 @@ impl<F: Field> Stiff<F> {
         let part = h * own;
         let rate = self.field.divergence(self.start.v);
         let sums = StepPoint {
-            x: h * weighted(weights, &self.velocity),
-            v: h * weighted(weights, &self.acceleration),
+            x: h * weights.dot(&self.velocity),
+            v: h * weights.dot(&self.acceleration),
         };
         // The difference from the embedded solution times `(1 - part J)^-1`, which keeps it bounded where
         // damping is stiff.
@@ -302,10 +283,8 @@ impl<F: Field> Stiff<F> {
     /// Keeps an attempt as the last step.
     fn keep(&mut self, duration: f64, end: StepPoint) {
         (self.duration, self.end) = (duration, end);
-        let mut position = [0.0; MOST];
-        for (x, row) in position.iter_mut().zip(&self.scheme.integrals) {
-            *x = self.start.x + duration * weighted(row, &self.velocity);
-        }
+        let way = self.scheme.integrals * self.velocity;
+        let position = way.map(|way| self.start.x + duration * way);
         let through = |first, values| differences(&self.scheme.nodes, first, values);
         self.dense = [through(self.start.x, &position), through(self.start.v, &self.velocity)];
     }
@@ -369,8 +348,8 @@ impl<F: Field> Stepper<F> for Stiff<F> {
 
     /// The quadrature of the collocation scheme, exact for polynomials of degree below its order.
     fn powers(&self) -> Powers {
-        let weights = &self.scheme.integrals[self.scheme.nodes.len() - 1];
-        Powers::of_stages(self.duration, weights, &self.velocity)
+        let weights = self.scheme.integrals.row(self.scheme.nodes.len() - 1).transpose();
+        Powers::of_stages(self.duration, weights.as_slice(), self.velocity.as_slice())
     }
 
     fn cost(&self) -> Cost {

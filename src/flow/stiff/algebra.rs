@@ -1,19 +1,13 @@
-//! Sums over the stages of a collocation step, and polynomials through them.
+//! Polynomials through the stages of a collocation step.
 
-/// Maximum number of stages.
-pub(super) const MOST: usize = 7;
-
-/// The sum of the values of the stages, weighted by a row of the scheme.
-pub(super) fn weighted(weights: &[f64], values: &[f64; MOST]) -> f64 {
-    weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
-}
+use crate::flow::tableau::radau::{MOST, Stages};
 
 /// Newton's divided differences over 0 and the nodes.
-pub(super) fn differences(nodes: &[f64], first: f64, values: &[f64; MOST]) -> [f64; MOST + 1] {
+pub(super) fn differences(nodes: &[f64], first: f64, values: &Stages) -> [f64; MOST + 1] {
     let place = |index: usize| if index == 0 { 0.0 } else { nodes[index - 1] };
     let mut table = [0.0; MOST + 1];
     table[0] = first;
-    table[1..].copy_from_slice(values);
+    table[1..].copy_from_slice(values.as_slice());
     for level in 1..=nodes.len() {
         for index in (level..=nodes.len()).rev() {
             table[index] =

@@ -1,7 +1,7 @@
 //! The last step of a half swing: shortened until it ends at `v = 0`.
 
 use super::Stiff;
-use super::algebra::{MOST, interpolated};
+use super::algebra::interpolated;
 use crate::flow::step::{Field, Step, StepPoint};
 use crate::flow::tableau::radau::Collocation;
 use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
@@ -21,10 +21,7 @@ impl<F: Field> Stiff<F> {
         let mut last = (whole, self.end, 0.0);
         let bracket = Bracket::falling(0.0, whole);
         try_newton(bracket, 0.5 * (low + high), PlaceTolerance::Relative(SETTLED), |length| {
-            let mut guess = [0.0; MOST];
-            for (guess, node) in guess.iter_mut().zip(nodes) {
-                *guess = at(node * length);
-            }
+            let guess = self.stages(|_, node| at(node * length));
             let end = self.attempt(length, guess).ok_or(())?;
             let slope = self.field.acceleration(end.x, end.v);
             last = (length, end, -end.v / slope);
@@ -63,6 +60,6 @@ impl<F: Field> Stiff<F> {
 
     /// Whether the last attempt reaches `v = 0`.
     pub(super) fn reaches_standstill(&self) -> bool {
-        self.velocity[..self.scheme.nodes.len()].iter().any(|&v| v <= 0.0)
+        self.velocity.iter().take(self.scheme.nodes.len()).any(|&v| v <= 0.0)
     }
 }

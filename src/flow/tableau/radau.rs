@@ -7,7 +7,18 @@
 
 use std::sync::LazyLock;
 
+use nalgebra::{SMatrix, SVector};
+
 use crate::numerics::{Scalar, Twofold, real};
+
+/// Maximum number of stages.
+pub const MOST: usize = 7;
+
+/// A number for each stage; 0 beyond those of the scheme.
+pub type Stages = SVector<f64, MOST>;
+
+/// A number for each pair of stages; 0 beyond those of the scheme.
+pub type StageMatrix = SMatrix<f64, MOST, MOST>;
 
 /// A collocation scheme.
 #[derive(Debug)]
@@ -15,9 +26,11 @@ pub struct Collocation {
     /// Positions of the stages as fractions of the step; the last one is at its end.
     pub nodes: Vec<f64>,
     /// Integrals of the Lagrange polynomials from 0 to each node; the last row gives the quadrature weights.
-    pub integrals: Vec<Vec<f64>>,
+    pub integrals: StageMatrix,
+    /// Their square.
+    pub square: StageMatrix,
     /// Difference from the embedded solution of order S, without the term with the weight below.
-    pub error: Vec<f64>,
+    pub error: Stages,
     /// Weight of the slope at the start in that difference: the real eigenvalue of `integrals`.
     pub start: f64,
     /// Length of a step, in damping times, at which the order is half reduced in the sense of
@@ -30,11 +43,16 @@ impl Collocation {
     /// S.
     fn new(nodes: &[Twofold], start: f64, stiff: f64) -> Self {
         let polynomials: Vec<_> = (0..nodes.len()).map(|own| lagrange(nodes, own)).collect();
-        let row = |end: &Twofold| polynomials.iter().map(|one| integral(one, *end)).collect();
+        let integrals = StageMatrix::from_fn(|stage, own| {
+            let pair = nodes.get(stage).zip(polynomials.get(own));
+            pair.map_or(0.0, |(end, one)| integral(one, *end))
+        });
+        let error = |own: usize| polynomials.get(own).map_or(0.0, |one| -start * one[0].value());
         Collocation {
             nodes: nodes.iter().map(|node| node.value()).collect(),
-            integrals: nodes.iter().map(row).collect(),
-            error: polynomials.iter().map(|one| -start * one[0].value()).collect(),
+            integrals,
+            square: integrals * integrals,
+            error: Stages::from_fn(|own, _| error(own)),
             start,
             stiff,
         }
@@ -129,9 +147,10 @@ mod tests {
         let stages = nodes.len();
         let error = scheme.start + scheme.error.iter().sum::<f64>();
         assert!(error.abs() < 1e-15, "{stages} stages: {error:e}");
-        for (node, row) in nodes.iter().zip(&scheme.integrals) {
+        for (node, row) in nodes.iter().zip(scheme.integrals.row_iter()) {
             for degree in 0..i32::try_from(stages).unwrap() {
-                let sum: f64 = nodes.iter().zip(row).map(|(node, a)| a * powi(*node, degree)).sum();
+                let sum: f64 =
+                    nodes.iter().zip(row.iter()).map(|(node, a)| a * powi(*node, degree)).sum();
                 let integral = powi(*node, degree + 1) / f64::from(degree + 1);
                 assert!((sum - integral).abs() < 1e-15, "{stages} stages, degree {degree}");
             }
@@ -140,8 +159,13 @@ mod tests {
 
     fn order(scheme: &Collocation) -> i32 {
         let integral = |degree: i32| -> f64 {
-            let row = &scheme.integrals[scheme.nodes.len() - 1];
-            scheme.nodes.iter().zip(row).map(|(node, weight)| weight * powi(*node, degree)).sum()
+            let row = scheme.integrals.row(scheme.nodes.len() - 1);
+            scheme
+                .nodes
+                .iter()
+                .zip(row.iter())
+                .map(|(node, weight)| weight * powi(*node, degree))
+                .sum()
         };
         let wrong = |degree: &i32| (integral(*degree) * f64::from(degree + 1) - 1.0).abs() > 1e-12;
         (0..20).find(wrong).unwrap()
@@ -151,7 +175,7 @@ mod tests {
     fn errors(scheme: &Collocation, damping: f64) -> (f64, f64) {
         let stages = scheme.nodes.len();
         let degree = i32::try_from(stages).unwrap() + 1;
-        let integrals = DMatrix::from_fn(stages, stages, |i, k| scheme.integrals[i][k]);
+        let integrals = DMatrix::from_fn(stages, stages, |i, k| scheme.integrals[(i, k)]);
         let drive = DVector::from_fn(stages, |i, _| {
             let node = scheme.nodes[i];
             damping * powi(node, degree) + f64::from(degree) * powi(node, degree - 1)
