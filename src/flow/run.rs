@@ -49,10 +49,6 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         let Problem { parameters, initial, .. } = self.found.problem;
         let outcome = match Side::entered_from(initial, parameters.r) {
             None => Ok(self.rests()),
-            Some(_) if parameters.r == 0.0 && !self.detail.crossings => {
-                let field = HalfPlane::new(&parameters, Side::Upper);
-                self.glide(stepper, &field, |_, _, _| None)
-            }
             Some(side) => self.half_swings(side, stepper),
         };
         self.close(outcome, stepper.cost())
@@ -84,32 +80,8 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         Outcome::Captured { tau: N::of(0.0), q: N::of(self.found.problem.initial.q) }
     }
 
-    /// One smooth motion on both sides of `v = 0`: there is no friction, or it is part of the field.
-    ///
-    /// `see` is called after each step, with the time at which it began, the exponent of its unit and the step; it may end
-    /// the motion there.
-    fn glide<F: PlaneField, S: Stepper<F, N>>(
-        &mut self,
-        stepper: &mut S,
-        field: &F,
-        mut see: impl FnMut(f64, i32, &Step<N>) -> Option<Result<Outcome<N>, Reason>>,
-    ) -> Result<Outcome<N>, Reason> {
-        let Problem { initial: State { q, v }, until, .. } = self.found.problem;
-        let (point, until) = (StepPoint { x: N::of(q), v: N::of(v) }, N::of(until));
-        if until <= N::of(0.0) {
-            return Ok(Outcome::Moving { tau: until, q: point.x, v: point.v });
-        }
-        let mut ended = None;
-        let see = |at: f64, unit: i32, step: &Step<N>| {
-            ended = see(at, unit, step);
-            ended.is_some()
-        };
-        let bound = (until, false);
-        let point = self.piece(stepper, field, (Side::Upper, 0.0), (point, 0), bound, see).0?;
-        ended.unwrap_or_else(|| self.stopped(point))
-    }
-
-    /// Joins half swings, the first on `side`, until the motion ends.
+    /// Joins half swings, the first on `side`, until the motion ends. Without friction nothing happens at `v = 0`: unless
+    /// crossings are requested, one smooth motion leads through all half swings.
     fn half_swings<S: Stepper<HalfPlane, N>>(
         &mut self,
         mut side: Side,
@@ -117,6 +89,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     ) -> Result<Outcome<N>, Reason> {
         let Problem { parameters, initial, until, .. } = self.found.problem;
         let (r, until, rest) = (parameters.r, N::of(until), N::of(0.0));
+        let arrives = r > 0.0 || self.detail.crossings;
         let mut last = StepPoint { x: N::of(initial.q), v: N::of(initial.v) };
         let mut point = StepPoint { x: side.position(last.x, r), v: N::of(initial.v.abs()) };
         let mut unit = 0;
@@ -131,15 +104,16 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             let field = HalfPlane::new(&parameters, side);
             let sign = N::of(side.sign());
             let stop = ComingToRest::of(&field, point.rounded(), N::NEGLIGIBLE);
+            let in_time = |stop: &ComingToRest| arrives && N::of(stop.duration) < remaining;
             let q;
-            if let Some(stop) = stop.filter(|stop| N::of(stop.duration) < remaining) {
+            if let Some(stop) = stop.filter(in_time) {
                 self.time.add(N::of(stop.duration));
                 self.path += stop.way();
                 q = last.x + sign * N::of(stop.way());
                 let (beyond, of) = stop.beyond((sign * last.x - N::of(r)).value());
                 (point.x, unit) = (N::of(-beyond), of);
             } else {
-                let (from, bound) = ((point, unit), (remaining, true));
+                let (from, bound) = ((point, unit), (remaining, arrives));
                 let (end, crossed) =
                     self.piece(stepper, &field, (side, r), from, bound, |_, _, _| false);
                 let StepPoint { x, v } = end?;
@@ -218,9 +192,11 @@ impl MotionRun<'_> {
         field: &F,
         sticks: bool,
     ) -> Trajectory {
-        let Problem { parameters, initial, .. } = self.found.problem;
+        let Problem { parameters, initial, until, .. } = self.found.problem;
         let (mut crossings, mut path) = (Vec::new(), 0.0);
-        let mut from = StepPoint { x: initial.q, v: initial.v };
+        let start = StepPoint { x: initial.q, v: initial.v };
+        let mut from = start;
+        let mut ended = None;
         let see = |at: f64, unit: i32, step: &Step| {
             let end = step.end.times_power(unit);
             let (tau, start) = (at + step.duration, std::mem::replace(&mut from, end));
@@ -232,19 +208,24 @@ impl MotionRun<'_> {
             }
             // The path within the step, out and back where the velocity changes sign.
             path += (turn - start.x).abs() + (end.x - turn).abs();
-            if tau == at {
-                return Some(Err(Reason::StepTooSmall { step: step.duration }));
-            }
-            if crossings.len() >= MOST_CROSSINGS {
-                return Some(Err(Reason::HalfSwings { most: MOST_CROSSINGS }));
-            }
-            let stays = sticks && rests(State { q: end.x, v: end.v }, parameters.r);
-            stays.then_some(Ok(Outcome::Captured { tau, q: end.x }))
+            ended = if tau == at {
+                Some(Err(Reason::StepTooSmall { step: step.duration }))
+            } else if crossings.len() >= MOST_CROSSINGS {
+                Some(Err(Reason::HalfSwings { most: MOST_CROSSINGS }))
+            } else {
+                let stays = sticks && rests(State { q: end.x, v: end.v }, parameters.r);
+                stays.then_some(Ok(Outcome::Captured { tau, q: end.x }))
+            };
+            ended.is_some()
         };
         let outcome = if sticks && rests(initial, parameters.r) {
             Ok(self.rests())
+        } else if until <= 0.0 {
+            Ok(Outcome::Moving { tau: until, q: start.x, v: start.v })
         } else {
-            self.glide(stepper, field, see)
+            let bound = (until, false);
+            let piece = self.piece(stepper, field, (Side::Upper, 0.0), (start, 0), bound, see);
+            piece.0.and_then(|point| ended.unwrap_or_else(|| self.stopped(point)))
         };
         (self.found.crossings, self.path) = (crossings, path);
         self.close(outcome, stepper.cost())
