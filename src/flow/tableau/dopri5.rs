@@ -5,25 +5,20 @@
 
 use super::{ErrorEstimate, Scheme};
 
-pub static SCHEME: Scheme<STAGES, 8> = Scheme {
-    columns: Scheme::<STAGES, 8>::columns(&A, &WEIGHTS, &[&ERROR]),
-    weights: WEIGHTS,
-    estimate: ErrorEstimate::Embedded(5.0),
-    last_is_end: true,
-};
+pub static SCHEME: Scheme<STAGES, 8> =
+    Scheme::new(&A, WEIGHTS, &[&ERROR], ErrorEstimate::Embedded(5.0));
 
 /// Number of stages; the last one is at the end of the step.
 const STAGES: usize = 7;
 
-/// Row `i` gives stage `i + 1` from the slopes of the previous stages.
+/// The stages between the first and the last from the slopes of those before, each on a line of its own.
 #[rustfmt::skip]
-const A: [&[f64]; STAGES - 1] = [
-    &[1.0 / 5.0],
-    &[3.0 / 40.0, 9.0 / 40.0],
-    &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
-    &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
-    &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
-    &WEIGHTS,
+const A: [f64; (STAGES - 1) * (STAGES - 2) / 2] = [
+    1.0 / 5.0,
+    3.0 / 40.0, 9.0 / 40.0,
+    44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0,
+    19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0,
+    9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0,
 ];
 
 /// Weights of the solution of order 5.

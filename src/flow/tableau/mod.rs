@@ -35,44 +35,52 @@ pub enum ErrorEstimate {
 }
 
 impl<const S: usize, const R: usize> Scheme<S, R> {
-    /// Turns rows, as published, into columns.
-    const fn columns(stages: &[&[f64]], weights: &[f64; S], errors: &[&[f64; S]]) -> [[f64; R]; S] {
+    /// From the coefficients as published: the triangle of the weights of the slopes in each stage from the second on, row
+    /// by row; the weights in the solution; and those in the error estimates. A last stage that is missing lies at the end
+    /// of the step.
+    const fn new(
+        stages: &[f64],
+        weights: [f64; S],
+        errors: &[&[f64; S]],
+        estimate: ErrorEstimate,
+    ) -> Self {
         let mut columns = [[0.0; R]; S];
-        let mut j = 0;
-        while j < S {
-            let mut i = 0;
-            while i < stages.len() {
-                if j < stages[i].len() {
-                    columns[j][i] = stages[i][j];
-                }
-                i += 1;
+        let mut next = 0;
+        let mut i = 0;
+        while i < S {
+            let mut j = 0;
+            while j <= i && next < stages.len() {
+                columns[j][i] = stages[next];
+                next += 1;
+                j += 1;
             }
-            columns[j][S - 1] = weights[j];
+            columns[i][S - 1] = weights[i];
             let mut e = 0;
             while e < errors.len() {
-                columns[j][S + e] = errors[e][j];
+                columns[i][S + e] = errors[e][i];
                 e += 1;
             }
-            j += 1;
+            i += 1;
         }
-        columns
+        let last_is_end = stages.len() < S * (S - 1) / 2;
+        if last_is_end {
+            let mut j = 0;
+            while j < S {
+                columns[j][S - 2] = weights[j];
+                j += 1;
+            }
+        }
+        Scheme { columns, weights, estimate, last_is_end }
     }
 }
 
 /// The classical method of order 4 (Kutta 1901), for steps of fixed length.
-pub static CLASSICAL: Scheme<4, 4> = Scheme {
-    columns: Scheme::<4, 4>::columns(
-        &[&[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]],
-        &CLASSICAL_WEIGHTS,
-        &[],
-    ),
-    weights: CLASSICAL_WEIGHTS,
-    estimate: ErrorEstimate::None,
-    last_is_end: false,
-};
-
-/// Weights of its solution.
-const CLASSICAL_WEIGHTS: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
+pub static CLASSICAL: Scheme<4, 4> = Scheme::new(
+    &[0.5, 0.0, 0.5, 0.0, 0.0, 1.0],
+    [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
+    &[],
+    ErrorEstimate::None,
+);
 
 #[cfg(test)]
 mod tests {
