@@ -196,6 +196,10 @@ impl Portrait {
             return Ok(Fate::Rest);
         }
         if self.orders_starts() {
+            let open = |edge: &Edge| matches!(edge, Edge::Orbit(orbit) if !orbit.is_closed());
+            if x.abs() > self.followed && self.borders.iter().any(open) {
+                return Err(Reason::OutOfRange);
+            }
             return Ok(self.fates[self.region(x, y)]);
         }
         let mut flow = Flow::new(&self.model);
@@ -237,6 +241,19 @@ impl Portrait {
             Fate::Cycle(index) => self.cycles.get(index),
             _ => None,
         }
+    }
+
+    /// Whether a motion that starts at displacement `x` (m) with velocity `v` (m/s) begins within a cycle.
+    #[must_use]
+    pub fn starts_within(&self, cycle: &Cycle, x: f64, v: f64) -> bool {
+        let y = self.model.scaled_velocity(v);
+        if self.orders_starts() {
+            let index = self.cycles.iter().position(|own| own == cycle);
+            let inner = self.borders.len() - self.cycles.len();
+            return index.is_some_and(|index| self.region(x, y) <= inner + index);
+        }
+        let turn = Flow::new(&self.model).to_the_right(x, y);
+        turn.is_ok_and(|turn| turn.is_none_or(|turn| turn < cycle.q_max))
     }
 
     /// Whether the borders alone say where a start ends: there is no belt, and what the guide holds at rest it holds of

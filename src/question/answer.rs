@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::fit::Fit;
 use super::request::Request;
-use super::whole::{self, WholeCycles};
+use super::whole;
 use super::zones::{CertainZones, zones};
 use crate::accuracy::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::accuracy::reference::Reference;
@@ -18,7 +18,7 @@ use crate::flow::{Cost, Limits, Reason, Trajectory};
 use crate::model::{Belt, Knob, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::closing::return_map::return_map;
-use crate::portrait::{Cycles, Portrait, ReturnMap, Share, bands};
+use crate::portrait::{Cycles, Margin, Portrait, ReturnMap, Share, bands};
 use crate::proof::{ParameterBox, Proof, prove};
 use crate::scan::grid::{Scan, ScanRow};
 
@@ -28,8 +28,9 @@ pub enum Finding {
     Fit(Fit),
     Refit(Fit),
     Trajectory(Trajectory),
-    /// Cycles, and what else is known of a machine; nothing where the whole model has no answer.
-    Cycles(Cycles, Option<Box<WholeCycles>>),
+    /// Cycles, and the margins of a machine by its whole model and by its cubic expansion; nothing where the whole model
+    /// has no answer.
+    Cycles(Cycles, Option<[Margin; 2]>),
     Zones(CertainZones),
     /// The fraction of the kicks that lead out of the basin of the sticking set, and the cost of the basin.
     Kicks(Share, Cost),

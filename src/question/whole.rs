@@ -4,18 +4,7 @@
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
 use crate::model::{Belt, Model, Parameters};
-use crate::portrait::basin::cycle::cycles_drawn;
 use crate::portrait::{Cycles, Margin, Portrait, picture_reach};
-
-/// What is known of a machine beside its cycles.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WholeCycles {
-    /// All of its motions, by the whole model.
-    pub portrait: Portrait,
-    /// The kicks that are survived by the whole model and by the cubic expansion, without units; every kick where the
-    /// expansion has no answer.
-    pub margins: [Margin; 2],
-}
 
 /// A motion with `between` points between the ends of each step: of the paper's oscillator, or of a machine by the whole
 /// model.
@@ -50,24 +39,20 @@ pub fn motion(
 }
 
 /// The cycles with their curves, `points` on each step, and the border of the basin: of the paper's oscillator, or of a
-/// machine by the `whole` model or by its cubic expansion.
+/// machine by the `whole` model or by its cubic expansion; beside them its margins by both, without units: every kick is
+/// survived where the expansion has no answer.
 pub fn cycles(
     parameters: &Parameters,
     machine: Option<&Belt>,
     whole: bool,
     points: u16,
     limits: &Limits,
-) -> Result<(Cycles, Option<Box<WholeCycles>>), Reason> {
-    let Some(belt) = machine else {
-        return Ok((cycles_drawn(parameters, points, limits)?, None));
-    };
+) -> Result<(Cycles, Option<[Margin; 2]>), Reason> {
     let expansion = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
+    let Some(belt) = machine else { return Ok((expansion?.drawn(parameters, points)?, None)) };
     let found = Portrait::of_belt(belt);
     let expanded = expansion.as_ref().map_or(Margin::ENDLESS, |found| found.margin);
-    let kinds = found.as_ref().ok().map(|found| {
-        let margins = [found.in_drawing(&found.margin), expanded];
-        Box::new(WholeCycles { portrait: found.clone(), margins })
-    });
+    let margins = found.as_ref().map(|found| [found.in_drawing(&found.margin), expanded]).ok();
     let shown = if whole { found } else { expansion };
-    Ok((shown?.drawn(parameters, points)?, kinds))
+    Ok((shown?.drawn(parameters, points)?, margins))
 }

@@ -199,9 +199,8 @@ pub fn share(share: Option<f64>) -> Option<String> {
 /// The margin of a machine by the model on show, and by how much the expansion is wrong.
 fn machine(session: &Session, width: usize) -> Option<String> {
     let fresh = !session.is_stale(Topic::Cycles, session.plot);
-    let kinds = session.kinds().filter(|_| fresh)?;
+    let [whole, cubic] = session.machine_margins().filter(|_| fresh)?;
     session.running()?;
-    let [whole, cubic] = kinds.margins;
     let error = match (whole.from_rest.displacement, cubic.from_rest.displacement) {
         (Some(own), Some(other)) if own > 0.0 => {
             let percent = 100.0 * (other / own - 1.0);

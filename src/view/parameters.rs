@@ -307,15 +307,15 @@ fn counted(session: &Session, found: &Cycles, width: usize) -> (String, Role) {
 
 /// What borders the basin of the sticking set, and which kicks it survives.
 fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<String> {
-    let kinds = session.kinds().filter(|_| session.draws_whole());
+    let whole = found.picture.as_ref().filter(|_| session.draws_whole());
     let border = match found.border {
         Border::NoBasin => "rest repels",
         Border::Grazing => "border: touches the belt",
         Border::Capture => "border: where the guide holds",
-        Border::None | Border::Unknown(_) if kinds.is_some_and(|kinds| kinds.portrait.neutral) => {
+        Border::None | Border::Unknown(_) if whole.is_some_and(|it| it.portrait.neutral) => {
             "all motions periodic"
         }
-        Border::None | Border::Unknown(_) if kinds.is_some() => "all motions come to rest",
+        Border::None | Border::Unknown(_) if whole.is_some() => "all motions come to rest",
         Border::None if found.parameters.r == 0.0 => "no sticking set",
         Border::None | Border::Unknown(_) => "all motions captured",
         Border::Cycle => "border: unstable cycle",

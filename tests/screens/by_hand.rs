@@ -12,7 +12,7 @@ use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{cos, exp, ln, sin, sin_cos};
 use hopfscope::portrait::basin::stability::Share;
 use hopfscope::portrait::{
-    BasinPicture, Border, Cycle, Cycles, Margin, RestMargin, Return, ReturnMap,
+    BasinPicture, Border, Cycle, Cycles, Margin, Portrait, RestMargin, Return, ReturnMap,
 };
 use hopfscope::proof::cycles::ProvedCycle;
 use hopfscope::proof::{ParameterBox, Proof};
@@ -181,7 +181,16 @@ pub fn picture(border: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture {
     let symmetric = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
     let works = Ledger::of_terms(&symmetric, (0.72, 0.72), [2.5, 0.25, -2.0, -0.75]);
     let works = vec![Ledger { residual: 3e-15, ..works }; curves.len()];
-    BasinPicture { curves, works, border, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
+    let portrait = Portrait::of_oscillator(&symmetric, 3.0, &Limits::PATIENT).unwrap();
+    BasinPicture {
+        curves,
+        works,
+        border,
+        margin,
+        area: Some(0.8),
+        lyapunov_share: Some(0.3),
+        portrait: Box::new(portrait),
+    }
 }
 
 /// A motion that winds inwards and comes to rest after three half swings.

@@ -82,7 +82,7 @@ impl Portrait {
     ///
     /// # Errors
     /// [`Reason`] why a cycle on a belt could not be followed once more.
-    pub fn drawn(&self, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
+    pub fn drawn(self, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
         let model = &self.model;
         let unit = model.drawing_length();
         let energy = model.stiffness * unit * unit;
@@ -114,8 +114,16 @@ impl Portrait {
             parameters: *parameters,
             cycles: self.cycles.iter().map(cycle).collect(),
             border: self.border,
-            picture: Some(BasinPicture { curves, works, border, margin, area, lyapunov_share }),
             cost: self.cost,
+            picture: Some(BasinPicture {
+                curves,
+                works,
+                border,
+                margin,
+                area,
+                lyapunov_share,
+                portrait: Box::new(self),
+            }),
         })
     }
 
@@ -125,6 +133,13 @@ impl Portrait {
         let unit = self.model.drawing_length();
         let scaled = |State { q, v }| State { q: q / unit, v: v / unit };
         edge.curve(points).into_iter().map(scaled).collect()
+    }
+
+    /// Displacement and velocity of a state in these units.
+    #[must_use]
+    pub fn from_drawing(&self, State { q, v }: State) -> (f64, f64) {
+        let unit = self.model.drawing_length();
+        (q * unit, v * unit * self.model.omega_0)
     }
 
     /// A margin of the machine in these units.
@@ -201,6 +216,8 @@ pub struct BasinPicture {
     /// Radius of Lyapunov's disk (24) as a fraction of the margin; above 1 it promises too much, because it
     /// leaves out D2 and D3.
     pub lyapunov_share: Option<f64>,
+    /// All motions; of a machine in SI units.
+    pub portrait: Box<Portrait>,
 }
 
 /// All limit cycles, by amplitude, and what they imply for the basin.

@@ -1,14 +1,10 @@
-//! The fate of a motion and its reason, from the cycles that divide its turning points.
-//!
-//! A motion turns repeatedly on the line `v = 0`, and its turning points on one side move in one direction,
-//! from unstable cycles towards stable ones. So the first of them decides, by its position relative to the
-//! cycles. The end time limits how far a motion is followed, but not what is known of it.
+//! The fate of a motion and its reason, from the portrait that its cycles come with. The end time limits how far a motion
+//! is followed, but not what is known of it.
 
 use std::ops::RangeBounds;
 
-use crate::flow::{Fate, Outcome, Sample, Trajectory};
+use crate::flow::{Fate, Outcome, Trajectory};
 use crate::model::Parameters;
-use crate::numerics::elementary::hypot;
 use crate::portrait::{Border, Cycle, Cycles, Portrait};
 use crate::scene::said;
 use crate::scene::said::TextCondition;
@@ -41,21 +37,31 @@ pub enum End {
 /// computed turning point, which carries the error of the motion up to there.
 const NEAR: [f64; 2] = [1e-12, 1e-8];
 
-/// Clearance in units of r above which it is resolved by the difference of two displacements.
-const RESOLVED: f64 = 1e-6;
+/// All motions by the model of these cycles, and what becomes of one of them; `None` if it is unknown.
+fn course<'a>(found: &'a Cycles, motion: &Trajectory) -> Option<(&'a Portrait, Fate)> {
+    let portrait = &found.picture.as_ref()?.portrait;
+    let (x, v) = portrait.from_drawing(motion.problem.initial);
+    Some((portrait, portrait.told_fate(x, v).ok()?))
+}
 
 /// The fate of a motion among these cycles; `None` if it is unknown.
 pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<End> {
-    match found.border {
-        border if border.parts_without_cycle() => beside_separatrix(found, motion),
-        _ if !found.cycles.is_empty() => among(found, motion),
-        Border::None if found.parameters.r > 0.0 => Some(End::Rests),
-        // Without friction, D2 and cycles, damping decides.
-        _ => {
-            let decays = found.parameters.d > 0.0 && found.parameters.d3 >= 0.0;
-            (found.parameters.d2 == 0.0 && decays).then_some(End::Decays)
-        }
+    if let Some(distance) = on_the_edge(found, motion) {
+        return Some(End::OnTheEdge { distance });
     }
+    let (portrait, fate) = course(found, motion)?;
+    Some(match fate {
+        Fate::Rest if portrait.model.guide_static > 0.0 => End::Rests,
+        Fate::Rest => End::Decays,
+        Fate::Cycle(_) => {
+            let cycle = portrait.tends_to(fate)?;
+            let (x, v) = portrait.from_drawing(motion.problem.initial);
+            let q_max = cycle.q_max / portrait.model.drawing_length();
+            End::Onto { q_max, grows: portrait.starts_within(cycle, x, v) }
+        }
+        Fate::Escapes => End::Grows,
+        Fate::Neutral | Fate::Moving | Fate::Unknown(_) => return None,
+    })
 }
 
 /// The fate without friction and nonlinear damping, where the sign of D decides and no cycles are needed.
@@ -66,76 +72,22 @@ fn linear(motion: &Trajectory) -> Option<End> {
     alone.then_some(if d > 0.0 { End::Decays } else { End::Grows })
 }
 
-/// The first turning point of a motion, and whether it is the start. Where turning points were not located,
-/// only the start can be one.
-fn turning(motion: &Trajectory, r: f64) -> Option<(f64, bool)> {
-    let start = motion.samples.first()?;
-    if start.v == 0.0 && start.q.abs() > r {
-        return Some((start.q, true));
-    }
-    motion.crossings.first().map(|crossing| (crossing.q, false))
-}
-
-/// The fate if there are cycles, each inside the next.
-fn among(found: &Cycles, motion: &Trajectory) -> Option<End> {
-    let r = found.parameters.r;
-    let Some((q, exact)) = turning(motion, r) else {
-        return matches!(motion.outcome, Outcome::Captured { .. }).then_some(End::Rests);
+/// How near the first turning point of a motion is to an unstable cycle, if so near that rounding decides. Where turning
+/// points were not located, only the start can be one.
+fn on_the_edge(found: &Cycles, motion: &Trajectory) -> Option<f64> {
+    let Parameters { d2, r, .. } = found.parameters;
+    let start = motion.problem.initial;
+    let (q, near) = if start.v == 0.0 && start.q.abs() > r {
+        (start.q, NEAR[0])
+    } else {
+        (motion.crossings.first()?.q, NEAR[1])
     };
     // In the frame of the side on which the motion turns; only D2 makes the sides different.
-    let mirrored = q < 0.0 && found.parameters.d2 != 0.0;
+    let mirrored = q < 0.0 && d2 != 0.0;
     let clearance = |cycle: &Cycle| if mirrored { -cycle.q_min - r } else { cycle.clearance };
-    if mirrored && found.cycles.iter().any(|cycle| clearance(cycle) <= RESOLVED * r) {
-        return None;
-    }
-    let own = q.abs() - r;
-    let distance = |cycle: &Cycle| (own / clearance(cycle) - 1.0).abs();
-    let onto =
-        |cycle: &Cycle| Some(End::Onto { q_max: cycle.q_max, grows: own < clearance(cycle) });
-    let near = NEAR[usize::from(!exact)];
-    if let Some(cycle) = found.cycles.iter().find(|cycle| distance(cycle) <= near) {
-        let edge = End::OnTheEdge { distance: distance(cycle) };
-        return if cycle.stable { onto(cycle) } else { Some(edge) };
-    }
-    let outer = found.cycles.iter().find(|cycle| clearance(cycle) > own);
-    let inner = found.cycles.iter().rfind(|cycle| clearance(cycle) < own);
-    match (inner, outer) {
-        (_, Some(outer)) if outer.stable => onto(outer),
-        (Some(inner), _) if inner.stable => onto(inner),
-        (None, Some(_)) if r > 0.0 => Some(End::Rests),
-        (None, Some(_)) => Some(End::Decays),
-        (Some(_), None) => Some(End::Grows),
-        _ => None,
-    }
-}
-
-/// The fate if a separatrix borders the basin: a motion that turns within the margin is captured; otherwise,
-/// its outcome tells.
-fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<End> {
-    let margin = found.picture.as_ref()?.margin.displacement;
-    let within = |q: f64| margin.is_some_and(|margin| q.abs() < margin);
-    let turned = || turning(motion, found.parameters.r).is_some_and(|(q, _)| within(q));
-    match motion.outcome {
-        Outcome::Escaped { .. } => Some(End::Grows),
-        Outcome::Captured { .. } => Some(End::Rests),
-        _ => turned().then_some(End::Rests),
-    }
-}
-
-/// The fate by the whole model.
-fn of_course((portrait, fate): (&Portrait, Fate), motion: &Trajectory) -> Option<End> {
-    Some(match fate {
-        Fate::Rest => End::Rests,
-        Fate::Cycle(_) => {
-            let cycle = portrait.tends_to(fate)?;
-            let size = |sample: &Sample| hypot(sample.q, sample.v);
-            let (first, last) = (motion.samples.first()?, motion.samples.last()?);
-            let grows = cycle.stable && size(first) <= size(last);
-            End::Onto { q_max: cycle.q_max / portrait.model.drawing_length(), grows }
-        }
-        Fate::Escapes => End::Grows,
-        Fate::Neutral | Fate::Moving | Fate::Unknown(_) => return None,
-    })
+    let unstable = found.cycles.iter().filter(|cycle| !cycle.stable);
+    let mut distances = unstable.map(|cycle| ((q.abs() - r) / clearance(cycle) - 1.0).abs());
+    distances.find(|distance| *distance <= near)
 }
 
 impl Session {
@@ -185,13 +137,16 @@ impl Session {
         self.cycles().filter(|found| found.parameters == motion.problem.parameters)
     }
 
+    /// All motions by the model that is drawn, and the fate of the one on show; `None` until its cycles are known.
+    pub fn course(&self) -> Option<(&Portrait, Fate)> {
+        let motion = self.trajectory()?;
+        course(self.cycles_beside(motion)?, motion)
+    }
+
     /// The fate of the motion that was computed last; `None` until its cycles are known, and for methods
     /// that miss the turning points.
     pub fn fate(&self) -> Option<End> {
         let motion = self.trajectory()?;
-        if self.draws_whole() {
-            return of_course(self.course()?, motion);
-        }
         if !motion.problem.method.spec().events || self.contact().is_some() {
             return None;
         }

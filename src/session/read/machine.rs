@@ -7,10 +7,9 @@
 use std::sync::Arc;
 
 use crate::fit::Fitted;
-use crate::flow::{Fate, Problem};
-use crate::model::{Belt, Body, Knob, Parameters, State};
-use crate::portrait::Portrait;
-use crate::question::whole::WholeCycles;
+use crate::flow::Problem;
+use crate::model::{Belt, Body, Knob, Parameters};
+use crate::portrait::Margin;
 use crate::question::zones::UncertainSubject;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Finding, Layer, Request, ScaledMachine, Setting, Topic, View};
@@ -65,21 +64,10 @@ impl Session {
         self.layers.contains(&Layer::Whole) && self.machine().is_some()
     }
 
-    /// All motions by the whole model, and what becomes of the one on show; `None` while they are not drawn or not known.
-    pub fn course(&self) -> Option<(&Portrait, Fate)> {
-        let motion = self.trajectory().filter(|_| self.draws_whole())?;
-        self.cycles_beside(motion)?;
-        let portrait = &self.kinds()?.portrait;
-        let State { q, v } = motion.problem.initial;
-        let unit = portrait.model.drawing_length();
-        let fate = portrait.told_fate(q * unit, v * unit * portrait.model.omega_0);
-        Some((portrait, fate.ok()?))
-    }
-
-    /// The whole model's answer about the cycles; `None` while it is not known.
-    pub fn kinds(&self) -> Option<&WholeCycles> {
+    /// The margins of the machine by its whole model and by its cubic expansion; `None` while they are not known.
+    pub fn machine_margins(&self) -> Option<[Margin; 2]> {
         match self.answer(Topic::Cycles, self.plot)? {
-            Finding::Cycles(_, kinds) => kinds.as_deref(),
+            Finding::Cycles(_, margins) => *margins,
             _ => None,
         }
     }

@@ -35,9 +35,9 @@ use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
-use crate::model::{Ledger, State};
+use crate::model::{Ledger, Parameters, State};
 use crate::numerics::{Twofold, ln};
-use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, ReturnMap, Share};
+use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, Portrait, ReturnMap, Share};
 use crate::proof::{ParameterBox, Proof};
 use crate::question::Rows;
 use crate::question::zones::{CertainZones, Extent};
@@ -153,6 +153,12 @@ impl Trial {
 }
 
 /// An unstable cycle at `r + 1` and a stable one at `r + 3`.
+/// That of an oscillator of which the made-up answers say something else.
+fn portrait() -> Box<Portrait> {
+    let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+    Box::new(Portrait::of_oscillator(&parameters, 3.0, &Limits::PATIENT).expect("it has one"))
+}
+
 fn cycle(stable: bool, r: f64) -> Cycle {
     let clearance = if stable { 3.0 } else { 1.0 };
     let q = r + clearance;
@@ -248,6 +254,7 @@ pub fn by_hand(request: &Request) -> Finding {
                     margin: Margin::ENDLESS,
                     area: None,
                     lyapunov_share: None,
+                    portrait: portrait(),
                 }),
                 cost,
             },

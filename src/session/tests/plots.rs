@@ -1,6 +1,6 @@
 //! Cursor, zoom, pan and fit; starts beside the cycle.
 
-use super::Trial;
+use super::{Trial, portrait};
 use crate::model::State;
 use crate::portrait::{BasinPicture, Border, Cycles, Margin};
 use crate::scene::{Finding, Point, Span, Topic, Window};
@@ -152,6 +152,7 @@ fn a_separatrix_has_two_sides_too() {
             margin,
             area: None,
             lyapunov_share: None,
+            portrait: portrait(),
         });
         // r is 0.1, and the clearance is 1.
         trial.press("i");
