@@ -41,10 +41,13 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
     let state = |name, holds, detail| Condition { name, holds, essential: true, detail };
     let whiteness = &estimate.whiteness;
     let kind = match (whiteness.systematic, whiteness.white) {
-        (true, _) => "they swing with the motion: the model leaves something out",
+        (true, _) => {
+            "they swing with the motion: the model leaves something out, not covered by errors"
+        }
         (_, true) => "white",
-        _ => "correlated as filtered noise is",
+        _ => "correlated as filtered noise is, which the errors allow for",
     };
+    let kind = format!("{kind} (correlation {:.2})", whiteness.correlation);
     let ratio = estimate.covariance.deviation / estimate.noise.deviation;
     let run = longest_run(estimate.left_out.iter().map(|why| *why == Some(Dropped::Outlier)));
     let freedom = estimate
@@ -60,7 +63,7 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
     });
     let enough = FEWEST.min(real(margins.draws.len())).max(real(margins.question.needed()));
     let mut all = vec![
-        state("residuals", !whiteness.systematic, kind.to_owned()),
+        state("residuals", !whiteness.systematic, kind),
         state(
             "outliers",
             run < RUN,
@@ -93,18 +96,28 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
 /// Whether the zero stays, or drifts as is fitted. A drift too small to be seen is for caution.
 fn zero(estimate: &Estimate) -> Condition {
     let left = estimate.left_drift;
+    let unit = estimate.data.signal_unit();
+    let size = |value: f64| format!("{value:.2e} {unit}").trim_end().to_owned();
     let (holds, essential, detail) = match estimate.drift() {
         _ if left.is_seen() => {
-            (false, true, format!("the zero drifts by {:.2e} over the record", left.change))
+            (false, true, format!("it drifts by {} over the record", size(left.change)))
         }
-        Some(FittedDrift { change, .. }) => {
-            let detail = format!("it drifts by {change:.2e} over the record, which is fitted");
+        Some(FittedDrift { change, standard_error, bend, bend_standard_error }) => {
+            let with_error = |value, error| format!("{} +- {error:.1e}", size(value));
+            let along = match bend {
+                0.0 => "along a line".to_owned(),
+                _ => format!("its ends {} above its middle", with_error(bend, bend_standard_error)),
+            };
+            let change = with_error(change, standard_error);
+            let detail =
+                format!("it drifts by {change}, {along}, which is fitted: the offset is its mean");
             (!estimate.whiteness.systematic, true, detail)
         }
         None if left.moved > IMPOSSIBLE => {
             let detail = format!(
-                "a drift by {:.2e}, too small to be seen, would move a number by {:.1} standard errors",
-                left.change, left.moved
+                "a drift by {}, too small to be seen, would move a number by {:.1} standard errors",
+                size(left.change),
+                left.moved
             );
             (false, false, detail)
         }

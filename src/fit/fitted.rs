@@ -127,12 +127,6 @@ impl Fitted {
         self.record.unit.as_deref().unwrap_or("")
     }
 
-    /// The unit of the signal.
-    #[must_use]
-    pub fn signal_unit(&self) -> String {
-        self.record.signal.unit(self.unit())
-    }
-
     /// The unit of a number: the offset is one of the signal.
     #[must_use]
     pub fn unit_of(&self, row: &NameSpec) -> String {

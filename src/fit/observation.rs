@@ -37,6 +37,12 @@ impl Record {
         self.t.last().zip(self.t.first()).map_or(0.0, |(last, first)| last - first)
     }
 
+    /// The unit of the signal; empty if unknown.
+    #[must_use]
+    pub fn signal_unit(&self) -> String {
+        self.signal.unit(self.unit.as_deref().unwrap_or_default())
+    }
+
     /// The offset at a time.
     #[must_use]
     pub fn zero(&self, p: &Unknowns, time: f64) -> f64 {

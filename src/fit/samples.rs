@@ -56,7 +56,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         guessed([0.0; 2]).ok_or(Unfit::NoSwings)?;
     let part = |range: Range<usize>, runs: &mut Runs| {
         let (t, x) = (t[range.clone()].to_vec(), x[range.clone()].to_vec());
-        let part = Record { t, x, signal, ..Record::default() };
+        let part = Record { t, x, ..record.clone() };
         let found = samples(&part, question, runs).ok();
         found.filter(|it| !it.whiteness.systematic).map(|it| of_part(it, range, &within))
     };
@@ -69,7 +69,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     }
     let loss = loss_of(question.loss, &noise);
     let reach = reach(&swinging);
-    let data = Record { t: t.clone(), x: x.clone(), signal, ..Record::default() };
+    let data = Record { t: t.clone(), x: x.clone(), ..record.clone() };
     let task = Task::new(&data, beginnings[0].start, free, reach);
     let mut task = Task { loss, noise: noise.deviation, ..task };
     let mut found = task.search(&beginnings, runs)?;

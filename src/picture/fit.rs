@@ -27,7 +27,7 @@ pub fn pictures(fitted: &Fitted) -> Vec<Picture<'static>> {
 fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
     let name = ["x", "x'", "x''"][fitted.record.signal.order()];
-    let name = with_unit(name, &fitted.signal_unit());
+    let name = with_unit(name, &fitted.record.signal_unit());
     let mut picture = Picture::new("record and fit", "t [s]", name, EMPTY);
     let line = LineStyle::new("record", Role::Ghost, Dash::Solid);
     picture.curve(line, seen.points.iter().map(|[t, x, _]| at(*t, *x)));
@@ -46,7 +46,7 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
 
 pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
-    let name = with_unit("measured - fitted", &fitted.signal_unit());
+    let name = with_unit("measured - fitted", &fitted.record.signal_unit());
     let mut picture = Picture::new("residuals", "t [s]", name, EMPTY);
     let line = LineStyle::new("residuals", Role::Ghost, Dash::Solid);
     picture.curve(line, seen.points.iter().map(|[t, _, e]| at(*t, *e)));

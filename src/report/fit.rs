@@ -8,7 +8,7 @@ use crate::fit::{
     OMEGA0, ProfileInterval, Q0, Record, StartKind, combinations, left_out, rows,
 };
 use crate::portrait::Kicks;
-use crate::words::fit::{left_out as counts, remarks, sentences, signed};
+use crate::words::fit::{left_out as counts, sentences, signed, undetermined};
 use crate::words::number::{in_unit, resolved, with_error};
 use crate::words::{duration, significant};
 
@@ -40,6 +40,7 @@ pub fn fit(fitted: &Fitted) -> Answer<'_> {
             estimate_columns().table(physical()).lean()
         })
         .lines([start(fitted)])
+        .lines(undetermined(fitted))
         .heading("Margin")
         .captioned(draws(fitted), || margins(fitted))
         .heading("Correlations")
@@ -47,8 +48,6 @@ pub fn fit(fitted: &Fitted) -> Answer<'_> {
         .heading("Left out")
         .lines(counts(fitted))
         .lines([places(fitted)])
-        .heading("Remarks")
-        .lines(remarks(fitted))
         .costing(
             format!("{with} motions with derivatives, {plain} without, {}", duration(seconds)),
             motions,
@@ -291,7 +290,7 @@ fn start(fitted: &Fitted) -> String {
         });
     }
     let noise = significant(estimate.covariance.deviation, 3);
-    let noise = in_unit(&noise, &fitted.signal_unit());
+    let noise = in_unit(&noise, &fitted.record.signal_unit());
     format!("start: {}; noise {noise}", parts.join(", "))
 }
 

@@ -1,13 +1,15 @@
 //! What is said of a fit, in sentences: what was left out, what cannot be determined, whether the model holds, and what may
 //! be signed, one sentence about the kicks that are survived, one-sided, with the conditions under which it holds.
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
 
 use super::counted;
-use super::number::{in_unit, rounded_down, significant, with_error, with_unit};
+use super::number::{in_unit, rounded_down, significant, with_unit};
 use crate::fit::{
-    Combination, Condition, D, Dropped, Fitted, FittedDrift, MarginQuestion, Margins, NAMES,
-    NameSpec, R, Rival, StartKind, combinations, conditions,
+    Combination, Condition, D, Dropped, Fitted, MarginQuestion, Margins, NAMES, NameSpec, R, Rival,
+    StartKind, combinations, conditions,
 };
 use crate::numerics::count::real;
 use crate::portrait::Margin;
@@ -15,19 +17,21 @@ use crate::portrait::Margin;
 /// All that is said of a fit.
 pub fn sentences(fitted: &Fitted) -> Vec<String> {
     let statement = signed(fitted);
+    let told = statement.conditions.iter().filter(|it| TOLD.contains(&it.name));
+    let told = told.map(|it| format!("{}: {}", it.name, it.detail));
     let broken = statement.broken().into_iter();
-    let all = broken.chain(left_out(fitted)).chain(remarks(fitted));
-    all.chain([statement.text]).collect()
+    let all = broken.chain(left_out(fitted)).chain(undetermined(fitted)).chain(told);
+    all.chain([statement.text.clone()]).collect()
 }
 
-/// What cannot be determined, and whether the model holds.
-pub fn remarks(fitted: &Fitted) -> Vec<String> {
-    let mut all: Vec<String> = drift(fitted).into_iter().collect();
-    all.extend(combinations(&fitted.estimate).iter().map(|one| inseparable(fitted, one)));
-    all.extend(bounds(fitted));
-    all.extend(rivals(fitted));
-    all.push(residuals(fitted));
-    all
+/// Conditions that are told although they hold.
+const TOLD: [&str; 3] = ["residuals", "zero", "alternatives"];
+
+/// What cannot be determined, or not by a standard error.
+pub fn undetermined(fitted: &Fitted) -> Vec<String> {
+    let combinations = combinations(&fitted.estimate);
+    let inseparable = combinations.iter().map(|one| inseparable(fitted, one));
+    inseparable.chain(bounds(fitted)).collect()
 }
 
 /// `D and r`, `D, D3 and r`.
@@ -57,21 +61,6 @@ pub fn left_out(fitted: &Fitted) -> Vec<String> {
     let samples = REASONS.map(|(why, words)| (fitted.estimate.count(why), "sample", words));
     let said = rows.into_iter().chain(samples).filter(|(count, ..)| *count > 0);
     said.map(|(count, what, why)| format!("left out: {} {why}", counted(count, what))).collect()
-}
-
-/// How far the zero drifts.
-fn drift(fitted: &Fitted) -> Option<String> {
-    let FittedDrift { change, standard_error, bend, bend_standard_error } =
-        fitted.estimate.drift()?;
-    let unit = fitted.signal_unit();
-    let number = |value: f64, error: f64| with_error(value, error, &unit);
-    let along = if bend == 0.0 {
-        "along a line".to_owned()
-    } else {
-        format!("its ends {} above its middle", number(bend, bend_standard_error))
-    };
-    let change = number(change, standard_error);
-    Some(format!("the zero drifts by {change} over the record, {along}: the offset is its mean"))
 }
 
 /// `D + 0.069 r`.
@@ -123,36 +112,6 @@ fn bounds(fitted: &Fitted) -> Vec<String> {
         ));
     }
     said
-}
-
-fn rivals(fitted: &Fitted) -> Vec<String> {
-    let others = fitted.estimate.contenders().skip(1);
-    others
-        .map(|rival| {
-            format!(
-                "{} half swings explain the record as well (delta chi^2 = {}): the intervals cover both",
-                rival.half_swings,
-                significant(rival.delta_chi2, 2)
-            )
-        })
-        .collect()
-}
-
-fn residuals(fitted: &Fitted) -> String {
-    let found = &fitted.estimate.whiteness;
-    let correlation = significant(found.correlation, 2);
-    if found.systematic {
-        return format!(
-            "the residuals swing with the motion (correlation {correlation}): the model leaves something out, and the \
-             errors do not cover that"
-        );
-    }
-    if found.white {
-        return format!("the residuals are white noise (correlation {correlation})");
-    }
-    format!(
-        "the residuals are correlated from sample to sample ({correlation}) as filtered noise is; the errors allow for it"
-    )
 }
 
 /// The sentence with its numbers.
@@ -353,20 +312,20 @@ fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
 /// Whether all motions that explain the record are among the draws.
 fn alternatives(fitted: &Fitted) -> Condition {
     let estimate = &fitted.estimate;
-    let listed = |rivals: &mut dyn Iterator<Item = &Rival>| {
-        let mut numbers: Vec<usize> = rivals.map(|it| it.half_swings).collect();
-        numbers.sort_unstable();
-        numbers.dedup();
-        numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+    let tried: BTreeSet<usize> = estimate.rivals.iter().map(|it| it.half_swings).collect();
+    let tried: Vec<String> = tried.iter().map(usize::to_string).collect();
+    let fitting = |it: &Rival| match it.delta_chi2 {
+        0.0 => it.half_swings.to_string(),
+        rise => format!("{} (delta chi^2 = {})", it.half_swings, significant(rise, 2)),
     };
-    let tried = listed(&mut estimate.rivals.iter());
-    let fitting = listed(&mut estimate.contenders());
+    let fitting: Vec<String> = estimate.contenders().map(fitting).collect();
     // Normal draws come from the best motion only; those that follow the likelihood visit the others, too.
-    let holds = estimate.contenders().count() < 2 || fitted.margins.motions > 0;
+    let holds = fitting.len() < 2 || fitted.margins.motions > 0;
     let releases = match estimate.start {
         StartKind::Release if !estimate.data.has_peaks() => ", and releases some periods off,",
         _ => "",
     };
+    let (tried, fitting) = (tried.join(", "), fitting.join(", "));
     let detail = format!("{tried} half swings{releases} compared; the record allows {fitting}");
     Condition { name: "alternatives", holds, essential: false, detail }
 }
