@@ -78,8 +78,8 @@ fn step_of_a_held_number(bencher: Bencher, (_, motion, samples): &(&str, Motion,
         .expect("a decay is understood");
     let step = found.p[R] + 2.0 * found.covariance.error(R);
     bencher.bench(|| {
-        let mut runs = Runs::new(&|| false);
+        let runs = Runs::new(&|| false);
         let guess = following(&found, &[(R, black_box(step))]);
-        found.task(&[R]).solve_roughly(guess, &mut runs)
+        found.task(&[R], &runs).solve_roughly(guess)
     });
 }

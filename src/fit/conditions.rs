@@ -133,7 +133,7 @@ fn zero(estimate: &Estimate) -> Condition {
 ///
 /// # Errors
 /// [`Unfit::Interrupted`].
-pub fn repeated(estimate: &Estimate, question: &Question, runs: &mut Runs) -> Result<f64, Unfit> {
+pub fn repeated(estimate: &Estimate, question: &Question, runs: &Runs) -> Result<f64, Unfit> {
     let record = simulated(estimate);
     let fit = if question.peaks { peaks } else { samples };
     let again = interrupted(fit(&record, question, runs))?;

@@ -9,7 +9,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::task::{LinearResiduals, Optimum, Runs, Task, interrupted};
+use super::task::{LinearResiduals, Optimum, Task, interrupted};
 use super::{Bound, R, Seen, UNKNOWNS, Unfit, Unknowns, UnknownsMatrix, direction};
 use crate::numerics::powi;
 
@@ -54,29 +54,23 @@ impl Task<'_> {
     ///
     /// # Errors
     /// [`Unfit`] if even the guess cannot be compared with the record.
-    pub fn solve(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
-        self.solve_within(SETTLED, MOST, guess, runs)
+    pub fn solve(&self, guess: Unknowns) -> Result<Optimum, Unfit> {
+        self.solve_within(SETTLED, MOST, guess)
     }
 
     /// The same to a fraction of a standard error, which suffices for a start or for the profile of the loss.
     ///
     /// # Errors
     /// As [`Task::solve`].
-    pub fn solve_roughly(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
-        self.solve_within(self.unit(0.01), FEW, guess, runs)
+    pub fn solve_roughly(&self, guess: Unknowns) -> Result<Optimum, Unfit> {
+        self.solve_within(self.unit(0.01), FEW, guess)
     }
 
-    fn solve_within(
-        &self,
-        enough: f64,
-        most: usize,
-        guess: Unknowns,
-        runs: &mut Runs,
-    ) -> Result<Optimum, Unfit> {
+    fn solve_within(&self, enough: f64, most: usize, guess: Unknowns) -> Result<Optimum, Unfit> {
         // A descent may not leave its region.
         let permits = |seen: &Seen| self.within.is_none_or(|region| region == seen.region);
         let mut p = guess;
-        let mut seen = self.evaluated(&p, true, runs)?;
+        let mut seen = self.evaluated(&p, true)?;
         if !permits(&seen) {
             return Err(Unfit::NoMotion);
         }
@@ -91,7 +85,7 @@ impl Task<'_> {
                     break None;
                 };
                 let trial = p + step;
-                let found = interrupted(self.evaluated(&trial, false, runs))?;
+                let found = interrupted(self.evaluated(&trial, false))?;
                 let found = found.filter(permits).map(|seen| self.cost(&seen));
                 let gain = found.map_or(-1.0, |found| (cost - found) / predicted);
                 if let Some(found) = found.filter(|found| *found < cost) {
@@ -109,7 +103,7 @@ impl Task<'_> {
             let Some((trial, found)) = taken else { break };
             let settled = (cost - found) <= enough * cost;
             (p, cost) = (trial, found);
-            seen = self.evaluated(&p, true, runs)?;
+            seen = self.evaluated(&p, true)?;
             if settled {
                 break;
             }

@@ -4,8 +4,8 @@
 use serde::Serialize;
 
 use super::{
-    BEND, Beginning, Covariance, Extreme, LinearResiduals, NAMES, Optimum, Runs, SLOPE, Task,
-    UNKNOWNS, Unfit, Unknowns, autocorrelations, drift, interrupted, middle_of, robust,
+    BEND, Beginning, Covariance, Extreme, LinearResiduals, NAMES, Optimum, SLOPE, Task, UNKNOWNS,
+    Unfit, Unknowns, autocorrelations, drift, interrupted, middle_of, robust,
 };
 use crate::numerics::{powi, real};
 
@@ -117,7 +117,6 @@ impl Task<'_> {
         &self,
         found: &[Optimum],
         guessed: impl FnOnce() -> Vec<Beginning>,
-        runs: &mut Runs,
     ) -> Result<Option<Drifting>, Unfit> {
         /// Fall of chi-squared below which a line does as well as a parabola.
         const NOTHING: f64 = 4.0;
@@ -145,14 +144,14 @@ impl Task<'_> {
         let mut wider = self.with_drift();
         // Only where a first descent comes much closer, or explains the record, is it worth the search.
         let mut helps = false;
-        for (start, guess, _) in wider.ranked(&beginnings, runs)? {
-            let tried = interrupted(wider.starting(start).solve(guess, runs))?;
+        for (start, guess, _) in wider.ranked(&beginnings)? {
+            let tried = interrupted(wider.starting(start).solve(guess))?;
             helps |= tried.is_some_and(|it| MUCH * it.cost < best.cost || wider.explains(&it));
         }
         if !helps {
             return Ok(None);
         }
-        let Some(mut drifting) = interrupted(wider.search(&beginnings, runs))? else {
+        let Some(mut drifting) = interrupted(wider.search(&beginnings))? else {
             return Ok(None);
         };
         let least = &drifting[0];
@@ -167,7 +166,7 @@ impl Task<'_> {
             for minimum in &mut drifting {
                 minimum.p[BEND] = 0.0;
             }
-            wider.polish(&mut drifting, runs)?;
+            wider.polish(&mut drifting)?;
         }
         Ok(Some((drifting, wider.free)))
     }

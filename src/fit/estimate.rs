@@ -5,10 +5,9 @@ use nalgebra::{Matrix2, Vector2};
 use serde::Serialize;
 
 use super::{
-    BEND, Choice, Covariance, Dropped, Extreme, FittedDrift, HIDDEN, Left, LeftDrift, NAMES,
-    NameSpec, Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, Signal,
-    StartKind, Task, UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, interrupted, left_over,
-    whiteness,
+    BEND, Choice, Covariance, Dropped, Extreme, FittedDrift, HIDDEN, LeftDrift, NAMES, NameSpec,
+    Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, Signal, StartKind,
+    Task, UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, interrupted, left_over, whiteness,
 };
 use crate::model::State;
 use crate::numerics::{cos, sin};
@@ -132,29 +131,25 @@ impl Estimate {
 ///
 /// # Errors
 /// [`Unfit::Blind`] if an unknown has no influence; [`Unfit::Interrupted`].
-pub fn judged(task: &Task, found: &[Optimum], runs: &mut Runs) -> Result<Estimate, Unfit> {
+pub fn judged(task: &Task, found: &[Optimum]) -> Result<Estimate, Unfit> {
     /// Number of times that a profile may come upon a lower minimum.
     const LOWER: usize = 4;
     let task = task.starting(found[0].start);
     let mut found = found.to_vec();
     for _ in 0..LOWER {
-        match assessed(&task, &found, runs)? {
+        match assessed(&task, &found)? {
             (estimate, None) => return Ok(estimate),
             (_, Some(lower)) => {
-                found.insert(0, *lower);
-                found = task.valleys(found, runs)?;
+                found.insert(0, lower);
+                found = task.valleys(found)?;
             }
         }
     }
-    Ok(assessed(&task, &found, runs)?.0)
+    Ok(assessed(&task, &found)?.0)
 }
 
 /// The estimate, and a lower minimum if a profile comes upon one; its interval is then open.
-fn assessed(
-    task: &Task,
-    found: &[Optimum],
-    runs: &mut Runs,
-) -> Result<(Estimate, Option<Box<Optimum>>), Unfit> {
+fn assessed(task: &Task, found: &[Optimum]) -> Result<(Estimate, Option<Optimum>), Unfit> {
     let (data, best) = (task.data, &found[0]);
     let p = best.p;
     let kept = task.values(&best.seen);
@@ -187,7 +182,7 @@ fn assessed(
         delta_chi2: (other.cost - best.cost) / unit,
         p: other.p,
     };
-    let (intervals, lower) = intervals(task, found, covariance.variance, &whiteness, runs)?;
+    let (intervals, lower) = intervals(task, found, covariance.variance, &whiteness)?;
     let left_drift = LeftDrift::of(task, best, &covariance);
     let estimate = Estimate {
         choice: Choice::default(),
@@ -206,7 +201,7 @@ fn assessed(
         extremes: Vec::new(),
         noise: Noise::default(),
         dropped: task.dropped.iter().copied().take(data.x.len()).collect(),
-        motions: (runs.with_derivatives, runs.plain),
+        motions: (task.runs.with_derivatives.get(), task.runs.plain.get()),
         reach: task.reach,
         left_drift,
         repeated: None,
@@ -220,8 +215,7 @@ fn intervals(
     found: &[Optimum],
     variance: f64,
     whiteness: &Whiteness,
-    runs: &mut Runs,
-) -> Result<([ProfileInterval; UNKNOWNS], Option<Box<Optimum>>), Unfit> {
+) -> Result<([ProfileInterval; UNKNOWNS], Option<Optimum>), Unfit> {
     /// How much of the rise of chi-squared to the minimum of another region counts. The lowest of several minima is lower by
     /// chance than any one of them: so they count up to a chi-squared of 9, not of 3.84.
     const CHOSEN: f64 = 0.43;
@@ -231,28 +225,22 @@ fn intervals(
         let memory = &whiteness.autocorrelation;
         let Some(covariance) = Covariance::at(task, optimum, memory) else { continue };
         let task = task.around(&optimum.seen);
-        let profile = Profile {
+        let mut profile = Profile {
             task: &task,
             optimum,
             covariance: &covariance,
             least: optimum.cost - CHOSEN * (optimum.cost - found[0].cost),
             variance,
+            lower: None,
         };
         for place in task.columns() {
             // If the model leaves something out there is no likelihood, and a profile would be meaningless.
             let one = if whiteness.systematic {
-                Ok(Some(profile.straight(place)).filter(|_| number == 0))
+                Some(profile.straight(place)).filter(|_| number == 0)
             } else {
-                profile.interval(place, runs)
+                profile.interval(place)?
             };
-            let one = match one {
-                Ok(one) => one,
-                Err(Left::Interrupted(reason)) => return Err(reason),
-                Err(Left::Lower(optimum)) => {
-                    lower = Some(optimum);
-                    Some(ProfileInterval::default())
-                }
-            };
+            lower = profile.lower.take().or(lower);
             let interval = &mut intervals[place];
             *interval = match one {
                 Some(one) if number == 0 => one,
@@ -305,8 +293,8 @@ fn stretches(samples: impl Iterator<Item = (f64, bool)>) -> Vec<LeftOut> {
 
 impl Estimate {
     /// What was estimated, with these unknowns held. The loss is that of the samples that count.
-    pub fn task(&self, held: &[usize]) -> Task<'_> {
-        let task = Task::new(&self.data, self.start, self.free, self.reach);
+    pub fn task<'a>(&'a self, held: &[usize], runs: &'a Runs<'a>) -> Task<'a> {
+        let task = Task::new(&self.data, self.start, self.free, self.reach, runs);
         held.iter()
             .fold(Task { dropped: &self.left_out, ..task }, |task, place| task.holding(*place))
     }
@@ -316,9 +304,9 @@ impl Estimate {
     ///
     /// # Errors
     /// [`Unfit`] when interrupted.
-    pub fn unit(&self, runs: &mut Runs) -> Result<f64, Unfit> {
-        let task = self.task(&[]);
-        let cost = task.cost(&task.evaluated(&self.p, false, runs)?);
+    pub fn unit(&self, runs: &Runs) -> Result<f64, Unfit> {
+        let task = self.task(&[], runs);
+        let cost = task.cost(&task.evaluated(&self.p, false)?);
         Ok(cost / self.covariance.freedom * self.covariance.inflation(R))
     }
 }
@@ -327,14 +315,10 @@ impl Estimate {
 ///
 /// # Errors
 /// [`Unfit::NoMotion`] if the motion with these numbers escapes; [`Unfit::Blind`]; [`Unfit::Interrupted`].
-pub fn held(
-    estimate: &Estimate,
-    numbers: &[(usize, f64)],
-    runs: &mut Runs,
-) -> Result<Estimate, Unfit> {
+pub fn held(estimate: &Estimate, numbers: &[(usize, f64)], runs: &Runs) -> Result<Estimate, Unfit> {
     let places: Vec<usize> = numbers.iter().map(|(place, _)| *place).collect();
-    let task = estimate.task(&places);
-    let optimum = task.solve_roughly(following(estimate, numbers), runs)?;
+    let task = estimate.task(&places, runs);
+    let optimum = task.solve_roughly(following(estimate, numbers))?;
     let autocorrelation = &estimate.whiteness.autocorrelation;
     let covariance = Covariance::at(&task, &optimum, autocorrelation).ok_or(Unfit::Blind)?;
     let half_swings = optimum.seen.turns.len();
@@ -373,7 +357,7 @@ pub fn contour(
     estimate: &Estimate,
     places: [usize; 2],
     rise: f64,
-    runs: &mut Runs,
+    runs: &Runs,
 ) -> Result<Vec<[f64; 2]>, Unfit> {
     /// Number of directions in which the contour is located.
     const DIRECTIONS: u32 = 24;
@@ -381,8 +365,8 @@ pub fn contour(
     let [one, other] = places;
     let plane = Matrix2::new(of(one, one), of(one, other), of(other, one), of(other, other));
     let Some(root) = plane.cholesky() else { return Ok(Vec::new()) };
-    let task = estimate.task(&places);
-    let cost = task.cost(&task.evaluated(&estimate.p, false, runs)?);
+    let task = estimate.task(&places, runs);
+    let cost = task.cost(&task.evaluated(&estimate.p, false)?);
     let unit = estimate.unit(runs)?;
     let mut points = Vec::new();
     for index in 0..DIRECTIONS {
@@ -390,7 +374,7 @@ pub fn contour(
         let step = rise.sqrt() * root.l() * Vector2::new(cos(angle), sin(angle));
         // The linear model predicts the other unknowns.
         let along = estimate.covariance.following(&[(one, step[0]), (other, step[1])]);
-        if let Some(at) = risen(&task, &estimate.p, along, (cost, rise * unit), runs)? {
+        if let Some(at) = risen(&task, &estimate.p, along, (cost, rise * unit))? {
             points.push([estimate.p[one] + at * step[0], estimate.p[other] + at * step[1]]);
         }
     }
@@ -405,7 +389,6 @@ fn risen(
     p: &Unknowns,
     along: Unknowns,
     (cost, rise): (f64, f64),
-    runs: &mut Runs,
 ) -> Result<Option<f64>, Unfit> {
     /// Number of refits. Each corrects the distance by the rise found before, as for a quadratic loss; if
     /// the loss is quadratic, the first distance is right.
@@ -415,7 +398,7 @@ fn risen(
     for _ in 0..ROUNDS {
         let mut guess = p + at * along;
         guess[R] = guess[R].max(0.0);
-        let found = interrupted(task.solve_roughly(guess, runs))?;
+        let found = interrupted(task.solve_roughly(guess))?;
         let Some(found) = found else { return Ok(None) };
         let part = ((found.cost - cost).max(0.0) / rise).sqrt();
         if (part - 1.0).abs() < 0.03 || part < 1.0 && at >= farthest {

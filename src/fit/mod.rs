@@ -96,7 +96,7 @@ pub(crate) use {
     },
     observation::{Bound, Region, Seen, drift},
     posterior::{Drawn, FEWEST, drawn},
-    profile::{Left, Profile, ProfileInterval},
+    profile::{Profile, ProfileInterval},
     question::{Loss, assigned, listed, placed, reach},
     record::decoded,
     residuals::{
@@ -130,13 +130,13 @@ pub fn estimate(
     question: &Question,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Estimate, Unfit> {
-    let mut runs = Runs { most: MOST_MOTIONS, ..Runs::new(interrupted) };
+    let runs = Runs { most: MOST_MOTIONS, ..Runs::new(interrupted) };
     let fit = if question.peaks { peaks } else { samples };
-    let found = fit(record, question, &mut runs)?;
+    let found = fit(record, question, &runs)?;
     // What is known to be wrong need not be tested again.
     if found.whiteness.systematic {
         return Ok(found);
     }
-    let repeated = Some(repeated(&found, question, &mut Runs::new(interrupted))?);
+    let repeated = Some(repeated(&found, question, &Runs::new(interrupted))?);
     Ok(Estimate { repeated, ..found })
 }

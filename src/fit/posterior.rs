@@ -38,7 +38,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     let is_bent = |place: usize| estimate.free[place] && !estimate.intervals[place].quadratic;
     let quadratic = ![D, D2, D3, R].into_iter().any(is_bent);
     let interrupted = || Err(Reason::Interrupted);
-    let Ok(frame) = PosteriorFrame::of(estimate, &mut Runs::new(limits.interrupted)) else {
+    let Ok(frame) = PosteriorFrame::of(estimate, &Runs::new(limits.interrupted)) else {
         return interrupted();
     };
     if quadratic || estimate.whiteness.systematic {
@@ -106,8 +106,9 @@ fn resampled(points: &[(Unknowns, f64)], weights: &[f64], draws: usize) -> Vec<U
 
 /// The residuals of all motions as seen along the gradients of the estimate.
 struct PosteriorFrame<'a> {
-    task: Task<'a>,
     estimate: &'a Estimate,
+    /// The places of the free unknowns.
+    places: Vec<usize>,
     /// Orthonormal directions, a row for each residual that counts.
     along: Vec<Unknowns>,
     /// The triangular factor of the gradients of the estimate.
@@ -121,28 +122,27 @@ struct PosteriorFrame<'a> {
 }
 
 impl<'a> PosteriorFrame<'a> {
-    fn of(estimate: &'a Estimate, runs: &mut Runs) -> Result<Self, Unfit> {
-        let task = estimate.task(&[]);
-        let seen = task.evaluated(&estimate.p, true, runs)?;
+    fn of(estimate: &'a Estimate, runs: &Runs) -> Result<Self, Unfit> {
+        let task = estimate.task(&[], runs);
+        let seen = task.evaluated(&estimate.p, true)?;
         let (upper, along) = (task.factor(&seen).upper, task.directions(&seen));
         // The covariance of the estimate is U^-1 C U^-T for errors with the covariance C along the directions.
         let errors = upper * estimate.covariance.matrix * upper.transpose() + task.held();
         let unit = estimate.unit(runs)?;
         let root = errors.cholesky().map(|it| it.l());
         let root = root.unwrap_or_else(|| unit.sqrt() * UnknownsMatrix::identity());
-        let center = Unknowns::zeros();
-        let mut frame = PosteriorFrame { task, estimate, along, upper, root, center, unit };
-        frame.center = frame.seen_along(&seen).0;
-        Ok(frame)
+        let (center, _) = seen_along(&task, &along, &seen);
+        let places = task.columns().collect();
+        Ok(PosteriorFrame { estimate, places, along, upper, root, center, unit })
     }
 
     /// Errors along the directions, the `index`th of evenly spread ones.
     fn errors(&self, index: usize) -> Unknowns {
-        let width = self.task.columns().count();
+        let width = self.places.len();
         let even = evenly(index, width + 1);
         let mut normal = Unknowns::zeros();
-        for (place, even) in self.task.columns().zip(&even) {
-            normal[place] = normal_at(*even);
+        for (place, even) in self.places.iter().zip(&even) {
+            normal[*place] = normal_at(*even);
         }
         // The size of the noise is itself known only from its residuals.
         let freedom = self.estimate.covariance.independent(R);
@@ -155,38 +155,27 @@ impl<'a> PosteriorFrame<'a> {
         self.estimate.p + self.upper.solve_upper_triangular(change).unwrap_or_default()
     }
 
-    /// The residuals along the directions, and the derivatives of the motion along them.
-    fn seen_along(&self, seen: &Seen) -> (Unknowns, UnknownsMatrix) {
-        let (mut values, mut by) = (Unknowns::zeros(), self.task.held());
-        for (along, residual) in self.along.iter().zip(self.task.used_residuals(seen)) {
-            values.axpy(residual.value, along, 1.0);
-            by.ger(1.0, along, &self.task.by_free(&residual.by), 1.0);
-        }
-        (values, by)
-    }
-
     /// The motions whose residuals have these errors, each with the logarithm of its weight, and the number of
     /// motions computed. There may be one near every minimum.
     fn draws(&self, errors: &Unknowns, limits: &Limits) -> (Vec<(Unknowns, f64)>, u64) {
-        let mut runs = Runs::new(limits.interrupted);
-        let mut found: Vec<(Unknowns, f64)> = Vec::new();
+        let runs = Runs::new(limits.interrupted);
         let estimate = self.estimate;
+        let task = estimate.task(&[], &runs);
+        let mut found: Vec<(Unknowns, f64)> = Vec::new();
         for rival in estimate.contenders() {
-            let Some((p, weight)) = self.draw(&rival.p, errors, &mut runs) else { continue };
-            let near = |other: &Unknowns| {
-                self.task.columns().all(|place| {
-                    (p[place] - other[place]).abs() < 0.01 * estimate.covariance.error(place)
-                })
+            let Some((p, weight)) = self.draw(&task, &rival.p, errors) else { continue };
+            let near = |place: &usize, other: &Unknowns| {
+                (p[*place] - other[*place]).abs() < 0.01 * estimate.covariance.error(*place)
             };
-            if !found.iter().any(|(other, _)| near(other)) {
+            if !found.iter().any(|(other, _)| self.places.iter().all(|it| near(it, other))) {
                 found.push((p, weight));
             }
         }
-        (found, runs.with_derivatives)
+        (found, runs.with_derivatives.get())
     }
 
     /// One of them, by Newton's method; `None` if it would have negative friction, or none is found.
-    fn draw(&self, from: &Unknowns, errors: &Unknowns, runs: &mut Runs) -> Option<(Unknowns, f64)> {
+    fn draw(&self, task: &Task, from: &Unknowns, errors: &Unknowns) -> Option<(Unknowns, f64)> {
         const ROUNDS: usize = 14;
         /// So many points with negative friction show that there is none without.
         const NEGATIVE: usize = 3;
@@ -202,10 +191,10 @@ impl<'a> PosteriorFrame<'a> {
                 return None;
             }
             at[R] = at[R].max(0.0);
-            let seen = self.task.evaluated(&at, true, runs).ok();
+            let seen = task.evaluated(&at, true).ok();
             let state = seen.map(|seen| {
-                let (values, by) = self.seen_along(&seen);
-                ((values - errors).norm_squared() / self.unit, values, by, self.task.cost(&seen))
+                let (values, by) = seen_along(task, &self.along, &seen);
+                ((values - errors).norm_squared() / self.unit, values, by, task.cost(&seen))
             });
             match (state, &before) {
                 (Some((off, values, by, cost)), last)
@@ -232,6 +221,16 @@ impl<'a> PosteriorFrame<'a> {
         }
         None
     }
+}
+
+/// The residuals along the directions, and the derivatives of the motion along them.
+fn seen_along(task: &Task, along: &[Unknowns], seen: &Seen) -> (Unknowns, UnknownsMatrix) {
+    let (mut values, mut by) = (Unknowns::zeros(), task.held());
+    for (along, residual) in along.iter().zip(task.used_residuals(seen)) {
+        values.axpy(residual.value, along, 1.0);
+        by.ger(1.0, along, &task.by_free(&residual.by), 1.0);
+    }
+    (values, by)
 }
 
 /// Point `index` of a low-discrepancy sequence: multiples of powers of the inverse of the root of

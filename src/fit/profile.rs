@@ -4,7 +4,7 @@
 //! explains. If the loss is quadratic, the ends lie at a multiple of the standard error from the minimum, which is
 //! checked by one motion on each side. Otherwise the ends are found by refitting all other unknowns.
 
-use super::{Covariance, Optimum, R, Runs, Task, Unfit, deviation_of_95_percent, interrupted};
+use super::{Covariance, Optimum, R, Task, Unfit, deviation_of_95_percent, interrupted};
 
 /// A 95 % interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,21 +52,8 @@ pub struct Profile<'a> {
     pub least: f64,
     /// A unit of chi-squared there.
     pub variance: f64,
-}
-
-/// Why a profile was left.
-#[derive(Debug)]
-pub enum Left {
-    /// The computation was interrupted.
-    Interrupted(Unfit),
-    /// A refit came to a lower loss than the minimum, which was none.
-    Lower(Box<Optimum>),
-}
-
-impl From<Unfit> for Left {
-    fn from(reason: Unfit) -> Self {
-        Left::Interrupted(reason)
-    }
+    /// A refit that came to a lower loss than the minimum, which was none.
+    pub lower: Option<Optimum>,
 }
 
 /// The best point for a value of the unknown.
@@ -79,15 +66,9 @@ struct ProfilePoint {
 }
 
 impl Profile<'_> {
-    /// The interval of an unknown; `None` if the loss is too high everywhere in this region.
-    ///
-    /// # Errors
-    /// [`Left`] says why there is none.
-    pub fn interval(
-        &self,
-        unknown: usize,
-        runs: &mut Runs,
-    ) -> Result<Option<ProfileInterval>, Left> {
+    /// The interval of an unknown, open where a lower minimum was found; `None` if the loss is too high everywhere in this
+    /// region. Fails with [`Unfit::Interrupted`].
+    pub fn interval(&mut self, unknown: usize) -> Result<Option<ProfileInterval>, Unfit> {
         let z = self.deviations(unknown);
         let white = self.covariance.inflation(unknown);
         let rise = z * z * white * self.variance;
@@ -102,12 +83,15 @@ impl Profile<'_> {
         let mut ends = [None; 2];
         let mut quadratic = true;
         for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
-            if self.rises_by(unknown, sign * reach, left * rise, runs)? {
+            if self.rises_by(unknown, sign * reach, left * rise)? {
                 *end = Some(self.optimum.p[unknown] + sign * reach);
                 continue;
             }
             quadratic = false;
-            *end = self.sought(unknown, sign, reach, rise, runs)?;
+            *end = self.sought(unknown, sign, reach, rise)?;
+            if self.lower.is_some() {
+                return Ok(Some(ProfileInterval::default()));
+            }
         }
         Ok(Some(ProfileInterval { lower: ends[0], upper: ends[1], quadratic }))
     }
@@ -127,14 +111,14 @@ impl Profile<'_> {
     }
 
     /// Whether the loss rises as a quadratic one would, if the unknown is moved and all others follow freely.
-    fn rises_by(&self, unknown: usize, by: f64, rise: f64, runs: &mut Runs) -> Result<bool, Left> {
+    fn rises_by(&self, unknown: usize, by: f64, rise: f64) -> Result<bool, Unfit> {
         let along = self.covariance.following(&[(unknown, 1.0)]);
         let p = self.optimum.p + by * along;
         // Friction cannot be negative: r ends at 0, and unknowns that depend on r have a kink there.
         if p[R] < 0.0 && self.task.free[R] {
             return Ok(false);
         }
-        let seen = interrupted(self.task.evaluated(&p, false, runs))?;
+        let seen = interrupted(self.task.evaluated(&p, false))?;
         Ok(seen.is_some_and(|seen| {
             let risen = self.task.cost(&seen) - self.optimum.cost;
             let same = seen.region == self.optimum.seen.region;
@@ -145,13 +129,12 @@ impl Profile<'_> {
     /// The end on one side, by refits that start from each other: further out until the loss has risen enough,
     /// then between the two closest points. `None` if the end is not found.
     fn sought(
-        &self,
+        &mut self,
         unknown: usize,
         sign: f64,
         reach: f64,
         rise: f64,
-        runs: &mut Runs,
-    ) -> Result<Option<f64>, Left> {
+    ) -> Result<Option<f64>, Unfit> {
         /// Accuracy of the rise at an end, and the smallest at which an end may be taken.
         const EXACT: f64 = 0.03;
         const NEARLY: f64 = 0.8;
@@ -166,7 +149,10 @@ impl Profile<'_> {
         let mut outside: Option<(f64, f64)> = None;
         let mut step = reach.min(farthest);
         for _ in 0..REFITS {
-            let found = self.refitted(unknown, center + sign * step, &inside, rise, runs)?;
+            let found = self.refitted(unknown, center + sign * step, &inside, rise)?;
+            if self.lower.is_some() {
+                return Ok(None);
+            }
             let risen = found.as_ref().map_or(f64::INFINITY, |found| found.risen);
             if (risen - 1.0).abs() <= EXACT {
                 return Ok(Some(center + sign * step));
@@ -194,21 +180,21 @@ impl Profile<'_> {
 
     /// The best point with the unknown at a value; `None` if no descent from a known point leads there.
     fn refitted(
-        &self,
+        &mut self,
         unknown: usize,
         value: f64,
         from: &ProfilePoint,
         rise: f64,
-        runs: &mut Runs,
-    ) -> Result<Option<ProfilePoint>, Left> {
+    ) -> Result<Option<ProfilePoint>, Unfit> {
         /// Fall of the loss, as a fraction of the rise at the end, that shows that the minimum was none.
         const LOWER: f64 = 0.02;
         let by = value - from.optimum.p[unknown];
         let Some(guess) = self.task.followed(&from.optimum, unknown, by) else { return Ok(None) };
-        let found = interrupted(self.task.holding(unknown).solve_roughly(guess, runs))?;
+        let found = interrupted(self.task.holding(unknown).solve_roughly(guess))?;
         let Some(optimum) = found else { return Ok(None) };
         if optimum.cost < self.optimum.cost - LOWER * rise {
-            return Err(Left::Lower(Box::new(optimum)));
+            self.lower = Some(optimum);
+            return Ok(None);
         }
         let risen = (optimum.cost - self.least).max(0.0) / rise;
         Ok(Some(ProfilePoint { step: 0.0, risen, optimum }))

@@ -17,7 +17,7 @@ use super::{
 use crate::numerics::{real, truncated};
 
 /// Fits a record of samples. Fails with [`Unfit`].
-pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
+pub fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
     let all = &record.t;
     let frequency = dominant_frequency(all, &record.x);
     let per_period = frequency.map_or(f64::INFINITY, |frequency| rate(all) / frequency);
@@ -54,7 +54,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     };
     let Guess { beginnings, mut extremes, struck, again } =
         guessed([0.0; 2]).ok_or(Unfit::NoSwings)?;
-    let part = |range: Range<usize>, runs: &mut Runs| {
+    let part = |range: Range<usize>| {
         let (t, x) = (t[range.clone()].to_vec(), x[range.clone()].to_vec());
         let part = Record { t, x, ..record.clone() };
         let found = samples(&part, question, runs).ok();
@@ -63,43 +63,43 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     let struck = struck.map(|from| from..x.len());
     let at_once = struck.clone().filter(|_| signal.is_displacement());
     for range in again.map(|until| 0..until).into_iter().chain(at_once) {
-        if let Some(found) = part(range, runs) {
+        if let Some(found) = part(range) {
             return Ok(found);
         }
     }
     let loss = loss_of(question.loss, &noise);
     let reach = reach(&swinging);
     let data = Record { t: t.clone(), x: x.clone(), ..record.clone() };
-    let task = Task::new(&data, beginnings[0].start, free, reach);
+    let task = Task::new(&data, beginnings[0].start, free, reach, runs);
     let mut task = Task { loss, noise: noise.deviation, ..task };
-    let mut found = task.search(&beginnings, runs)?;
+    let mut found = task.search(&beginnings)?;
     let swings = drift_of_swings(&t, &extremes).map(|drift| drift / factor);
     let drifting = || guessed(swings).map(|guess| guess.beginnings).unwrap_or_default();
-    if let Some((minima, free)) = task.drifting(&found, drifting, runs)? {
+    if let Some((minima, free)) = task.drifting(&found, drifting)? {
         (found, task.free) = (minima, free);
         let p = &found[0].p;
         extremes = guessed([p[SLOPE], p[BEND]]).map_or(extremes, |guess| guess.extremes);
     }
     if beginnings[0].start == StartKind::Release && !task.explains(&found[0]) {
-        let other = released_before(&task, &held, &noise, &extremes, runs)?;
+        let other = released_before(&task, &held, &noise, &extremes)?;
         found = other.filter(|other| other[0].cost < found[0].cost).unwrap_or(found);
     }
     if let Some(range) = struck.filter(|_| !signal.is_displacement())
         && !task.explains(&found[0])
-        && let Some(found) = part(range, runs)
+        && let Some(found) = part(range)
     {
         return Ok(found);
     }
-    let mut dropped = without_jumps_of_signal(&task, &mut found, runs)?;
+    let mut dropped = without_jumps_of_signal(&task, &mut found)?;
     if question.loss == LossName::Auto {
         task.loss = Loss::LINEAR;
-        drop_outliers(&task, &mut dropped, loss.is_robust(), &mut found, runs)?;
+        drop_outliers(&task, &mut dropped, loss.is_robust(), &mut found)?;
         // If no motion fits, it is not known where the mass rests.
         if (Task { dropped: &dropped, ..task }).comes_near(&found[0]) {
-            drop_alike_at_rest(&task, &noise, &mut dropped, &mut found, runs)?;
+            drop_alike_at_rest(&task, &noise, &mut dropped, &mut found)?;
         }
     }
-    let estimate = judged(&Task { dropped: &dropped, ..task }, &found, runs)?;
+    let estimate = judged(&Task { dropped: &dropped, ..task }, &found)?;
     let mut estimate = of_part(estimate, 0..x.len(), &within);
     let scale = (signal.as_displacement(estimate.p[OMEGA0]) / factor).abs();
     for extreme in &mut extremes {
@@ -135,7 +135,6 @@ fn loss_of(name: LossName, noise: &Noise) -> Loss {
 fn without_jumps_of_signal(
     task: &Task,
     found: &mut Vec<Optimum>,
-    runs: &mut Runs,
 ) -> Result<Vec<Option<Dropped>>, Unfit> {
     /// The jumps move as the fit improves.
     const ROUNDS: usize = 2;
@@ -144,7 +143,7 @@ fn without_jumps_of_signal(
     if *signal == Signal::Acceleration {
         for _ in 0..ROUNDS {
             dropped = beside(&jumps(&found[0], t), t, found[0].p[OMEGA0]);
-            Task { dropped: &dropped, ..*task }.renew(found, runs)?;
+            Task { dropped: &dropped, ..*task }.renew(found)?;
         }
     }
     Ok(dropped)
@@ -177,7 +176,6 @@ fn drop_alike_at_rest(
     noise: &Noise,
     dropped: &mut Vec<Option<Dropped>>,
     found: &mut Vec<Optimum>,
-    runs: &mut Runs,
 ) -> Result<(), Unfit> {
     /// Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
     const ROUNDS: usize = 2;
@@ -196,7 +194,7 @@ fn drop_alike_at_rest(
             _ => *before,
         };
         *dropped = before.iter().zip(&alike).map(why).collect();
-        Task { dropped, ..*task }.renew(found, runs)?;
+        Task { dropped, ..*task }.renew(found)?;
     }
     Ok(())
 }
@@ -230,7 +228,6 @@ fn drop_outliers(
     dropped: &mut Vec<Option<Dropped>>,
     robust: bool,
     found: &mut [Optimum],
-    runs: &mut Runs,
 ) -> Result<(), Unfit> {
     /// A model that leaves out more than this fraction of the record does not describe it.
     const MOST: f64 = 0.15;
@@ -253,7 +250,7 @@ fn drop_outliers(
             break;
         }
         (*dropped, settled) = (now, true);
-        Task { dropped, ..*task }.polish(found, runs)?;
+        Task { dropped, ..*task }.polish(found)?;
     }
     Ok(())
 }
@@ -272,7 +269,7 @@ fn limit_of(residuals: &[f64]) -> f64 {
 
 /// Fits a list of peaks. The relative weight of displacements and times follows from their residuals.
 /// Fails with [`Unfit`].
-pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
+pub fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
     const ROUNDS: usize = 8;
     let x = &record.x;
     let mut held = question.choice.unknowns();
@@ -315,20 +312,20 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
     let of = |ratio: f64| Record { peaks: Some(ratio), ..record.clone() };
     let reach = reach(x);
     let mut data = of(ratio);
-    let mut found = Task::new(&data, StartKind::Release, free, reach).search(&starts, runs)?;
+    let plain = Task::new(record, StartKind::Release, free, reach, runs);
+    let mut found = Task { data: &data, ..plain }.search(&starts)?;
     for _ in 0..ROUNDS {
-        let task = Task::new(&data, StartKind::Release, free, reach);
+        let task = Task { data: &data, ..plain };
         let next = ratio * ratio_of_kinds(&task, &found[0], x.len());
         if record.t.is_empty() || !next.is_finite() || (next / ratio - 1.0).abs() < 0.01 {
             break;
         }
         ratio = next;
         data = of(ratio);
-        Task::new(&data, StartKind::Release, free, reach).polish(&mut found, runs)?;
+        Task { data: &data, ..plain }.polish(&mut found)?;
     }
-    let task = Task::new(&data, StartKind::Release, free, reach);
     let dropped = vec![None; data.residuals()];
-    let mut estimate = judged(&Task { dropped: &dropped, ..task }, &found, runs)?;
+    let mut estimate = judged(&Task { data: &data, dropped: &dropped, ..plain }, &found)?;
     (estimate.choice, estimate.extremes) = (question.choice.clone(), extremes);
     Ok(estimate)
 }

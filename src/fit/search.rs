@@ -2,7 +2,7 @@
 
 use super::{
     Beginning, D2, D3, Extreme, Guess, LAST, Loss, LossName, Noise, OFFSET, OMEGA0, Optimum, Q0, R,
-    Record, Runs, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE, Way, by_cost, follow, guess,
+    Record, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE, Way, by_cost, follow, guess,
     interrupted, parameters, placed, through_the_valley,
 };
 use crate::model::State;
@@ -22,20 +22,17 @@ impl Task<'_> {
     /// Descends from the closest guess of each way of beginning, trying one way of descent after the other,
     /// until a minimum explains the record; otherwise the best minimum found is taken. The minima of all regions
     /// follow, the lowest first. Fails with [`Unfit`] if no descent succeeds.
-    pub(crate) fn search(
-        &self,
-        guesses: &[Beginning],
-        runs: &mut Runs,
-    ) -> Result<Vec<Optimum>, Unfit> {
+    pub(crate) fn search(&self, guesses: &[Beginning]) -> Result<Vec<Optimum>, Unfit> {
         let mut best: Option<Optimum> = None;
-        let mut starts = self.ranked(guesses, runs)?;
+        let mut starts = self.ranked(guesses)?;
         for (round, way) in WAYS.into_iter().enumerate() {
             let mut costs = Vec::new();
             for &(start, guess, certain) in &starts {
-                let found = interrupted(way(&self.starting(start), guess, runs))?;
+                let found = interrupted(way(&self.starting(start), guess))?;
                 costs.push(found.as_ref().map_or(f64::INFINITY, |found| found.cost));
                 let Some(found) = found else { continue };
-                runs.closest = runs.closest.min(self.unit(found.cost).sqrt());
+                let closest = &self.runs.closest;
+                closest.set(closest.get().min(self.unit(found.cost).sqrt()));
                 let explained = self.explains(&found);
                 if best.as_ref().is_none_or(|best| self.is_better(&found, best)) {
                     best = Some(found);
@@ -44,7 +41,7 @@ impl Task<'_> {
                     break;
                 }
             }
-            let tired = runs.with_derivatives > ENOUGH;
+            let tired = self.runs.with_derivatives.get() > ENOUGH;
             if best.as_ref().is_some_and(|best| tired || self.explains(best)) {
                 break;
             }
@@ -56,25 +53,25 @@ impl Task<'_> {
         let mut optimum = best.ok_or(Unfit::NoMotion)?;
         let task = self.starting(optimum.start);
         if optimum.start == StartKind::Release && !self.explains(&optimum) {
-            optimum = task.released_elsewhere(optimum, runs)?;
+            optimum = task.released_elsewhere(optimum)?;
         }
         let mut optima = vec![optimum];
         if task.may_be_elsewhere(&optima[0]) {
             let alike = guesses.iter().filter(|beginning| beginning.start == optima[0].start);
             let guesses = alike.flat_map(|beginning| beginning.guesses.iter().copied());
             let guesses = guesses.chain([optima[0].p]).collect();
-            optima.extend(task.by_fewer_terms(guesses, runs)?);
+            optima.extend(task.by_fewer_terms(guesses)?);
         }
-        task.valleys(optima, runs)
+        task.valleys(optima)
     }
 
     /// The lowest minimum if the same motion was released some periods earlier or later.
-    fn released_elsewhere(&self, mut best: Optimum, runs: &mut Runs) -> Result<Optimum, Unfit> {
+    fn released_elsewhere(&self, mut best: Optimum) -> Result<Optimum, Unfit> {
         const ROUNDS: usize = 3;
         for _ in 0..ROUNDS {
             let from = best.clone();
             for guess in [-2, -1, 1, 2].into_iter().filter_map(|it| released_after(&from, it)) {
-                best = best.or_lower(interrupted(self.solve(guess, runs))?);
+                best = best.or_lower(interrupted(self.solve(guess))?);
             }
             if best.cost == from.cost || self.explains(&best) {
                 break;
@@ -84,49 +81,45 @@ impl Task<'_> {
     }
 
     /// The minima reached from those without D2 and D3, which have fewer valleys if noise leaves room for many.
-    fn by_fewer_terms(
-        &self,
-        guesses: Vec<Unknowns>,
-        runs: &mut Runs,
-    ) -> Result<Vec<Optimum>, Unfit> {
+    fn by_fewer_terms(&self, guesses: Vec<Unknowns>) -> Result<Vec<Optimum>, Unfit> {
         /// Maximum number of minima from which to continue.
         const MOST: usize = 3;
         let fewer = self.holding(D2).holding(D3);
         let guesses = guesses.into_iter().map(|guess| self.without(guess, &[D2, D3])).collect();
         let beginning = Beginning { start: self.start, certain: true, guesses };
         let mut minima = Vec::new();
-        for (_, guess, _) in fewer.ranked(&[beginning], runs)? {
-            if let Some(found) = interrupted(fewer.solve(guess, runs))? {
+        for (_, guess, _) in fewer.ranked(&[beginning])? {
+            if let Some(found) = interrupted(fewer.solve(guess))? {
                 let mut optima = Vec::new();
-                for guess in through_the_valley(&fewer, &found, WIDE, &[], runs)? {
-                    optima.extend(interrupted(fewer.solve(guess, runs))?);
+                for guess in through_the_valley(&fewer, &found, WIDE, &[])? {
+                    optima.extend(interrupted(fewer.solve(guess))?);
                 }
                 optima.push(found);
-                minima = fewer.valleys(optima, runs)?;
+                minima = fewer.valleys(optima)?;
             }
         }
         let mut optima = Vec::new();
         for minimum in minima.into_iter().take(MOST) {
-            optima.extend(interrupted(self.solve(minimum.p, runs))?);
+            optima.extend(interrupted(self.solve(minimum.p))?);
         }
         Ok(optima)
     }
 
     /// Fits every minimum again with the residuals that now count. Fails with [`Unfit`] when interrupted, or if
     /// the motion is lost.
-    pub(crate) fn polish(&self, found: &mut [Optimum], runs: &mut Runs) -> Result<(), Unfit> {
+    pub(crate) fn polish(&self, found: &mut [Optimum]) -> Result<(), Unfit> {
         for minimum in &mut *found {
-            *minimum = self.starting(minimum.start).around(&minimum.seen).solve(minimum.p, runs)?;
+            *minimum = self.starting(minimum.start).around(&minimum.seen).solve(minimum.p)?;
         }
         found.sort_by(by_cost);
         Ok(())
     }
 
     /// Seeks the minima again with the residuals that now count, from the best one. Fails as [`Task::polish`].
-    pub(crate) fn renew(&self, found: &mut Vec<Optimum>, runs: &mut Runs) -> Result<(), Unfit> {
+    pub(crate) fn renew(&self, found: &mut Vec<Optimum>) -> Result<(), Unfit> {
         let task = self.starting(found[0].start);
-        let optimum = task.solve(found[0].p, runs)?;
-        *found = task.valleys(vec![optimum], runs)?;
+        let optimum = task.solve(found[0].p)?;
+        *found = task.valleys(vec![optimum])?;
         Ok(())
     }
 
@@ -144,7 +137,6 @@ impl Task<'_> {
     pub(crate) fn ranked(
         &self,
         guesses: &[Beginning],
-        runs: &mut Runs,
     ) -> Result<Vec<(StartKind, Unknowns, bool)>, Unfit> {
         let mut starts = Vec::new();
         for Beginning { start, certain, guesses } in guesses {
@@ -152,7 +144,7 @@ impl Task<'_> {
             let mut best = (f64::INFINITY, None);
             let plain = guesses.iter().map(|guess| self.without(*guess, &[D2, D3]));
             for guess in guesses.iter().copied().chain(plain) {
-                if let Some(seen) = interrupted(task.evaluated(&guess, false, runs))? {
+                if let Some(seen) = interrupted(task.evaluated(&guess, false))? {
                     let cost = task.cost(&seen);
                     if cost < best.0 {
                         best = (cost, Some(guess));
@@ -173,11 +165,11 @@ impl Task<'_> {
     }
 
     /// Descends on a growing part of the record, with a robust loss that tolerates samples that are still far off.
-    fn growing(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
+    fn growing(&self, guess: Unknowns) -> Result<Optimum, Unfit> {
         let mut p = guess;
         let t = &self.data.t;
         if self.data.has_peaks() {
-            return self.solve(p, runs);
+            return self.solve(p);
         }
         let last = t[t.len() - 1];
         let shortest = real(FEWEST) * std::f64::consts::PI / p[OMEGA0];
@@ -190,10 +182,10 @@ impl Task<'_> {
             if horizon >= t.len() {
                 break;
             }
-            p = Task { horizon, ..robust }.solve_roughly(p, runs)?.p;
+            p = Task { horizon, ..robust }.solve_roughly(p)?.p;
         }
-        let rough = robust.solve_roughly(p, runs)?;
-        self.solve(rough.p, runs)
+        let rough = robust.solve_roughly(p)?;
+        self.solve(rough.p)
     }
 }
 
@@ -208,14 +200,14 @@ fn released_after(from: &Optimum, periods: i32) -> Option<Unknowns> {
 }
 
 /// A way of descent from a guess to a minimum.
-type Descent = fn(&Task, Unknowns, &mut Runs) -> Result<Optimum, Unfit>;
+type Descent = fn(&Task, Unknowns) -> Result<Optimum, Unfit>;
 
 /// The ways of descent in the order in which they are tried.
 const WAYS: [Descent; 4] = [
-    |task, guess, runs| task.solve(guess, runs),
-    |task, guess, runs| task.growing(guess, runs),
-    |task, guess, runs| task.growing(task.without(guess, &[D2, D3]), runs),
-    |task, guess, runs| task.growing(task.without(guess, &[R]), runs),
+    |task, guess| task.solve(guess),
+    |task, guess| task.growing(guess),
+    |task, guess| task.growing(task.without(guess, &[D2, D3])),
+    |task, guess| task.growing(task.without(guess, &[R])),
 ];
 
 /// The minima from guesses that release the held mass so that it comes into the motion after its first swings. Those of a
@@ -229,7 +221,6 @@ pub fn released_before(
     held: &[Option<f64>; UNKNOWNS],
     noise: &Noise,
     extremes: &[Extreme],
-    runs: &mut Runs,
 ) -> Result<Option<Vec<Optimum>>, Unfit> {
     /// Number of turning points left out, at most, and the part of all.
     const FIRST: usize = 4;
@@ -252,7 +243,7 @@ pub fn released_before(
     }
     let data = Record { t: times.to_vec(), x: later.to_vec(), ..task.data.clone() };
     let part = Task { data: &data, ..*task };
-    let Some(found) = interrupted(part.search(&beginnings, runs))? else { return Ok(None) };
+    let Some(found) = interrupted(part.search(&beginnings))? else { return Ok(None) };
     let optimum = &found[0];
     let Some(turn) = optimum.seen.turns.first().filter(|_| part.explains(optimum)) else {
         return Ok(None);
@@ -272,5 +263,5 @@ pub fn released_before(
     let guesses = same.map(|it| placed(held, released(it.tau))).filter(|it| it[LAST] > t[0]);
     let guesses: Vec<Unknowns> = guesses.collect();
     let beginning = Beginning { start: StartKind::Release, certain: true, guesses };
-    interrupted(task.search(&[beginning], runs))
+    interrupted(task.search(&[beginning]))
 }

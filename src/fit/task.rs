@@ -1,5 +1,7 @@
 //! What is estimated from a record, and how well a motion explains it.
 
+use std::cell::Cell;
+
 use nalgebra::{DMatrix, SMatrix};
 
 use super::{
@@ -8,25 +10,26 @@ use super::{
 };
 use crate::numerics::real;
 
-/// Counters of the computation, and the check for an interruption.
+/// Counters of the computation, and the check for an interruption. All tasks of a fit count together.
 pub struct Runs<'a> {
     /// Number of motions computed with derivatives.
-    pub with_derivatives: u64,
+    pub with_derivatives: Cell<u64>,
     /// Number of motions computed without derivatives.
-    pub plain: u64,
+    pub plain: Cell<u64>,
     /// Number of motions after which the computation ends.
     pub most: u64,
     /// Called before each motion; `true` ends the computation.
     pub interrupted: &'a dyn Fn() -> bool,
     /// The smallest root mean square of residuals that a descent has reached.
-    pub closest: f64,
+    pub closest: Cell<f64>,
 }
 
 impl<'a> Runs<'a> {
     /// Counters at zero, without an end.
     pub fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
-        let (most, closest) = (u64::MAX, f64::INFINITY);
-        Runs { with_derivatives: 0, plain: 0, most, interrupted, closest }
+        let (with_derivatives, plain) = (Cell::default(), Cell::default());
+        let (most, closest) = (u64::MAX, Cell::new(f64::INFINITY));
+        Runs { with_derivatives, plain, most, interrupted, closest }
     }
 }
 
@@ -86,8 +89,10 @@ impl Dropped {
 }
 
 /// What is estimated from a record, and how residuals are weighted.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Task<'a> {
+    /// What counts its motions.
+    pub runs: &'a Runs<'a>,
     /// What was measured.
     pub data: &'a Record,
     /// How the motion begins.
@@ -149,9 +154,15 @@ pub fn longest_run(flags: impl Iterator<Item = bool>) -> usize {
 
 impl<'a> Task<'a> {
     /// All unknowns and residuals of a record, of which nothing else is known.
-    pub fn new(data: &'a Record, start: StartKind, free: [bool; UNKNOWNS], reach: f64) -> Self {
-        let (loss, dropped, noise) = (Loss::LINEAR, &[][..], 0.0);
-        Task { data, start, reach, free, loss, dropped, noise, horizon: usize::MAX, within: None }
+    pub fn new(
+        data: &'a Record,
+        start: StartKind,
+        free: [bool; UNKNOWNS],
+        reach: f64,
+        runs: &'a Runs<'a>,
+    ) -> Self {
+        let (loss, dropped, noise, horizon) = (Loss::LINEAR, &[][..], 0.0, usize::MAX);
+        Task { runs, data, start, reach, free, loss, dropped, noise, horizon, within: None }
     }
 
     /// The same for a motion that begins in this way.
@@ -205,19 +216,16 @@ impl<'a> Task<'a> {
     ///
     /// # Errors
     /// [`Unfit`] if the motion of the model escapes, or when interrupted.
-    pub fn evaluated(
-        &self,
-        p: &Unknowns,
-        with_derivatives: bool,
-        runs: &mut Runs,
-    ) -> Result<Seen, Unfit> {
-        if (runs.interrupted)() {
+    pub fn evaluated(&self, p: &Unknowns, with_derivatives: bool) -> Result<Seen, Unfit> {
+        let Runs { with_derivatives: with, plain, most, interrupted, closest } = self.runs;
+        if interrupted() {
             return Err(Unfit::Interrupted);
         }
-        if runs.with_derivatives + runs.plain >= runs.most {
-            return Err(Unfit::GaveUp { motions: runs.most, closest: runs.closest });
+        if with.get() + plain.get() >= *most {
+            return Err(Unfit::GaveUp { motions: *most, closest: closest.get() });
         }
-        *(if with_derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
+        let counter = if with_derivatives { with } else { plain };
+        counter.set(counter.get() + 1);
         let way = Way { with_derivatives, reach: self.reach, ..Way::default() };
         self.data.compare(self.start, p, way).map_err(|_| Unfit::NoMotion)
     }

@@ -8,8 +8,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::{
-    Bound, Covariance, D2, D3, FitVerdict, Optimum, R, Region, Runs, Task, Unfit, Unknowns,
-    interrupted,
+    Bound, Covariance, D2, D3, FitVerdict, Optimum, R, Region, Task, Unfit, Unknowns, interrupted,
 };
 
 impl Task<'_> {
@@ -32,18 +31,14 @@ impl Task<'_> {
     /// its region, and from the closest points to the record along a change of r that the other unknowns follow.
     /// Each descent is confined to the region in which it starts, so that what is best there is found even if
     /// it lies on a rim. This is repeated until no other minimum is found. Fails with [`Unfit::Interrupted`].
-    pub(crate) fn valleys(
-        &self,
-        optima: Vec<Optimum>,
-        runs: &mut Runs,
-    ) -> Result<Vec<Optimum>, Unfit> {
+    pub(crate) fn valleys(&self, optima: Vec<Optimum>) -> Result<Vec<Optimum>, Unfit> {
         /// Maximum number of minima around which others are searched for.
         const MOST: usize = 8;
         /// Rise of chi-squared up to which a minimum may be the right one.
         const NEAR: f64 = 8.0;
         let mut valleys = Vec::new();
         for optimum in optima {
-            let found = interrupted(self.around(&optimum.seen).solve(optimum.p, runs))?;
+            let found = interrupted(self.around(&optimum.seen).solve(optimum.p))?;
             keep(&mut valleys, found.unwrap_or(optimum));
         }
         let mut asked: Vec<Region> = Vec::new();
@@ -60,19 +55,19 @@ impl Task<'_> {
                 continue;
             }
             let verdict = self.verdict(&from);
-            let mut guesses = beyond_the_rim(self, &from, &covariance, verdict, runs)?;
+            let mut guesses = beyond_the_rim(self, &from, &covariance, verdict)?;
             if from.cost == least && from.seen.rests && !self.data.has_peaks() {
                 guesses.extend(if verdict == FitVerdict::Noise {
-                    along_the_valley(self, &from, &covariance, &valleys, runs)?
+                    along_the_valley(self, &from, &covariance, &valleys)?
                 } else {
-                    through_the_valley(self, &from, FINE, &valleys, runs)?
+                    through_the_valley(self, &from, FINE, &valleys)?
                 });
             }
             for guess in guesses {
-                let Some(seen) = interrupted(self.evaluated(&guess, false, runs))? else {
+                let Some(seen) = interrupted(self.evaluated(&guess, false))? else {
                     continue;
                 };
-                let found = interrupted(self.around(&seen).solve(guess, runs))?;
+                let found = interrupted(self.around(&seen).solve(guess))?;
                 if let Some(found) = found {
                     keep(&mut valleys, found);
                 }
@@ -105,7 +100,6 @@ fn beyond_the_rim(
     optimum: &Optimum,
     covariance: &Covariance,
     verdict: FitVerdict,
-    runs: &mut Runs,
 ) -> Result<Vec<Unknowns>, Unfit> {
     /// How much further to go while a point still lies in the same region.
     const FURTHER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
@@ -131,7 +125,7 @@ fn beyond_the_rim(
             if !is_possible(&p) {
                 break;
             }
-            let Some(seen) = interrupted(task.evaluated(&p, false, runs))? else { break };
+            let Some(seen) = interrupted(task.evaluated(&p, false))? else { break };
             if seen.region != optimum.seen.region {
                 found.push(p);
                 break;
@@ -149,7 +143,6 @@ fn along_the_valley(
     optimum: &Optimum,
     covariance: &Covariance,
     known: &[Optimum],
-    runs: &mut Runs,
 ) -> Result<Vec<Unknowns>, Unfit> {
     /// Steps on each side: `STEPS` of the fraction `PART` of r, and `ERRORS` of one standard error.
     const PART: f64 = 0.012;
@@ -164,7 +157,7 @@ fn along_the_valley(
     for step in parts.chain(errors).flat_map(|step| [step, -step]) {
         let p = optimum.p + step * along;
         if p[R] > 0.0
-            && let Some(seen) = interrupted(task.evaluated(&p, false, runs))?
+            && let Some(seen) = interrupted(task.evaluated(&p, false))?
         {
             closest.see(seen.turns.len(), task.cost(&seen), p);
         }
@@ -186,7 +179,6 @@ pub fn through_the_valley(
     optimum: &Optimum,
     factors: [f64; 9],
     known: &[Optimum],
-    runs: &mut Runs,
 ) -> Result<Vec<Unknowns>, Unfit> {
     let held = task.holding(R);
     let mut closest = Closest::default();
@@ -194,7 +186,7 @@ pub fn through_the_valley(
         let mut p = optimum.p;
         for factor in factors {
             p[R] *= if up { factor } else { 1.0 / factor };
-            let Some(found) = interrupted(held.solve_roughly(p, runs))? else { break };
+            let Some(found) = interrupted(held.solve_roughly(p))? else { break };
             p = found.p;
             closest.see(found.seen.turns.len(), found.cost, p);
         }

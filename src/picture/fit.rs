@@ -190,7 +190,7 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
     let r = with_unit("r", fitted.unit());
     let mut picture = Picture::new("D and r together", "D", r, EMPTY);
     for (rise, (name, dash)) in RISES.into_iter().zip(LINES) {
-        let contour = contour(estimate, [D, R], rise, &mut Runs::new(&|| false));
+        let contour = contour(estimate, [D, R], rise, &Runs::new(&|| false));
         if let Some(contour) = contour.ok().filter(|it| !it.is_empty()) {
             picture.curve(LineStyle::new(name, Role::Trajectory, dash), points(&contour));
         }

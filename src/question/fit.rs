@@ -122,12 +122,12 @@ impl Fit {
         let named = [D, D2, D3, R].into_iter().zip(values);
         let numbers: Vec<_> = named.filter_map(|(place, value)| Some((place, value?))).collect();
         let interrupted = || (limits.interrupted)();
-        let mut runs = Runs::new(&interrupted);
+        let runs = Runs::new(&interrupted);
         // With all numbers free it is known.
         let estimate = if numbers.is_empty() {
             Ok(fit.estimate.clone())
         } else {
-            held(&fit.estimate, &numbers, &mut runs)
+            held(&fit.estimate, &numbers, &runs)
         };
         let estimate = match estimate {
             Ok(estimate) => estimate,

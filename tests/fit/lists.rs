@@ -67,14 +67,14 @@ fn a_list_that_ends_at_rest_is_fitted_to_its_minimum() {
     for (seed, found, _) in lists("peaks", 192..=192) {
         assert!(found.rests, "{seed}");
         let never = || false;
-        let mut runs = Runs::new(&never);
-        let task = found.task(&[]);
-        let least = task.cost(&task.evaluated(&found.p, false, &mut runs).unwrap());
+        let runs = Runs::new(&never);
+        let task = found.task(&[], &runs);
+        let least = task.cost(&task.evaluated(&found.p, false).unwrap());
         for row in found.wanted() {
             for side in [-1.0, 1.0] {
                 let value = found.p[row.place] + side * found.covariance.error(row.place);
                 let guess = following(&found, &[(row.place, value)]);
-                let beside = found.task(&[row.place]).solve_roughly(guess, &mut runs).unwrap();
+                let beside = found.task(&[row.place], &runs).solve_roughly(guess).unwrap();
                 assert!(beside.cost > least, "{}: {} < {least}", row.name, beside.cost);
             }
         }
