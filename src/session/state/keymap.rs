@@ -97,30 +97,22 @@ pub enum NextCommand {
     Value(Row, String),
 }
 
-/// The command of a key.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Binding {
-    command: &'static Command,
-    /// Position of the key among those of the command.
-    rank: usize,
-}
-
 /// Everything that can be run by name, and the command of each key in each context.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keymap {
     commands: Vec<&'static Command>,
-    bindings: BTreeMap<Context, BTreeMap<Key, Binding>>,
+    /// The keys of each context with their commands, in the order in which they were bound.
+    bindings: BTreeMap<Context, Vec<(Key, &'static Command)>>,
 }
 
 impl Keymap {
     /// A keymap of commands with their default keys, in the order of the help.
     pub fn new(commands: impl Iterator<Item = &'static Command>) -> Self {
         let commands: Vec<_> = commands.collect();
-        let mut bindings: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
+        let mut bindings: BTreeMap<_, Vec<_>> = BTreeMap::new();
         for command in &commands {
             for (context, keys) in &command.keys {
-                let keys = keys.iter().enumerate();
-                let bound = keys.map(|(rank, key)| (*key, Binding { command, rank }));
+                let bound = keys.iter().map(|key| (*key, *command));
                 bindings.entry(*context).or_default().extend(bound);
             }
         }
@@ -150,7 +142,7 @@ impl Keymap {
     /// Removes all keys of a command in a context.
     pub fn unbind(&mut self, context: Context, command: &Command) {
         if let Some(bindings) = self.bindings.get_mut(&context) {
-            bindings.retain(|_, bound| bound.command != command);
+            bindings.retain(|(_, bound)| *bound != command);
         }
     }
 
@@ -170,32 +162,33 @@ impl Keymap {
                 "{key} types a character here; use a key that types none, as <f6>"
             ));
         }
-        let taken = contexts.iter().find_map(|at| Some((*at, *self.bindings.get(at)?.get(&key)?)));
-        if let Some((context, bound)) = taken.filter(|(_, bound)| bound.command != command) {
-            let (bound, context) = (bound.command.name, context.name());
+        let taken = contexts.iter().find_map(|at| Some((*at, self.bound(*at, key)?)));
+        if let Some((context, bound)) = taken.filter(|(_, bound)| *bound != command) {
+            let (bound, context) = (bound.name, context.name());
             return Err(format!(
                 "{key} already means {bound}; give that other keys in [keys.{context}] first"
             ));
         }
-        let rank = self.keys_in(context, command).count();
-        let bindings = self.bindings.entry(context).or_default();
-        bindings.entry(key).or_insert(Binding { command, rank });
+        if self.bound(context, key).is_none() {
+            self.bindings.entry(context).or_default().push((key, command));
+        }
         Ok(())
+    }
+
+    /// The command of a key in a context.
+    fn bound(&self, context: Context, key: Key) -> Option<&'static Command> {
+        self.bindings.get(&context)?.iter().find(|(own, _)| *own == key).map(|(_, bound)| *bound)
     }
 
     /// The command of a key in contexts that hold together.
     pub fn command(&self, contexts: &[Context], key: Key) -> Option<&'static Command> {
-        let mut bound = contexts.iter().filter_map(|context| self.bindings.get(context)?.get(&key));
-        bound.next().map(|bound| bound.command)
+        contexts.iter().find_map(|context| self.bound(*context, key))
     }
 
     /// The keys of a command in a context, in the order in which they were bound.
     pub fn keys_in(&self, context: Context, command: &Command) -> impl Iterator<Item = Key> {
         let bound = self.bindings.get(&context).into_iter().flatten();
-        let of_it = bound.filter(|(_, bound)| bound.command == command);
-        let mut keys: Vec<(usize, Key)> = of_it.map(|(key, bound)| (bound.rank, *key)).collect();
-        keys.sort_unstable();
-        keys.into_iter().map(|(_, key)| key)
+        bound.filter(move |(_, bound)| *bound == command).map(|(key, _)| *key)
     }
 
     /// The first key of the command with this name, for texts that say what to press.
