@@ -16,7 +16,7 @@ use crate::model::Knob;
 use crate::question::Recording;
 
 /// The setup that shows one phenomenon.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The name by which it is opened.

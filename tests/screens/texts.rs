@@ -60,7 +60,7 @@ fn a_step_is_called_one_and_plus_minus_is_an_error() {
             }
         }
         let mut session = settled("plain", width, height, "> > >");
-        session.selected = hopfscope::session::Row::FIRST;
+        session.selected = hopfscope::session::Row::default();
         let pane = pane(&session);
         let row = pane.lines().find(|line| line.starts_with("\u{25b8}D")).unwrap();
         let words: Vec<&str> = row.split_whitespace().collect();

@@ -119,7 +119,7 @@ pub(crate) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     }
     restore(session, opened);
     session.unfolded = false;
-    session.selected = Row::FIRST;
+    session.selected = Row::default();
     // The descriptions of scenes begin there.
     session.focus = Pane::Parameters;
 }

@@ -61,7 +61,7 @@ impl Price {
 }
 
 /// The size of the screen, in cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Size {
     pub width: u16,
     pub height: u16,
@@ -82,7 +82,7 @@ impl Size {
     clippy::struct_excessive_bools,
     reason = "what is on or off has nothing to do with each other"
 )]
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Session {
     /// The scene that was opened last.
     pub scene: Arc<Scene>,
@@ -176,41 +176,14 @@ impl Session {
             scaled: scene.machine.clone(),
             doubt,
             steps: StepSizes::of_scene(&scene),
-            selected: Row::FIRST,
-            unfolded: false,
-            focus: Pane::Parameters,
             plots: scene.plots.iter().map(Plot::opened).collect(),
-            plot: 0,
-            enlarged: false,
             arrangement: scene.arrangement,
-            playback: Playback::default(),
-            held: None,
             harmonics: HARMONICS,
-            kicks: RandomKick::default(),
             layers: scene.layers.clone(),
-            overlay: None,
-            history: History::default(),
-            pending: None,
-            waiting: None,
-            chord: 0,
-            asked: 0,
-            marks: Bookmarks::default(),
-            caption: SessionCaption::Nothing,
-            interrupted: Vec::new(),
-            writing: None,
-            lines: Vec::new(),
-            answers: Answers::default(),
-            scanned: None,
-            fitting: 0,
-            price: Price::default(),
-            measuring: false,
-            notice: None,
             keymap,
-            display: DisplaySettings::default(),
             size,
-            effects: Vec::new(),
-            quit: false,
             scene,
+            ..Session::default()
         }
     }
 
@@ -375,9 +348,10 @@ impl BranchStop {
 }
 
 /// A part of the screen that can have the focus.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Pane {
     /// The list of parameters, method and tolerance.
+    #[default]
     Parameters,
     /// A plot, by its index among `Session::plots`.
     Plot(usize),

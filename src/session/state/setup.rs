@@ -203,6 +203,13 @@ pub enum Row {
 /// The numbers of a machine that are changed while it runs; they stand above the others.
 const FIRST_OF_MACHINE: [Knob; 3] = [Knob::BeltSpeed, Knob::NormalForce, Knob::Friction];
 
+impl Default for Row {
+    /// The row that is selected initially.
+    fn default() -> Self {
+        Row::Number(Knob::D)
+    }
+}
+
 impl Row {
     /// All rows, from top to bottom.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
@@ -212,9 +219,6 @@ impl Row {
         let numbers = machine.chain(Knob::PARAMETERS).chain(others);
         numbers.map(Row::Number).chain([Row::Method, Row::Tolerance])
     }
-
-    /// The row that is selected initially.
-    pub const FIRST: Self = Row::Number(Knob::D);
 
     /// The speed of the belt. The name of its quantity, v0, already names the initial velocity of the motion.
     pub const BELT: Self = Row::Number(Knob::BeltSpeed);
@@ -276,7 +280,7 @@ impl From<StepSizes> for BTreeMap<&'static str, StepSize> {
 
 impl From<SavedSteps> for StepSizes {
     fn from(saved: SavedSteps) -> Self {
-        let mut steps = StepSizes::from_each(|knob| knob.spec().step);
+        let mut steps = StepSizes::default();
         let mut put = |knob: Knob, step: Option<StepSize>| {
             steps.0[knob as usize] = step.unwrap_or(steps.0[knob as usize]);
         };
@@ -294,6 +298,12 @@ impl From<SavedSteps> for StepSizes {
             }
         }
         steps
+    }
+}
+
+impl Default for StepSizes {
+    fn default() -> Self {
+        StepSizes::from_each(|knob| knob.spec().step)
     }
 }
 

@@ -157,7 +157,7 @@ fn steps_are_saved_by_name_and_those_of_former_sessions_in_the_order_of_the_tabl
         "machine": [0.1, 50.0, 0.2, 2.0, 5.0, 0.5], "disturbance": 0.001}"#;
     let steps: StepSizes = serde_json::from_str(listed).unwrap();
     let rows = [
-        Row::FIRST,
+        Row::default(),
         Row::Number(Knob::V0),
         Row::Number(Knob::Until),
         Row::BELT,
@@ -173,7 +173,7 @@ fn steps_are_saved_by_name_and_those_of_former_sessions_in_the_order_of_the_tabl
     );
     assert_eq!(serde_json::from_value::<StepSizes>(named).unwrap(), steps);
     let few: StepSizes = serde_json::from_str(r#"{"D": 0.5}"#).unwrap();
-    assert_eq!(few.of_row(Row::FIRST).unwrap().value(), 0.5);
+    assert_eq!(few.of_row(Row::default()).unwrap().value(), 0.5);
     assert_eq!(few.of_row(Row::Number(Knob::Until)).unwrap().value(), 10.0);
 }
 
