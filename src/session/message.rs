@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use strum::IntoStaticStr;
+
 use crate::model::Knob;
 use crate::question::NoAnswer;
 use crate::scene::{Answered, Finding, Point, Request};
@@ -86,8 +88,9 @@ impl From<Result<String, String>> for Notice {
     }
 }
 
-/// What the mouse did.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What the mouse did, by its word in keystroke files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum Gesture {
     /// The left button was pressed.
     Click,

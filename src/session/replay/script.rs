@@ -21,11 +21,6 @@ pub const MOST: u32 = 100_000;
 pub(super) const ESCAPES: [(char, char); 5] =
     [('"', '"'), ('\\', '\\'), ('\n', 'n'), ('\r', 'r'), ('\t', 't')];
 
-/// What the mouse does, by the words for it. Positions refer to the plots, not to the screen, so that a file has the
-/// same effect at every size.
-pub(super) const GESTURES: [(Gesture, &str); 3] =
-    [(Gesture::Click, "click"), (Gesture::Nearer, "nearer"), (Gesture::Farther, "farther")];
-
 /// Why a text is no keystroke file, or why its replay ends early: the screen does not show an expected text, or there
 /// are too many keys.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -170,7 +165,8 @@ impl fmt::Display for Instruction {
 fn written(message: &Msg) -> String {
     match message {
         Msg::Pointed(Pointed { gesture, place }) => {
-            let gesture = GESTURES.iter().find(|row| row.0 == *gesture).map_or("", |row| row.1);
+            // Positions refer to the plots, not to the screen, so that a file has the same effect at every size.
+            let gesture: &str = gesture.into();
             match place {
                 PointerTarget::Row(row) => format!("<{gesture} row {row}>"),
                 PointerTarget::Plot(index, Point { x, y }) => {
@@ -207,25 +203,30 @@ fn quoted(text: &str) -> String {
 /// Largest width and height that a file may ask for.
 const LARGEST: u16 = 1000;
 
-/// Reads the rest of a directive as a step, or says why it cannot.
-type Reading = fn(&str) -> Result<Instruction, String>;
+/// A directive in angle brackets, as opposed to a key: its first word; what follows that, with an example; and how that
+/// is read, `None` where it is something else.
+type Directive = (&'static str, &'static str, fn(&str) -> Option<Instruction>);
 
-/// Directives in angle brackets, as opposed to keys: the first word, and how the rest is read.
-const DIRECTIVES: [(&str, Reading); 14] = [
-    ("wait", |rest| alone(rest, "wait", Instruction::Wait)),
-    ("async", |rest| alone(rest, "async", Instruction::Async)),
-    ("elapse", elapse),
-    ("resize", resize),
-    ("expect", |rest| text(rest, "expect").map(Instruction::Expect)),
-    ("paste", |rest| text(rest, "paste").map(|text| Instruction::Give(Msg::Paste(text)))),
-    ("run", |rest| text(rest, "run").map(|line| Instruction::Give(Msg::Run(line)))),
-    ("say", |rest| text(rest, "say").map(|text| Instruction::Give(Msg::Say(text, None)))),
-    ("screen", screen),
-    ("start", start),
-    ("file", file),
-    ("click", |rest| pointed("click", rest)),
-    ("nearer", |rest| pointed("nearer", rest)),
-    ("farther", |rest| pointed("farther", rest)),
+const NOTHING: &str = "nothing";
+const TEXT: &str =
+    "text in quotes, which may have \\\" \\\\ \\n \\r \\t, as in <expect \"captured\">";
+const PLACE: &str = "\"N X Y\" on plot N, from 1, or \"row N\", as in <click 1 0.5 -0.25>";
+
+const DIRECTIVES: [Directive; 14] = [
+    ("wait", NOTHING, |rest| rest.is_empty().then_some(Instruction::Wait)),
+    ("async", NOTHING, |rest| rest.is_empty().then_some(Instruction::Async)),
+    ("elapse", "seconds, 0 .. 3600, as in <elapse 0.25>", elapse),
+    ("resize", "columns and rows from 1 to 1000, as in <resize 80x24>", resize),
+    ("expect", TEXT, |rest| text(rest).map(Instruction::Expect)),
+    ("paste", TEXT, |rest| text(rest).map(|text| Instruction::Give(Msg::Paste(text)))),
+    ("run", TEXT, |rest| text(rest).map(|line| Instruction::Give(Msg::Run(line)))),
+    ("say", TEXT, |rest| text(rest).map(|text| Instruction::Give(Msg::Say(text, None)))),
+    ("screen", "a name of letters, digits, \"-\", \"_\" and \".\", as in <screen a-1>", screen),
+    ("start", "some of D, D2, D3, r, q0, v0, or nothing, as in <start D3 r>", start),
+    ("file", "a name and a text, both in quotes, as in <file \"a.toml\" \"..\">", file),
+    ("click", PLACE, |rest| pointed(Gesture::Click, rest)),
+    ("nearer", PLACE, |rest| pointed(Gesture::Nearer, rest)),
+    ("farther", PLACE, |rest| pointed(Gesture::Farther, rest)),
 ];
 
 /// Reads a whole keystroke file. Fails with [`ScriptError`], which has the place of the first mistake.
@@ -274,6 +275,8 @@ fn length_of_name(text: &str) -> usize {
 }
 
 fn step(token: &str) -> Result<Instruction, String> {
+    /// Longest part of a directive that is repeated where it is refused; it may hold a whole file.
+    const REPEATED: usize = 60;
     if !token.starts_with('<') {
         let char = token.chars().next().unwrap_or(' ');
         return Ok(Instruction::Key { key: Key::plain(Code::Char(char)), count: 1 });
@@ -282,18 +285,17 @@ fn step(token: &str) -> Result<Instruction, String> {
         return Err("\"<\" without \">\" on its line; the character itself is <lt>".to_owned());
     };
     let (word, rest) = name.split_once(' ').unwrap_or((name, ""));
-    match DIRECTIVES.iter().find(|(directive, _)| *directive == word) {
-        Some((_, read)) => read(rest.trim()),
-        None => keys(name),
-    }
+    let Some((_, takes, read)) = DIRECTIVES.iter().find(|row| row.0 == word) else {
+        return keys(name);
+    };
+    let given = || name.chars().take(REPEATED).collect::<String>();
+    read(rest.trim()).ok_or_else(|| format!("<{}>: {word} takes {takes}", given()))
 }
 
 /// Seconds that pass: at most an hour.
-fn elapse(text: &str) -> Result<Instruction, String> {
-    let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds));
-    seconds
-        .map(|seconds| Instruction::Give(Msg::Elapsed { seconds }))
-        .ok_or_else(|| format!("elapse takes seconds, 0 .. {LONGEST}, such as <elapse 0.25>"))
+fn elapse(text: &str) -> Option<Instruction> {
+    let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds))?;
+    Some(Instruction::Give(Msg::Elapsed { seconds }))
 }
 
 /// A key with an optional count: `right`, `right*5`, `*`, `**5`.
@@ -317,109 +319,71 @@ fn keys(name: &str) -> Result<Instruction, String> {
 /// A suggestion if a misspelt directive is more likely than a misspelt key.
 fn nearest_directive(name: &str) -> Option<String> {
     let word = name.split(' ').next().unwrap_or(name);
-    let directives = DIRECTIVES.map(|(directive, _)| directive);
+    let directives = DIRECTIVES.map(|row| row.0);
     let nearest = most_similar(word, directives.into_iter().chain(key::names()))?;
     let told = || format!("unknown key <{name}>; did you mean <{nearest}>?");
     directives.contains(&nearest).then(told)
 }
 
-fn alone(rest: &str, word: &str, step: Instruction) -> Result<Instruction, String> {
-    if rest.is_empty() {
-        Ok(step)
-    } else {
-        Err(format!("<{word}> stands alone, not with {rest:?}"))
-    }
-}
-
 /// The place that the mouse points at.
-fn pointed(word: &str, rest: &str) -> Result<Instruction, String> {
+fn pointed(gesture: Gesture, rest: &str) -> Option<Instruction> {
     let words: Vec<&str> = rest.split_whitespace().collect();
     let finite = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
     let place = match words[..] {
-        ["row", row] => row.parse().ok().map(PointerTarget::Row),
+        ["row", row] => PointerTarget::Row(row.parse().ok()?),
         [number, x, y] => {
-            let index = number.parse().ok().and_then(|number: usize| number.checked_sub(1));
-            let point = finite(x).zip(finite(y)).map(|(x, y)| Point { x, y });
-            index.zip(point).map(|(index, point)| PointerTarget::Plot(index, point))
+            let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+            PointerTarget::Plot(index, Point { x: finite(x)?, y: finite(y)? })
         }
-        _ => None,
+        _ => return None,
     };
-    let gesture = GESTURES.iter().find(|row| row.1 == word).map(|row| row.0);
-    let pointed = gesture.zip(place).map(|(gesture, place)| Pointed { gesture, place });
-    pointed.map(|pointed| Instruction::Give(Msg::Pointed(pointed))).ok_or_else(|| {
-        format!("a place of the mouse is \"N X Y\" on plot N, from 1, or \"row N\", not {rest:?}")
-    })
+    Some(Instruction::Give(Msg::Pointed(Pointed { gesture, place })))
 }
 
-fn resize(rest: &str) -> Result<Instruction, String> {
+fn resize(rest: &str) -> Option<Instruction> {
     let read = |text: &str| text.parse().ok().filter(|cells| (1..=LARGEST).contains(cells));
-    let size = rest.split_once('x').and_then(|(w, h)| Some((read(w)?, read(h)?)));
-    match size {
-        Some((width, height)) => Ok(Instruction::Give(Msg::Resize { width, height })),
-        None => Err(format!(
-            "<resize {rest}> needs columns and rows from 1 to {LARGEST}, as in <resize 80x24>"
-        )),
-    }
+    let (width, height) = rest.split_once('x')?;
+    Some(Instruction::Give(Msg::Resize { width: read(width)?, height: read(height)? }))
 }
 
-fn screen(name: &str) -> Result<Instruction, String> {
+fn screen(name: &str) -> Option<Instruction> {
     let allowed = |char: char| char.is_ascii_alphanumeric() || matches!(char, '-' | '_' | '.');
-    if !name.is_empty() && name.chars().all(allowed) && !name.starts_with('.') {
-        Ok(Instruction::Screen(name.to_owned()))
-    } else {
-        Err(format!("<screen {name}> needs a name of letters, digits, \"-\", \"_\" and \".\""))
-    }
+    let is_name = !name.is_empty() && name.chars().all(allowed) && !name.starts_with('.');
+    is_name.then(|| Instruction::Screen(name.to_owned()))
 }
 
-fn start(rest: &str) -> Result<Instruction, String> {
-    let named = |name: &str| Knob::named(name, &[Group::Motion]);
-    let names = rest.split_whitespace().map(named).collect::<Result<_, _>>()?;
-    Ok(Instruction::Give(Msg::Start(names)))
+fn start(rest: &str) -> Option<Instruction> {
+    let named = |name: &str| Knob::named(name, &[Group::Motion]).ok();
+    let names = rest.split_whitespace().map(named).collect::<Option<_>>()?;
+    Some(Instruction::Give(Msg::Start(names)))
 }
 
 /// A name and a text, both in quotes.
-fn file(rest: &str) -> Result<Instruction, String> {
-    let refused = || "<file> needs a name and a text, as in <file \"a.toml\" \"..\">".to_owned();
-    let (name, rest) = leading(rest, "file").map_err(|_| refused())?;
-    let (text, rest) = leading(rest.trim_start(), "file").map_err(|_| refused())?;
-    if name.is_empty() || !rest.is_empty() {
-        Err(refused())
-    } else {
-        Ok(Instruction::File { name, text })
-    }
+fn file(rest: &str) -> Option<Instruction> {
+    let (name, rest) = leading(rest)?;
+    let (text, rest) = leading(rest.trim_start())?;
+    (!name.is_empty() && rest.is_empty()).then_some(Instruction::File { name, text })
 }
 
 /// A text in quotes that is not empty, with nothing after it.
-fn text(rest: &str, word: &str) -> Result<String, String> {
-    match leading(rest, word)? {
-        (text, "") if !text.is_empty() => Ok(text),
-        _ => Err(wants_text(word)),
-    }
-}
-
-fn wants_text(word: &str) -> String {
-    format!("<{word}> needs text in quotes, as in <{word} \"captured\">")
+fn text(rest: &str) -> Option<String> {
+    leading(rest).filter(|(text, rest)| !text.is_empty() && rest.is_empty()).map(|(text, _)| text)
 }
 
 /// The text in quotes at the beginning, with the escapes of [`ESCAPES`] resolved, and the rest.
-fn leading<'a>(rest: &'a str, word: &str) -> Result<(String, &'a str), String> {
-    let refused = || wants_text(word);
-    let mut chars = rest.strip_prefix('"').ok_or_else(refused)?.chars();
+fn leading(rest: &str) -> Option<(String, &str)> {
+    let mut chars = rest.strip_prefix('"')?.chars();
     let mut text = String::new();
-    while let Some(char) = chars.next() {
-        text.push(match char {
+    loop {
+        text.push(match chars.next()? {
+            '"' => return Some((text, chars.as_str())),
             '\\' => {
-                let letter = chars.next().ok_or_else(refused)?;
-                let escape = ESCAPES.iter().find(|(_, escape)| *escape == letter);
-                let known =
-                    || format!("unknown escape \\{letter}; \\\" \\\\ \\n \\r \\t are known");
-                escape.ok_or_else(known)?.0
+                let letter = chars.next()?;
+                ESCAPES.iter().find(|(_, escape)| *escape == letter)?.0
             }
-            '"' => return Ok((text, chars.as_str())),
             char => char,
         });
     }
-    Err(refused())
 }
 
 #[cfg(test)]
