@@ -82,7 +82,7 @@ impl KeysCommand {
             // A document lists them.
             .field("keys", |row| row.keys.clone())
             .word("meaning", |row| row.meaning);
-        let list = Answer::list_of(columns, rows).within(output::columns());
+        let list = Answer::list_of(&columns, &rows, output::columns());
         print(&list.told(self.format))?;
         if let (Some(path), Format::Table) = (self.settings.path(), self.format) {
             let there = if path.exists() { "" } else { " (not there)" };
@@ -103,7 +103,7 @@ impl PaperCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let examine = || examine_all(&Limits::PATIENT);
         let (examined, seconds) = self.output.timed("the examination gave up", examine)?;
-        self.output.print_list(claims::claims(&examined, seconds))
+        self.output.print(claims::claims(&examined, self.output.width(), seconds))
     }
 }
 
@@ -129,17 +129,19 @@ pub struct ExtremesCommand {
 impl ExtremesCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let (limits, format) = (&Limits::PATIENT, self.format);
-        let told = if self.cycles {
+        let answer = if self.cycles {
             let sets: Vec<Parameters> = sets(!self.long).collect();
             let verdicts: Vec<_> = sets.par_iter().map(|set| judge_set(set, limits)).collect();
-            extreme_cycles(&verdicts).told(format)
+            extreme_cycles(&verdicts)
         } else {
             let cases: Vec<Case> = cases(!self.long).collect();
             let judge = |case| judge(case, self.tol, limits);
             let verdicts: Vec<_> = cases.par_iter().map(judge).collect();
-            extremes(&verdicts, || named(limits), self.tol).told(format)
+            // Comma-separated values have no place for those that have a name.
+            let named = if format == Format::Csv { Vec::new() } else { named(limits) };
+            extremes(&verdicts, &named, self.tol)
         };
-        print(&sourced(format, &told))
+        print(&sourced(format, &answer.told(format)))
     }
 }
 

@@ -134,6 +134,6 @@ impl TradeCommand {
             row.error().map(|_| asked.follow(&row.problem, false))
         });
         found.rows.iter_mut().zip(seconds).for_each(|(row, seconds)| row.seconds = seconds);
-        output.print(motion::trade(&asked.about, &found, || in_letters(&found)))
+        output.print(motion::trade(&asked.about, &found, &in_letters(&found)))
     }
 }

@@ -44,9 +44,9 @@ impl Output {
         Ok((found, seconds))
     }
 
-    /// Prints a list whose last column is text, wrapped to the width of a terminal.
-    pub fn print_list(&self, answer: Answer) -> Result<(), Failure> {
-        self.print(answer.within(columns().filter(|_| self.write.is_none())))
+    /// The width of the terminal in which the answer is shown, if it is shown in one.
+    pub fn width(&self) -> Option<usize> {
+        columns().filter(|_| self.write.is_none())
     }
 
     /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other

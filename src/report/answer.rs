@@ -26,27 +26,26 @@ pub enum Format {
     Csv,
 }
 
-/// An answer in every form, of which only the one that is asked for is made.
-#[derive(Default)]
-pub struct Answer<'a> {
+/// An answer in every form.
+#[derive(Clone, Debug, Default)]
+pub struct Answer {
     /// What it is about, in two parts of a line.
     pub(super) head: [String; 2],
     /// Its tables and lines, for reading.
-    pub(super) parts: Vec<Part<'a>>,
+    pub(super) parts: Vec<Part>,
     /// What it cost, for reading.
     cost: Option<String>,
     /// Whether its steps are all that was counted.
     by_steps: bool,
-    /// The width within which the tables of a list are shown.
-    width: Option<usize>,
-    csv: Option<Box<dyn FnOnce() -> String + 'a>>,
-    fields: Vec<Box<dyn FnOnce(Document) -> Document + 'a>>,
+    csv: String,
+    document: Document,
     /// What its document consists of, if that is a list.
-    array: Option<Box<dyn FnOnce() -> Vec<Document> + 'a>>,
+    list: Option<Vec<Document>>,
 }
 
 /// What stands in an answer for reading.
-pub(super) enum Part<'a> {
+#[derive(Clone, Debug)]
+pub(super) enum Part {
     /// A heading of a page, which text leaves out.
     Heading(&'static str),
     /// The sentence that is signed, and whether all that it rests on holds.
@@ -55,99 +54,65 @@ pub(super) enum Part<'a> {
         holds: bool,
     },
     Line(String),
-    /// A table and what it shows.
-    Table {
-        caption: String,
-        table: Box<dyn FnOnce() -> Table + 'a>,
-    },
+    Table(Table),
 }
 
-impl<'a> Answer<'a> {
+impl Answer {
     /// An answer about a thing with a name, and what there is to say of it.
     pub(super) fn new(name: &str, subject: String) -> Self {
         Answer { head: [name.to_owned(), subject], ..Answer::default() }
     }
 
     /// With a field of its document.
-    pub(super) fn with(self, name: &'static str, value: impl Serialize) -> Self {
-        let value = json::value(&value);
-        self.fields(move |all| all.with(name, value))
+    pub(super) fn with(self, name: &str, value: impl Serialize) -> Self {
+        Answer { document: self.document.with(name, value), ..self }
     }
 
     /// With a field of its document, or without it if there is no value.
-    pub(super) fn with_any(self, name: &'static str, value: Option<impl Serialize>) -> Self {
-        match value {
-            Some(value) => self.with(name, value),
-            None => self,
-        }
+    pub(super) fn with_any(self, name: &str, value: Option<impl Serialize>) -> Self {
+        Answer { document: self.document.with_any(name, value), ..self }
     }
 
-    /// With a field of its document that lists these rows.
-    pub(super) fn objects<R: 'a>(
-        self,
-        name: &'static str,
-        columns: Columns<'a, R>,
-        rows: impl IntoIterator<Item: Borrow<R>> + 'a,
-    ) -> Self {
-        self.fields(move |all| all.with(name, columns.objects(rows)))
+    /// With the fields of a record in its document.
+    pub(super) fn and(self, record: &impl Serialize) -> Self {
+        Answer { document: self.document.and(record), ..self }
     }
 
-    /// With fields of its document.
-    pub(super) fn fields(mut self, more: impl FnOnce(Document) -> Document + 'a) -> Self {
-        self.fields.push(Box::new(more));
-        self
-    }
-
-    /// An answer that is a list in every form.
-    pub fn list_of<R: Clone + 'a>(columns: Columns<'a, R>, rows: Vec<R>) -> Self {
-        let (listed, objects) = (columns.clone(), rows.clone());
+    /// An answer that is a list in every form; the last cells of its table are wrapped to a width, if one is given.
+    pub fn list_of<R>(columns: &Columns<R>, rows: &[R], width: Option<usize>) -> Self {
         Answer::default()
-            .array(move || listed.objects(objects))
-            .csv(columns.clone(), rows.clone())
-            .captioned("", move || columns.table(rows).unbroken())
+            .list(columns.objects(rows))
+            .csv(columns, rows)
+            .table(columns.table(rows).unbroken(width))
     }
 
     /// With a document that is a list.
-    pub(super) fn array(self, objects: impl FnOnce() -> Vec<Document> + 'a) -> Self {
-        Answer { array: Some(Box::new(objects)), ..self }
+    pub(super) fn list(self, objects: Vec<Document>) -> Self {
+        Answer { list: Some(objects), ..self }
     }
 
     /// With these rows in files.
-    pub(super) fn csv<R: 'a>(
-        mut self,
-        columns: Columns<'a, R>,
-        rows: impl IntoIterator<Item: Borrow<R>> + 'a,
+    pub(super) fn csv<R>(
+        self,
+        columns: &Columns<R>,
+        rows: impl IntoIterator<Item: Borrow<R>>,
     ) -> Self {
-        self.csv = Some(Box::new(move || columns.csv(rows)));
-        self
+        Answer { csv: columns.csv(rows), ..self }
     }
 
-    /// With these rows for reading; nothing if there are none.
-    pub(super) fn table<R: 'a>(
-        self,
-        columns: Columns<'a, R>,
-        rows: impl IntoIterator<Item: Borrow<R>> + 'a,
-    ) -> Self {
-        self.captioned("", move || columns.table(rows))
+    /// With a table for reading; nothing if it has no rows.
+    pub(super) fn table(mut self, table: Table) -> Self {
+        self.parts.push(Part::Table(table));
+        self
     }
 
     /// With these rows in files and for reading.
-    pub(super) fn rows<R: 'a>(
+    pub(super) fn rows<R>(
         self,
-        columns: Columns<'a, R>,
-        rows: impl IntoIterator<Item: Borrow<R>> + Clone + 'a,
+        columns: &Columns<R>,
+        rows: impl IntoIterator<Item: Borrow<R>> + Clone,
     ) -> Self {
-        self.csv(columns.clone(), rows.clone()).table(columns, rows)
-    }
-
-    /// With a table for reading, and what it shows.
-    pub(super) fn captioned(
-        mut self,
-        caption: impl Into<String>,
-        table: impl FnOnce() -> Table + 'a,
-    ) -> Self {
-        self.parts.push(Part::Table { caption: caption.into(), table: Box::new(table) });
-        self
+        self.csv(columns, rows.clone()).table(columns.table(rows))
     }
 
     /// With a heading of a page.
@@ -175,68 +140,48 @@ impl<'a> Answer<'a> {
         } else {
             (format!("{} evaluations", cost.evaluations), Document::default().and(&cost))
         };
-        self.costing(format!("{line}, {}", duration(seconds)), counted, seconds)
+        self.costing(&line, counted, seconds)
     }
 
     /// With a line about its cost, and the same as fields.
-    pub(super) fn costing(self, line: String, counted: Document, seconds: f64) -> Self {
-        let cost = Some(line);
+    pub(super) fn costing(self, line: &str, counted: Document, seconds: f64) -> Self {
+        let cost = Some(format!("{line}, {}", duration(seconds)));
         Answer { cost, ..self.with("cost", counted.with("seconds", seconds)) }
-    }
-
-    /// The same with tables whose last column is wrapped to a width, if one is given.
-    pub fn within(self, width: Option<usize>) -> Self {
-        Answer { width, ..self }
     }
 
     /// The answer in a form.
     pub fn told(self, format: Format) -> String {
-        match format {
-            Format::Table => self.text(),
-            Format::Json => {
-                if let Some(objects) = self.array {
-                    return json::text(&objects());
-                }
-                let fields = self.fields.into_iter();
-                json::text(&fields.fold(Document::default(), |all, more| more(all)))
-            }
-            Format::Csv => self.csv.map(|rows| rows()).unwrap_or_default(),
+        match (format, self.list) {
+            (Format::Table, _) => text(self.head, self.parts, self.cost),
+            (Format::Json, Some(list)) => json::text(&list),
+            (Format::Json, None) => json::text(&self.document),
+            (Format::Csv, _) => self.csv,
         }
-    }
-
-    /// The answer for reading: around tables are empty lines.
-    fn text(self) -> String {
-        let head = self.head.iter().filter(|part| !part.is_empty()).map(String::as_str);
-        let mut out = head.collect::<Vec<_>>().join(": ");
-        out += if out.is_empty() { "" } else { "\n" };
-        let mut after_table = false;
-        for part in self.parts.into_iter().chain(self.cost.map(Part::Line)) {
-            let is_table = matches!(part, Part::Table { .. });
-            let text = part.text(self.width);
-            if text.is_empty() {
-                continue;
-            }
-            let apart = !out.is_empty() && (is_table || after_table);
-            out += if apart { "\n" } else { "" };
-            out += &text;
-            after_table = is_table;
-        }
-        out
     }
 }
 
-impl Part<'_> {
-    fn text(self, width: Option<usize>) -> String {
-        let line = |text: String| if text.is_empty() { text } else { text + "\n" };
-        match self {
-            Part::Heading(_) => String::new(),
+/// An answer for reading: around tables are empty lines.
+fn text(head: [String; 2], parts: Vec<Part>, cost: Option<String>) -> String {
+    let line = |text: String| if text.is_empty() { text } else { text + "\n" };
+    let head = head.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
+    let mut out = line(head);
+    let mut after_table = false;
+    for part in parts.into_iter().chain(cost.map(Part::Line)) {
+        let is_table = matches!(part, Part::Table(_));
+        let text = match part {
+            Part::Heading(_) => continue,
             Part::Statement { text, .. } | Part::Line(text) => line(text),
-            Part::Table { caption, table } => match table() {
-                table if table.is_empty() => String::new(),
-                table => table.within(width).to_string() + &line(caption),
-            },
+            Part::Table(table) => table.to_string(),
+        };
+        if text.is_empty() {
+            continue;
         }
+        let apart = !out.is_empty() && (is_table || after_table);
+        out += if apart { "\n" } else { "" };
+        out += &text;
+        after_table = is_table;
     }
+    out
 }
 
 /// Significant digits of a physical quantity in text.
@@ -320,12 +265,12 @@ impl About {
     }
 
     /// An answer about it.
-    pub(super) fn answer<'a>(&self) -> Answer<'a> {
+    pub(super) fn answer(&self) -> Answer {
         self.answer_to("")
     }
 
     /// An answer about it, and more about the question.
-    pub(super) fn answer_to<'a>(&self, question: &str) -> Answer<'a> {
+    pub(super) fn answer_to(&self, question: &str) -> Answer {
         let numbers = self.heading() + question;
         let parameters = self.parameters(Interval::lower);
         match self.machine.clone() {

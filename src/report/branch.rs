@@ -50,14 +50,14 @@ fn point_columns<'a>(value: &'static str, digits: usize) -> Columns<'a, PieceRow
 
 /// The branch of the oscillator of the paper: one row for each point, and for each part of the range in which the number
 /// of cycles is proved or open; then the special points.
-pub fn branch<'a>(
+pub fn branch(
     about: &About,
-    branch: &'a Branch,
-    certified: Option<&'a Range>,
+    branch: &Branch,
+    certified: Option<&Range>,
     tolerance: f64,
     seconds: f64,
-) -> Answer<'a> {
-    let rows = move || {
+) -> Answer {
+    let rows = || {
         let pieces = branch.pieces.iter().enumerate();
         pieces.flat_map(|(piece, points)| points.iter().map(move |it| PieceRow::Point(piece, it)))
     };
@@ -72,28 +72,26 @@ pub fn branch<'a>(
         .text("special point", |it: &Special| it.kind.name(it.cycle.as_ref()).to_owned())
         .number(name, special, |it| it.value)
         .number("q_max", special, |it| it.q_max);
-    let answer = about
+    let mut answer = about
         .answer()
         .with("parameter", branch.parameter)
-        .objects("points", point_columns("value", shown), rows())
+        .with("points", point_columns("value", shown).objects(rows()))
         .with("special", &branch.special)
         .with("vague", &branch.vague)
         .with_any("certified", certified.map(decided))
-        .csv(point_columns(name, shown).and(proved), rows().chain(parts))
-        .table(point_columns(name, shown), rows())
+        .csv(&point_columns(name, shown).and(proved), rows().chain(parts))
+        .table(point_columns(name, shown).table(rows()))
         .lines(branch.pieces.is_empty().then_some("no limit cycle"))
-        .table(special, &branch.special)
+        .table(special.table(&branch.special))
         .lines(vague(branch));
-    match certified {
-        Some(range) => answer
-            .table(range_pieces(), &range.pieces)
-            .table(range_changes(), &range.changes)
-            .lines(range.exhausted.then(|| {
-                format!("open after {MOST_STEPS} steps: a narrower range may be decided")
-            })),
-        None => answer,
+    if let Some(range) = certified {
+        let open = || format!("open after {MOST_STEPS} steps: a narrower range may be decided");
+        answer = answer
+            .table(range_pieces().table(&range.pieces))
+            .table(range_changes().table(&range.changes))
+            .lines(range.exhausted.then(open));
     }
-    .cost(branch.cost, seconds)
+    answer.cost(branch.cost, seconds)
 }
 
 /// How many points are left out, and between which values.
@@ -112,7 +110,7 @@ pub fn border<'a>(
     found: &'a Boundary,
     certified: Option<&'a [BorderProof]>,
     seconds: f64,
-) -> Answer<'a> {
+) -> Answer {
     const EXACT: Quantity = Quantity::pure(12);
     const SHORT: Quantity = Quantity::pure(8);
     let kind = |point: &BoundaryPoint| {
@@ -144,13 +142,12 @@ pub fn border<'a>(
         .with("parameter", found.second)
         .with("points", &found.points)
         .with_any("certified", certified.map(document))
-        .rows(columns, rows)
+        .rows(&columns, rows)
         .lines(given_up)
         .cost(found.cost, seconds)
 }
 
 /// A cycle of a machine at a value; a value without an answer has one row, with the reason.
-#[derive(Clone)]
 struct MachineBranchRow {
     value: f64,
     cycle: Option<Cycle>,
@@ -158,37 +155,34 @@ struct MachineBranchRow {
 }
 
 /// The branch of a machine: a row for each cycle at each value; below them in text, each change in a sentence.
-pub fn of_machine<'a>(
-    about: &About,
-    varied: Knob,
-    found: &'a MachineBranch,
-    seconds: f64,
-) -> Answer<'a> {
+pub fn of_machine(about: &About, varied: Knob, found: &MachineBranch, seconds: f64) -> Answer {
     let (name, unit) = (varied.spec().name, varied.spec().unit);
-    let columns = move |name| {
+    let columns = |name| {
         Columns::default()
             .number(name, Quantity::of(unit, PLACES), |row: &MachineBranchRow| row.value)
             .and(machine_cycles(|row: &MachineBranchRow| row.cycle))
             .file("reason", |row| row.reason.clone())
     };
-    let rows = move || {
-        found.points.iter().flat_map(|point| {
+    let rows: Vec<_> = found
+        .points
+        .iter()
+        .flat_map(|point| {
             let row = |cycle, reason| MachineBranchRow { value: point.value, cycle, reason };
             match &point.cycles {
                 Ok(cycles) => cycles.iter().map(|cycle| row(Some(*cycle), None)).collect(),
                 Err(why) => vec![row(None, Some(why.to_string()))],
             }
         })
-    };
+        .collect();
     let cost = Cost { steps: found.cost.steps, ..Cost::default() };
     about
         .answer()
         .with("parameter", name)
         .with("unit", unit)
-        .objects("points", columns("value"), rows())
+        .with("points", columns("value").objects(&rows))
         .with("special", &found.special)
-        .rows(columns(name), rows().collect::<Vec<_>>())
-        .table(special_columns(varied, |special| special), &found.special)
+        .rows(&columns(name), &rows)
+        .table(special_columns(varied, |special| special).table(&found.special))
         .cost(cost, seconds)
 }
 
@@ -224,21 +218,19 @@ fn jumps(special: &Special) -> String {
 }
 
 /// The changes of a machine along one number, a row for each, at each value of the other.
-pub fn border_of_machine<'a>(
+pub fn border_of_machine(
     about: &About,
     (along, over): (Knob, Knob),
-    found: &'a [(f64, Vec<Special>)],
+    found: &[(f64, Vec<Special>)],
     seconds: f64,
-) -> Answer<'a> {
+) -> Answer {
     let [over_name, along_name] = [over, along].map(|knob| knob.spec().name);
     let columns = Columns::default()
         .number(over_name, Quantity::of(over.spec().unit, 13), |(value, _): &(f64, _)| *value)
         .and(special_columns(along, |(_, special): &(f64, &Special)| special));
-    let rows: Vec<_> = found
-        .iter()
-        .flat_map(|(value, all)| all.iter().map(move |special| (*value, special)))
-        .collect();
-    let nothing = rows.is_empty().then(|| format!("nothing changes along {along_name}"));
+    let rows =
+        found.iter().flat_map(|(value, all)| all.iter().map(move |special| (*value, special)));
+    let nothing = rows.clone().next().is_none();
     let points = Columns::default()
         .field("value", |(value, _): &(f64, Vec<Special>)| *value)
         .field("special", |(_, special)| special.clone());
@@ -246,9 +238,9 @@ pub fn border_of_machine<'a>(
         .answer()
         .with("parameter", over_name)
         .with("along", along_name)
-        .objects("points", points, found)
-        .rows(columns, rows)
-        .lines(nothing)
+        .with("points", points.objects(found))
+        .rows(&columns, rows)
+        .lines(nothing.then(|| format!("nothing changes along {along_name}")))
         .cost(Cost::default(), seconds)
 }
 

@@ -3,7 +3,7 @@
 use super::{Answer, Columns, Document, Quantity};
 use crate::numerics::Interval;
 use crate::paper::{Certainty, ClaimResult, Evidence, Sense, Verdict};
-use crate::words::{claim, duration};
+use crate::words::claim;
 
 fn sense(sense: Sense) -> &'static str {
     match sense {
@@ -55,18 +55,14 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
         .text("claim", sentence)
 }
 
-/// Every claim, and the reason if nothing could be computed.
-pub fn claims(examined: &[ClaimResult], seconds: f64) -> Answer<'_> {
+/// Every claim, and the reason if nothing could be computed; sentences are wrapped to a width, if one is given.
+pub fn claims(examined: &[ClaimResult], width: Option<usize>, seconds: f64) -> Answer {
     let reason = |it: &ClaimResult| it.evidence.as_ref().err().map(ToString::to_string);
     Answer::default()
-        .objects("claims", columns().field("reason", reason), examined)
-        .csv(columns(), examined)
-        .captioned("", move || columns().table(examined).unbroken())
-        .costing(
-            format!("{}, {}", claim::summary(examined), duration(seconds)),
-            Document::default(),
-            seconds,
-        )
+        .with("claims", columns().field("reason", reason).objects(examined))
+        .csv(&columns(), examined)
+        .table(columns().table(examined).unbroken(width))
+        .costing(&claim::summary(examined), Document::default(), seconds)
 }
 
 /// What is certain: `proved`, `refuted` or `enclosed`.

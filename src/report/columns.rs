@@ -52,8 +52,8 @@ impl Quantity {
 
 /// Columns of rows `R`, in their order.
 pub struct Columns<'a, R> {
-    files: Vec<Rc<FileColumns<'a, R>>>,
-    texts: Vec<Rc<TextColumn<'a, R>>>,
+    files: Vec<FileColumns<'a, R>>,
+    texts: Vec<TextColumn<'a, R>>,
 }
 
 /// What a row tells.
@@ -72,12 +72,6 @@ struct FileColumns<'a, R> {
 struct TextColumn<'a, R> {
     title: String,
     cell: Part<'a, R, String>,
-}
-
-impl<R> Clone for Columns<'_, R> {
-    fn clone(&self) -> Self {
-        Columns { files: self.files.clone(), texts: self.texts.clone() }
-    }
 }
 
 impl<R> Default for Columns<'_, R> {
@@ -106,7 +100,7 @@ impl<'a, R: 'a> Columns<'a, R> {
     /// A column of text alone.
     pub fn text(mut self, title: &str, cell: impl Fn(&R) -> String + 'a) -> Self {
         let title = title.to_owned();
-        self.texts.push(Rc::new(TextColumn { title, cell: Box::new(cell) }));
+        self.texts.push(TextColumn { title, cell: Box::new(cell) });
         self
     }
 
@@ -134,7 +128,7 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// The last column with another title in text.
     pub fn titled(mut self, title: &str) -> Self {
-        if let Some(column) = self.texts.last_mut().and_then(Rc::get_mut) {
+        if let Some(column) = self.texts.last_mut() {
             title.clone_into(&mut column.title);
         }
         self
@@ -196,7 +190,7 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     fn together(mut self, names: Vec<String>, told: impl Fn(&R) -> Told + 'a) -> Self {
-        self.files.push(Rc::new(FileColumns { names, told: Box::new(told) }));
+        self.files.push(FileColumns { names, told: Box::new(told) });
         self
     }
 
@@ -230,7 +224,7 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     fn cells(&self, row: &R) -> Vec<Value> {
-        let filled = |columns: &Rc<FileColumns<R>>| {
+        let filled = |columns: &FileColumns<R>| {
             let mut cells = (columns.told)(row).0;
             cells.resize(columns.names.len(), Value::Null);
             cells

@@ -14,51 +14,49 @@ use crate::words::{stability, with_unit};
 
 /// Every cycle with what is proved about it, to the digits that are proved in text; the border of the basin; the harmonic
 /// balance if asked for.
-pub fn cycles<'a>(
+pub fn cycles(
     about: &About,
-    found: &'a Cycles,
-    proof: &'a Proof,
-    rungs: Option<&'a [HarmonicBalance]>,
+    found: &Cycles,
+    proof: &Proof,
+    rungs: Option<&[HarmonicBalance]>,
     seconds: f64,
-) -> Answer<'a> {
+) -> Answer {
     const SHORT: Quantity = Quantity::pure(6);
     let by_one = amplitudes(&found.parameters);
     let harmonic = Columns::default()
         .text("by one harmonic", |it: &Harmonic| stability(it.stable).to_owned())
         .number("amplitude", SHORT, |it| it.amplitude)
         .number("mean", SHORT, |it| it.mean);
-    let answer = with_proof(about.answer(), move || ProvedRow::found(&found.cycles, proof), proof)
+    let mut answer = with_proof(about.answer(), &ProvedRow::found(&found.cycles, proof), proof)
         .with("harmonic", &by_one)
         .with_any("balance", rungs.map(|rungs| balance_columns().objects(balances(rungs))))
         .with("basin", Document::default().with("edge", found.border))
         .lines([border(found.border)])
         .lines(by_one.is_empty().then_some("by one harmonic: no cycle"))
-        .table(harmonic, by_one);
-    let answer = match rungs {
-        Some(rungs) => answer
-            .csv(balance_columns(), balances(rungs))
-            .captioned(BALANCE, move || balance_columns().table(balances(rungs))),
-        None => answer,
-    };
+        .table(harmonic.table(by_one));
+    if let Some(balances) = rungs.map(balances) {
+        let table = balance_columns().table(&balances).captioned(BALANCE);
+        answer = answer.csv(&balance_columns(), balances).table(table);
+    }
     answer.cost(found.cost, seconds)
 }
 
 /// Every cycle of a machine, and what borders the basin.
-pub fn of_machine<'a>(about: &About, found: &'a Portrait, seconds: f64) -> Answer<'a> {
+pub fn of_machine(about: &About, found: &Portrait, seconds: f64) -> Answer {
     let columns = machine_cycles(|cycle: &Cycle| Some(*cycle));
     about
         .answer()
-        .objects("cycles", columns.clone(), &found.cycles)
+        .with("cycles", columns.objects(&found.cycles))
         // The number of cycles is not proved; where the search did not settle is known.
         .with("count", Document::default().with("proved", false).with("open", &found.unresolved))
         .with("neutral", found.neutral)
         .with("basin", Document::default().with("edge", found.border))
-        .rows(columns, &found.cycles)
+        .rows(&columns, &found.cycles)
         .lines(found.cycles.is_empty().then_some(NO_CYCLE))
         .portrayed(found, seconds)
 }
 
-impl Answer<'_> {
+impl Answer {
     /// With what is known of the motions of a machine, and what its portrait cost.
     pub fn portrayed(self, portrait: &Portrait, seconds: f64) -> Self {
         self.lines(known(portrait)).cost(portrait.cost, seconds)

@@ -16,12 +16,8 @@ use crate::words::{significant, stability};
 /// Few digits of what has more in files.
 const FEW: Quantity = Quantity::pure(4);
 
-/// The answers of all methods; `named` computes the extremes that have a name.
-pub fn extremes<'a>(
-    verdicts: &'a [MethodsVerdict],
-    named: impl Fn() -> Vec<NamedExtreme> + Copy + 'a,
-    tolerance: f64,
-) -> Answer<'a> {
+/// The answers of all methods, and the extremes that have a name.
+pub fn extremes(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64) -> Answer {
     let columns = parameter_columns(|it: &MethodsVerdict| it.case.parameters)
         .text("start", |it| it.case.start.to_string())
         .text("answer", |it| it.answers[0].outcome.word().to_owned())
@@ -38,8 +34,9 @@ pub fn extremes<'a>(
     Answer::default()
         .with("tolerance", tolerance)
         .with("budget", BUDGET)
-        .fields(move |all| all.with("motions", verdicts).with("named", named()))
-        .csv(method_columns(), answers)
+        .with("motions", verdicts)
+        .with("named", named)
+        .csv(&method_columns(), answers)
         .lines([format!(
             "Below the name of a method: digits lost of those that the tolerance {tolerance:e} asks for,\n\
              or why there is no number: gave up within {BUDGET} evaluations, wrong (contradicts the \
@@ -47,9 +44,9 @@ pub fn extremes<'a>(
              Sensitive: digits by which the answer magnifies a change of the damping (where a digit was \
              lost)."
         )])
-        .captioned("", move || columns.table(verdicts).unbroken())
-        .captioned("", || summary(verdicts))
-        .captioned("", move || named_columns().table(named()))
+        .table(columns.table(verdicts).unbroken(None))
+        .table(summary(verdicts))
+        .table(named_columns().table(named))
 }
 
 /// The columns of files, one row for each motion and method.
@@ -136,7 +133,7 @@ fn named_columns<'a>() -> Columns<'a, NamedExtreme> {
 }
 
 /// The limit cycles at the extremes: one row for each cycle, and one for a set without cycles.
-pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer<'_> {
+pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer {
     let rows = verdicts.iter().flat_map(|verdict| {
         let cycles = verdict.cycles().iter().map(Some);
         let none = verdict.cycles().is_empty().then_some(None);
@@ -145,14 +142,14 @@ pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer<'_> {
     Answer::default()
         .with("budget", BUDGET_OF_SET)
         .with("sets", verdicts)
-        .csv(set_columns(), rows.clone())
+        .csv(&set_columns(), rows.clone())
         .lines([format!(
             "Every limit cycle by amplitude, or why the search gave up within {BUDGET_OF_SET} evaluations of a half \
              map.\nResidual: by what fraction of the clearance a turn fails to close, followed again by other \
              steps."
         )])
-        .captioned("", || set_columns().table(rows).unbroken())
-        .captioned("", || sets_summary(verdicts))
+        .table(set_columns().table(rows).unbroken(None))
+        .table(sets_summary(verdicts))
 }
 
 /// A set of parameters, and a cycle of it.

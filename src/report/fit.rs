@@ -10,53 +10,47 @@ use crate::fit::{
 use crate::portrait::Kicks;
 use crate::words::fit::{left_out as counts, sentences, signed, undetermined};
 use crate::words::number::{in_unit, resolved, with_error};
-use crate::words::{duration, significant};
+use crate::words::significant;
 
 /// The whole answer of a fit: in rows one for each estimated number, then the margins.
-pub fn fit(fitted: &Fitted) -> Answer<'_> {
+pub fn fit(fitted: &Fitted) -> Answer {
     let statement = signed(fitted);
     let broken = statement.broken();
     let (with, plain) = fitted.motions();
     let motions = Document::default().with("with_derivatives", with).with("without", plain);
-    let seconds = fitted.seconds;
     let name = Columns::default().file("name", |row: &EstimateRow| row.name.clone());
     let numbers = || fitted.estimate.wanted().map(|row| EstimateRow::of_number(fitted, row));
-    let physical = || {
-        rows(fitted)
-            .into_iter()
-            .map(|it| EstimateRow::known(it.name, it.value, it.standard_error, it.unit.to_owned()))
-    };
+    let physical = rows(fitted)
+        .into_iter()
+        .map(|it| EstimateRow::known(it.name, it.value, it.standard_error, it.unit.to_owned()));
+    let table = |rows: Vec<EstimateRow>| estimate_columns().table(rows).lean();
     Answer::new(&fitted.name, subject(fitted))
-        .fields(move |all| document(all, fitted))
-        .csv(name.and(estimate_columns()), numbers().chain(kick_rows(fitted)))
+        .and(&document(fitted))
+        .csv(&name.and(estimate_columns()), numbers().chain(kick_rows(fitted)))
         .lines(broken.clone())
         .statement(statement.text.clone(), broken.is_none())
-        .captioned("what the sentence rests on", move || tested(&statement.conditions))
+        .table(tested(&statement.conditions).captioned("what the sentence rests on"))
         .heading("Numbers")
-        .captioned("standard errors; 95 % lie from .. to", move || {
-            estimate_columns().table(numbers()).lean()
-        })
-        .captioned("in SI units, with standard errors", move || {
-            estimate_columns().table(physical()).lean()
-        })
+        .table(table(numbers().collect()).captioned("standard errors; 95 % lie from .. to"))
+        .table(table(physical.collect()).captioned("in SI units, with standard errors"))
         .lines([start(fitted)])
         .lines(undetermined(fitted))
         .heading("Margin")
-        .captioned(draws(fitted), || margins(fitted))
+        .table(margins(fitted).captioned(draws(fitted)))
         .heading("Correlations")
-        .captioned("", || correlations(fitted))
+        .table(correlations(fitted))
         .heading("Left out")
         .lines(counts(fitted))
         .lines([places(fitted)])
         .costing(
-            format!("{with} motions with derivatives, {plain} without, {}", duration(seconds)),
+            &format!("{with} motions with derivatives, {plain} without"),
             motions,
-            seconds,
+            fitted.seconds,
         )
 }
 
 /// All that was found, as fields of a document.
-fn document(all: Document, fitted: &Fitted) -> Document {
+fn document(fitted: &Fitted) -> Document {
     let Fitted { record, estimate, margins, .. } = fitted;
     let number = |row: &NameSpec| estimate_columns().object(&EstimateRow::of_number(fitted, row));
     let parameters = estimate.wanted().map(|row| (row.name, number(row)));
@@ -70,7 +64,8 @@ fn document(all: Document, fitted: &Fitted) -> Document {
             .with("standard_error", it.standard_error)
     };
     let statement = signed(fitted);
-    all.with("file", &fitted.name)
+    Document::default()
+        .with("file", &fitted.name)
         .with("unit", &record.unit)
         .with("signal", record.signal)
         .with("parameters", parameters.collect::<BTreeMap<_, _>>())

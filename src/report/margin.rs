@@ -45,12 +45,12 @@ pub(super) fn margin_columns<'a>(about: &About, digits: usize) -> Columns<'a, Ma
 
 /// The margins, nominal and those for certain whatever a force of at most `disturbance` does: a row for each, or why
 /// nothing is guaranteed.
-pub fn margins<'a>(
+pub fn margins(
     about: &About,
     nominal: Margin,
     certain: Result<Margin, Uncertain>,
     disturbance: f64,
-) -> Answer<'a> {
+) -> Answer {
     let reason = certain.err().map(|why| why.to_string());
     let guaranteed = certain.unwrap_or(Margin::ENDLESS);
     let rows = [("nominal", nominal), (GUARANTEED, guaranteed)];
@@ -71,19 +71,19 @@ pub fn margins<'a>(
         .with(GUARANTEED, Document::default().and(&guaranteed).with("reason", reason))
         .with("disturbance", disturbance)
         .with("parameters", known)
-        .csv(columns.clone(), rows)
-        .captioned("", move || columns.table(&rows[..shown]).transposed())
+        .csv(&columns, rows)
+        .table(columns.table(&rows[..shown]).transposed())
         .lines(nothing)
 }
 
 /// The basin, where the starts of a window end, and what is proved of it.
-pub fn basin<'a>(
+pub fn basin(
     about: &About,
     found: &Portrait,
     (window, counts): (&StartWindow, Counts),
-    certified: Option<&'a ProvedKicks>,
+    certified: Option<&ProvedKicks>,
     seconds: f64,
-) -> Answer<'a> {
+) -> Answer {
     let (area, share) = (found.area(), found.lyapunov_share());
     let on_paper = !about.is_machine();
     let (captured, lines) = if on_paper {
@@ -120,8 +120,8 @@ pub fn basin<'a>(
         .with_any("area", on_paper.then_some(area))
         .with_any("lyapunov_share", on_paper.then_some(share))
         .with_any("certified", certified.map(|it| kick_columns().object(&it)))
-        .csv(columns.clone(), [row])
-        .captioned("", move || columns.table([row]).transposed())
+        .csv(&columns, [row])
+        .table(columns.table([row]).transposed())
         .lines(too_large.then_some("Lyapunov's disk is too large, as it ignores D2 and D3"))
         .cost(found.cost, seconds)
 }
@@ -144,13 +144,7 @@ fn count_columns<'a>(counts: Counts) -> Columns<'a, MarginRow> {
 
 /// What becomes of random kicks; `held` is the farthest place of rest on either side. The mean is null in a document if
 /// no kick is ever lost; rows are the density of the places of rest, one for each cell of the sticking set.
-pub fn kicks<'a>(
-    about: &About,
-    law: &'a RandomKick,
-    found: &'a Repeated,
-    held: f64,
-    seconds: f64,
-) -> Answer<'a> {
+pub fn kicks(about: &About, law: &RandomKick, found: &Repeated, held: f64, seconds: f64) -> Answer {
     let density = Columns::default()
         .file("q", |(q, _): &(f64, f64)| *q)
         .file("density", |(_, density)| *density);
@@ -164,7 +158,7 @@ pub fn kicks<'a>(
         .with("kicks", law.to_string())
         .with("lost", found.first)
         .with("repeated", repeated)
-        .csv(density, found.places(held))
+        .csv(&density, found.places(held))
         .lines(lost(found))
         .cost(found.cost, seconds)
 }

@@ -18,7 +18,6 @@ use crate::words::number::{count, exact};
 use crate::words::{counted, duration, significant};
 
 /// A point of a motion: its start, every arrival at `v = 0`, or its end.
-#[derive(Clone)]
 struct MotionRow {
     what: &'static str,
     tau: f64,
@@ -44,12 +43,12 @@ fn columns_of_points<'a>(about: &About, digits: usize) -> Columns<'a, MotionRow>
 }
 
 /// A motion: its start, every arrival at `v = 0` and its end, with what is proved of each; and where its energy goes.
-pub fn motion<'a>(
+pub fn motion(
     about: &About,
-    motion: &'a Trajectory,
-    certified: Option<&'a ProvedMotion>,
+    motion: &Trajectory,
+    certified: Option<&ProvedMotion>,
     seconds: f64,
-) -> Answer<'a> {
+) -> Answer {
     let problem = &motion.problem;
     let machine = about.is_machine();
     let proved =
@@ -82,8 +81,8 @@ pub fn motion<'a>(
         .with("energy", energy)
         .with_any("evaluations", machine.then_some(motion.cost.evaluations))
         .with_any("certified", certified.map(|it| followed(it, problem.until)))
-        .rows(columns.and(certified.map(|_| proved)), points(motion, certified, machine))
-        .table(energy_columns(about.quantity("J", 6)), amounts)
+        .rows(&columns.and(certified.map(|_| proved)), &points(motion, certified, machine))
+        .table(energy_columns(about.quantity("J", 6)).table(amounts))
         .lines(how)
         .cost(motion.cost, seconds)
 }
@@ -236,7 +235,7 @@ fn reference(trade: &Trade) -> String {
 }
 
 /// The trade-off with a plot of it below the text: one line for each method and accuracy; those without an error come last.
-pub fn trade<'a>(about: &About, trade: &'a Trade, plot: impl FnOnce() -> String) -> Answer<'a> {
+pub fn trade(about: &About, trade: &Trade, plot: &str) -> Answer {
     let Trade { problem, reference: known, rows } = trade;
     let until = format!("{}; until tau = {}", from(problem), significant(problem.until, 6));
     let has_error = |row: &&TradePoint| row.deviation.is_ok();
@@ -248,14 +247,13 @@ pub fn trade<'a>(about: &About, trade: &'a Trade, plot: impl FnOnce() -> String)
         let setting = setting(row).map_or_else(String::new, |setting| format!(" at {setting}"));
         format!("{}{setting}: {}", row.problem.method, reason(row).unwrap_or_default())
     });
-    let given_up: Vec<_> = given_up.collect();
     let without_error = Columns::default()
         .file("method", |row: &&TradePoint| row.problem.method)
         .and(dial_columns())
         .file("reason", reason)
         .file("evaluations", |row| row.cost.evaluations);
     let answer = if about.is_machine() { about.answer() } else { about.answer_to(&until) };
-    let all = [answered.clone(), unanswered.clone()].concat();
+    let all = [answered.as_slice(), &unanswered].concat();
     let answer = answer
         .with("initial", problem.initial)
         .with("until", problem.until)
@@ -263,15 +261,15 @@ pub fn trade<'a>(about: &About, trade: &'a Trade, plot: impl FnOnce() -> String)
         .with("reference_error", known.error)
         .with("scale", known.scale)
         .with("turns", known.turns.len())
-        .objects("rows", columns_of_trade(trade), answered.clone())
-        .objects("unanswered", without_error, unanswered)
-        .csv(columns_of_trade(trade).file("reason", reason), all)
+        .with("rows", columns_of_trade(trade).objects(&answered))
+        .with("unanswered", without_error.objects(&unanswered))
+        .csv(&columns_of_trade(trade).file("reason", reason), all)
         .lines([end_of(known), format!("reference: {}", reference(trade))])
-        .captioned("", move || columns_of_trade(trade).table(answered).unbroken())
+        .table(columns_of_trade(trade).table(&answered).unbroken(None))
         .lines(given_up)
         .lines([format!("*: nothing else is better for less time{in_use}")])
-        .lines(["\n".to_owned() + &plot()])
-        .captioned("", || price(trade));
+        .lines([format!("\n{plot}")])
+        .table(price(trade));
     let seconds = rows.iter().map(|row| row.seconds).sum();
     if about.is_machine() { answer.cost(known.cost, seconds) } else { answer }
 }

@@ -19,7 +19,7 @@ pub struct SourceFile {
     pub sha256: String,
 }
 
-impl Answer<'_> {
+impl Answer {
     /// The answer as a file, with its kind, pictures as SVG, the names of whose parts differ, what computed it, and from
     /// which files.
     pub fn page(
@@ -100,7 +100,7 @@ fn part_html(part: Part) -> String {
             element(&format!("p class=\"{class}\""), &xml(&text))
         }
         Part::Line(text) => element("p", &xml(&text)),
-        Part::Table { caption, table } => table_html(&caption, &table()),
+        Part::Table(table) => table_html(&table),
     }
 }
 
@@ -111,7 +111,7 @@ fn element(open: &str, inside: &str) -> String {
 }
 
 /// A table whose numbers stand below each other at their points, as in text; the first cell of a row names it.
-fn table_html(caption: &str, table: &Table) -> String {
+fn table_html(table: &Table) -> String {
     if table.is_empty() {
         return String::new();
     }
@@ -131,7 +131,7 @@ fn table_html(caption: &str, table: &Table) -> String {
         |cells: Vec<String>| element("tr", &cells.iter().enumerate().map(cell).collect::<String>());
     let head = element("thead", &element("tr", &titles.collect::<String>()));
     let body = element("tbody", &lines.map(row).collect::<String>());
-    let caption = Some(caption).filter(|caption| !caption.is_empty());
+    let caption = Some(&table.caption).filter(|caption| !caption.is_empty());
     let caption = caption.map(|caption| element("caption", &xml(caption))).unwrap_or_default();
     element("div class=\"table\"", &element("table", &(caption + &head + &body)))
 }

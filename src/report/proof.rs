@@ -87,12 +87,9 @@ fn bound_columns<'a>() -> Columns<'a, ProvedRow<'a>> {
 
 /// An answer with its cycles and what is proved about them: a row for each, and in files for each interval of clearances
 /// that is open; the parameters for which this holds are the doubles nearest to the decimal numbers given.
-pub(super) fn with_proof<'a>(
-    answer: Answer<'a>,
-    rows: impl Fn() -> Vec<ProvedRow<'a>> + Copy + 'a,
-    proof: &'a Proof,
-) -> Answer<'a> {
+pub(super) fn with_proof(answer: Answer, rows: &[ProvedRow], proof: &Proof) -> Answer {
     let open = proof.open.iter().map(|open| ProvedRow { open: Some(open), ..Default::default() });
+    let open: Vec<_> = open.collect();
     let is_box = !proof.parameters.is_point();
     let own = if is_box {
         Columns::default().file("stable", |row: &ProvedRow| row.stable)
@@ -106,20 +103,17 @@ pub(super) fn with_proof<'a>(
     };
     let texts = Columns::default().text("cycle", kind);
     let is_unknown = |row: &ProvedRow| NUMBERS.iter().any(|number| row.text(number) == "?");
-    let unknown = rows().iter().any(is_unknown).then_some(UNKNOWN);
+    let count = Document::default()
+        .with("proved", proof.is_complete())
+        .with("open", &proof.open)
+        .with("parameters", proof.parameters);
     answer
-        .fields(move |all| {
-            let cycles: Vec<_> = rows().iter().map(ProvedRow::document).collect();
-            let count = Document::default()
-                .with("proved", proof.is_complete())
-                .with("open", &proof.open)
-                .with("parameters", proof.parameters);
-            all.with("cycles", cycles).with("count", count)
-        })
-        .csv(own.and(bound_columns()), rows().into_iter().chain(open))
-        .table(number_columns(texts, ProvedRow::text), rows())
-        .lines(unknown)
-        .lines(sentences(rows().len(), proof, if is_box { BOX } else { POINT }))
+        .with("cycles", rows.iter().map(ProvedRow::document).collect::<Vec<_>>())
+        .with("count", count)
+        .csv(&own.and(bound_columns()), rows.iter().chain(&open))
+        .table(number_columns(texts, ProvedRow::text).table(rows))
+        .lines(rows.iter().any(is_unknown).then_some(UNKNOWN))
+        .lines(sentences(rows.len(), proof, if is_box { BOX } else { POINT }))
 }
 
 /// What `?` means.
@@ -151,9 +145,9 @@ fn sentences(found: usize, proof: &Proof, parameters: &str) -> Vec<String> {
 }
 
 /// The cycles that exist for all parameters in a box.
-pub fn boxed(proof: &Proof) -> Answer<'_> {
-    let rows = || proof.cycles.iter().map(ProvedRow::proved).collect();
-    with_proof(Answer::new("", About::boxed(&proof.parameters).heading()), rows, proof)
+pub fn boxed(proof: &Proof) -> Answer {
+    let rows: Vec<_> = proof.cycles.iter().map(ProvedRow::proved).collect();
+    with_proof(Answer::new("", About::boxed(&proof.parameters).heading()), &rows, proof)
 }
 
 /// The statement of a certificate that has been checked.
@@ -173,7 +167,7 @@ pub fn certificate_table(certificate: &Certificate) -> String {
     let steps = certificate.steps.len();
     let [d, d2, d3, r] = certificate.parameters.map(interval);
     Answer::new("", About::boxed(&ParameterBox { d, d2, d3, r }).heading())
-        .table(columns, proved)
+        .table(columns.table(proved))
         .lines([format!("{count} and no other, at any amplitude: {steps} steps checked")])
         .told(Format::Table)
 }

@@ -31,10 +31,10 @@ fn columns<'a>() -> Columns<'a, SceneRow<'a>> {
 }
 
 /// Every scene: one row for each of its names.
-pub fn scenes(scenes: &[Arc<Scene>]) -> Answer<'_> {
+pub fn scenes(scenes: &[Arc<Scene>]) -> Answer {
     let scenes = scenes.iter().map(AsRef::as_ref);
     let rows = scenes.flat_map(|scene: &Scene| scene.names().map(move |name| (name, scene)));
-    Answer::list_of(columns(), rows.collect())
+    Answer::list_of(&columns(), &rows.collect::<Vec<_>>(), None)
 }
 
 /// A question that was answered, and what it cost.
@@ -87,18 +87,18 @@ fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
 
 /// The costs of scenes: in rows one line for each question of each scene, when it opens and after each step; in text
 /// one table for each scene.
-pub fn costs(scenes: &[SceneCost]) -> Answer<'_> {
+pub fn costs(scenes: &[SceneCost]) -> Answer {
     let singly = |found| SceneCost::asked(found).flat_map(|asked| AskedRow::singly(found, asked));
     let answer = Answer::default()
-        .array(move || scenes.iter().map(document).collect::<Vec<_>>())
-        .csv(cost_columns(), scenes.iter().flat_map(singly));
+        .list(scenes.iter().map(document).collect())
+        .csv(&cost_columns(), scenes.iter().flat_map(singly));
     scenes.iter().fold(answer, |answer, found| {
         let opening = AskedRow::singly(found, &found.opening);
         let all = found.asked().map(|asked| AskedRow { scene: found, asked, question: None });
         let formulas = format!("by formulas: {}", found.formulas.join(", "));
         answer
             .lines([format!("{}: {}", found.scene.name, found.scene.title)])
-            .captioned("", || cost_columns().table(opening.chain(all)).unbroken())
+            .table(cost_columns().table(opening.chain(all)).unbroken(None))
             .lines((!found.formulas.is_empty()).then_some(formulas))
     })
 }

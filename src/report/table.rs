@@ -13,9 +13,11 @@ const SCREEN: usize = 80;
 pub struct Table {
     pub(super) titles: Vec<String>,
     pub(super) rows: Vec<Vec<String>>,
+    /// What it shows.
+    pub(super) caption: String,
     /// Whether its lines may be longer than a screen is wide.
     is_unbroken: bool,
-    /// The width within which words at the end of a line go on below themselves.
+    /// The width within which words at the end of such a line go on below themselves.
     width: Option<usize>,
 }
 
@@ -34,14 +36,14 @@ impl Table {
         Table { titles, rows, ..Table::default() }
     }
 
-    /// The same with lines of any length.
-    pub(super) fn unbroken(self) -> Self {
-        Table { is_unbroken: true, ..self }
+    /// The same with lines of any length, or with words at their ends wrapped to a width, if one is given.
+    pub(super) fn unbroken(self, width: Option<usize>) -> Self {
+        Table { is_unbroken: true, width, ..self }
     }
 
-    /// The same, with words at the end of a line wrapped to a width, if one is given.
-    pub(super) fn within(self, width: Option<usize>) -> Self {
-        Table { width, ..self }
+    /// The same with what it shows below it.
+    pub(super) fn captioned(self, caption: impl Into<String>) -> Self {
+        Table { caption: caption.into(), ..self }
     }
 
     /// Whether there is nothing to show.
@@ -149,12 +151,16 @@ impl Table {
 /// A table that is too wide for a screen is continued below itself.
 impl fmt::Display for Table {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.is_unbroken {
-            return out.write_str(&self.lines());
+        if self.is_empty() {
+            return Ok(());
         }
-        let parts = self.parts();
-        let parts = parts.iter().map(|columns| self.of(columns).lines());
-        out.write_str(&parts.collect::<Vec<_>>().join("\n"))
+        let parts = if self.is_unbroken {
+            vec![self.lines()]
+        } else {
+            self.parts().iter().map(|columns| self.of(columns).lines()).collect()
+        };
+        out.write_str(&parts.join("\n"))?;
+        if self.caption.is_empty() { Ok(()) } else { writeln!(out, "{}", self.caption) }
     }
 }
 
@@ -228,11 +234,11 @@ mod tests {
     #[test]
     fn the_last_column_goes_on_below_itself_or_where_there_is_little_room_below_its_row() {
         let list = table(&["key", "meaning"], &[&["a", "one two three four five six seven"]]);
-        let shown = |width| Table { width: Some(width), ..list.clone() }.unbroken().to_string();
+        let shown = |width| list.clone().unbroken(Some(width)).to_string();
         assert_eq!(shown(35), "key  meaning\na    one two three four five six\n     seven\n");
         assert_eq!([shown(38), shown(30)], [list.to_string(), list.to_string()]);
         let wide = table(&["a".repeat(38).as_str(), "b"], &[&["a", "one two three four five six"]]);
-        let wide = Table { width: Some(58), ..wide }.unbroken().to_string();
+        let wide = wide.unbroken(Some(58)).to_string();
         assert!(wide.ends_with("\na\n    one two three four five six\n"), "{wide}");
     }
 

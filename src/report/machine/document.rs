@@ -13,7 +13,7 @@ use crate::report::motion::{energy, phases};
 use crate::report::{Columns, Document};
 
 /// The whole answer about a machine as a document.
-pub(super) fn document(all: Document, answer: &MachineAnswer) -> Document {
+pub(super) fn document(answer: &MachineAnswer) -> Document {
     let MachineAnswer { portrait, expansion, .. } = answer;
     let design = answer.design.map(|designed| {
         Document::default()
@@ -23,7 +23,8 @@ pub(super) fn document(all: Document, answer: &MachineAnswer) -> Document {
             .with("needed", designed.needed)
             .with("message", designed.sentence(&answer.problem.subject))
     });
-    all.with("model", "whole")
+    Document::default()
+        .with("model", "whole")
         .and(&expansion.as_ref().map(quantities).unwrap_or_default())
         .and(&motions(portrait))
         .with("motion", motion(answer))

@@ -68,7 +68,7 @@ pub struct DesignAnswer {
 }
 
 /// The whole answer about a machine.
-pub fn machine<'a>(found: &'a MachineAnswer) -> Answer<'a> {
+pub fn machine(found: &MachineAnswer) -> Answer {
     let MachineAnswer { about, portrait, expansion, .. } = found;
     let guaranteed = found.certain.and_then(Result::ok);
     let margins = [("nominal", portrait.margin)].into_iter();
@@ -77,22 +77,21 @@ pub fn machine<'a>(found: &'a MachineAnswer) -> Answer<'a> {
         .text("smallest kick that is not survived", |(name, _): &(&str, Margin)| (*name).to_owned())
         .and(margin_columns(about, PLACES));
     let (statement, holds) = text::statement(found);
+    let allowance = text::allowance(found).unwrap_or_default();
     let numbers = expansion.iter().flat_map(|expansion| of_belt(expansion, &portrait.margin));
     about
         .answer()
-        .fields(move |all| document::document(all, found))
-        .csv(quantity_columns(), rows(found))
+        .and(&document::document(found))
+        .csv(&quantity_columns(), rows(found))
         .statement(statement, holds)
         .lines(known(portrait))
         .heading("Margins")
-        .captioned(text::allowance(found).unwrap_or_default(), move || {
-            kicks.table(margins).transposed()
-        })
+        .table(kicks.table(margins).transposed().captioned(allowance))
         .heading("Machine")
-        .table(quantity_columns(), numbers)
+        .table(quantity_columns().table(numbers))
         .lines(expansion.as_ref().map(text::friction))
         .heading("Cycles")
-        .table(machine_cycles(|cycle: &Cycle| Some(*cycle)), &portrait.cycles)
+        .table(machine_cycles(|cycle: &Cycle| Some(*cycle)).table(&portrait.cycles))
         .lines(portrait.cycles.is_empty().then_some(NO_CYCLE))
         .heading("Remarks")
         .lines(text::remarks(found))
