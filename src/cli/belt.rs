@@ -6,13 +6,14 @@ use clap::Args;
 
 use super::figure::completed;
 use super::input::{self, MACHINE, page_file, tolerance};
-use super::{Failure, MachineCase, Output, second, timed, troubled, write};
+use super::{CommandCase, Failure, Output, second, timed, troubled, write};
 use crate::figure::panels;
 use crate::flow::{
-    Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, follow, follow_by_series,
+    Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, Subject, follow,
+    follow_by_series,
 };
 use crate::model::unit::WithTolerance;
-use crate::model::{Knob, MachineProblem, Source, Tolerances};
+use crate::model::{Knob, Source, Tolerances};
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Kick, Portrait, StartWindow, friction_of_guide};
 use crate::report::About;
@@ -82,11 +83,11 @@ fn long_about() -> String {
 
 impl BeltCommand {
     /// The machine and the motion, with the values set on the command line.
-    fn case(&self) -> Result<MachineCase, Failure> {
-        let mut case = MachineCase::named(&self.machine)?;
+    fn case(&self) -> Result<CommandCase, Failure> {
+        let mut case = CommandCase::named(&self.machine)?;
         case.set(&self.set)?;
         case.set(&self.start)?;
-        let tolerances = &mut case.described.problem.tolerances;
+        let tolerances = &mut case.described.subject.tolerances;
         tolerances.disturbance = self.disturbance.unwrap_or(tolerances.disturbance);
         case.checked()
     }
@@ -95,10 +96,10 @@ impl BeltCommand {
         let second = second(self.method)?;
         let mut case = self.case()?;
         // A second method takes the tolerance for itself.
-        case.described.problem.subject.tolerance = self.tol.filter(|_| second.is_none());
+        case.described.subject.source.tolerance = self.tol.filter(|_| second.is_none());
         let about = case.about();
         let (found, seconds) =
-            timed(self.output.repeat, || self.answer(&case.described.problem, &about, second));
+            timed(self.output.repeat, || self.answer(&case.described.subject, &about, second));
         let answer = MachineAnswer { seconds, ..found.map_err(troubled)? };
         if let Some(path) = &self.report {
             let (pictures, provenance) = (pictures(&case)?, provenance_file::of_process());
@@ -113,22 +114,22 @@ impl BeltCommand {
     /// The answer about the motion and the machine, without its time.
     fn answer<'a>(
         &self,
-        problem: &'a MachineProblem,
+        subject: &'a Subject,
         about: &'a About,
         second: Option<Method>,
     ) -> Result<MachineAnswer<'a>, Reason> {
-        let MachineProblem { subject, tolerances, start: (x, v), until } = problem;
-        let (limits, belt) = (&Limits::PATIENT, subject.of_belt());
+        let Subject { source, tolerances, motion: Problem { until, .. } } = subject;
+        let (limits, belt, (x, v)) = (&Limits::PATIENT, source.of_belt(), subject.start());
         let expansion = belt.map(|belt| CubicExpansion::new(belt, limits)).transpose()?;
         let uncertain = belt.filter(|_| !tolerances.is_none());
         let certain = uncertain.map(|belt| guaranteed(belt, tolerances)).transpose()?;
-        let portrait = subject.portrait()?;
+        let portrait = source.portrait()?;
         let model = &portrait.model;
-        let fate = portrait.told_fate(*x, *v)?;
+        let fate = portrait.told_fate(x, v)?;
         let rests = (fate == Fate::Rest)
-            .then(|| Flow::new(model).rest_of(*x, model.scaled_velocity(*v), limits));
+            .then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v), limits));
         let rest = rests.transpose()?;
-        let motion = follow_by_series(model, (*x, *v), *until);
+        let motion = follow_by_series(model, (x, v), *until);
         let second = second.map(|method| {
             let tolerance = self.tol.unwrap_or(Knob::Tolerance.usual());
             let problem = Problem { method, tolerance, ..motion.problem };
@@ -136,9 +137,9 @@ impl BeltCommand {
         });
         Ok(MachineAnswer {
             about,
-            problem,
+            subject,
             rest_share: self.share(&portrait),
-            design: self.designed(subject, tolerances)?,
+            design: self.designed(source, tolerances)?,
             portrait,
             motion,
             fate,
@@ -169,7 +170,7 @@ impl BeltCommand {
 }
 
 /// The plots of a mass on a belt in the explorer; none of a mode.
-fn pictures(case: &MachineCase) -> Result<Vec<String>, Failure> {
+fn pictures(case: &CommandCase) -> Result<Vec<String>, Failure> {
     let Some(scene) = case.scene()? else { return Ok(Vec::new()) };
     let (mut session, plots) = completed(scene)?;
     Ok(panels(&figure(&mut session, &plots, &Limits::PATIENT)))

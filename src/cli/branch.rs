@@ -5,7 +5,7 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::input::MACHINE;
-use super::{Certify, Failure, MachineCase, Output, SourceOptions, given, read, timed};
+use super::{Certify, CommandCase, Failure, Output, SourceOptions, given, read, timed};
 use crate::branch::along::{Points, branch};
 use crate::branch::fold::{Boundary, BoundaryPoint, border};
 use crate::branch::machine::MachineBranch;
@@ -50,7 +50,7 @@ impl BranchCommand {
         let over = read("--over", &self.over, |text| self.source.numbers().over(text))?;
         let Sweep { symbol, count, .. } = over;
         if let Some(case) = case {
-            let subject = &case.described.problem.subject;
+            let subject = &case.described.subject.source;
             let (found, seconds) = timed(self.output.repeat, || followed(subject, &over));
             let (found, about) = (found.map_err(Failure::Usage)?, case.about().but(&[symbol]));
             return self.output.print(report::of_machine(&about, symbol, &found, seconds));
@@ -118,9 +118,9 @@ impl BorderCommand {
         self.output.print(report::border(&about, &found, certified.as_deref(), seconds))
     }
 
-    fn of_machine(&self, case: &MachineCase, over: &Sweep) -> Result<(), Failure> {
+    fn of_machine(&self, case: &CommandCase, over: &Sweep) -> Result<(), Failure> {
         let along = given("--along", self.along.as_ref(), |text| MACHINE.over(text))?;
-        let subject = &case.described.problem.subject;
+        let subject = &case.described.subject.source;
         let own = |Belt { belt_speed, .. }: &Belt| {
             let (from, to) = (0.1 * belt_speed, 3.0 * belt_speed);
             Sweep { symbol: Knob::BeltSpeed, from, to, count: 60, spacing: Spacing::Even }

@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::replay::script;
 use super::settings::{Looks, Memory, Settings};
-use super::{Failure, MachineCase, StartOptions};
+use super::{CommandCase, Failure, StartOptions};
 use crate::numerics::similar::similar;
 use crate::runtime::effects::Files;
 use crate::runtime::{Options, RecordingFile, explore, provenance_file};
@@ -63,7 +63,7 @@ impl ExploreCommand {
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
         let scene = if let Some(file) = &self.belt {
-            let scene = MachineCase::named(file)?.scene()?;
+            let scene = CommandCase::named(file)?.scene()?;
             let no_belt = || Failure::Usage(format!("{file}: {NO_BELT}"));
             self.start.applied(scene.ok_or_else(no_belt)?)?
         } else {

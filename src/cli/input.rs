@@ -7,9 +7,9 @@ use std::str::FromStr;
 
 use super::Failure;
 use crate::figure::FileForm;
-use crate::flow::{METHODS, Method};
+use crate::flow::{METHODS, Method, Subject};
 use crate::model::unit::{Dimension, WithTolerance, measured};
-use crate::model::{Group, Knob, MachineProblem};
+use crate::model::{Group, Knob};
 use crate::portrait::{Kick, RandomKick, StartWindow};
 use crate::scan::sweep::{Spacing, Sweep};
 
@@ -44,7 +44,7 @@ pub const MACHINE: Numbers = Numbers {
     state: [Knob::X, Knob::V],
     until: Knob::Duration,
     disturbance: Knob::DisturbingForce,
-    set: MachineProblem::GROUPS,
+    set: Subject::GROUPS,
     over: Group::SOURCE,
     margin: physical_margin,
 };

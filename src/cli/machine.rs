@@ -1,13 +1,14 @@
-//! The machine that the command line names, the files that it comes from, and what is set in it.
+//! What the command line is about: the oscillator of the paper, or the machine that it names, with the files that this
+//! comes from; and what is set in it.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use super::{Failure, Output, timed};
 use crate::flow::machine::stepped::ALLOWED;
-use crate::flow::{Method, Reason};
+use crate::flow::{Method, Problem, Reason, Subject};
 use crate::model::unit::WithTolerance;
-use crate::model::{Group, Knob, MachineProblem};
+use crate::model::{Body, Group, Knob};
 use crate::portrait::Portrait;
 use crate::report::About;
 use crate::report::page::SourceFile;
@@ -19,14 +20,23 @@ use crate::scene::machine::library::{find, machines};
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Machine, ScaledMachine, Scene};
 
-/// A machine or mode, and the motion to compute.
-pub struct MachineCase {
+/// What a command is about, and the motion to compute.
+pub struct CommandCase {
     pub described: Description,
     /// The files that it was read from.
     pub sources: Vec<SourceFile>,
 }
 
-impl MachineCase {
+impl From<Problem> for CommandCase {
+    /// The oscillator of the paper, which has no name.
+    fn from(problem: Problem) -> Self {
+        let (name, title, watch) = Default::default();
+        let described = Description { name, title, watch, subject: problem.into() };
+        CommandCase { described, sources: Vec::new() }
+    }
+}
+
+impl CommandCase {
     /// The case that a file describes, or a built-in machine.
     pub fn named(name: &str) -> Result<Self, Failure> {
         let path = Path::new(name);
@@ -40,7 +50,7 @@ impl MachineCase {
                     Failure::Usage(format!("{error}; the machines of the program are {known}"))
                 };
                 let described = find(name).map_err(unknown)?.described();
-                return Ok(MachineCase { described, sources: Vec::new() });
+                return Ok(CommandCase { described, sources: Vec::new() });
             }
         };
         let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
@@ -53,27 +63,27 @@ impl MachineCase {
         };
         let described = parse(&title, name, &text, fetch);
         let described = described.map_err(|error| Failure::Usage(error.to_string()))?;
-        Ok(MachineCase { described, sources })
+        Ok(CommandCase { described, sources })
     }
 
     /// What an answer is about.
     pub fn about(&self) -> About {
-        let Description { name, title, problem, .. } = &self.described;
-        About::machine(name, title, &problem.subject)
+        let Description { name, title, subject, .. } = &self.described;
+        About::new(name, title, &subject.source)
     }
 
     /// All of its motions, and the median time to find them.
     pub fn portrait(&self, output: &Output) -> Result<(Portrait, f64), Failure> {
-        let (found, seconds) = timed(output.repeat, || self.described.problem.subject.portrait());
+        let (found, seconds) = timed(output.repeat, || self.described.subject.source.portrait());
         Ok((found.map_err(troubled)?, seconds))
     }
 
     /// Sets numbers, each with or without a tolerance.
     pub fn set(&mut self, set: &[(Knob, WithTolerance)]) -> Result<(), Failure> {
         for &(knob, WithTolerance { middle, half_width, .. }) in set {
-            self.described.problem.set(knob, middle.value).map_err(Failure::Usage)?;
+            self.described.subject.set(knob, middle.value).map_err(Failure::Usage)?;
             if knob.spec().group != Group::Course {
-                self.described.problem.tolerances.half_widths.insert(knob.to_string(), half_width);
+                self.described.subject.tolerances.half_widths.insert(knob.to_string(), half_width);
             }
         }
         Ok(())
@@ -81,18 +91,19 @@ impl MachineCase {
 
     /// The same if its tolerances are within their ranges; warns of numbers that are hardly those of a machine.
     pub fn checked(self) -> Result<Self, Failure> {
-        let MachineProblem { subject, tolerances, start, .. } = &self.described.problem;
-        let checked = match subject.of_belt() {
-            Some(belt) => tolerances.check(belt),
-            None if tolerances.is_none() => Ok(()),
-            None => {
+        let Subject { source, tolerances, .. } = &self.described.subject;
+        let checked = match &source.body {
+            Body::Paper(_) => Ok(()),
+            Body::Belt(belt) => tolerances.check(belt),
+            Body::Mode(_) if tolerances.is_none() => Ok(()),
+            Body::Mode(_) => {
                 Err("a mode takes no tolerances and no --disturbance: its guaranteed margins are \
                          not computed"
                     .to_owned())
             }
         };
         checked.map_err(Failure::Usage)?;
-        if let Some(line) = unlikely(&subject.body, *start) {
+        if let Some(line) = unlikely(&source.body, self.described.subject.start()) {
             tell(format!("warning: {line}"));
         }
         Ok(self)

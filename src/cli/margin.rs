@@ -4,11 +4,11 @@ use clap::Args;
 
 use super::input::{self, WINDOW};
 use super::{
-    Certify, Failure, MachineCase, Output, Portrayed, SourceOptions, given, number, read, timed,
+    Certify, CommandCase, Failure, Output, Portrayed, SourceOptions, given, number, read, timed,
     troubled,
 };
-use crate::flow::Limits;
-use crate::model::{MachineProblem, Parameters};
+use crate::flow::{Limits, Subject};
+use crate::model::Parameters;
 use crate::portrait::Margin;
 use crate::portrait::guarantee::machine;
 use crate::portrait::guarantee::oscillator::{guaranteed, nominal};
@@ -36,7 +36,7 @@ impl MarginCommand {
         let knob = self.source.numbers().disturbance;
         let bound = number("--disturbance", self.disturbance.as_ref(), knob)?;
         if let Some(mut case) = self.source.portrayed()? {
-            let known = &mut case.described.problem.tolerances;
+            let known = &mut case.described.subject.tolerances;
             known.disturbance = bound.unwrap_or(known.disturbance);
             return self.of_machine(&case.checked()?);
         }
@@ -57,8 +57,8 @@ impl MarginCommand {
     }
 
     /// Answers about a machine; what is known exactly has its own margin for certain.
-    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let MachineProblem { subject, tolerances, .. } = &case.described.problem;
+    fn of_machine(&self, case: &CommandCase) -> Result<(), Failure> {
+        let Subject { source: subject, tolerances, .. } = &case.described.subject;
         let (found, mut seconds) = case.portrait(&self.output)?;
         let certain = match subject.of_belt().filter(|_| !tolerances.is_none()) {
             None => Ok(found.margin),

@@ -37,7 +37,7 @@ use signal_hook::flag;
 
 pub(super) use crate::runtime::failure::Failure;
 pub(super) use input::{given, number, read};
-pub(super) use machine::{MachineCase, second, troubled};
+pub(super) use machine::{CommandCase, second, troubled};
 pub(super) use output::{Certify, Output, in_turn, print, timed, write};
 pub(super) use source::{Portrayed, SourceOptions, StartOptions};
 

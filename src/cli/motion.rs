@@ -4,9 +4,8 @@ use clap::Args;
 
 use super::{Certify, Failure, Output, SourceOptions, in_turn, number, second, timed, troubled};
 use crate::accuracy::trade::Trade;
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Method, MotionUnits, Outcome, Problem, Trajectory, follow};
-use crate::model::{Knob, MachineProblem, Model, State};
+use crate::flow::{Detail, Limits, Outcome, Problem, Trajectory};
+use crate::model::{Knob, Model};
 use crate::numerics::Interval;
 use crate::proof::ParameterBox;
 use crate::proof::motion::follow as enclosed;
@@ -37,28 +36,20 @@ impl MotionOptions {
     /// The motion of the scene with this name, or of the scene or the machine among the options. That of a machine is
     /// followed by the method and to the tolerance that are asked for or else its own.
     fn asked(&self, named: Option<&str>) -> Result<AskedMotion, Failure> {
-        let start = &self.source.start;
-        let end = || number("--until", self.until.as_ref(), self.source.numbers().until);
-        let Some(mut case) = self.source.machine()? else {
-            let problem = start.scene(named)?.problem;
-            let problem = Problem { until: end()?.unwrap_or(problem.until), ..problem };
-            let about = About::oscillator(&problem.parameters);
-            return Ok(AskedMotion { about, problem, model: None });
-        };
-        case.described.problem.until = end()?.unwrap_or(case.described.problem.until);
+        let numbers = self.source.numbers();
+        let mut case = self.source.case(named)?;
+        let motion = &mut case.described.subject.motion;
+        let end = number("--until", self.until.as_ref(), numbers.until)?;
+        motion.until = end.unwrap_or(motion.until);
         let case = case.checked()?;
-        let MachineProblem { subject, start: (q, v), until, .. } = &case.described.problem;
-        let model = subject.model().map_err(troubled)?;
-        let way = second(start.method)?;
-        let own = if way.is_some() { Knob::Tolerance.usual() } else { model.tolerance };
-        let problem = Problem {
-            initial: State { q: *q, v: *v },
-            until: *until,
-            method: way.unwrap_or(Method::Taylor),
-            tolerance: start.tol.unwrap_or(own),
-            ..Problem::default()
-        };
-        Ok(AskedMotion { about: case.about(), problem, model: Some(model) })
+        let (mut problem, model) = case.described.subject.problem().map_err(troubled)?;
+        if model.is_some()
+            && let Some(way) = second(self.source.start.method)?
+        {
+            problem.method = way;
+            problem.tolerance = self.source.start.tol.unwrap_or(Knob::Tolerance.usual());
+        }
+        Ok(AskedMotion { about: case.about(), problem, model })
     }
 }
 
@@ -66,10 +57,7 @@ impl AskedMotion {
     /// Follows the motion, as a problem that may have another method or accuracy.
     fn follow(&self, problem: &Problem, energy: bool) -> Trajectory {
         let detail = Detail { energy, ..Detail::default() };
-        match &self.model {
-            Some(model) => follow(model, problem, MotionUnits::physical(model), detail),
-            None => trajectory(problem, detail, &Limits::PATIENT),
-        }
+        problem.followed(self.model.as_ref(), detail, &Limits::PATIENT)
     }
 }
 

@@ -16,8 +16,8 @@ use super::part::{RowChoice, Shard};
 use super::plan::Plan;
 use super::progress::{Outlet, StatusLine, message};
 use super::{Failure, SourceOptions, given, number, print, read};
-use crate::flow::Limits;
-use crate::model::{Knob, MachineProblem};
+use crate::flow::{Limits, Subject};
+use crate::model::Knob;
 use crate::report::Format;
 use crate::runtime::provenance_file;
 use crate::runtime::scan_file::ScanFile;
@@ -26,7 +26,7 @@ use crate::runtime::scanning::rows;
 use crate::runtime::signals::exit_code;
 use crate::runtime::standard::tell;
 use crate::scan::grid::Scan;
-use crate::scan::measure::{Conditions, MEASURES, Measure, ScanSource};
+use crate::scan::measure::{Conditions, MEASURES, Measure};
 use crate::scan::sweep::Sweep;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
@@ -207,8 +207,8 @@ impl ScanCommand {
         self.part.shard()
     }
 
-    /// The motion, and what its measures depend on.
-    fn subject(&self) -> Result<(ScanSource, Conditions), Failure> {
+    /// What is scanned, and what its measures depend on beside it.
+    fn subject(&self) -> Result<(Subject, Conditions), Failure> {
         let numbers = self.source.numbers();
         let until = number("--until", self.until.as_ref(), numbers.until)?;
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
@@ -218,18 +218,19 @@ impl ScanCommand {
         let wanted = given("--design", self.design.as_ref(), numbers.margin)?;
         let conditions = Conditions {
             elongation: self.elongation,
-            half_widths: self.half_width.clone(),
             kicks: kicks.unwrap_or_default(),
             wanted,
             ..window.unwrap_or(WINDOW).into()
         };
-        let Some(mut case) = self.source.machine()? else {
-            let mut problem = self.source.start.scene(None)?.problem;
-            problem.until = until.unwrap_or(problem.until);
-            let disturbance = disturbance.unwrap_or(0.0);
-            return Ok((problem.into(), Conditions { disturbance, ..conditions }));
-        };
-        for measure in &self.measure {
+        let mut case = self.source.case(None)?;
+        let Subject { tolerances, motion, .. } = &mut case.described.subject;
+        motion.until = until.unwrap_or(motion.until);
+        tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
+        let half_widths = self.half_width.iter().map(|(knob, half)| (knob.to_string(), *half));
+        tolerances.half_widths.extend(half_widths);
+        let subject = case.checked()?.described.subject;
+        let machine = subject.paper().is_none();
+        for measure in self.measure.iter().filter(|_| machine) {
             let needs = match (measure.is_over_window(), measure.is_of_kicks()) {
                 (true, _) if window.is_none() => "a --window",
                 (_, true) if kicks.is_none() => "--kicks",
@@ -238,10 +239,7 @@ impl ScanCommand {
             let name = measure.spec().name;
             return Err(Failure::Usage(format!("{name} of a machine needs {needs}")));
         }
-        let MachineProblem { until: end, tolerances, .. } = &mut case.described.problem;
-        *end = until.unwrap_or(*end);
-        tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
-        Ok((ScanSource::Machine(Box::new(case.checked()?.described.problem)), conditions))
+        Ok((subject, conditions))
     }
 
     /// Where the rows go, with those that are already there.

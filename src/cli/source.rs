@@ -5,7 +5,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::input::{self, MACHINE, Numbers, OSCILLATOR};
-use super::{Failure, MachineCase, Output, read, second};
+use super::{CommandCase, Failure, Output, read, second};
 use crate::flow::{Limits, METHODS, Method, Problem};
 use crate::model::unit::WithTolerance;
 use crate::model::{Knob, ParameterBox};
@@ -41,7 +41,7 @@ impl SourceOptions {
 
     /// The machine to which a question about all motions is put, if it is about one. These are followed by Taylor series
     /// alone.
-    pub fn portrayed(&self) -> Result<Option<MachineCase>, Failure> {
+    pub fn portrayed(&self) -> Result<Option<CommandCase>, Failure> {
         let Some(case) = self.machine()? else {
             if self.start.method.is_some() {
                 tell("note: cycles are always followed by one method; --method is ignored");
@@ -74,12 +74,20 @@ impl SourceOptions {
         Ok(Portrayed { about, portrait, seconds })
     }
 
+    /// The motion of the scene with this name, or what the options name, with the values set on the command line.
+    pub fn case(&self, named: Option<&str>) -> Result<CommandCase, Failure> {
+        match self.machine()? {
+            Some(case) => Ok(case),
+            None => Ok(self.start.scene(named)?.problem.into()),
+        }
+    }
+
     /// The machine with the values set on the command line, if it is about one.
-    pub fn machine(&self) -> Result<Option<MachineCase>, Failure> {
+    pub fn machine(&self) -> Result<Option<CommandCase>, Failure> {
         let Some(name) = &self.machine else { return Ok(None) };
-        let mut case = MachineCase::named(name)?;
+        let mut case = CommandCase::named(name)?;
         case.set(&self.start.assigned(&MACHINE)?)?;
-        case.described.problem.subject.tolerance = self.start.tol;
+        case.described.subject.source.tolerance = self.start.tol;
         Ok(Some(case))
     }
 }

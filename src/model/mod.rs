@@ -52,6 +52,5 @@ pub use model::{ContactState, Lines, Model, Phase};
 pub use parameters::{Ledger, Work};
 pub use parameters::{Parameters, State};
 pub use reason::Reason;
-pub use source::MachineProblem;
 pub use source::Tolerances;
 pub use source::{Body, Source};

@@ -151,6 +151,15 @@ impl Model {
         }
     }
 
+    /// The oscillator of the paper, with a mass and a stiffness of one.
+    ///
+    /// # Errors
+    /// [`Reason`] where the numbers allow none.
+    pub fn of_paper(parameters: &Parameters) -> Result<Self, Reason> {
+        let Parameters { d, d2, d3, r } = *parameters;
+        Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], r, r)
+    }
+
     /// A vibration mode without a belt: natural frequency in 1/s, modal mass in kg, damping ratio as a
     /// polynomial in the velocity (coefficients of 1, v, v^2, .. in SI units), and the friction of the guide
     /// in N.

@@ -1,16 +1,18 @@
-//! What yields a model: a mass on a belt or a vibration mode, whose numbers are set and varied alike; how exactly these
-//! are known; and a motion of it.
+//! What yields a model: the equation of the paper, a mass on a belt or a vibration mode, whose numbers are set and varied
+//! alike; and how exactly these are known.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
 use super::model::Model;
-use crate::model::{Belt, Group, Interval, KNOBS, Knob, Modal, Reason};
+use crate::model::{Belt, Group, Interval, KNOBS, Knob, Modal, ParameterBox, Parameters, Reason};
 
-/// A mass on a belt, or a vibration mode.
+/// The oscillator of the paper, a mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
+    /// The oscillator of the paper, with a mass and a stiffness of one.
+    Paper(Parameters),
     /// A mass on a belt.
     Belt(Box<Belt>),
     /// A vibration mode.
@@ -39,12 +41,17 @@ impl From<&Belt> for Source {
 }
 
 impl Source {
-    /// Gives a number a value in SI units.
+    /// Gives a number a value, in SI units unless it is one of the paper.
     ///
     /// # Errors
     /// One line, if it has no such number.
     pub fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
         match &mut self.body {
+            Body::Paper(parameters) if knob.is_parameter() => {
+                *parameters = parameters.with(knob, value);
+                Ok(())
+            }
+            Body::Paper(_) => Err(format!("no {knob} here; there are D, D2, D3, r")),
             Body::Belt(belt) => knob.set_in_belt(belt, value),
             Body::Mode(mode) => knob.set_in_mode(mode, value),
         }
@@ -54,6 +61,7 @@ impl Source {
     #[must_use]
     pub fn get(&self, knob: Knob) -> Option<f64> {
         match &self.body {
+            Body::Paper(parameters) => knob.is_parameter().then(|| parameters.value(knob)),
             Body::Belt(belt) => knob.of_belt(belt),
             Body::Mode(mode) => knob.of_mode(mode),
         }
@@ -79,6 +87,10 @@ impl Source {
     pub fn with_friction(&self, friction: f64) -> Self {
         let mut other = self.clone();
         let (moving, at_rest) = match &mut other.body {
+            Body::Paper(parameters) => {
+                parameters.r = friction;
+                return other;
+            }
             Body::Belt(belt) => (&mut belt.friction, &mut belt.static_guide),
             Body::Mode(mode) => (&mut mode.friction, &mut mode.static_guide),
         };
@@ -92,7 +104,7 @@ impl Source {
     pub fn of_belt(&self) -> Option<&Belt> {
         match &self.body {
             Body::Belt(belt) => Some(belt),
-            Body::Mode(_) => None,
+            Body::Paper(_) | Body::Mode(_) => None,
         }
     }
 
@@ -102,6 +114,7 @@ impl Source {
     /// [`Reason`] where it has none.
     pub fn model(&self) -> Result<Model, Reason> {
         let mut model = match &self.body {
+            Body::Paper(parameters) => Model::of_paper(parameters)?,
             Body::Belt(belt) => Model::new(belt)?,
             Body::Mode(mode) => mode.model()?,
         };
@@ -110,14 +123,14 @@ impl Source {
     }
 }
 
-// A machine whose numbers are known to tolerances only, on a floor that shakes.
+// Numbers that are known to tolerances only, on a floor that shakes.
 
-/// By how much the numbers of a machine may differ from their values, and the force that disturbs it.
+/// By how much numbers may differ from their values, and the force that disturbs the mass.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tolerances {
-    /// Half widths in SI units, by the name of the number.
+    /// Half widths in the units of the numbers, by name.
     pub half_widths: BTreeMap<String, f64>,
-    /// Bound on a force that varies in any way, in N.
+    /// Bound on a force that varies in any way, in N or in the units of r.
     pub disturbance: f64,
 }
 
@@ -163,6 +176,13 @@ impl Tolerances {
         Some(best)
     }
 
+    /// The box of parameters of the oscillator of the paper around these; friction is never negative.
+    #[must_use]
+    pub fn around(&self, parameters: &Parameters) -> ParameterBox {
+        let half = |knob: Knob| Some((knob, *self.half_widths.get(knob.spec().name)?));
+        ParameterBox::around(parameters, Knob::PARAMETERS.into_iter().filter_map(half))
+    }
+
     /// Checks that every number has its tolerance within its range.
     ///
     /// # Errors
@@ -187,39 +207,4 @@ pub const MONOTONE: [Knob; 4] =
 pub fn set(belt: &mut Belt, varied: Knob, value: f64) {
     let set = varied.set_in_belt(belt, value);
     debug_assert!(set.is_ok(), "only numbers of the machine have intervals: {set:?}");
-}
-
-// One motion of a machine or a mode, and how exactly its numbers are known.
-
-/// One motion of a machine or a mode, and how exactly its numbers are known.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineProblem {
-    /// What moves.
-    pub subject: Source,
-    /// How exactly its numbers are known, and what disturbs it.
-    pub tolerances: Tolerances,
-    /// Displacement (m) and velocity (m/s) at the start.
-    pub start: (f64, f64),
-    /// How long the motion is followed, in s.
-    pub until: f64,
-}
-
-impl MachineProblem {
-    /// What can be set: the machine or the mode, and its motion.
-    pub const GROUPS: &[Group] = &[Group::Machine, Group::Law, Group::Mode, Group::Course];
-
-    /// Gives a number a value in SI units.
-    ///
-    /// # Errors
-    /// One line, if there is no such number.
-    pub fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
-        *match knob {
-            Knob::X => &mut self.start.0,
-            Knob::V => &mut self.start.1,
-            Knob::Duration => &mut self.until,
-            Knob::DisturbingForce => &mut self.tolerances.disturbance,
-            _ => return self.subject.set(knob, value),
-        } = value;
-        Ok(())
-    }
 }

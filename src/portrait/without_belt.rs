@@ -81,7 +81,7 @@ impl Portrait {
         reach: f64,
         limits: &Limits,
     ) -> Result<Self, Reason> {
-        Self::of_closings(&of_paper(parameters)?, parameters, found, reach, limits)
+        Self::of_closings(&Model::of_paper(parameters)?, parameters, found, reach, limits)
     }
 
     fn of_closings(
@@ -170,12 +170,6 @@ fn without_belt(model: &Model) -> Option<Portrait> {
         border => border,
     };
     Some(portrait)
-}
-
-/// The model of the oscillator of the paper, with a mass and a stiffness of one.
-pub(crate) fn of_paper(parameters: &Parameters) -> Result<Model, Reason> {
-    let Parameters { d, d2, d3, r } = *parameters;
-    Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], r, r)
 }
 
 /// The fates of the regions that nested cycles make, from the inside out. A separatrix may already have

@@ -209,18 +209,19 @@ impl About {
         About { machine: None, numbers }
     }
 
-    /// A machine, by the name under which it is opened, and its title.
-    pub fn machine(name: &str, title: &str, subject: &Source) -> Self {
+    /// The oscillator of the paper, or a machine by the name under which it is opened, and its title.
+    pub fn new(name: &str, title: &str, source: &Source) -> Self {
         // The numbers of the friction law are left out, and those for a mass at rest unless they are given.
-        let is_own = |knob: Knob| match (knob, &subject.body) {
+        let is_own = |knob: Knob| match (knob, &source.body) {
             (Knob::StaticCoefficient, Body::Belt(belt)) => belt.static_coefficient.is_some(),
             (Knob::StaticGuide, Body::Belt(belt)) => belt.static_guide.is_some(),
             (Knob::StaticGuide, Body::Mode(mode)) => mode.static_guide.is_some(),
             _ => knob.spec().group != Group::Law,
         };
         let number = |(knob, value): (Knob, f64)| (knob, Interval::point(value), is_own(knob));
-        let machine = Some((name.to_owned(), title.to_owned()));
-        About { machine, numbers: subject.numbers().map(number).collect() }
+        let is_machine = !matches!(source.body, Body::Paper(_));
+        let machine = is_machine.then(|| (name.to_owned(), title.to_owned()));
+        About { machine, numbers: source.numbers().map(number).collect() }
     }
 
     /// Whether it is a machine.

@@ -5,11 +5,11 @@
 //! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
 pub use super::measure::ScanRow;
-use super::measure::{Conditions, Measure, OF_THE_PAPER, ScanSource, Value, computed, measure};
+use super::measure::{Conditions, Measure, OF_THE_PAPER, Value, measure};
 use super::sweep::Sweep;
-use crate::flow::{Cost, Limits, Problem, Reason};
+use crate::flow::{Cost, Limits, Problem, Reason, Subject};
 use crate::model::belt::FrictionLaw;
-use crate::model::{Interval, Knob, MachineProblem, ParameterBox, Parameters, State};
+use crate::model::{Interval, Knob, ParameterBox, State};
 use crate::portrait::{RandomKick, StartWindow};
 
 /// Most points of a scan.
@@ -18,8 +18,8 @@ pub const MOST_POINTS: usize = 1_000_000_000;
 /// What is scanned, and what is measured at each point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
-    /// The motion whose numbers the sweeps replace.
-    base: ScanSource,
+    /// What is scanned: the sweeps replace its numbers.
+    base: Subject,
     over: Vec<Sweep>,
     measures: Vec<Measure>,
     conditions: Conditions,
@@ -29,7 +29,7 @@ impl Scan {
     /// A scan that makes sense: each sweep moves something that is measured. Fails with one line that says what is
     /// wrong and what is allowed.
     pub fn new(
-        base: impl Into<ScanSource>,
+        base: impl Into<Subject>,
         over: Vec<Sweep>,
         measures: Vec<Measure>,
         conditions: impl Into<Conditions>,
@@ -52,7 +52,7 @@ impl Scan {
             if measures[..index].contains(measure) {
                 return Err(format!("{} is measured twice", measure.spec().name));
             }
-            if matches!(base, ScanSource::Machine(_)) && OF_THE_PAPER.contains(measure) {
+            if base.paper().is_none() && OF_THE_PAPER.contains(measure) {
                 return Err(format!("{} is not measured of a machine", measure.spec().name));
             }
             if *measure == Measure::Design && conditions.wanted.is_none() {
@@ -91,27 +91,24 @@ impl Scan {
         place
     }
 
-    /// The motion at point number `index`.
-    pub fn source(&self, index: usize) -> ScanSource {
-        let mut source = self.base.clone();
+    /// What is measured at point number `index`.
+    fn subject(&self, index: usize) -> Subject {
+        let mut subject = self.base.clone();
         for (sweep, which) in self.over.iter().zip(self.place(index)) {
-            let set = source.set(sweep.symbol, sweep.value(which));
+            let set = subject.set(sweep.symbol, sweep.value(which));
             debug_assert!(set.is_ok(), "a scan goes over numbers that there are: {set:?}");
         }
-        source
+        subject
     }
 
-    /// The same if it is one of the oscillator of the paper.
+    /// Its motion, if it is one of the oscillator of the paper.
     pub fn problem(&self, index: usize) -> Option<Problem> {
-        match self.source(index) {
-            ScanSource::Oscillator(problem) => Some(problem),
-            ScanSource::Machine(_) => None,
-        }
+        self.subject(index).paper()
     }
 
     /// Measures point number `index`. Fails with [`Reason::Interrupted`], and no other.
     pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow, Reason> {
-        measure(&self.source(index), &self.measures, &self.conditions, limits)
+        measure(&self.subject(index), &self.measures, &self.conditions, limits)
     }
 
     /// A row that could not be measured at all.
@@ -129,11 +126,8 @@ impl Scan {
     ///
     /// With it every row says for itself what it is: rows of different scans can stand in one file.
     pub fn inputs(&self, index: usize) -> Vec<(String, Value)> {
-        let mut inputs = match self.source(index) {
-            ScanSource::Oscillator(problem) => self.inputs_of_motion(&problem),
-            ScanSource::Machine(problem) => self.inputs_of_machine(&problem),
-        };
-        let Conditions { window, elongation, kicks, wanted, .. } = self.conditions;
+        let mut inputs = self.inputs_of(&self.subject(index));
+        let Conditions { window, elongation, kicks, wanted } = self.conditions;
         if self.measures.iter().any(|measure| measure.is_over_window()) {
             let StartWindow { q, v } = window;
             inputs.extend(named([("q_from", q.0), ("q_to", q.1), ("v_from", v.0), ("v_to", v.1)]));
@@ -153,53 +147,43 @@ impl Scan {
         inputs
     }
 
-    fn inputs_of_motion(&self, problem: &Problem) -> Vec<(String, Value)> {
-        let Problem { parameters, initial, until, method, .. } = *problem;
-        let Parameters { d, d2, d3, r } = parameters;
-        let mut inputs: Vec<_> = named([("D", d), ("D2", d2), ("D3", d3), ("r", r)]).collect();
-        let wanted = computed(&self.measures);
-        if wanted.contains(&Measure::Outcome) {
-            let State { q, v } = initial;
-            inputs.extend(named([("q0", q), ("v0", v)]));
-        }
-        if wanted.contains(&Measure::Outcome) || wanted.contains(&Measure::Settling) {
-            inputs.extend(named([("until", until)]));
-            inputs.push(("method".to_owned(), Value::Word(method.spec().name)));
-            let dial = method.spec().dial;
-            inputs.extend(
-                dial.into_iter().flat_map(|dial| named([(dial.spec().name, problem.get(dial))])),
-            );
-        }
-        if self.measures.contains(&Measure::Guaranteed) {
-            let ParameterBox { d, d2, d3, r } = self.conditions.around(&parameters);
-            inputs.extend(named([("w", self.conditions.disturbance)]));
-            inputs.extend(Knob::PARAMETERS.into_iter().zip([d, d2, d3, r]).flat_map(ends));
-        }
-        inputs
-    }
-
-    fn inputs_of_machine(&self, problem: &MachineProblem) -> Vec<(String, Value)> {
-        let MachineProblem { subject, tolerances, start, until } = problem;
+    /// All that it depends on of the subject at a point.
+    fn inputs_of(&self, subject: &Subject) -> Vec<(String, Value)> {
+        let Subject { source, tolerances, motion } = subject;
+        let (paper, belt) = (subject.paper(), source.of_belt());
         let value = |(knob, value): (Knob, f64)| (knob.to_string(), value.into());
-        let mut inputs: Vec<_> = subject.numbers().map(value).collect();
-        let belt = subject.of_belt();
+        let mut inputs: Vec<_> = source.numbers().map(value).collect();
         if let Some(FrictionLaw::Table(table)) = belt.map(|belt| &belt.law) {
             let which = Value::Count(table.fingerprint() as usize);
             inputs.push(("friction_table".to_owned(), which));
         }
-        if let Some(tolerance) = subject.tolerance {
+        if let Some(tolerance) = source.tolerance {
             inputs.extend(named([("tolerance", tolerance)]));
         }
-        let wanted = computed(&self.measures);
-        if wanted.contains(&Measure::Outcome) {
-            inputs.extend(named([("x", start.0), ("v", start.1)]));
+        let asked = |measure| self.measures.iter().any(|it| it.with() == measure);
+        if asked(Measure::Outcome) {
+            let State { q, v } = motion.initial;
+            let [place, speed] = if paper.is_some() { ["q0", "v0"] } else { ["x", "v"] };
+            inputs.extend(named([(place, q), (speed, v)]));
         }
-        if wanted.contains(&Measure::Outcome) || wanted.contains(&Measure::Settling) {
-            inputs.extend(named([("until", *until)]));
+        if asked(Measure::Outcome) || asked(Measure::Settling) {
+            inputs.extend(named([("until", motion.until)]));
+            // A machine is followed by one method.
+            if let Some(problem) = paper {
+                let spec = problem.method.spec();
+                inputs.push(("method".to_owned(), Value::Word(spec.name)));
+                let dial = spec.dial.map(|dial| named([(dial.spec().name, problem.get(dial))]));
+                inputs.extend(dial.into_iter().flatten());
+            }
         }
-        let certain = wanted.contains(&Measure::Guaranteed)
-            || (wanted.contains(&Measure::Design) && !tolerances.is_none());
-        if let Some(belt) = belt.filter(|_| certain) {
+        let certain = asked(Measure::Guaranteed);
+        let designed = asked(Measure::Design) && !tolerances.is_none();
+        if let Some(problem) = paper.filter(|_| certain) {
+            let ParameterBox { d, d2, d3, r } = tolerances.around(&problem.parameters);
+            inputs.extend(named([("w", tolerances.disturbance)]));
+            inputs.extend(Knob::PARAMETERS.into_iter().zip([d, d2, d3, r]).flat_map(ends));
+        }
+        if let Some(belt) = belt.filter(|_| certain || designed) {
             inputs.extend(named([("w", tolerances.disturbance)]));
             inputs.extend(tolerances.intervals(belt).into_iter().flat_map(ends));
         }

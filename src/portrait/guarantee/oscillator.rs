@@ -13,7 +13,7 @@
 use super::Uncertain;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Fate, Limits, Reason};
-use crate::model::{HalfPlane, ParameterBox, Parameters, Side};
+use crate::model::{HalfPlane, Model, ParameterBox, Parameters, Side};
 use crate::portrait::basin::orbit::Orbit;
 use crate::portrait::closing::all::{STEP, innermost_bracket};
 use crate::portrait::closing::equation::Equation;
@@ -21,7 +21,7 @@ use crate::portrait::closing::half_map::HalfMap;
 use crate::portrait::closing::pair::Closing;
 use crate::portrait::closing::polish::polish;
 use crate::portrait::closing::weak::has_cycle;
-use crate::portrait::without_belt::{centre_fate, of_paper};
+use crate::portrait::without_belt::centre_fate;
 use crate::portrait::{Border, Margin, Portrait, RestMargin};
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
@@ -88,7 +88,7 @@ impl TwoSided {
         let orbits: Vec<Orbit> = orbit.into_iter().collect();
         let outside = orbits.iter().map(|_| Fate::Escapes);
         let fates = [centre_fate(&self.upper)].into_iter().chain(outside).collect();
-        let model = of_paper(&self.upper)?;
+        let model = Model::of_paper(&self.upper)?;
         let blank = Portrait { border, fates, cost: equation.cost(), ..Portrait::blank(&model) };
         Ok((blank.parted(orbits), error))
     }

@@ -21,7 +21,7 @@ pub(super) fn document(answer: &MachineAnswer) -> Document {
             .with("margin", designed.wanted)
             .with("R", designed.needed.least())
             .with("needed", designed.needed)
-            .with("message", designed.sentence(&answer.problem.subject))
+            .with("message", designed.sentence(&answer.subject.source))
     });
     Document::default()
         .with("model", "whole")
@@ -72,7 +72,7 @@ fn guaranteed(answer: &MachineAnswer, certain: Result<Margin, Uncertain>) -> Doc
     Document::default()
         .and(&certain.unwrap_or(Margin::ENDLESS))
         .with("reason", certain.err().map(|reason| reason.to_string()))
-        .with("disturbance", answer.problem.tolerances.disturbance)
+        .with("disturbance", answer.subject.tolerances.disturbance)
         .with("tolerances", tolerances.collect::<BTreeMap<_, _>>())
 }
 
@@ -100,7 +100,7 @@ fn motions(portrait: &Portrait) -> Document {
 
 /// The motion from the start.
 fn motion(answer: &MachineAnswer) -> Document {
-    let (motion, (x, v)) = (&answer.motion, answer.problem.start);
+    let (motion, (x, v)) = (&answer.motion, answer.subject.start());
     let end = motion.end();
     let [displacement, velocity] = motion.extremes.unwrap_or_default();
     Document::default()

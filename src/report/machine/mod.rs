@@ -13,8 +13,8 @@ use super::cycles::{NO_CYCLE, known};
 use super::margin::{GUARANTEED, margin_columns};
 use super::page::SourceFile;
 use super::{About, Answer, Columns, Quantity};
-use crate::flow::{Fate, Trajectory};
-use crate::model::{Interval, Knob, MachineProblem};
+use crate::flow::{Fate, Subject, Trajectory};
+use crate::model::{Interval, Knob};
 use crate::portrait::guarantee::Uncertain;
 use crate::portrait::{Cycle, FrictionNeeded, Kick, Margin, Portrait};
 use crate::words::provenance::Provenance;
@@ -26,7 +26,7 @@ pub type RestShare = Option<f64>;
 /// The whole answer about a mass on a belt or a vibration mode.
 pub struct MachineAnswer<'a> {
     pub about: &'a About,
-    pub problem: &'a MachineProblem,
+    pub subject: &'a Subject,
     pub portrait: Portrait,
     /// The motion from the start.
     pub motion: Trajectory,
@@ -51,8 +51,8 @@ pub struct MachineAnswer<'a> {
 impl MachineAnswer<'_> {
     /// The numbers that are not known exactly, each with its interval in SI units.
     fn uncertain(&self) -> Vec<(Knob, Interval)> {
-        let belt = self.problem.subject.of_belt();
-        belt.map(|belt| self.problem.tolerances.intervals(belt)).unwrap_or_default()
+        let belt = self.subject.source.of_belt();
+        belt.map(|belt| self.subject.tolerances.intervals(belt)).unwrap_or_default()
     }
 }
 

@@ -49,7 +49,7 @@ impl MachineAnswer<'_> {
 
     /// The largest force of a disturbance, if there is one.
     fn disturbance(&self) -> Option<String> {
-        let force = Some(self.problem.tolerances.disturbance).filter(|force| *force > 0.0);
+        let force = Some(self.subject.tolerances.disturbance).filter(|force| *force > 0.0);
         force.map(|force| with_unit(force, 12, "N"))
     }
 
@@ -80,7 +80,7 @@ pub(super) fn remarks(found: &MachineAnswer) -> Vec<String> {
             .to_owned(),
     }));
     all.extend(found.expansion.as_ref().map(|expansion| expansion.sentence(&found.portrait)));
-    all.extend(found.design.map(|designed| designed.sentence(&found.problem.subject)));
+    all.extend(found.design.map(|designed| designed.sentence(&found.subject.source)));
     all
 }
 
@@ -135,8 +135,8 @@ pub(super) fn friction(CubicExpansion { belt, reduced, .. }: &CubicExpansion) ->
 }
 
 /// How the motion ends, in a sentence.
-fn fate(MachineAnswer { problem, portrait, motion, fate, rest, .. }: &MachineAnswer) -> String {
-    let (x, v) = problem.start;
+fn fate(MachineAnswer { subject, portrait, motion, fate, rest, .. }: &MachineAnswer) -> String {
+    let (x, v) = subject.start();
     let (x, v) = (with_unit(x, PLACES, "m"), with_unit(v, PLACES, "m/s"));
     let time = motion.outcome.rest().ok().flatten();
     let end = of_machine(*fate, [*rest, time], portrait.tends_to(*fate), "", PLACES);

@@ -9,30 +9,28 @@ mod settling;
 mod table;
 
 pub use row::ScanRow;
-pub use table::{
-    Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, ScanSource, Value, computed,
-};
+pub use table::{Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, Value, computed};
 
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Reason, Subject};
 use row::Cells;
 
 /// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`],
 /// and [`ScanRow::reason`] says why. Fails with [`Reason::Interrupted`], and no other.
 pub fn measure(
-    source: &ScanSource,
+    subject: &Subject,
     measures: &[Measure],
     conditions: &Conditions,
     limits: &Limits,
 ) -> Result<ScanRow, Reason> {
     let mut wanted = computed(measures);
     // Of a machine cycles and margin are one computation, on which repeated kicks rest.
-    if matches!(source, ScanSource::Machine(_))
+    if subject.paper().is_none()
         && (wanted.remove(&Measure::Margin) || wanted.contains(&Measure::Repeated))
     {
         wanted.insert(Measure::Cycles);
     }
     let stops = || if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(()) };
-    let mut cells = Cells::new(source, measures, conditions, limits);
+    let mut cells = Cells::new(subject, measures, conditions, limits);
     for measure in wanted {
         stops()?;
         let computed = cells.compute(measure);

@@ -1,13 +1,11 @@
 //! The computations at a point of a scan: of the paper's oscillator, or of a machine by its whole model.
 
 use super::row::{Cells, Failed};
-use super::table::ScanSource::{self, Machine, Oscillator};
 use super::table::{CYCLES, Measure, Value};
 use crate::branch::escape::escape_point;
 use crate::branch::fold::fold;
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Problem, Reason, Trajectory, follow_by_series};
-use crate::model::{MachineProblem, Parameters, State};
+use crate::flow::{Detail, Problem, Reason, Subject};
+use crate::model::{Parameters, State};
 use crate::numerics::Interval;
 use crate::portrait::guarantee::{machine, oscillator};
 use crate::portrait::kicks::repeated::repeated;
@@ -20,94 +18,78 @@ impl Cells<'_> {
     /// Computes a measure, and fills its cells and those of all that are computed with it. Fails with why it gave up.
     pub fn compute(&mut self, measure: Measure) -> Result<(), Failed> {
         let (limits, conditions) = (self.limits, self.conditions);
-        match (measure, self.source) {
-            (Measure::Outcome | Measure::Settling, source) => self.motions(measure, source)?,
-            (Measure::Cycles, Oscillator(problem)) => self.cycles_of(&problem.parameters)?,
-            (Measure::Margin, Oscillator(problem)) => self.basin_of(&problem.parameters)?,
-            (Measure::Proved, Oscillator(problem)) => self.proof_of(&problem.parameters)?,
-            (Measure::Fold, Oscillator(problem)) => {
-                let found = self.cost.spend(fold(&problem.parameters, limits)?);
+        let Subject { source, tolerances, .. } = self.subject;
+        let paper = self.subject.paper().map(|problem| problem.parameters);
+        match (measure, paper) {
+            (Measure::Outcome | Measure::Settling, _) => self.motions(measure)?,
+            (Measure::Cycles, Some(parameters)) => self.cycles_of(&parameters)?,
+            (Measure::Margin, Some(parameters)) => self.basin_of(&parameters)?,
+            (Measure::Proved, Some(parameters)) => self.proof_of(&parameters)?,
+            (Measure::Fold, Some(parameters)) => {
+                let found = self.cost.spend(fold(&parameters, limits)?);
                 self.fill(Measure::Fold, || found.into_iter().flat_map(|it| [it.d, it.q_max]));
             }
-            (Measure::Escape, Oscillator(problem)) => {
-                let found = self.cost.spend(escape_point(&problem.parameters, limits)?);
+            (Measure::Escape, Some(parameters)) => {
+                let found = self.cost.spend(escape_point(&parameters, limits)?);
                 self.fill(Measure::Escape, || found);
             }
-            (Measure::Guaranteed, Oscillator(problem)) => {
-                let (known, bound) =
-                    (conditions.around(&problem.parameters), conditions.disturbance);
+            (Measure::Guaranteed, Some(parameters)) => {
+                let (known, bound) = (tolerances.around(&parameters), tolerances.disturbance);
                 let found = oscillator::guaranteed(&known, bound, 0.0, limits)?;
                 let (basin, margin) = found.map_err(|why| why.to_string())?;
                 self.cost += basin.cost;
                 self.margin(Measure::Guaranteed, margin);
             }
-            (Measure::Guaranteed, Machine(problem)) => {
-                let Some(belt) = problem.subject.of_belt() else { return Ok(()) };
-                let found = machine::guaranteed(belt, &problem.tolerances)?;
+            (Measure::Guaranteed, None) => {
+                let Some(belt) = source.of_belt() else { return Ok(()) };
+                let found = machine::guaranteed(belt, tolerances)?;
                 let (_, margin) = found.map_err(|why| why.to_string())?;
                 self.margin(Measure::Guaranteed, margin);
             }
-            (Measure::Design, source) => {
+            (Measure::Design, paper) => {
                 let Some((kick, wanted)) = conditions.wanted else { return Ok(()) };
-                let needed = match source {
-                    Oscillator(Problem { parameters, .. }) => {
-                        self.cost.spend(friction_for(parameters, kick, wanted, limits)?)
+                let needed = match paper {
+                    Some(parameters) => {
+                        self.cost.spend(friction_for(&parameters, kick, wanted, limits)?)
                     }
-                    Machine(problem) => {
-                        let MachineProblem { subject, tolerances, .. } = &**problem;
-                        friction_of_guide(subject, tolerances, kick, wanted)?
-                            .ok_or("no friction was found to suffice")?
-                    }
+                    None => friction_of_guide(source, tolerances, kick, wanted)?
+                        .ok_or("no friction was found to suffice")?,
                 };
                 self.fill(Measure::Design, || [needed.least().unwrap_or(0.0)]);
             }
-            // Without friction there is no set of places to rest.
-            (Measure::Repeated, Oscillator(problem)) if problem.parameters.r == 0.0 => {}
-            (Measure::Repeated, source) => {
-                if let Oscillator(Problem { parameters, .. }) = source {
+            (Measure::Repeated, paper) => {
+                // Without friction there is no set of places to rest.
+                if let Some(parameters) = paper.filter(|it| it.r > 0.0) {
                     let reach = conditions.kicks.reach() + parameters.r;
-                    self.portrait = Some(Portrait::of_oscillator(parameters, reach, limits)?);
+                    self.portrait = Some(Portrait::of_oscillator(&parameters, reach, limits)?);
                 }
                 let held = |found: &&Portrait| found.model.guide_static > 0.0;
                 let Some(portrait) = self.portrait.as_ref().filter(held) else { return Ok(()) };
                 let found = repeated(portrait, &conditions.kicks, limits)?;
-                if let Oscillator(_) = source {
+                if paper.is_some() {
                     self.cost += found.cost;
                 }
                 self.fill(Measure::Repeated, || [found.mean, found.later, found.error]);
             }
-            (_, Machine(problem)) => self.portray(problem)?,
+            (_, None) => self.portray()?,
             _ => debug_assert!(false, "it is computed with another"),
         }
         Ok(())
     }
 
     /// The motion of the point, or those from a window of starts. Fails with why one was given up.
-    fn motions(&mut self, measure: Measure, source: &ScanSource) -> Result<(), Reason> {
-        let limits = self.limits;
-        let (follow, window): (Box<dyn Fn(Option<State>) -> Trajectory>, _) = match source {
-            Oscillator(problem) => {
-                let follow = |start: Option<State>| {
-                    let initial = start.unwrap_or(problem.initial);
-                    trajectory(&Problem { initial, ..*problem }, Detail::default(), limits)
-                };
-                (Box::new(follow), self.conditions.window)
-            }
-            Machine(problem) => {
-                let MachineProblem { subject, start: usual, until, .. } = &**problem;
-                let model = subject.model()?;
-                let window = self.conditions.about(&model);
-                let follow = move |start: Option<State>| {
-                    follow_by_series(&model, start.map_or(*usual, |it| (it.q, it.v)), *until)
-                };
-                (Box::new(follow), window)
-            }
+    fn motions(&mut self, measure: Measure) -> Result<(), Reason> {
+        let (limits, conditions) = (self.limits, self.conditions);
+        let (problem, model) = self.subject.problem()?;
+        let follow = |initial: State| {
+            let problem = Problem { initial, ..problem };
+            problem.followed(model.as_ref(), Detail::default(), limits)
         };
         if measure == Measure::Outcome {
-            self.motion(&follow(None))
-        } else {
-            self.settling(&window, |start| follow(Some(start)))
+            return self.motion(&follow(problem.initial));
         }
+        let about = |model| conditions.about(model);
+        self.settling(&model.as_ref().map_or(conditions.window, about), follow)
     }
 
     fn cycles_of(&mut self, parameters: &Parameters) -> Result<(), Reason> {
@@ -156,8 +138,8 @@ impl Cells<'_> {
     }
 
     /// The cycles and the basin of a machine: one computation, on which repeated kicks rest, too.
-    fn portray(&mut self, problem: &MachineProblem) -> Result<(), Reason> {
-        let portrait = problem.subject.portrait()?;
+    fn portray(&mut self) -> Result<(), Reason> {
+        let portrait = self.subject.source.portrait()?;
         self.cost.steps += portrait.cost.steps;
         self.cycles(&portrait.cycles);
         self.around_rest(&portrait);

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::error::Error;
 
 use super::settling::Settling;
-use super::table::{CYCLES, Conditions, Measure, ScanSource, Value};
-use crate::flow::{Cost, Limits, Outcome, Reason, Trajectory};
+use super::table::{CYCLES, Conditions, Measure, Value};
+use crate::flow::{Cost, Limits, Outcome, Reason, Subject, Trajectory};
 use crate::model::State;
 use crate::portrait::{Closing, Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 
@@ -24,7 +24,7 @@ pub(super) type Failed = Box<dyn Error>;
 
 /// A row that is being computed.
 pub(super) struct Cells<'a> {
-    pub source: &'a ScanSource,
+    pub subject: &'a Subject,
     measures: &'a [Measure],
     pub conditions: &'a Conditions,
     pub limits: &'a Limits<'a>,
@@ -40,14 +40,14 @@ pub(super) struct Cells<'a> {
 
 impl<'a> Cells<'a> {
     pub fn new(
-        source: &'a ScanSource,
+        subject: &'a Subject,
         measures: &'a [Measure],
         conditions: &'a Conditions,
         limits: &'a Limits<'a>,
     ) -> Self {
         let (filled, reasons, cost) = Default::default();
         let (known, portrait) = (None, None);
-        Cells { source, measures, conditions, limits, filled, reasons, cost, known, portrait }
+        Cells { subject, measures, conditions, limits, filled, reasons, cost, known, portrait }
     }
 
     /// The row; columns that were not filled have no value.

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-use crate::flow::Problem;
-use crate::model::{Group, Knob, MachineProblem, Model, ParameterBox, Parameters};
+use crate::model::{Knob, Model};
 use crate::numerics::count::real;
 use crate::portrait::{Kick, RandomKick, StartWindow};
 
@@ -189,53 +188,13 @@ impl Value {
     }
 }
 
-/// What is scanned: a motion of the oscillator of the paper, or of a machine by its whole model.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ScanSource {
-    /// A dimensionless motion.
-    Oscillator(Problem),
-    /// A motion in SI units.
-    Machine(Box<MachineProblem>),
-}
+// What some measures depend on beside the subject.
 
-impl From<Problem> for ScanSource {
-    fn from(problem: Problem) -> Self {
-        ScanSource::Oscillator(problem)
-    }
-}
-
-impl ScanSource {
-    /// What can be scanned over.
-    pub fn groups(&self) -> &'static [Group] {
-        match self {
-            ScanSource::Oscillator(_) => &[Group::Motion],
-            ScanSource::Machine(_) => MachineProblem::GROUPS,
-        }
-    }
-
-    /// Gives a number a value. Fails with one line if there is no such number.
-    pub(in crate::scan) fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
-        match self {
-            ScanSource::Oscillator(Problem { parameters, initial, .. }) => {
-                knob.set(parameters, initial, value);
-                Ok(())
-            }
-            ScanSource::Machine(problem) => problem.set(knob, value),
-        }
-    }
-}
-
-// What some measures depend on beside the parameters and the start.
-
-/// The window of starts, the tolerances, the disturbance and the kicks.
+/// The window of starts, the kicks, and the margin that is wanted.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conditions {
     /// Starts whose part or times are measured.
     pub window: StartWindow,
-    /// Half widths of parameters, each given once.
-    pub half_widths: Vec<(Knob, f64)>,
-    /// Bound on the disturbance.
-    pub disturbance: f64,
     /// Kicks of which a fraction is lost.
     pub kicks: RandomKick,
     /// Whether the window of a machine counts displacements from the relaxed spring.
@@ -251,11 +210,6 @@ impl From<StartWindow> for Conditions {
 }
 
 impl Conditions {
-    /// The box of parameters around these; friction is never negative.
-    pub fn around(&self, parameters: &Parameters) -> ParameterBox {
-        ParameterBox::around(parameters, self.half_widths.iter().copied())
-    }
-
     /// The window of a machine, from its steady position.
     pub fn about(&self, model: &Model) -> StartWindow {
         let steady = if self.elongation { model.pull } else { 0.0 };

@@ -1,6 +1,6 @@
 use super::*;
 use crate::flow::Problem;
-use crate::model::{Knob, Parameters, State};
+use crate::model::{Parameters, State};
 use crate::portrait::{Kick, StartWindow};
 
 const WINDOW: StartWindow = StartWindow { q: (-3.0, 3.0), v: (-3.0, 3.0) };
@@ -58,17 +58,16 @@ fn measures_share_what_they_need() {
 
 #[test]
 fn a_guaranteed_margin_is_that_of_the_worst_and_says_where_there_is_none() {
-    let problem = problem(-0.3, 0.2, 0.5, 0.1);
-    let at = |conditions: &Conditions| {
-        let source = problem.into();
-        measure(&source, &[Measure::Guaranteed], conditions, &Limits::PATIENT).unwrap()
+    let mut subject = Subject::from(problem(-0.3, 0.2, 0.5, 0.1));
+    let at = |subject: &Subject| {
+        measure(subject, &[Measure::Guaranteed], &WINDOW.into(), &Limits::PATIENT).unwrap()
     };
-    let mut conditions = Conditions { disturbance: 0.02, ..WINDOW.into() };
-    let ScanRow { values, reason, .. } = at(&conditions);
+    subject.tolerances.disturbance = 0.02;
+    let ScanRow { values, reason, .. } = at(&subject);
     // Computed elsewhere.
     assert!((values[0].number().unwrap() - 0.1743).abs() < 5e-5 && reason.is_none());
-    conditions.half_widths.push((Knob::R, 0.09));
-    let ScanRow { values, reason, .. } = at(&conditions);
+    subject.tolerances.half_widths.insert("r".to_owned(), 0.09);
+    let ScanRow { values, reason, .. } = at(&subject);
     assert_eq!(values, [Value::Nothing; 2]);
     assert!(reason.unwrap().starts_with("guaranteed: the disturbance"));
 }

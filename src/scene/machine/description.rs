@@ -9,9 +9,9 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use crate::flow::{Problem, Reason};
+use crate::flow::{Problem, Reason, Subject};
 use crate::model::belt::ReducedBelt;
-use crate::model::{Belt, Body, Knob, MachineProblem, Parameters, State, Tolerances};
+use crate::model::{Belt, Body, Knob, Parameters, State, Tolerances};
 use crate::numerics::elementary::powi;
 
 /// What a file describes: a machine or a vibration mode, and one motion of it.
@@ -22,7 +22,7 @@ pub struct Description {
     pub title: String,
     /// What it is, and what to look at, in a sentence or two.
     pub watch: String,
-    pub problem: MachineProblem,
+    pub subject: Subject,
 }
 
 /// Why a mode cannot be drawn.
@@ -57,12 +57,12 @@ impl Machine {
             name: self.name.clone(),
             title: self.title.clone(),
             watch: self.watch.clone(),
-            problem: MachineProblem {
-                subject: (&self.belt).into(),
-                tolerances: self.tolerances.clone(),
-                start: (self.displacement, self.velocity),
-                until: self.until,
-            },
+            subject: Subject::moving(
+                (&self.belt).into(),
+                self.tolerances.clone(),
+                (self.displacement, self.velocity),
+                self.until,
+            ),
         }
     }
 }
@@ -72,10 +72,10 @@ impl TryFrom<Description> for Machine {
 
     /// Fails for a vibration mode.
     fn try_from(described: Description) -> Result<Self, &'static str> {
-        let Description { name, title, watch, problem } = described;
-        let MachineProblem { subject, tolerances, start: (displacement, velocity), until } =
-            problem;
-        let Body::Belt(belt) = subject.body else { return Err(NO_BELT) };
+        let Description { name, title, watch, subject } = described;
+        let (displacement, velocity) = subject.start();
+        let Subject { source, tolerances, motion: Problem { until, .. } } = subject;
+        let Body::Belt(belt) = source.body else { return Err(NO_BELT) };
         Ok(Machine { name, title, watch, belt: *belt, tolerances, displacement, velocity, until })
     }
 }

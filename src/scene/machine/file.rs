@@ -13,11 +13,10 @@ use toml::de::DeTable;
 
 use super::Description;
 use super::table::table;
+use crate::flow::Subject;
 use crate::model::belt::FrictionLaw;
 use crate::model::unit::quantity;
-use crate::model::{
-    Belt, Body, Group, Knob, KnobSpec, MachineProblem, Modal, Source, Tolerances, unknown,
-};
+use crate::model::{Belt, Body, Group, Knob, KnobSpec, Modal, Source, Tolerances, unknown};
 use crate::numerics::{SmoothingSpline, shortest};
 use crate::scene::misread::{Complaint, Misread};
 
@@ -192,20 +191,21 @@ fn described(
     read.has_only(&known.chain(other_names(is_mode).to_vec()).collect::<Vec<_>>())?;
     let mut half_widths = HalfWidths::default();
     let (body, section) = if is_mode { mode(read)? } else { belt(read, &mut half_widths, fetch)? };
-    let mut subject = Source::from(body);
-    set_numbers(&mut subject, read, is_mode, &mut half_widths)?;
+    let mut source = Source::from(body);
+    set_numbers(&mut source, read, is_mode, &mut half_widths)?;
     let unfit = |message| Complaint { at: section.clone(), message };
-    let period = match &subject.body {
+    let period = match &source.body {
         Body::Belt(belt) => {
             let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
             std::f64::consts::TAU * reduced.units.time
         }
         Body::Mode(mode) => 1.0 / mode.frequency,
+        Body::Paper(_) => std::f64::consts::TAU,
     };
-    subject.model().map_err(|error| unfit(error.to_string()))?;
+    source.model().map_err(|error| unfit(error.to_string()))?;
     let disturbance = read.number(Knob::DisturbingForce, exact)?;
     let tolerances = Tolerances { half_widths: half_widths.0, disturbance };
-    if let Some(belt) = subject.of_belt() {
+    if let Some(belt) = source.of_belt() {
         tolerances.check(belt).map_err(unfit)?;
     }
     let start = match read.section("start")? {
@@ -222,7 +222,7 @@ fn described(
         name: name.to_owned(),
         title: if title.is_empty() { name.to_owned() } else { title },
         watch: read.text("look")?,
-        problem: MachineProblem { subject, tolerances, start, until },
+        subject: Subject::moving(source, tolerances, start, until),
     })
 }
 
@@ -269,7 +269,7 @@ fn mode(read: &Section) -> Result<(Body, Range<usize>), Complaint> {
 
 /// Sets the numbers that the file gives, and the defaults of the others.
 fn set_numbers(
-    subject: &mut Source,
+    source: &mut Source,
     read: &Section,
     is_mode: bool,
     half_widths: &mut HalfWidths,
@@ -282,7 +282,7 @@ fn set_numbers(
         let value = read.number(knob, |knob, given| {
             if is_mode { exact(knob, given) } else { half_widths.read(knob, given) }
         })?;
-        subject.set(knob, value).map_err(lacks)?;
+        source.set(knob, value).map_err(lacks)?;
     }
     Ok(())
 }

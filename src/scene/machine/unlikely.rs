@@ -29,6 +29,7 @@ pub fn unlikely(body: &Body, (x, v): (f64, f64)) -> Option<String> {
                 (NORMAL_FORCE, belt.normal_force),
             ]
         }
+        Body::Paper(_) => return None,
         Body::Mode(mode) => vec![(FREQUENCY, mode.frequency)],
     };
     sizes.extend([(DISPLACEMENT, x.abs()), (VELOCITY, v.abs())]);
