@@ -86,19 +86,18 @@ fn machine(picture: &mut Picture, session: &Session, moment: &Sample) {
     belt(picture, across, sticking.unwrap_or(0.0) * moment.tau);
     let (left, right) = (moment.q - 0.5 * WIDTH * width, moment.q + 0.5 * WIDTH * width);
     let r = session.problem.parameters.r;
-    let [from, to] = [-r, r].map(|x| Point { x, y: REST });
-    picture.bar(part("where the mass may rest", Role::Sticking), from, to);
-    picture.curve(part("spring", Role::Text), spring(wall, left));
+    picture.curve("where the mass may rest", [[-r, REST], [r, REST]]);
+    picture.curve("spring", spring(wall, left));
     for piece in damper(wall, -0.5 * WIDTH * width, left) {
-        picture.curve(part("damper", Role::Text), piece);
+        picture.curve("damper", piece);
     }
-    picture.curve(part("mass", Role::Trajectory), rectangle([left, right], MASS.into()));
+    picture.curve("mass", rectangle([left, right], MASS.into()));
     let middle = Point { x: moment.q, y: 0.5 * (MASS.0 + MASS.1) };
     picture.caption(middle, "m", Role::Trajectory);
     let rides = |ride: &[Sample; 2]| (ride[0].tau..=ride[1].tau).contains(&moment.tau);
     if let Some(ride) = session.trajectory().and_then(|motion| motion.rides().find(rides)) {
-        let [from, to] = [left, right].map(|x| Point { x, y: BELT.1 });
-        picture.bar(part("sticks to the belt", Role::Current), from, to);
+        let line = LineStyle::new("sticks to the belt", Role::Current, Dash::Thick);
+        picture.curve(line.captioned(), [[left, BELT.1], [right, BELT.1]]);
         let below = Point { x: ride[0].q.max(across.from()), y: 0.5 * (BELT.0 + BELT.1) };
         picture.caption(below, "sticks", Role::Current);
     }
@@ -117,22 +116,16 @@ fn arrow(picture: &mut Picture, session: &Session, moment: &Sample) {
     let (tail, tip) = (middle - 0.5 * way, middle + 0.5 * way);
     let barb = tip - (0.15 * ARROW * across.width()).copysign(way);
     let points = [(tail, y), (tip, y), (barb, y + 0.5 * HALF), (tip, y), (barb, y - 0.5 * HALF)];
-    picture.curve(part("friction of the belt", Role::Special), points.map(Point::from));
+    picture.curve("friction of the belt", points);
     let text = with_unit(pull * running.reduced.units.force, 3, "N");
     picture.caption(Point { x: tail, y }, text, Role::Special);
-}
-
-/// A part of the machine, which anybody recognizes without a legend.
-fn part(name: &'static str, role: Role) -> LineStyle {
-    LineStyle::new(name, role, Dash::Solid).captioned()
 }
 
 /// The belt, its marks moved by `way` to the right above and to the left below.
 fn belt(picture: &mut Picture, across: Span, way: f64) {
     let (low, high) = BELT;
     for y in [low, high] {
-        let ends = [across.from(), across.to()].map(|x| Point { x, y });
-        picture.curve(part("belt", Role::Axis), ends);
+        picture.curve("belt", [[across.from(), y], [across.to(), y]]);
     }
     let gap = GAP * across.width();
     let tick = 0.35 * (high - low);
@@ -140,10 +133,7 @@ fn belt(picture: &mut Picture, across: Span, way: f64) {
         let first = across.from() + way.rem_euclid(gap);
         for number in 0..MARKS {
             let x = first + f64::from(number) * gap;
-            picture.curve(
-                part("mark of the belt", Role::Current),
-                [Point { x, y: from }, Point { x, y: to }],
-            );
+            picture.curve("mark of the belt", [[x, from], [x, to]]);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Formulas drawn into the phase plane: levels of the energy, and the spirals that make the cycle.
 
-use super::{Dash, Item, LineStyle, Mark, Picture, Role, ellipse};
+use super::{Item, Mark, Picture, Role, ellipse};
 use crate::closed_form::{linear::Linear, lyapunov::energy_rate, piecewise_linear::LinearCycle};
 use crate::model::{Parameters, State};
 use crate::numerics::root::{TO_ROUNDING, bisect};
@@ -11,14 +11,11 @@ pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
     /// Circles in the window.
     const LEVELS: u8 = 2;
     let y = picture.window.y;
-    for (from, to) in falling(parameters, y) {
-        let line = LineStyle::new("energy falls", Role::Basin, Dash::Solid).briefly("V falls");
-        picture.items.push(Item::Rows(line, from, to));
-    }
+    let falling = falling(parameters, y).into_iter();
+    picture.items.extend(falling.map(|(from, to)| Item::Rows("energy falls".into(), from, to)));
     for level in 1..=LEVELS {
         let radius = 0.5 * y.width() * f64::from(level) / f64::from(LEVELS);
-        let line = LineStyle::new("level of the energy", Role::Field, Dash::Sparse);
-        picture.curve(line.briefly("V constant"), ellipse((0.0, radius), (0.0, radius)));
+        picture.curve("level of the energy", ellipse((0.0, radius), (0.0, radius)));
     }
 }
 
@@ -71,12 +68,9 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
         [(1.0, "half turn about the left end"), (-1.0, "half turn about the right end")]
     {
         for (from, to) in [(-2.0, 0.0), (1.0, 2.0)] {
-            let name = "the same spiral before and after";
-            let line = LineStyle::new(name, Role::Asymptote, Dash::Dotted);
-            picture.curve(line.briefly("how they go on"), turn(from, to, side));
+            picture.curve("the same spiral before and after", turn(from, to, side));
         }
-        let line = LineStyle::new(name, Role::Trajectory, Dash::Solid).briefly("half turns");
-        picture.curve(line, turn(0.0, 1.0, side));
+        picture.curve(name, turn(0.0, 1.0, side));
         picture.mark(Mark::Head, Point { x: -side * r, y: 0.0 }, Role::Special);
         let end = Point { x: side * (r + cycle.clearance), y: 0.0 };
         picture.mark(Mark::Turn, end, Role::Special);
@@ -88,6 +82,7 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
 mod tests {
     use super::*;
     use crate::numerics::elementary::tanh;
+    use crate::picture::Dash;
     use crate::scene::Window;
 
     fn picture() -> Picture<'static> {

@@ -46,7 +46,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     if window.y.from() < 0.0 && window.y.to() > 0.0 {
         picture.level(LineStyle::guide(), 0.0);
     }
-    picture.upright(LineStyle::new("present value", Role::Current, Dash::Sparse), current);
+    picture.upright("present value", current);
     // Beside branches of other values the formulas stand for the present one alone.
     for shown in all.iter().filter(|shown| shown.present || !has_present) {
         let height = diagram.axes.height(shown.problem.parameters.r);
@@ -139,9 +139,8 @@ fn asymptotes(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob, height
     };
     let asymptotes = [small_asymptote as fn(&Parameters) -> Option<f64>, large_asymptote];
     for (name, asymptote) in names.into_iter().zip(asymptotes) {
-        let line = LineStyle::new(name, Role::Asymptote, Dash::DashDot).briefly("asymptote");
         let shown = shown.clone();
-        picture.graph(line.of(&shown.variant), move |value| {
+        picture.graph(LineStyle::from(name).of(&shown.variant), move |value| {
             let parameters = shown.problem.parameters.with(abscissa, value);
             let amplitude = asymptote(&parameters)?;
             Some(height.scaled(value, size(mean(parameters.d2, amplitude), amplitude)))
@@ -163,7 +162,7 @@ fn harmonic(
     /// Samples along the amplitude: more than any screen has dots.
     const SAMPLES: u16 = 1000;
     let Some(size) = height.ordinate.spec().harmonic else { return };
-    let line = LineStyle::new("first harmonic", Role::Harmonic, Dash::Dotted).of(&shown.variant);
+    let line = LineStyle::from("first harmonic").of(&shown.variant);
     let Parameters { d2, d3, r, .. } = shown.problem.parameters;
     if abscissa == Knob::D {
         let points = (1..=SAMPLES).map(|sample| {
@@ -236,10 +235,9 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
 /// The largest velocities of a piece.
 fn extents(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) {
     let height = Height { ordinate: Ordinate::VMax, ..found.height };
-    let points =
-        piece.iter().map(|point| Point { x: point.value, y: height.of(point.value, &point.cycle) });
-    let line = LineStyle::new("largest velocity A_v", Role::Velocity, Dash::DashDot);
-    picture.curve(line.of(&found.shown.variant).briefly("largest velocity"), points);
+    let points = piece.iter().map(|point| [point.value, height.of(point.value, &point.cycle)]);
+    let line = LineStyle::from("largest velocity A_v").of(&found.shown.variant);
+    picture.curve(line, points);
 }
 
 /// Marks the cycles of a piece at the present value.

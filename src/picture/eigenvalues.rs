@@ -1,7 +1,7 @@
 //! The eigenvalues of the rest without friction in the complex plane, and the way that they take as D
 //! moves (9): a circle on which the motion swings, and the real axis on which it does not.
 
-use super::{Dash, Item, LineStyle, Picture, Role, cycle_style, ellipse};
+use super::{Item, LineStyle, Picture, Role, cycle_style, ellipse};
 use crate::model::Knob;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
@@ -21,12 +21,10 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
 /// The way of the eigenvalues over D; on the left of the imaginary axis, shaded, the rest is stable.
 fn locus(picture: &mut Picture) {
     let left = picture.window.x.from();
-    let stable = LineStyle::new("the rest is stable", Role::Basin, Dash::Solid);
-    picture.items.push(Item::Columns(stable, left.min(0.0), 0.0));
+    picture.items.push(Item::Columns("the rest is stable".into(), left.min(0.0), 0.0));
     picture.upright(LineStyle::guide(), 0.0);
-    let line = LineStyle::new("eigenvalues over D", Role::Asymptote, Dash::Dotted);
-    picture.curve(line.clone(), ellipse((0.0, 1.0), (0.0, 1.0)));
-    picture.level(line, 0.0);
+    picture.curve("eigenvalues over D", ellipse((0.0, 1.0), (0.0, 1.0)));
+    picture.level("eigenvalues over D", 0.0);
     for (at, name) in [([0.0, 1.0], "D = 0"), ([-1.0, 0.0], "D = 1"), ([1.0, 0.0], "D = -1")] {
         picture.caption(at.into(), name, Role::Special);
     }
@@ -48,9 +46,7 @@ fn eigenvalues(d: f64) -> [Point; 2] {
 fn pair(picture: &mut Picture, d: f64) {
     let mark = cycle_style(d > 0.0).mark;
     for at in eigenvalues(d) {
-        let arm = [Point { x: 0.0, y: 0.0 }, at];
-        let line = LineStyle::new("from the origin", Role::Current, Dash::Sparse);
-        picture.curve(line.captioned(), arm);
+        picture.curve("from the origin", [Point { x: 0.0, y: 0.0 }, at]);
         picture.mark(mark, at, Role::Current);
     }
 }

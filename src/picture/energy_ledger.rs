@@ -25,8 +25,8 @@ pub fn draw(picture: &mut Picture, session: &Session) {
         let from = Point { x: 0.0, y: middle(line) };
         if let LedgerLine::Work { source, work, part, so_far } = entry {
             let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
-            let line = LineStyle::new(*source, role, Dash::Solid).captioned();
-            picture.bar(line, from, Point { x: *part, ..from });
+            let line = LineStyle::new(*source, role, Dash::Thick).captioned();
+            picture.curve(line, [from, Point { x: *part, ..from }]);
             if let Some(x) = *so_far {
                 picture.mark(Mark::Head, Point { x, ..from }, Role::Cursor);
             }

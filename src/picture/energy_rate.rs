@@ -1,7 +1,7 @@
 //! The rate V' of the energy over the velocity, of which alone it is a function (17 to 19): what damping
 //! feeds, what friction takes, and between which velocities friction takes more.
 
-use super::{Dash, LineStyle, Mark, Picture, Role};
+use super::{LineStyle, Mark, Picture, Role};
 use crate::closed_form::lyapunov::{self, energy_rate};
 use crate::model::{Parameters, State};
 use crate::scene::{Layer, Point};
@@ -34,12 +34,12 @@ fn curves(picture: &mut Picture, parameters: Parameters) {
     picture.upright(LineStyle::guide(), 0.0);
     let smooth = Parameters { r: 0.0, ..parameters };
     let dry = Parameters { d: 0.0, d2: 0.0, d3: 0.0, ..parameters };
-    for (name, brief, role, dash, of) in [
-        ("fed by damping", "damping", Role::Velocity, Dash::DashDot, smooth),
-        ("taken by friction", "friction", Role::Sticking, Dash::Dotted, dry),
-        ("rate of the energy V'", "rate V'", Role::Energy, Dash::Thick, parameters),
+    for (name, of) in [
+        ("fed by damping", smooth),
+        ("taken by friction", dry),
+        ("rate of the energy V'", parameters),
     ] {
-        picture.graph(LineStyle::new(name, role, dash).briefly(brief), move |v| Some(rate(&of, v)));
+        picture.graph(name, move |v| Some(rate(&of, v)));
     }
     if let Some(radius) = lyapunov::radius(&parameters).filter(|radius| *radius > 0.0) {
         for (v, name) in [(radius, "l"), (-radius, "-l")] {

@@ -1,7 +1,7 @@
 //! Rest in a bifurcation diagram: with friction the sticking set, a band that attracts; without, the
 //! equilibrium at 0, stable on one side of the Hopf point and unstable on the other.
 
-use super::{Dash, Fill, Item, LineStyle, Picture, Role, cycle_style, phase_plane::AT_REST};
+use super::{Dash, Fill, Item, LineStyle, Picture, Role};
 use crate::model::{Knob, Parameters};
 use crate::scene::{Height, Ordinate, Point};
 use crate::session::ShownMotion;
@@ -30,7 +30,7 @@ pub fn draw(
         }
         return;
     }
-    let line = LineStyle::new(name, Role::Sticking, dash).briefly(AT_REST).of(&shown.variant);
+    let line = LineStyle { dash, ..LineStyle::from(name) }.of(&shown.variant);
     if !has_band {
         return picture.level(line, 0.0);
     }
@@ -67,11 +67,9 @@ fn is_stable(parameters: &Parameters) -> Option<bool> {
 
 /// The equilibrium at 0 without friction.
 fn point(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob) {
-    let kinds = [(true, "rest (stable)", Dash::Thick), (false, "rest (unstable)", Dash::DashDot)];
-    for (stable, name, dash) in kinds {
-        let line = LineStyle::new(name, cycle_style(stable).role, dash).of(&shown.variant);
+    for (stable, name) in [(true, "rest (stable)"), (false, "rest (unstable)")] {
         let of = shown.clone();
-        picture.graph(line, move |value| {
+        picture.graph(LineStyle::from(name).of(&shown.variant), move |value| {
             (is_stable(&of.problem.parameters.with(abscissa, value)) == Some(stable)).then_some(0.0)
         });
     }

@@ -29,10 +29,8 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     let name = ["x", "x'", "x''"][fitted.record.signal.order()];
     let name = with_unit(name, &fitted.record.signal_unit());
     let mut picture = Picture::new("record and fit", "t [s]", name, EMPTY);
-    let line = LineStyle::new("record", Role::Ghost, Dash::Solid);
-    picture.curve(line, seen.points.iter().map(|[t, x, _]| at(*t, *x)));
-    let line = LineStyle::new("fitted motion", Role::Trajectory, Dash::Solid);
-    picture.curve(line, seen.motion.iter().map(|[t, .., x]| at(*t, *x)));
+    picture.curve("record", seen.points.iter().map(|[t, x, _]| [*t, *x]));
+    picture.curve("fitted motion", seen.motion.iter().map(|[t, .., x]| [*t, *x]));
     picture.window = around(&picture)?;
     let record = &fitted.record;
     // What lies before and after the motion is seen, too.
@@ -48,8 +46,7 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
     let name = with_unit("measured - fitted", &fitted.record.signal_unit());
     let mut picture = Picture::new("residuals", "t [s]", name, EMPTY);
-    let line = LineStyle::new("residuals", Role::Ghost, Dash::Solid);
-    picture.curve(line, seen.points.iter().map(|[t, _, e]| at(*t, *e)));
+    picture.curve("residuals", seen.points.iter().map(|[t, _, e]| [*t, *e]));
     let deviation = fitted.estimate.covariance.deviation;
     band(&mut picture, [seen.points.first()?[0], seen.points.last()?[0]], 2.0 * deviation);
     picture.window = around(&picture)?;
@@ -65,8 +62,7 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
 /// Both ends of what is to be expected by chance.
 fn band(picture: &mut Picture, along: [f64; 2], height: f64) {
     for height in [height, -height] {
-        let line = LineStyle::new("+-2 standard deviations", Role::Current, Dash::Dashed);
-        picture.curve(line, along.map(|x| at(x, height)));
+        picture.curve("+-2 standard deviations", along.map(|x| [x, height]));
     }
 }
 
@@ -76,8 +72,7 @@ fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
     let [periods, _] = *memory.last()?;
     let window = Window::of([0.0, periods, -1.0, 1.0])?;
     let mut picture = Picture::new("memory of the residuals", "lag [s]", "correlation", window);
-    let name = "autocorrelation of the residuals";
-    picture.curve(LineStyle::new(name, Role::Energy, Dash::Solid), points(&memory));
+    picture.curve("autocorrelation of the residuals", memory);
     let chance = 2.0 / (real(fitted.estimate.kept_residuals().count())).sqrt();
     band(&mut picture, [0.0, periods], chance);
     Some(picture)
@@ -91,18 +86,13 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
     let extent = Window::of(found.extent)?;
     let mut picture =
         Picture::new("damping over amplitude", amplitude, "loss of amplitude", extent);
-    let parts = [
-        LineStyle::new("linear part D", Role::Asymptote, Dash::Sparse),
-        LineStyle::new("friction 2 r/(pi A)", Role::Sticking, Dash::Dotted),
-        LineStyle::new("cubic part (3/8) D3 A^2", Role::Lyapunov, Dash::DashDot),
-    ];
+    let parts = ["linear part D", "friction 2 r/(pi A)", "cubic part (3/8) D3 A^2"];
     let values = |a: f64| [p[D], 2.0 * p[R] / (PI * a), 0.375 * p[D3] * a * a];
     for (part, line) in parts.into_iter().enumerate() {
-        picture.curve(line, found.averaged.iter().map(|[a, _]| at(*a, values(*a)[part])));
+        picture.curve(line, found.averaged.iter().map(|[a, _]| [*a, values(*a)[part]]));
     }
-    let line = LineStyle::new("averaged", Role::Harmonic, Dash::Dashed);
-    picture.curve(line, points(&found.averaged));
-    picture.curve(LineStyle::new("exact", Role::Trajectory, Dash::Thick), points(&found.exact));
+    picture.curve("averaged", found.averaged.iter().copied());
+    picture.curve("exact", found.exact.iter().copied());
     let measured: Vec<Point> = found.measured.iter().map(|&[x, y, _]| at(x, y)).collect();
     let beyond = measured.iter().filter(|at| !extent.contains(**at)).count();
     let name = match beyond {
@@ -111,10 +101,9 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
     };
     for &[x, y, error] in &found.measured {
         let line = LineStyle::new(name.clone(), Role::Ghost, Dash::Solid);
-        picture.curve(line, [y - error, y + error].map(|y| at(x, y)));
+        picture.curve(line, [y - error, y + error].map(|y| [x, y]));
     }
-    let line = LineStyle::new("90 % band of averaged", Role::Field, Dash::Solid);
-    picture.items.push(Item::Shade(line, points(&found.band)));
+    picture.items.push(Item::Shade("90 % band of averaged".into(), points(&found.band)));
     let exact = points(&found.exact);
     let zeros = exact.windows(2).filter(|two| two[0].y * two[1].y < 0.0);
     picture.items.extend(zeros.map(|two| Item::Marks(zero(two[0], two[1]))));
@@ -140,10 +129,9 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
     let mut picture = Picture::new("phase plane", q, v, Window { x: span, y: span });
     let every = (fitted.margins.draws.len() / EDGES).max(1);
     for draw in fitted.margins.draws.iter().step_by(every) {
-        let line = LineStyle::new("borders of twenty drawn basins", Role::Ghost, Dash::Dotted);
-        border(&mut picture, draw, largest, line);
+        border(&mut picture, draw, largest, "borders of twenty drawn basins".into());
     }
-    let line = LineStyle::new("border of the basin", Role::Unstable, Dash::Solid);
+    let line = LineStyle { dash: Dash::Solid, ..LineStyle::from("border of the basin") };
     border(&mut picture, &parameters(p), largest, line);
     if let Some(seen) = &fitted.curves.sampled {
         let mut motion = seen.motion.iter().peekable();
@@ -151,7 +139,7 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
         for [t, x, _] in &seen.points {
             while motion.next_if(|point| point[0] < *t).is_some() {}
             if let Some([_, q, v, _]) = motion.peek() {
-                data.extend(estimate.measured(*t, *x, State { q: *q, v: *v }).map(Point::from));
+                data.extend(estimate.measured(*t, *x, State { q: *q, v: *v }));
             }
         }
         let name = match estimate.data.signal {
@@ -159,13 +147,11 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
             _ => "record (displacement by the fit)",
         };
         if !data.is_empty() {
-            picture.curve(LineStyle::new(name, Role::Field, Dash::Dotted), data);
+            picture.curve(name, data);
         }
-        let line = LineStyle::new("fitted motion", Role::Trajectory, Dash::Solid);
-        picture.curve(line, seen.motion.iter().map(|[_, q, v, _]| at(*q, *v)));
+        picture.curve("fitted motion", seen.motion.iter().map(|[_, q, v, _]| [*q, *v]));
     }
-    let line = LineStyle::new("sticking set", Role::Sticking, Dash::Solid);
-    picture.bar(line, at(-p[R], 0.0), at(p[R], 0.0));
+    picture.curve("sticking set", [[-p[R], 0.0], [p[R], 0.0]]);
     Some(picture)
 }
 
@@ -174,14 +160,13 @@ fn border(picture: &mut Picture, parameters: &Parameters, largest: f64, line: Li
     const COUNT: u16 = 24;
     let found = Portrait::of_oscillator(parameters, 2.0 * largest, &Limits::PATIENT).ok();
     if let Some(border) = found.as_ref().and_then(Portrait::edge) {
-        picture.curve(line, border.curve(COUNT).iter().map(|point| at(point.q, point.v)));
+        picture.curve(line, border.curve(COUNT));
     }
 }
 
 /// D and r together: where both lie with 68 and 95 %.
 fn together(fitted: &Fitted) -> Option<Picture<'static>> {
-    const LINES: [(&str, Dash); 2] =
-        [("delta chi^2 = 2.3 (68 %)", Dash::Solid), ("delta chi^2 = 6 (95 %)", Dash::Dashed)];
+    const LINES: [&str; 2] = ["delta chi^2 = 2.3 (68 %)", "delta chi^2 = 6 (95 %)"];
     let estimate = &fitted.estimate;
     let p = &estimate.p;
     if !(estimate.free[D] && estimate.free[R]) {
@@ -189,10 +174,10 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
     }
     let r = with_unit("r", fitted.unit());
     let mut picture = Picture::new("D and r together", "D", r, EMPTY);
-    for (rise, (name, dash)) in RISES.into_iter().zip(LINES) {
+    for (rise, name) in RISES.into_iter().zip(LINES) {
         let contour = contour(estimate, [D, R], rise, &Runs::new(&|| false));
         if let Some(contour) = contour.ok().filter(|it| !it.is_empty()) {
-            picture.curve(LineStyle::new(name, Role::Trajectory, dash), points(&contour));
+            picture.curve(name, contour);
         }
     }
     picture.window = around(&picture)?;
@@ -210,10 +195,8 @@ pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
     let extent = Window::of(fitted.curves.spread_extent)?;
     let title = "margin from rest, distribution";
     let mut picture = Picture::new(title, name, "probability", extent);
-    let line = LineStyle::new("margin is less than this", Role::Danger, Dash::Thick);
-    picture.curve(line, points(&fitted.curves.spread));
-    let line = LineStyle::new("largest amplitude less r", Role::Current, Dash::DashDot);
-    picture.curve(line, [0.0, 1.0].map(|share| at(largest, share)));
+    picture.curve("margin is less than this", fitted.curves.spread.iter().copied());
+    picture.curve("largest amplitude less r", [[largest, 0.0], [largest, 1.0]]);
     Some(picture)
 }
 

@@ -2,17 +2,19 @@
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use super::{Dash, Mark, Role, Scale, ScanMap, Ticks, units::said};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{hypot, real, sin_cos, truncated};
+use crate::scene::views::named;
 use crate::scene::{Point, Window};
 use crate::session::VariantTag;
 
 /// A text that is a constant or was made for this picture.
 pub type Text = Cow<'static, str>;
 
-/// How a line looks and what it is called.
+/// How a line looks and what it is called: most are lines of `assets/lines.txt`, and known by their name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineStyle {
     /// What it is; empty for lines that need no name.
@@ -60,6 +62,27 @@ impl LineStyle {
     /// An axis or another line that is there to be read against.
     pub fn guide() -> Self {
         LineStyle::new("", Role::Axis, Dash::Sparse)
+    }
+
+    /// The line that a line of the file describes; `None` for a comment. A test reads every line.
+    fn described(text: &'static str) -> Option<Self> {
+        let parts: Vec<&str> = text.split(" | ").collect();
+        let [name, role, dash, ref legend @ ..] = parts[..] else { return None };
+        let brief = legend.first().map(|words| if *words == "-" { "" } else { *words });
+        Some(LineStyle { brief, ..LineStyle::new(name, named(role)?, named(dash)?) })
+    }
+}
+
+/// The lines that have a look of their own.
+static LINES: LazyLock<Vec<LineStyle>> = LazyLock::new(|| {
+    include_str!("../../assets/lines.txt").lines().filter_map(LineStyle::described).collect()
+});
+
+impl From<&'static str> for LineStyle {
+    /// The line of this name. A test sees to it that there is one, wherever a picture asks for it.
+    fn from(name: &'static str) -> Self {
+        let known = LINES.iter().find(|line| line.name == name);
+        known.cloned().unwrap_or_else(|| LineStyle::new(name, Role::Failure, Dash::Solid))
     }
 }
 
@@ -291,26 +314,26 @@ impl<'a> Picture<'a> {
         format!("{} {}", said(across, &self.x, at.x, x), said(upward, &self.y, at.y, y))
     }
 
-    pub fn curve(&mut self, line: LineStyle, points: impl IntoIterator<Item = Point>) {
-        self.items.push(Item::Curve(line, points.into_iter().collect()));
+    pub fn curve(
+        &mut self,
+        line: impl Into<LineStyle>,
+        points: impl IntoIterator<Item = impl Into<Point>>,
+    ) {
+        let points = points.into_iter().map(Into::into).collect();
+        self.items.push(Item::Curve(line.into(), points));
     }
 
-    pub fn graph(&mut self, line: LineStyle, value: impl Fn(f64) -> Option<f64> + 'a) {
-        self.items.push(Item::Graph(line, Box::new(value)));
+    pub fn graph(&mut self, line: impl Into<LineStyle>, value: impl Fn(f64) -> Option<f64> + 'a) {
+        self.items.push(Item::Graph(line.into(), Box::new(value)));
     }
 
     /// Adds the line on which the ordinate has this value.
-    pub fn level(&mut self, line: LineStyle, y: f64) {
+    pub fn level(&mut self, line: impl Into<LineStyle>, y: f64) {
         self.graph(line, move |_| Some(y));
     }
 
-    pub fn upright(&mut self, line: LineStyle, x: f64) {
-        self.items.push(Item::Upright(line, x));
-    }
-
-    /// Adds a thick straight line.
-    pub fn bar(&mut self, line: LineStyle, from: Point, to: Point) {
-        self.curve(LineStyle { dash: Dash::Thick, ..line }, [from, to]);
+    pub fn upright(&mut self, line: impl Into<LineStyle>, x: f64) {
+        self.items.push(Item::Upright(line.into(), x));
     }
 
     pub fn mark(&mut self, mark: Mark, at: Point, role: Role) {
@@ -352,6 +375,21 @@ impl<'a> Picture<'a> {
         if let Some(at) = places.next().filter(|_| !name.is_empty()) {
             let (or_at, short) = (places.collect(), name.to_owned().into());
             self.items.push(Item::Caption(Caption { at, or_at, long, short, role }));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_of_the_file_is_read_and_has_a_name_of_its_own() {
+        let lines = include_str!("../../assets/lines.txt").lines();
+        let told = lines.filter(|line| !(line.is_empty() || line.starts_with('#')));
+        assert_eq!(told.count(), LINES.len());
+        for (index, line) in LINES.iter().enumerate() {
+            assert!(LINES[..index].iter().all(|other| other.name != line.name), "{}", line.name);
         }
     }
 }

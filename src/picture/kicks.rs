@@ -1,16 +1,16 @@
 //! Random kicks over the basin: their distribution, and what fraction of them is lost.
 
-use super::{Dash, LineStyle, Picture, Role, ellipse};
+use super::{Picture, ellipse};
 use crate::portrait::kicks::{Distribution, RandomKick};
 use crate::scene::{Finding, Layer, Topic, rectangle};
 use crate::session::Session;
 use crate::words::significant;
 
-/// Lines of equal density: their names, their distances from the mean in spreads, and their dashes.
-const NORMAL: [(&str, f64, Dash); 3] = [
-    ("kicks, 1 standard deviation", 1.0, Dash::Solid),
-    ("kicks, 2 standard deviations", 2.0, Dash::Dashed),
-    ("kicks, 3 standard deviations", 3.0, Dash::Dotted),
+/// Lines of equal density: their names, and their distances from the mean in spreads.
+const NORMAL: [(&str, f64); 3] = [
+    ("kicks, 1 standard deviation", 1.0),
+    ("kicks, 2 standard deviations", 2.0),
+    ("kicks, 3 standard deviations", 3.0),
 ];
 
 /// Draws the density of the kicks into a phase plane, and adds the lost part to its title.
@@ -21,15 +21,13 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     let RandomKick { q, v, law, .. } = session.kicks;
     match law {
         Distribution::Normal => {
-            for (name, distance, dash) in NORMAL {
-                let line = LineStyle::new(name, Role::Harmonic, dash).briefly("kicks: 1, 2, 3 sd");
-                picture.curve(line, ellipse((q.0, distance * q.1), (v.0, distance * v.1)));
+            for (name, distance) in NORMAL {
+                picture.curve(name, ellipse((q.0, distance * q.1), (v.0, distance * v.1)));
             }
         }
         Distribution::Uniform => {
-            let line = LineStyle::new("all kicks, evenly", Role::Harmonic, Dash::Solid);
             let ends = |(middle, half): (f64, f64)| [middle - half, middle + half];
-            picture.curve(line, rectangle(ends(q), ends(v)));
+            picture.curve("all kicks, evenly", rectangle(ends(q), ends(v)));
         }
     }
     picture.add_to_title(&lost_part(session, index));

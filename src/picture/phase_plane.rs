@@ -11,7 +11,7 @@ use super::{
 };
 use crate::closed_form::lyapunov;
 use crate::fit::{Fitted, Signal};
-use crate::flow::{Outcome, Problem, Trajectory};
+use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
 use crate::portrait::{Border, Cycle, Cycles, Ride};
@@ -56,9 +56,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     }
     if shows(Layer::Bands) {
         for border in session.borders(index).into_iter().flatten() {
-            let line = LineStyle::new("border of a band of capture", Role::Bands, Dash::Dotted);
-            let line = line.briefly("one half swing more");
-            picture.curve(line, points(border));
+            picture.curve("border of a band of capture", border.iter().copied());
         }
     }
     if shows(Layer::Ghost) && session.variants(index).is_none() {
@@ -88,14 +86,12 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     }
     let balance = session.balance().filter(|_| shows(Layer::Balance));
     for found in balance.iter().flat_map(|balance| &balance.balanced) {
-        let line = LineStyle::new("cycle of N harmonics", Role::Harmonic, Dash::Dotted);
-        picture.curve(line.briefly("N harmonics"), points(&found.curve));
+        picture.curve("cycle of N harmonics", found.curve.iter().copied());
     }
     if shows(Layer::Sticking) {
         for ShownMotion { variant, problem, .. } in &shown {
             let r = problem.parameters.r;
-            let [from, to] = [-r, r].map(|x| Point { x, y: 0.0 });
-            picture.bar(sticking_set(r).of(variant), from, to);
+            picture.curve(sticking_set(r).of(variant), [[-r, 0.0], [r, 0.0]]);
         }
     }
     if shows(Layer::Belt) {
@@ -116,9 +112,8 @@ fn record(picture: &mut Picture, fitted: &Fitted) {
         return;
     }
     let counted = fitted.points.iter().filter(|point| point.dropped.is_none());
-    let points = counted.map(|point| Point { x: point.q, y: point.v });
-    let line = LineStyle::new("record", Role::Ghost, Dash::Dotted);
-    picture.curve(line.briefly("measured"), points);
+    let line = LineStyle { dash: Dash::Dotted, ..LineStyle::from("record") };
+    picture.curve(line, counted.map(|point| [point.q, point.v]));
 }
 
 /// The velocity at which the mass sticks to its belt, and where the motion reaches it.
@@ -126,10 +121,7 @@ fn belt(picture: &mut Picture, session: &Session) {
     let Some(running) = session.running() else { return };
     let y = running.reduced.sticking_velocity;
     let left = picture.window.x.from();
-    picture.level(
-        LineStyle::new("speed of the belt", Role::Current, Dash::DashDot).briefly("belt speed"),
-        y,
-    );
+    picture.level("speed of the belt", y);
     picture.caption(Point { x: left, y }, "belt", Role::Current);
     if session.draws_whole() {
         rides(picture, session, y);
@@ -144,13 +136,11 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
     let cycles = session.cycles().filter(|_| session.layers.contains(&Layer::Cycles));
     let cycles = cycles.iter().flat_map(|found| &found.cycles);
     for Ride { from, to, .. } in cycles.filter_map(|cycle| cycle.ride) {
-        let [from, to] = [from, to].map(|x| Point { x, y });
-        picture.bar(LineStyle::new("cycle on the belt", Role::Stable, Dash::Solid), from, to);
+        picture.curve("cycle on the belt", [[from, y], [to, y]]);
     }
     let motion = session.trajectory().filter(|_| session.layers.contains(&Layer::Trajectory));
     for ride in motion.into_iter().flat_map(Trajectory::rides) {
-        let [from, to] = ride.map(|end| Point { x: end.q, y });
-        picture.bar(LineStyle::new("motion on the belt", Role::Trajectory, Dash::Solid), from, to);
+        picture.curve("motion on the belt", ride.map(|end| [end.q, y]));
     }
 }
 
@@ -178,7 +168,7 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
         if let Finding::Trajectory(found) = answer {
             let place = variant.index;
             let (line, variant) = if family {
-                (LineStyle::new("motion", Role::Trajectory, Dash::Solid), variant)
+                ("motion".into(), variant)
             } else {
                 (motion(session, place), VariantTag::default())
             };
@@ -209,27 +199,20 @@ pub(super) fn number_curve(
 /// How the motion in this place among those on show is drawn, and what it is called.
 pub(super) fn motion(session: &Session, place: usize) -> LineStyle {
     const DASHES: [Dash; 2] = [Dash::DashDot, Dash::Dotted];
-    let Some(number) = session.number(place) else {
-        return LineStyle::new("motion", Role::Trajectory, Dash::Solid);
-    };
+    let own = LineStyle::from("motion");
+    let Some(number) = session.number(place) else { return own };
     let name = format!("motion {number}");
     match place {
-        0 => LineStyle::new(name, Role::Trajectory, Dash::Solid),
+        0 => LineStyle { name: name.into(), ..own },
         // They are numbered where they begin and end.
         _ => LineStyle::new(name, Role::Beside, DASHES[place % DASHES.len()])
             .briefly("other motions"),
     }
 }
 
-/// What the legend of the screen calls the segment where the mass rests, in every plot.
-pub(super) const AT_REST: &str = "sticking set";
-
 /// The segment where the mass rests.
 pub(super) fn sticking_set(r: f64) -> LineStyle {
-    if r == 0.0 {
-        return LineStyle::new("equilibrium", Role::Sticking, Dash::Solid);
-    }
-    LineStyle::new("sticking set", Role::Sticking, Dash::Solid).briefly(AT_REST)
+    if r == 0.0 { "equilibrium" } else { "sticking set" }.into()
 }
 
 fn points(states: &[State]) -> Vec<Point> {
@@ -251,23 +234,19 @@ fn basin(picture: &mut Picture, found: &Cycles, variant: &VariantTag, with_cycle
         return;
     };
     let edge = points(&drawn.border);
-    let area = LineStyle::new("basin of the sticking set", Role::Basin, Dash::Solid).of(variant);
-    picture.items.push(Item::Shade(area.briefly("comes to rest"), edge.clone()));
-    if with_cycles && found.border == Border::Cycle {
-        return;
+    let area = LineStyle::from("basin of the sticking set").of(variant);
+    picture.items.push(Item::Shade(area, edge.clone()));
+    if !(with_cycles && found.border == Border::Cycle) {
+        picture.curve(LineStyle::from("border of the basin").of(variant), edge);
     }
-    let line = LineStyle::new("border of the basin", Role::Unstable, Dash::Dashed);
-    picture.curve(line.of(variant), edge);
 }
 
 /// What no motion leaves, whatever the parameters and the disturbance are.
 fn safe(picture: &mut Picture, extent: &Extent) {
     let Extent::Within(border) = extent else { return };
     let border = points(border);
-    let area = LineStyle::new("surely safe", Role::Safe, Dash::Solid);
-    picture.items.push(Item::Shade(area, border.clone()));
-    let line = LineStyle::new("border of the surely safe", Role::Safe, Dash::Dotted);
-    picture.curve(line.briefly("surely safe"), border);
+    picture.items.push(Item::Shade("surely safe".into(), border.clone()));
+    picture.curve("border of the surely safe", border);
 }
 
 /// Beyond which nothing comes to rest, whatever the parameters and the disturbance are.
@@ -283,17 +262,15 @@ fn lost(picture: &mut Picture, extent: &Extent) {
     // An open border, a separatrix, has no outside that a window could be filled with.
     if hypot(last.x - first.x, last.y - first.y) <= CLOSED * width {
         border.push(first);
-        let area = LineStyle::new("surely lost", Role::Danger, Dash::Solid);
-        picture.items.push(Item::Beyond(area, border.clone()));
+        picture.items.push(Item::Beyond("surely lost".into(), border.clone()));
     }
-    let line = LineStyle::new("border of the surely lost", Role::Danger, Dash::Dotted);
-    picture.curve(line.briefly("surely lost outside"), border);
+    picture.curve("border of the surely lost", border);
 }
 
 fn circle(picture: &mut Picture, ShownMotion { variant, problem, .. }: &ShownMotion) {
     if let Some(radius) = lyapunov::radius(&problem.parameters) {
-        let line = LineStyle::new("Lyapunov circle", Role::Lyapunov, Dash::Dotted);
-        picture.curve(line.of(variant), ellipse((0.0, radius), (0.0, radius)));
+        let line = LineStyle::from("Lyapunov circle").of(variant);
+        picture.curve(line, ellipse((0.0, radius), (0.0, radius)));
     }
 }
 
@@ -318,15 +295,13 @@ fn ghost(picture: &mut Picture, session: &Session) {
     for answer in session.answers_left() {
         match answer {
             Finding::Trajectory(found) => {
-                let samples = found.samples.iter().map(|sample| Point::from(sample.state()));
-                let line = LineStyle::new("motion left", Role::Ghost, Dash::Dotted);
-                picture.curve(line.briefly("the point left"), samples);
+                picture.curve("motion left", found.samples.iter().map(Sample::state));
             }
             Finding::Cycles(found, _) => {
                 for (cycle, curve) in curves(found) {
                     let role = if cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
-                    let line = LineStyle::new("cycle left", role, Dash::Dashed);
-                    picture.curve(line.briefly("the point left"), points(curve));
+                    let line = LineStyle { role, ..LineStyle::from("cycle left") };
+                    picture.curve(line, curve.iter().copied());
                 }
             }
             _ => {}

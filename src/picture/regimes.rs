@@ -4,7 +4,7 @@
 //! harmonic (48) is dotted. The present point is marked: stepping the two parameters moves it and nothing
 //! else. The machine on show has its path, along which its belt runs slower and faster.
 
-use super::{Dash, Fill, Item, LineStyle, Mark, Marks, Picture, Role};
+use super::{Fill, Item, LineStyle, Mark, Marks, Picture, Role};
 use crate::branch::chart::{Chart, ChartLine};
 use crate::branch::regime::{REGIMES, Regime};
 use crate::model::{Knob, Parameters};
@@ -33,26 +33,22 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     }
     signs(picture, abscissa, against, session.value(Knob::R));
     if let Some(chart) = found {
-        let mut boundary = |place: fn(&ChartLine) -> Option<f64>, line: LineStyle| {
-            for run in chart.boundary(place) {
-                picture.curve(line.clone(), run.into_iter().map(|(x, y)| Point { x, y }));
-            }
+        let mut boundary = |place: fn(&ChartLine) -> Option<f64>, name| {
+            chart.boundary(place).into_iter().for_each(|run| picture.curve(name, run));
         };
         if shows(Layer::Boundaries) {
-            boundary(|line| line.fold, LineStyle::new("fold", Role::Special, Dash::Thick));
-            boundary(|line| line.escape, LineStyle::new("escape", Role::Danger, Dash::Solid));
+            boundary(|line| line.fold, "fold");
+            boundary(|line| line.escape, "escape");
         }
         if shows(Layer::HarmonicFold) {
-            let line = LineStyle::new("fold of the first harmonic", Role::Harmonic, Dash::Dotted);
-            boundary(|line| line.harmonic, line.briefly("first harmonic"));
+            boundary(|line| line.harmonic, "fold of the first harmonic");
         }
         if shows(Layer::Regimes) {
             names_of_regimes(picture, chart);
         }
     }
-    let present = || LineStyle::new("present value", Role::Current, Dash::Sparse);
-    picture.upright(present(), here.x);
-    picture.curve(present(), across(picture.window, here.y));
+    picture.upright("present value", here.x);
+    picture.curve("present value", across(picture.window, here.y));
     if shows(Layer::BeltPath) {
         path(picture, session, abscissa, against);
     }
@@ -146,8 +142,7 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
     let at =
         |parameters: &Parameters| Point { x: parameters.value(right), y: parameters.value(up) };
     let place = |(_, parameters): Station| parameters.as_ref().map_or(Point::NOWHERE, at);
-    let line = LineStyle::new("over the speed of the belt", PEN, Dash::Dotted);
-    let line = LineStyle { varies: true, ..line.briefly("path of the belt") };
+    let line = LineStyle { varies: true, ..LineStyle::from("over the speed of the belt") };
     picture.curve(line, running.path().into_iter().map(place));
     let here = at(&session.problem.parameters);
     milestones(picture, running, here, place);

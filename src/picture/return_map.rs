@@ -5,7 +5,7 @@
 
 use super::phase_plane::{self, sticking_set};
 use super::{
-    CycleStyle, Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, cycle_style, units::said,
+    CycleStyle, Item, LineStyle, Mark, Marks, Picture, Role, Scale, cycle_style, units::said,
 };
 use crate::flow::{Outcome, Trajectory};
 use crate::scene::{Layer, Point};
@@ -22,26 +22,20 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     let r = session.problem.parameters.r;
 
     if shows(Layer::Map) && r > 0.0 {
-        let rest =
-            || LineStyle::new("at rest there", Role::Basin, Dash::Solid).briefly("comes to rest");
+        let rest = || LineStyle::from("at rest there");
         picture.items.extend([Item::Rows(rest(), -r, r), Item::Columns(rest(), -r, r)]);
     }
-    picture.graph(LineStyle::new("diagonal", Role::Axis, Dash::Sparse), Some);
+    picture.graph("diagonal", Some);
     if shows(Layer::Map)
         && let Some(found) = session.return_map(index)
     {
         for side in &found.sides {
-            let points =
-                side.iter().map(|turn| Point { x: turn.from, y: turn.to.unwrap_or(f64::NAN) });
-            picture.curve(
-                LineStyle::new("next turning point", Role::Map, Dash::Thick).briefly("return map"),
-                points,
-            );
+            let points = side.iter().map(|turn| [turn.from, turn.to.unwrap_or(f64::NAN)]);
+            picture.curve("next turning point", points);
         }
         // A mass at rest there stays there.
         let held = found.parameters.r;
-        let [from, to] = [-held, held].map(|q| Point { x: q, y: q });
-        picture.bar(sticking_set(held), from, to);
+        picture.curve(sticking_set(held), [-held, held].map(|q| [q, q]));
     }
     if shows(Layer::Cobweb) {
         cobweb(picture, session);

@@ -1,6 +1,6 @@
 //! What a part of a picture stands for, and how it is told apart without colour: roles, dashes, marks.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
 /// Makes [`Role`] and [`ROLES`] from one list: each role with its name in theme files, and its glyph in a plot
@@ -8,7 +8,7 @@ use strum::IntoStaticStr;
 macro_rules! roles {
     ($($(#[$doc:meta])* $role:ident = $name:literal, $glyph:literal,)*) => {
         /// What a part of the screen stands for, as far as its style goes.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
         #[serde(rename_all = "kebab-case")]
         pub enum Role {
             $($(#[$doc])* $role,)*
@@ -88,7 +88,7 @@ impl Role {
 }
 
 /// How a stroke is interrupted; told apart without colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, IntoStaticStr)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Dash {

@@ -2,7 +2,7 @@
 //! where it is stable and dashed where it is not, stick-slip in thick ones, overtaking dotted; and where a
 //! stable state ends, the jump to the one that is left.
 
-use super::{Dash, LineStyle, Picture, Role, phase_plane::AT_REST};
+use super::Picture;
 use crate::branch::machine::MachineBranchPoint;
 use crate::branch::{Jump, Special};
 use crate::portrait::Cycle;
@@ -10,21 +10,21 @@ use crate::scene::{Layer, Point};
 use crate::session::Session;
 use crate::words::with_unit;
 
-/// What each kind of cycle is called, also by the legend of the screen, and how it is drawn.
-const KINDS: [([&str; 2], Role, Dash); 5] = [
-    (["stable slip cycle", "stable cycle"], Role::Stable, Dash::Solid),
-    (["unstable slip cycle", "unstable cycle"], Role::Unstable, Dash::Dashed),
-    (["branch of stick-slip cycles", "cycle on the belt"], Role::Stable, Dash::Thick),
-    (["stable overtaking cycle"; 2], Role::Velocity, Dash::Dotted),
-    (["unstable overtaking cycle"; 2], Role::Unstable, Dash::Sparse),
+/// What each kind of cycle is called.
+const KINDS: [&str; 5] = [
+    "stable slip cycle",
+    "unstable slip cycle",
+    "branch of stick-slip cycles",
+    "stable overtaking cycle",
+    "unstable overtaking cycle",
 ];
 
-/// The row of [`KINDS`] to which a cycle belongs.
-fn kind(cycle: &Cycle) -> usize {
+/// The one of [`KINDS`] to which a cycle belongs.
+fn kind(cycle: &Cycle) -> &'static str {
     match (cycle.sticks(), cycle.overtakes, cycle.stable) {
-        (true, ..) => 2,
-        (_, false, stable) => usize::from(!stable),
-        (_, true, stable) => 3 + usize::from(!stable),
+        (true, ..) => KINDS[2],
+        (_, false, stable) => KINDS[usize::from(!stable)],
+        (_, true, stable) => KINDS[3 + usize::from(!stable)],
     }
 }
 
@@ -33,17 +33,14 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.add_to_title("whole model");
     picture.reading = picture.cursor.map(|at| picture.coordinates(at));
     if let Some(running) = session.running() {
-        picture.upright(
-            LineStyle::new("present speed", Role::Current, Dash::Sparse).briefly("present value"),
-            running.machine.belt.belt_speed,
-        );
+        picture.upright("present speed", running.machine.belt.belt_speed);
     }
     if session.layers.contains(&Layer::Speeds)
         && let Some(found) = session.speeds(index)
     {
         // A speed without an answer is left out.
         let points: Vec<_> = found.points.iter().filter(|at| at.cycles.is_ok()).collect();
-        (0..KINDS.len()).for_each(|kind| cycles(picture, &points, kind));
+        KINDS.into_iter().for_each(|kind| cycles(picture, &points, kind));
         rest(picture, &points);
         for special in &found.special {
             changes(picture, special);
@@ -52,42 +49,35 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
 }
 
 /// The cycles of a kind: the smallest of it at all speeds are one curve, the next ones another.
-fn cycles(picture: &mut Picture, points: &[&MachineBranchPoint], kind: usize) {
-    let ([name, brief], role, dash) = KINDS[kind];
+fn cycles(picture: &mut Picture, points: &[&MachineBranchPoint], kind: &'static str) {
     let is = |cycle: &&Cycle| self::kind(cycle) == kind;
     let most = points.iter().map(|at| at.cycles.iter().flatten().filter(is).count()).max();
     for rank in 0..most.unwrap_or(0) {
         let place = |at: &&MachineBranchPoint| {
             let cycle = at.cycles.iter().flatten().filter(is).nth(rank);
-            Point { x: at.value, y: cycle.map_or(f64::NAN, |cycle| cycle.q_max) }
+            [at.value, cycle.map_or(f64::NAN, |cycle| cycle.q_max)]
         };
-        let places: Vec<Point> = points.iter().map(place).collect();
-        picture.curve(LineStyle::new(name, role, dash).briefly(brief), places);
+        picture.curve(kind, points.iter().map(place));
     }
 }
 
 /// Rest, where it is stable, and how far its basin goes where the motion that touches the belt borders it.
 fn rest(picture: &mut Picture, points: &[&MachineBranchPoint]) {
-    let place = |at: &MachineBranchPoint, height: Option<f64>| Point {
-        x: at.value,
-        y: height.unwrap_or(f64::NAN),
-    };
-    let rest = LineStyle::new("rest", Role::Sticking, Dash::Thick).briefly(AT_REST);
-    picture.curve(rest, points.iter().map(|at| place(at, at.rests.then_some(0.0))));
-    let touching = LineStyle::new("touches the belt", Role::Special, Dash::Dotted);
-    picture.curve(touching, points.iter().map(|at| place(at, at.touching)));
+    let place =
+        |at: &MachineBranchPoint, height: Option<f64>| [at.value, height.unwrap_or(f64::NAN)];
+    picture.curve("rest", points.iter().map(|at| place(at, at.rests.then_some(0.0))));
+    picture.curve("touches the belt", points.iter().map(|at| place(at, at.touching)));
 }
 
 /// A change, by its letter, and the jumps from the stable states that end there.
 fn changes(picture: &mut Picture, special: &Special) {
     let at = special.value;
-    let ways = [("jump on a faster belt", Dash::Dotted), ("jump on a slower belt", Dash::Sparse)];
+    let ways = ["jump on a faster belt", "jump on a slower belt"];
     let jumps = special.jumps.unwrap_or_default();
-    for (jump, (name, dash)) in [jumps.up, jumps.down].into_iter().zip(ways) {
+    for (jump, name) in [jumps.up, jumps.down].into_iter().zip(ways) {
         let Some(Jump { from, x_max, .. }) = jump else { continue };
         let to = if x_max.is_finite() { x_max } else { picture.window.y.to() };
-        let ends = [from, to].map(|y| Point { x: at, y });
-        picture.curve(LineStyle::new(name, Role::Warning, dash), ends);
+        picture.curve(name, [[at, from], [at, to]]);
     }
     let place = Point { x: at, y: special.q_max.unwrap_or(0.0) };
     picture.special(place, special.kind.letter(None), &with_unit(at, 4, "m/s"));

@@ -14,14 +14,13 @@ use crate::model::parameters::energy;
 use crate::scene::{Layer, Point};
 use crate::session::{Session, motion::friction_force};
 
-/// A quantity over time: its layer, its letter, its name, how it is drawn, and how it is read from a
-/// state.
-type Quantity = (Layer, &'static str, &'static str, Role, Dash, fn(State) -> f64);
+/// A quantity over time: its layer, its letter, its name, and how it is read from a state.
+type Quantity = (Layer, &'static str, &'static str, fn(State) -> f64);
 
 const QUANTITIES: [Quantity; 3] = [
-    (Layer::Energy, "V", "energy V", Role::Energy, Dash::Dotted, energy),
-    (Layer::Velocity, "v", "velocity v", Role::Velocity, Dash::Dashed, |state| state.v),
-    (Layer::Position, "q", "displacement q", Role::Trajectory, Dash::Solid, |state| state.q),
+    (Layer::Energy, "V", "energy V", energy),
+    (Layer::Velocity, "v", "velocity v", |state| state.v),
+    (Layer::Position, "q", "displacement q", |state| state.q),
 ];
 
 pub fn draw(picture: &mut Picture, session: &Session) {
@@ -50,10 +49,8 @@ pub fn draw(picture: &mut Picture, session: &Session) {
     let force = session.trajectory().filter(|_| shows(Layer::Friction) && !whole);
     let force = force.map(|motion| friction_force(motion, motion.problem.until));
     if let Some(force) = &force {
-        let points: Vec<Point> = force.iter().copied().map(Point::from).collect();
-        let first = points.first().copied();
-        picture.curve(LineStyle::new("friction force f", Role::Sticking, Dash::DashDot), points);
-        label(picture, first, "f".into(), Role::Sticking);
+        picture.curve("friction force f", force.iter().copied());
+        label(picture, force.first().copied().map(Point::from), "f".into(), Role::Sticking);
     }
     if let Some(motion) = session.trajectory() {
         quantities(picture, session, motion, 0);
@@ -101,26 +98,23 @@ fn record(picture: &mut Picture, session: &Session) {
     let samples = fitted.points.iter();
     let all =
         samples.filter_map(|it| Some((Point { x: it.tau, y: it.shown(signal)? }, it.dropped)));
-    let line = LineStyle::new(name, Role::Ghost, Dash::Solid).briefly("measured");
-    picture.curve(line, all.clone().filter(|(_, why)| why.is_none()).map(|(at, _)| at));
+    picture.curve(name, all.clone().filter(|(_, why)| why.is_none()).map(|(at, _)| at));
     mark_dropped(picture, all.filter_map(|(at, why)| Some((at, why?))));
 }
 
 /// The quantities of the motion in this place among those on show, the present one the first.
 fn quantities(picture: &mut Picture, session: &Session, motion: &Trajectory, place: usize) {
     let LineStyle { name: of, role: beside, .. } = phase_plane::motion(session, place);
-    for (layer, letter, name, own, dash, read) in quantities_on_show(session) {
+    for (_, letter, name, read) in quantities_on_show(session) {
         let points = curve(motion, motion.problem.until, read);
         let (first, number) = (points.first().copied(), session.number(place));
-        let name = physical(picture, name);
-        let role = if place == 0 { own } else { beside };
+        let mut line = LineStyle::from(physical(picture, name));
+        if place > 0 {
+            let name = format!("{}, {of}", line.name);
+            line = LineStyle::new(name, beside, line.dash).briefly("other motions");
+        }
+        let role = line.role;
         number_curve(picture, number, &points, role);
-        let line = match (place, layer) {
-            // The same motion as in the phase plane, drawn in the same way.
-            (0, Layer::Position) => LineStyle::new(name, role, dash).briefly("motion"),
-            (0, _) => LineStyle::new(name, role, dash),
-            _ => LineStyle::new(format!("{name}, {of}"), role, dash).briefly("other motions"),
-        };
         picture.curve(line, points);
         let number = number.filter(|_| place > 0).map(|number| number.to_string().into());
         label(picture, first, number.unwrap_or(physical(picture, letter).into()), role);
@@ -131,9 +125,7 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Trajectory, pla
 fn rides(picture: &mut Picture, session: &Session, motion: &Trajectory) {
     for ride in motion.rides() {
         for (.., read) in quantities_on_show(session) {
-            let [from, to] = ride.map(|end| at(&end, read));
-            let line = LineStyle::new("sticks to the belt", Role::Trajectory, Dash::Thick);
-            picture.bar(line.briefly("motion on the belt"), from, to);
+            picture.curve("sticks to the belt", ride.map(|end| at(&end, read)));
         }
     }
 }
@@ -181,7 +173,7 @@ fn events(picture: &mut Picture, motion: &Trajectory) {
             picture.mark(Mark::Head, Point { x: tau, y: q }, Role::Trajectory);
         }
         Outcome::Escaped { tau } => {
-            picture.upright(LineStyle::new("escapes", Role::Danger, Dash::Sparse), tau);
+            picture.upright("escapes", tau);
         }
         Outcome::GaveUp { .. } => {}
     }

@@ -95,7 +95,7 @@ fn described(line: &'static str) -> Option<ViewSpec> {
 }
 
 /// What has this name in files.
-fn named<'de, T: Deserialize<'de>>(name: &'de str) -> Option<T> {
+pub fn named<'de, T: Deserialize<'de>>(name: &'de str) -> Option<T> {
     let name: StrDeserializer<'de, serde::de::value::Error> = name.into_deserializer();
     T::deserialize(name).ok()
 }

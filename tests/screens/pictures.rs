@@ -246,6 +246,8 @@ fn what_is_drawn_in_red_and_green_is_a_cycle_or_the_edge_of_a_basin() {
                 Item::Marks(marks) => (marks.role, marks.name.to_string()),
                 Item::Texture(_) | Item::Caption(_) => continue,
             };
+            // That of a line whose name `assets/lines.txt` does not know.
+            assert_ne!(role, Role::Failure, "{}: {name}", scene.name);
             if matches!(role, Role::Stable | Role::Unstable) {
                 let named = names.iter().any(|known| name.contains(known));
                 assert!(named, "{}: {name}", scene.name);
