@@ -146,12 +146,8 @@ fn key(event: KeyEvent) -> Option<Key> {
         _ => return None,
     };
     let held = |modifier| event.modifiers.contains(modifier);
-    (event.kind != KeyEventKind::Release).then_some(Key {
-        code,
-        control: held(Modifiers::CONTROL),
-        alt: held(Modifiers::ALT),
-        shift: held(Modifiers::SHIFT) && !matches!(code, Code::Char(_)),
-    })
+    let [control, alt, shift] = [Modifiers::CONTROL, Modifiers::ALT, Modifiers::SHIFT].map(held);
+    (event.kind != KeyEventKind::Release).then(|| Key::new(code, control, alt, shift))
 }
 
 #[cfg(test)]

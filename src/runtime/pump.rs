@@ -29,10 +29,9 @@ use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
 use crate::view;
 
-mod play;
 mod playing;
 
-use play::Playing;
+use playing::Playing;
 
 /// How long a frame waits for the worker before it shows the old answers, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
@@ -253,10 +252,16 @@ impl<M: Application, W: Write> Pump<M, W> {
         self.changed.get_or_insert_with(Instant::now);
     }
 
-    /// Changes the session and carries out the resulting effects.
+    /// Changes the session and carries out the resulting effects in their order.
     fn update(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
         self.changed.get_or_insert_with(Instant::now);
-        self.give(msg)
+        for effect in self.application.update(msg) {
+            let stop = self.carry_out(effect)?;
+            if stop.is_some() {
+                return Ok(stop);
+            }
+        }
+        Ok(None)
     }
 
     fn copy(&mut self, text: &str) -> io::Result<Result<String, String>> {
@@ -328,21 +333,10 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(())
     }
 
-    /// Gives the application a message and carries out the resulting effects in their order.
-    fn give(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
-        for effect in self.application.update(msg) {
-            let stop = self.carry_out(effect)?;
-            if stop.is_some() {
-                return Ok(stop);
-            }
-        }
-        Ok(None)
-    }
-
     /// Tells the application what became of an effect, which may have further effects.
     fn told(&mut self, notice: Notice, of_figure: bool) -> io::Result<Option<LoopEnd>> {
         self.note_unwritten(&notice);
-        self.give(if of_figure { Msg::Written(notice) } else { Msg::Told(notice) })
+        self.update(if of_figure { Msg::Written(notice) } else { Msg::Told(notice) })
     }
 
     fn carry_out(&mut self, effect: Effect) -> io::Result<Option<LoopEnd>> {
@@ -372,7 +366,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             }
             Effect::Read { path, purpose } => {
                 let result = self.read(&path);
-                return self.give(Msg::Read { path, purpose, result });
+                return self.update(Msg::Read { path, purpose, result });
             }
             Effect::Play(script) => return self.begin(script),
             Effect::Copy(text) => self.copy(&text)?,

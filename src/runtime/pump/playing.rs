@@ -8,13 +8,51 @@ use std::path::Path;
 
 use ratatui::layout::Size;
 
-use super::play::{Pause, Playing};
 use super::{Application, Files, Pump};
 use crate::runtime::application::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
-use crate::session::replay::{Action, Script, ScriptError};
+use crate::session::replay::{Action, Player, Script, ScriptError};
 use crate::session::{Code, Effect, Key, Msg, Notice};
 use crate::view;
+
+/// Why a replay is paused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pause {
+    Not,
+    /// A caption waits to be read.
+    Caption,
+    /// The user asked for it.
+    Wished,
+}
+
+/// A file that is being played.
+#[derive(Debug)]
+pub(super) struct Playing {
+    player: Player,
+    /// The player at its beginning, to start over.
+    start: Player,
+    /// Number of captions to skip on the way to the wanted one.
+    passed: usize,
+    /// Whether keys had their usual effect since the present caption was shown.
+    tried: bool,
+    pause: Pause,
+    /// Why the first file that it asked for was not written.
+    unwritten: Option<String>,
+}
+
+impl Playing {
+    pub(super) fn new(script: Script) -> Self {
+        let (player, pause) = (Player::new(script), Pause::Not);
+        let start = player.clone();
+        Playing { player, start, passed: 0, tried: false, pause, unwritten: None }
+    }
+
+    /// Plays everything again up to the caption after so many.
+    fn again(&mut self, passed: usize) {
+        self.player = self.start.clone();
+        (self.passed, self.pause, self.tried) = (passed, Pause::Not, false);
+    }
+}
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
 const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
@@ -58,9 +96,15 @@ impl<M: Application, W: Write> Pump<M, W> {
             return Ok(Some(LoopEnd::Quit));
         }
         if caption && BACK.iter().any(|code| is_key(&msg, *code)) {
-            playing.go_back();
+            if let Some(passed) = playing.player.said().checked_sub(2) {
+                playing.again(passed);
+            }
         } else if caption && matches!(msg, Msg::Key(_)) {
-            playing.go_on();
+            // Keys that the user has tried are undone.
+            if playing.tried {
+                playing.again(playing.player.said());
+            }
+            playing.pause = Pause::Not;
         } else if is_key(&msg, Code::Char('q')) {
             return Ok(Some(LoopEnd::Quit));
         } else if is_key(&msg, Code::Char(' ')) {
@@ -176,7 +220,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     pub fn unattended(mut self) -> io::Result<ReplayResult<M>> {
         self.unattended = true;
         let Size { width, height } = self.screen.size();
-        self.give(Msg::Resize { width, height })?;
+        self.update(Msg::Resize { width, height })?;
         self.run()?;
         // A figure that has been begun is written.
         while self.writing {
