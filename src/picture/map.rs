@@ -1,42 +1,35 @@
 //! A map of a scan over two parameters: its cells, its scale, and what it means that a cell has no number.
 
-use serde::Serialize;
+use std::sync::LazyLock;
+
+use serde::{Deserialize, Serialize};
 
 use crate::numerics::elementary::{ln, pow};
 use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
+use crate::scene::views::named;
 use crate::session::scan::ScanOnShow;
 
 /// Which values of a measure are the dangerous ones.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Dangerous {
     Small,
     Large,
 }
 
-/// Columns of measures that say how dangerous a place is; all others are shaded by size. With each, whether it has no
-/// number where every kick is survived.
-const DANGEROUS: [(&str, Dangerous, bool); 13] = [
-    ("displacement", Dangerous::Small, true),
-    ("impulse", Dangerous::Small, true),
-    ("from_rest_displacement", Dangerous::Small, true),
-    ("from_rest_impulse", Dangerous::Small, true),
-    ("guaranteed_displacement", Dangerous::Small, true),
-    ("guaranteed_impulse", Dangerous::Small, true),
-    ("circle_radius", Dangerous::Small, true),
-    ("captured_part", Dangerous::Small, false),
-    ("rested_part", Dangerous::Small, false),
-    ("area", Dangerous::Small, false),
-    ("kicks_mean", Dangerous::Small, false),
-    ("lost_part", Dangerous::Large, false),
-    ("kicks_lost", Dangerous::Large, false),
-];
+/// The lines of `assets/columns.txt`: a column, its unit, which of its values are dangerous, and what it means that there
+/// is none.
+static COLUMNS: LazyLock<Vec<[&str; 4]>> = LazyLock::new(|| {
+    let lines = include_str!("../../assets/columns.txt").lines();
+    lines.filter_map(|line| line.split(" | ").collect::<Vec<_>>().try_into().ok()).collect()
+});
 
-/// Which values of a column are dangerous, and whether it has none where every kick is survived.
-fn danger_of(column: &str) -> Option<(Dangerous, bool)> {
-    let row = DANGEROUS.iter().find(|(name, ..)| *name == column);
-    row.map(|(_, which, of_kicks)| (*which, *of_kicks))
+/// What [`COLUMNS`] says of the column that is plotted.
+fn plotted(scanned: &ScanOnShow) -> [&'static str; 4] {
+    let name = measured(scanned);
+    let row = COLUMNS.iter().find(|[column, ..]| *column == name);
+    row.copied().unwrap_or([name, "-", "-", "none"])
 }
 
 /// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.
@@ -49,17 +42,8 @@ pub fn measured(scanned: &ScanOnShow) -> &'static str {
 
 /// What is plotted, with the unit of a length, a velocity or a time.
 pub fn with_unit(scanned: &ScanOnShow) -> String {
-    let name = measured(scanned);
-    let is = |ends: &[&str]| ends.iter().any(|end| name.ends_with(end) || name.starts_with(end));
-    let unit = match name {
-        "area" => "omega_0 x0^2",
-        "circle_radius" | "rest_q" => "x0",
-        _ if is(&["displacement", "q_min_", "q_max_", "q_max"]) => "x0",
-        _ if is(&["impulse", "v_min_", "v_max_"]) => "omega_0 x0",
-        _ if is(&["period_", "_tau", "settling_"]) => "1/omega_0",
-        _ => return name.to_owned(),
-    };
-    format!("{name} [{unit}]")
+    let [name, unit, ..] = plotted(scanned);
+    if unit == "-" { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
 /// What it means that there is no number at a point; `None` where there is one.
@@ -68,10 +52,7 @@ pub fn nothing(scanned: &ScanOnShow, index: usize) -> Option<&'static str> {
     match (scanned.height(index), &row.reason) {
         (Some(_), _) => None,
         (None, Some(_)) => Some("gave up"),
-        (None, None) => match danger_of(measured(scanned)) {
-            Some((_, true)) => Some("every kick survived"),
-            _ => Some("none"),
-        },
+        (None, None) => Some(plotted(scanned)[3]),
     }
 }
 
@@ -90,7 +71,7 @@ impl Danger {
     /// The scale of what is plotted; `None` without a number.
     pub fn of(scanned: &ScanOnShow) -> Option<Self> {
         let (low, high) = scanned.range()?;
-        let dangerous = danger_of(measured(scanned)).map(|(which, _)| which);
+        let dangerous = named(plotted(scanned)[2]);
         let logarithmic = low > 0.0 && high / low >= SPREAD;
         Some(Danger { low, high, logarithmic, dangerous })
     }
@@ -203,9 +184,11 @@ mod tests {
     use crate::scan::measure::MEASURES;
 
     #[test]
-    fn what_is_dangerous_is_measured() {
-        for (name, ..) in &DANGEROUS {
+    fn what_is_said_of_columns_is_said_of_those_that_are_measured() {
+        assert_eq!(COLUMNS.len(), 33, "every line of the file is read");
+        for [name, _, danger, _] in COLUMNS.iter() {
             assert!(MEASURES.iter().any(|row| row.columns.contains(name)), "{name}");
+            assert!(*danger == "-" || named::<Dangerous>(danger).is_some(), "{name}: {danger}");
         }
     }
 }

@@ -5,8 +5,6 @@ use std::fmt::Write;
 use ratatui::buffer::Cell;
 use ratatui::style::{Color, Modifier};
 
-use crate::view::look::number;
-
 /// The attributes of cells that are drawn, each with the codes that switch it on and off.
 ///
 /// One code switches off both bold and dim; `difference` then switches the other on again.
@@ -101,14 +99,15 @@ impl Pen {
 
 /// Appends the parameters of a colour; `base` is 30 for the foreground and 40 for the background.
 pub(super) fn push_colour(parameters: &mut Vec<u16>, colour: Color, base: u16) {
-    match (colour, number(colour).map(u16::from)) {
-        (Color::Rgb(red, green, blue), _) => {
+    match colour {
+        Color::Rgb(red, green, blue) => {
             parameters.extend([base + 8, 2, red.into(), green.into(), blue.into()]);
         }
-        (_, None) => parameters.push(base + 9),
-        (_, Some(dark @ 0..8)) => parameters.push(base + dark),
-        (_, Some(bright @ 8..16)) => parameters.push(base + 60 + bright - 8),
-        (_, Some(other)) => parameters.extend([base + 8, 5, other]),
+        Color::Indexed(dark @ 0..8) => parameters.push(base + u16::from(dark)),
+        Color::Indexed(bright @ 8..16) => parameters.push(base + 60 + u16::from(bright) - 8),
+        Color::Indexed(other) => parameters.extend([base + 8, 5, other.into()]),
+        // The views name no colour, but number it.
+        _ => parameters.push(base + 9),
     }
 }
 
@@ -135,12 +134,12 @@ mod tests {
 
     #[test]
     fn the_sixteen_colours_are_short() {
-        let red = pen(Color::Red, Modifier::empty());
+        let red = pen(Color::Indexed(1), Modifier::empty());
         let cases = [
             (None, red, "\x1b[0;31m"),
             (Some(Pen::PLAIN), red, "\x1b[31m"),
-            (Some(red), pen(Color::LightRed, Modifier::BOLD), "\x1b[1;91m"),
-            (Some(red), Pen { background: Color::White, ..red }, "\x1b[107m"),
+            (Some(red), pen(Color::Indexed(9), Modifier::BOLD), "\x1b[1;91m"),
+            (Some(red), Pen { background: Color::Indexed(15), ..red }, "\x1b[107m"),
             (Some(red), pen(Color::Indexed(208), Modifier::empty()), "\x1b[38;5;208m"),
             (Some(red), pen(Color::Rgb(1, 20, 255), Modifier::empty()), "\x1b[38;2;1;20;255m"),
             (Some(red), red, ""),
@@ -152,23 +151,23 @@ mod tests {
 
     #[test]
     fn superfluous_attributes_are_switched_off_or_all_are_reset_whichever_is_shorter() {
-        let bold_red = pen(Color::Red, Modifier::BOLD);
+        let bold_red = pen(Color::Indexed(1), Modifier::BOLD);
         assert_eq!(change(Some(bold_red), Pen::PLAIN), "\x1b[m");
-        assert_eq!(change(Some(bold_red), pen(Color::Red, Modifier::empty())), "\x1b[22m");
+        assert_eq!(change(Some(bold_red), pen(Color::Indexed(1), Modifier::empty())), "\x1b[22m");
         assert_eq!(change(Some(bold_red), pen(Color::Reset, Modifier::BOLD)), "\x1b[39m");
     }
 
     #[test]
     fn switching_bold_off_keeps_dim() {
-        let both = pen(Color::Red, Modifier::BOLD.union(Modifier::DIM));
-        assert_eq!(change(Some(both), pen(Color::Red, Modifier::DIM)), "\x1b[22;2m");
+        let both = pen(Color::Indexed(1), Modifier::BOLD.union(Modifier::DIM));
+        assert_eq!(change(Some(both), pen(Color::Indexed(1), Modifier::DIM)), "\x1b[22;2m");
     }
 
     #[test]
     fn blanks_care_for_what_is_seen_on_them() {
-        let red = pen(Color::Red, Modifier::BOLD);
+        let red = pen(Color::Indexed(1), Modifier::BOLD);
         assert!(red.is_alike_on_blanks(Pen::PLAIN));
-        assert!(!red.is_alike_on_blanks(Pen { background: Color::Blue, ..red }));
-        assert!(!red.is_alike_on_blanks(pen(Color::Red, Modifier::UNDERLINED)));
+        assert!(!red.is_alike_on_blanks(Pen { background: Color::Indexed(4), ..red }));
+        assert!(!red.is_alike_on_blanks(pen(Color::Indexed(1), Modifier::UNDERLINED)));
     }
 }

@@ -175,9 +175,9 @@ mod tests {
     fn style() -> impl Strategy<Value = Style> {
         let colour = prop_oneof![
             Just(Color::Reset),
-            Just(Color::Red),
-            Just(Color::Gray),
-            Just(Color::White),
+            Just(Color::Indexed(1)),
+            Just(Color::Indexed(7)),
+            Just(Color::Indexed(15)),
             any::<u8>().prop_map(Color::Indexed),
             any::<(u8, u8, u8)>().prop_map(|(r, g, b)| Color::Rgb(r, g, b)),
         ];

@@ -354,7 +354,7 @@ mod tests {
     fn nothing_is_drawn_over_in_another_colour() {
         let mut board = Board::new();
         board.put(0, 0, "a", Color::Reset);
-        board.put(1, 0, "b", Color::Red);
+        board.put(1, 0, "b", Color::Indexed(1));
         board.put(2, 0, "c", Color::Reset);
         board.draw();
         board.put(0, 0, "A", Color::Reset);
@@ -367,7 +367,7 @@ mod tests {
     fn a_line_down_the_screen_is_one_pen_and_short_moves() {
         let mut board = Board::new();
         for y in 0..5 {
-            board.put(10, y, "|", Color::Cyan);
+            board.put(10, y, "|", Color::Indexed(6));
             board.put(0, y, "x", Color::Reset);
         }
         let text = board.draw();

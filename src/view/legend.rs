@@ -18,31 +18,21 @@ const MORE: u16 = 8;
 pub fn draw(area: Rect, pictures: &[Picture], screen: &mut Surface) {
     let mut entries = entries(pictures);
     entries.sort_by_key(|entry| rank(entry.sample));
-    let texts = entries.iter().map(|entry| entry.text.chars().count());
-    let widths: Vec<u16> = texts
-        .map(|letters| u16::try_from(letters).unwrap_or(u16::MAX).saturating_add(SAMPLE + 1))
-        .collect();
+    let letters = |entry: &LegendEntry| u16::try_from(entry.text.chars().count());
+    let width = |entry| letters(entry).unwrap_or(u16::MAX).saturating_add(SAMPLE + 1);
+    let widths: Vec<u16> = entries.iter().map(width).collect();
     let mut places = places(&widths, area, 0).0;
+    let quiet = screen.look.style(Role::Quiet);
     if places.contains(&None) && area.height > 0 {
         let (shorter, x) = self::places(&widths, area, MORE + GAP);
         places = shorter;
         let left = places.iter().filter(|place| place.is_none()).count();
-        screen.buffer.set_string(
-            x,
-            area.bottom() - 1,
-            format!("+{left} more"),
-            screen.look.style(Role::Quiet),
-        );
+        screen.buffer.set_string(x, area.bottom() - 1, format!("+{left} more"), quiet);
     }
     for (LegendEntry { sample, role, text }, place) in entries.iter().zip(places) {
         if let Some(place) = place {
             draw_sample(Rect { width: SAMPLE, ..place }, *role, *sample, screen);
-            screen.buffer.set_string(
-                place.x + SAMPLE + 1,
-                place.y,
-                text,
-                screen.look.style(Role::Quiet),
-            );
+            screen.buffer.set_string(place.x + SAMPLE + 1, place.y, text, quiet);
         }
     }
 }

@@ -194,8 +194,7 @@ fn parsed(words: &str) -> Result<(Style, Option<Rgb>), &str> {
             word => match (Modifier::from_name(&word.to_uppercase()), Color::from_str(word)) {
                 (Some(attribute), _) => style = style.add_modifier(attribute),
                 (None, Ok(Color::Rgb(red, green, blue))) => fine = Some((red, green, blue)),
-                (None, Ok(basic)) => style = style.fg(basic),
-                (None, Err(_)) => return Err(word),
+                _ => style = style.fg(Color::Indexed(number(word).ok_or(word)?)),
             },
         }
     }
@@ -246,31 +245,12 @@ fn nearest((red, green, blue): Rgb) -> u8 {
 }
 
 /// The terminal's own palette, in the order of its numbers.
-const PALETTE: [Color; 16] = [
-    Color::Black,
-    Color::Red,
-    Color::Green,
-    Color::Yellow,
-    Color::Blue,
-    Color::Magenta,
-    Color::Cyan,
-    Color::Gray,
-    Color::DarkGray,
-    Color::LightRed,
-    Color::LightGreen,
-    Color::LightYellow,
-    Color::LightBlue,
-    Color::LightMagenta,
-    Color::LightCyan,
-    Color::White,
-];
+const PALETTE: &str = "black red green yellow blue magenta cyan gray dark-gray light-red \
+                       light-green light-yellow light-blue light-magenta light-cyan white";
 
-/// The number by which a terminal knows a colour, if it has one.
-pub fn number(color: Color) -> Option<u8> {
-    match color {
-        Color::Indexed(index) => Some(index),
-        named => (0..).zip(PALETTE).find(|(_, own)| *own == named).map(|(index, _)| index),
-    }
+/// The number by which a terminal knows the colour of this name.
+fn number(name: &str) -> Option<u8> {
+    (0..).zip(PALETTE.split(' ')).find(|(_, known)| *known == name).map(|(index, _)| index)
 }
 
 /// The first of xterm's fixed colours.
@@ -338,7 +318,7 @@ mod tests {
                 look.styles.into_iter().filter_map(|style| style.fg).collect::<Vec<_>>()
             };
             assert_eq!(colours(Colors::Never), [], "{name}");
-            let fine = |colour: &Color| matches!(colour, Color::Rgb(..) | Color::Indexed(_));
+            let fine = |colour: &Color| matches!(colour, Color::Rgb(..) | Color::Indexed(FIXED..));
             assert!(!colours(Colors::Sixteen).iter().any(fine), "{name}");
             assert!(colours(Colors::True).iter().all(|colour| matches!(colour, Color::Rgb(..))));
         }
@@ -386,8 +366,8 @@ mod tests {
             for (role, text, _) in ROLES {
                 let lines: BTreeMap<String, String> = toml::from_str(text_of(theme)).unwrap();
                 let (style, fine) = parsed(&lines[text]).unwrap();
-                let is_red = matches!(style.fg, Some(Color::Red | Color::LightRed));
-                let is_green = matches!(style.fg, Some(Color::Green | Color::LightGreen));
+                let is_red = matches!(style.fg, Some(Color::Indexed(1 | 9)));
+                let is_green = matches!(style.fg, Some(Color::Indexed(2 | 10)));
                 assert!(!is_red || red.contains(&role), "{name}: {text}");
                 assert!(!is_green || green.contains(&role), "{name}: {text}");
                 if let Some(hue) = fine.and_then(hue) {

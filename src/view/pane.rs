@@ -61,11 +61,8 @@ impl Surface<'_> {
     /// than the view.
     pub fn title(&mut self, area: Rect, title: &str, names: &str, heading: &Heading) {
         let look = self.look;
-        let (pointer, role) = if heading.focused {
-            (look.symbols().pointer, Role::Focus)
-        } else {
-            (" ", Role::Title)
-        };
+        let role = if heading.focused { Role::Focus } else { Role::Title };
+        let pointer = if heading.focused { look.symbols().pointer } else { " " };
         let width = usize::from(area.width);
         let mut right = Line::default();
         if let Some(mark) = heading.mark {

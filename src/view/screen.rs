@@ -9,7 +9,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
 
-use super::look::{FIXED, fixed, number};
+use super::look::{FIXED, fixed};
 use super::signs::MINUS;
 use crate::numerics::count::real;
 use crate::words::printable::xml;
@@ -234,10 +234,11 @@ fn hex(color: Color) -> Option<String> {
         "#000000", "#cd3131", "#0dbc79", "#e5e510", "#2472c8", "#bc3fbc", "#11a8cd", "#e5e5e5",
         "#666666", "#f14c4c", "#23d18b", "#f5f543", "#3b8eea", "#d670d6", "#29b8db", "#ffffff",
     ];
-    let (red, green, blue) = match (color, number(color)) {
-        (Color::Rgb(red, green, blue), _) => (red, green, blue),
-        (_, Some(index @ FIXED..)) => fixed(index),
-        (_, index) => return index.map(|index| PALETTE[usize::from(index)].to_owned()),
+    let (red, green, blue) = match color {
+        Color::Rgb(red, green, blue) => (red, green, blue),
+        Color::Indexed(index @ FIXED..) => fixed(index),
+        Color::Indexed(index) => return Some(PALETTE[usize::from(index)].to_owned()),
+        _ => return None,
     };
     Some(format!("#{red:02x}{green:02x}{blue:02x}"))
 }
@@ -251,7 +252,12 @@ mod tests {
 
     fn screen() -> Buffer {
         let mut screen = Buffer::empty(Rect::new(0, 0, 12, 3));
-        screen.set_string(0, 0, "a < b", Style::new().fg(Color::Red).add_modifier(Modifier::BOLD));
+        screen.set_string(
+            0,
+            0,
+            "a < b",
+            Style::new().fg(Color::Indexed(1)).add_modifier(Modifier::BOLD),
+        );
         screen.set_string(6, 0, "⣿⠁", Style::new().fg(Color::Indexed(196)));
         screen.set_string(1, 1, "世x", Style::new().add_modifier(Modifier::REVERSED));
         screen
