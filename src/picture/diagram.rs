@@ -6,7 +6,7 @@
 //! those of others are paler, without marks. A point of the branch that is held has a cross.
 
 use super::equilibria;
-use super::{CycleStyle, Dash, LineStyle, Picture, Role, Text, cycle_style};
+use super::{Dash, LineStyle, Picture, Role, Text, cycle_style};
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
@@ -210,17 +210,16 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
         let (first, last) = (&run[0], &run[run.len() - 1]);
         let next = piece.iter().skip_while(|point| *point != last).nth(1);
         let end = next.map(|next| found.fold_between(last, next).unwrap_or(place(next)));
-        let CycleStyle { role, dash, name, .. } = cycle_style(first.cycle.stable);
-        let line = if *beside {
-            let pale = if first.cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
-            // Its values stand beside it.
-            LineStyle::new(format!("{name} at other values"), pale, dash).captioned()
-        } else {
-            LineStyle::new(name, role, dash)
-        };
+        let mut line = LineStyle::from(cycle_style(first.cycle.stable).0);
         if *present {
             let points: Vec<Point> = run.iter().map(place).collect();
-            picture.label_curve(&points, stability(first.cycle.stable), role);
+            picture.label_curve(&points, stability(first.cycle.stable), line.role);
+        }
+        if *beside {
+            let pale = if first.cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
+            // Its values stand beside it.
+            let name = format!("{} at other values", line.name);
+            line = LineStyle::new(name, pale, line.dash).captioned();
         }
         let points = start.into_iter().chain(run.iter().map(place)).chain(end);
         picture.curve(line.of(variant), points);
@@ -247,7 +246,7 @@ fn here(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch, va
         if (a.value < value) != (b.value < value) {
             let places: Vec<[f64; 2]> = piece.iter().map(|it| found.place(it).into()).collect();
             let y = between(&places, index, value);
-            picture.mark(cycle_style(a.cycle.stable).mark, Point { x: value, y }, Role::Current);
+            picture.mark(cycle_style(a.cycle.stable).1, Point { x: value, y }, Role::Current);
         }
     }
 }

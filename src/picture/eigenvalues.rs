@@ -44,7 +44,7 @@ fn eigenvalues(d: f64) -> [Point; 2] {
 }
 
 fn pair(picture: &mut Picture, d: f64) {
-    let mark = cycle_style(d > 0.0).mark;
+    let mark = cycle_style(d > 0.0).1;
     for at in eigenvalues(d) {
         picture.curve("from the origin", [Point { x: 0.0, y: 0.0 }, at]);
         picture.mark(mark, at, Role::Current);

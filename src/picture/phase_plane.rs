@@ -6,8 +6,7 @@
 //! says when that is stale.
 
 use super::{
-    CycleStyle, Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_style, ellipse,
-    kicks,
+    Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_style, ellipse, kicks,
 };
 use crate::closed_form::lyapunov;
 use crate::fit::{Fitted, Signal};
@@ -281,12 +280,13 @@ fn curves(found: &Cycles) -> impl Iterator<Item = (&Cycle, &Vec<State>)> {
 
 fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, whole: bool) {
     for (cycle, curve) in curves(found) {
-        let CycleStyle { role, dash, name: plain, .. } = cycle_style(cycle.stable);
+        let (plain, _) = cycle_style(cycle.stable);
         let (name, own) = if whole { kind(cycle) } else { (plain, variant.label.as_str()) };
         let points: Vec<Point> = points(curve);
-        picture.name_curve(&points, own, role);
+        let line = LineStyle::from(plain);
+        picture.name_curve(&points, own, line.role);
         // Of a machine the caption says of which kind it is.
-        picture.curve(LineStyle::new(name, role, dash).briefly(plain).of(variant), points);
+        picture.curve(LineStyle { name: name.into(), ..line.briefly(plain) }.of(variant), points);
     }
 }
 

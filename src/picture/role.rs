@@ -132,21 +132,12 @@ impl Mark {
     }
 }
 
-/// How cycles of one kind are drawn and called, in every plot.
-#[derive(Clone, Copy, Debug)]
-pub struct CycleStyle {
-    pub role: Role,
-    pub dash: Dash,
-    pub mark: Mark,
-    pub name: &'static str,
+/// What stable and unstable cycles are called in every plot, and how they are marked.
+pub fn cycle_style(stable: bool) -> (&'static str, Mark) {
+    if stable { ("stable cycle", Mark::Stable) } else { ("unstable cycle", Mark::Unstable) }
 }
 
-/// How stable and unstable cycles are drawn.
-pub fn cycle_style(stable: bool) -> CycleStyle {
-    let (role, dash, mark, name) = if stable {
-        (Role::Stable, Dash::Solid, Mark::Stable, "stable cycle")
-    } else {
-        (Role::Unstable, Dash::Dashed, Mark::Unstable, "unstable cycle")
-    };
-    CycleStyle { role, dash, mark, name }
+/// What stands for a stable or an unstable cycle, as far as its colour goes.
+pub fn cycle_role(stable: bool) -> Role {
+    if stable { Role::Stable } else { Role::Unstable }
 }

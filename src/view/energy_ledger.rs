@@ -11,7 +11,7 @@ use super::pane::{self, Heading};
 use super::plot::{Canvas, rows};
 use crate::numerics::count::real;
 use crate::picture::energy_ledger::reading;
-use crate::picture::{CycleStyle, Dash, Mark, Picture, Role, Tick, Ticks, cycle_style};
+use crate::picture::{Dash, Mark, Picture, Role, Tick, Ticks, cycle_role, cycle_style};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::ledger::{LedgerLine, Owner};
 use crate::words::significant;
@@ -47,11 +47,12 @@ pub fn draw(
         match entry {
             LedgerLine::Title(Owner::Motion(..)) => plot.write(y, &reading(entry), Role::Title),
             LedgerLine::Title(Owner::Cycle(cycle)) => {
-                let CycleStyle { mark, role, name, .. } = cycle_style(cycle.stable);
+                let (name, mark) = cycle_style(cycle.stable);
                 let short =
                     format!("{} q_max {}", symbols.mark(mark), significant(cycle.q_max, DIGITS));
                 let texts = [format!("{short}, {name}"), short];
-                plot.write(y, &pane::fitting(texts, plot.inner().width.into()), role);
+                let text = pane::fitting(texts, plot.inner().width.into());
+                plot.write(y, &text, cycle_role(cycle.stable));
             }
             LedgerLine::Work { work, part, so_far, .. } => {
                 let role = if *work < 0.0 { Role::Loss } else { Role::Gain };

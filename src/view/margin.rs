@@ -46,14 +46,6 @@ impl<'a> KickWriting<'a> {
         KickWriting { session, places, named: true, bound: false }
     }
 
-    fn unnamed(self) -> Self {
-        KickWriting { named: false, ..self }
-    }
-
-    fn bound(self) -> Self {
-        KickWriting { bound: true, ..self }
-    }
-
     /// A shift and an impulse, in the units of the machine or the record; `None` where every kick is survived.
     fn kick(self, kick: Kick) -> Option<String> {
         if kick == [None; 2] {
@@ -81,7 +73,7 @@ impl<'a> KickWriting<'a> {
 
     /// The kicks from where the spring is relaxed, after those from rest: in the same order, without their names.
     fn centre(self, margin: &Margin) -> Option<String> {
-        let kick = self.unnamed().kick(from_centre(margin))?;
+        let kick = KickWriting { named: false, ..self }.kick(from_centre(margin))?;
         let units = self.session.units().filter(|units| units.force.is_finite());
         // The force that holds the mass there.
         let force = units.zip(margin.displacement).filter(|_| self.session.size.width >= WIDE);
@@ -126,10 +118,12 @@ pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
 
 /// What the pane says about a margin of this name, in a line of less than this width.
 pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> Option<String> {
-    let write = |places| KickWriting { bound: name == "sure", ..KickWriting::new(session, places) };
-    let texts = (1..=PLACES).rev().flat_map(|places| [write(places), write(places).unnamed()]);
-    let mut texts =
-        texts.filter_map(|write| Some(format!("{name} {}", write.kick(from_rest(margin))?)));
+    let bound = name == "sure";
+    let all = (1..=PLACES).rev().flat_map(|places| [(places, true), (places, false)]);
+    let mut texts = all.filter_map(|(places, named)| {
+        let write = KickWriting { session, places, named, bound };
+        Some(format!("{name} {}", write.kick(from_rest(margin))?))
+    });
     texts.find(|text| text.chars().count() < width)
 }
 
@@ -156,14 +150,15 @@ fn certain(session: &Session, width: usize) -> Option<String> {
                 return vec![format!("{headline}; {nothing}"), nothing];
             }
         };
-        let told = |write: KickWriting| match write.bound().kick(from_rest(sure)) {
-            Some(kick) => format!("{headline}; for certain: {kick}"),
-            None => format!("{headline}; for certain: every kick"),
-        };
-        let centre = write.centre(&nominal).zip(write.bound().unnamed().kick(from_centre(sure)));
-        let centre =
-            centre.map(|(own, sure)| format!("{}; {own}; for certain: {sure}", told(write)));
-        centre.into_iter().chain([told(write), told(write.unnamed())]).collect()
+        let [named, unnamed] =
+            [true, false].map(|named| KickWriting { named, bound: true, ..write });
+        let [told, brief] = [named, unnamed].map(|write| {
+            let kick = write.kick(from_rest(sure));
+            format!("{headline}; for certain: {}", kick.as_deref().unwrap_or("every kick"))
+        });
+        let centre = write.centre(&nominal).zip(unnamed.kick(from_centre(sure)));
+        let centre = centre.map(|(own, sure)| format!("{told}; {own}; for certain: {sure}"));
+        centre.into_iter().chain([told, brief]).collect()
     };
     Some(fitting(width, texts))
 }

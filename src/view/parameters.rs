@@ -12,7 +12,7 @@ use crate::accuracy::harmonic_error::BalanceResult;
 use crate::flow::Problem;
 use crate::model::Knob;
 use crate::model::belt::Units;
-use crate::picture::{CycleStyle, Role, cycle_style, units};
+use crate::picture::{Role, cycle_role, cycle_style, units};
 use crate::portrait::proved::compare;
 use crate::portrait::{Border, Cycle, Cycles};
 use crate::scene::Layer;
@@ -275,8 +275,8 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
     let mut lines: Vec<Vec<Span>> =
         vec![vec![look.span(title, Role::Title), look.span(headings, Role::Quiet)]];
     lines.extend(found.cycles.iter().map(|cycle| {
-        let CycleStyle { mark, role, .. } = cycle_style(cycle.stable);
-        let symbol = look.span(format!(" {} ", look.symbols().mark(mark)), role);
+        let mark = look.symbols().mark(cycle_style(cycle.stable).1);
+        let symbol = look.span(format!(" {mark} "), cycle_role(cycle.stable));
         vec![symbol, Span::raw(aligned(&cells(cycle, units)))]
     }));
     let words = basin(session, found, width, look).into_iter().chain(balance(session, width));
@@ -351,7 +351,7 @@ fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String
     let sticking = running.reduced.sticking_velocity;
     let fast = |cycle: &&Cycle| !session.draws_whole() && cycle.v_max >= sticking;
     let alarms = found.cycles.iter().filter(fast);
-    let alarms = alarms.map(|cycle| format!("! {} > belt", cycle_style(cycle.stable).name));
+    let alarms = alarms.map(|cycle| format!("! {} > belt", cycle_style(cycle.stable).0));
     let units = &running.reduced.units;
     let d = significant(session.value(Knob::D), 3);
     let hertz = with_unit(units.omega_0 / std::f64::consts::TAU, 3, "Hz");

@@ -4,8 +4,6 @@
 //! first says the values at the selected point, the second what the shades, or the numbers that
 //! stand for words, mean, and the third what it means that there is no number.
 
-use std::ops::Range;
-
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
@@ -14,7 +12,6 @@ use super::{Surface, paint::paint, scan_map};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Picture, Role};
 use crate::scan::measure::Value;
-use crate::scan::sweep::Sweep;
 use crate::scene::View;
 use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
 use crate::words::number::{measurement, remaining};
@@ -130,28 +127,25 @@ fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
     };
     let first = pane::first_seen(scanned.at, scanned.rows.len(), room);
     let seen = first..scanned.rows.len().min(first + room);
-    let columns = columns(scanned, seen.clone());
+    let names = names(scanned);
+    let rows: Vec<Vec<String>> = seen.clone().map(|index| cells(scanned, index)).collect();
     let mut used = 0;
     let fits = |width: &usize| {
         used += width + 1;
         used < usize::from(area.width)
     };
-    let widths: Vec<usize> = columns
-        .iter()
-        .map(|column| column.iter().map(|text| text.chars().count()).max().unwrap_or(0))
-        .take_while(fits)
-        .collect();
-    // Columns that are left out have a mark in place of their names.
-    let more = if widths.len() < columns.len() { look.symbols().more } else { "" };
-    let line = |row: usize| {
-        let cells = columns.iter().zip(&widths).map(|(column, width)| {
-            let text = &column[row];
-            format!("{text:>width$} ")
-        });
-        cells.collect::<Vec<_>>().concat()
+    let width = |column: usize| {
+        let texts = std::iter::once(&names).chain(&rows).map(|row| row[column].chars().count());
+        texts.max().unwrap_or(0)
     };
-    let names = Line::styled(line(0) + more, look.style(Role::Title));
-    let rows = (1..).zip(seen).map(|(row, index)| {
+    let widths: Vec<usize> = (0..names.len()).map(width).take_while(fits).collect();
+    // Columns that are left out have a mark in place of their names.
+    let more = if widths.len() < names.len() { look.symbols().more } else { "" };
+    let line = |row: &[String]| -> String {
+        row.iter().zip(&widths).map(|(text, width)| format!("{text:>width$} ")).collect()
+    };
+    let names = Line::styled(line(&names) + more, look.style(Role::Title));
+    let rows = rows.iter().zip(seen).map(|(row, index)| {
         let reason = &scanned.rows[index].reason;
         let role = match (index == scanned.at, reason) {
             (true, _) => Role::Selected,
@@ -164,21 +158,22 @@ fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
     screen.lines(area, std::iter::once(names).chain(rows));
 }
 
-/// The columns of these rows: each a name and its cells.
-fn columns(scanned: &ScanOnShow, rows: Range<usize>) -> Vec<Vec<String>> {
-    let (over, measured) = (scanned.scan.over(), scanned.scan.measured());
-    let parameter = |(which, sweep): (usize, &Sweep)| {
-        let value = |index: usize| sweep.value(scanned.scan.place(index)[which]);
-        let cells = rows.clone().map(|index| significant(value(index), DIGITS[0]));
-        std::iter::once(sweep.symbol.spec().name.to_owned()).chain(cells).collect()
-    };
-    let found = |offset: usize| {
-        let column = (scanned.column + offset) % measured.len();
-        let value = |index: usize| scanned.rows[index].values.get(column);
-        let cells = rows
-            .clone()
-            .map(|index| measurement(*value(index).unwrap_or(&Value::Nothing), Some(8)));
-        std::iter::once(measured[column].to_owned()).chain(cells).collect()
-    };
-    over.iter().enumerate().map(parameter).chain((0..measured.len()).map(found)).collect()
+/// The names of the columns.
+fn names(scanned: &ScanOnShow) -> Vec<String> {
+    let over = scanned.scan.over().iter().map(|sweep| sweep.symbol.spec().name);
+    let mut measured = scanned.scan.measured();
+    let first = scanned.column % measured.len();
+    measured.rotate_left(first);
+    over.chain(measured).map(str::to_owned).collect()
+}
+
+/// What stands below them in a row.
+fn cells(scanned: &ScanOnShow, index: usize) -> Vec<String> {
+    let (values, count) = (&scanned.rows[index].values, scanned.scan.measured().len());
+    let place = scanned.scan.place(index);
+    let over = scanned.scan.over().iter().zip(&place);
+    let over = over.map(|(sweep, which)| significant(sweep.value(*which), DIGITS[0]));
+    let columns = (0..count).map(|offset| (scanned.column + offset) % count);
+    let value = |column: usize| values.get(column).unwrap_or(&Value::Nothing);
+    over.chain(columns.map(|column| measurement(*value(column), Some(8)))).collect()
 }
