@@ -91,19 +91,14 @@ impl StrokeSheet {
         let Some(between) = between else { return false };
         let cost: usize = between.iter().map(|cell| cell.symbol().len()).sum();
         let mut trial = last.clone();
-        let fits = between.iter().all(|cell| {
-            trial.takes(cell) && {
-                trial.adopt(cell);
-                true
-            }
+        let takes = between.iter().copied().chain([cell]).all(|cell| {
+            let takes = trial.takes(cell);
+            trial.adopt(cell);
+            takes
         });
-        if cost > SHORT_MOVE || !fits || !trial.takes(cell) {
-            return false;
-        }
-        for cell in between {
-            self.extend(cell);
-        }
-        true
+        let fits = takes && cost <= SHORT_MOVE;
+        between.into_iter().filter(|_| fits).for_each(|cell| self.extend(cell));
+        fits
     }
 
     fn extend(&mut self, cell: &Cell) {

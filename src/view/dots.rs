@@ -69,11 +69,8 @@ impl Dots {
     }
 
     pub fn size(&self) -> DotPoint {
-        let (across, down) = self.glyphs.dots();
-        (
-            f64::from(self.area.width) * f64::from(across),
-            f64::from(self.area.height) * f64::from(down),
-        )
+        let ((across, down), Rect { width, height, .. }) = (self.glyphs.dots(), self.area);
+        (f64::from(width) * f64::from(across), f64::from(height) * f64::from(down))
     }
 
     /// The cell (column, row) in which a point lies, if it lies on the raster.
