@@ -1,33 +1,16 @@
 //! Parameters that are known to lie between two numbers.
 
-use serde::Serialize;
-
 use super::knob::{Knob, KnobSpec};
 use super::parameters::Parameters;
 pub use crate::numerics::Interval;
 
 /// The parameters of equation (4), each in an interval of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ParameterBox {
-    /// Linear damping D.
-    #[serde(rename = "D")]
-    pub d: Interval,
-    /// Asymmetric damping D2.
-    #[serde(rename = "D2")]
-    pub d2: Interval,
-    /// Cubic damping D3.
-    #[serde(rename = "D3")]
-    pub d3: Interval,
-    /// Dry friction r.
-    pub r: Interval,
-}
+pub type ParameterBox = Parameters<Interval>;
 
 impl From<&Parameters> for ParameterBox {
     /// The parameters as the doubles that they are.
     fn from(parameters: &Parameters) -> Self {
-        let Parameters { d, d2, d3, r } = *parameters;
-        let [d, d2, d3, r] = [d, d2, d3, r].map(Interval::point);
-        ParameterBox { d, d2, d3, r }
+        parameters.map(Interval::point)
     }
 }
 
@@ -65,21 +48,10 @@ impl ParameterBox {
         known
     }
 
-    fn part(&mut self, symbol: Knob) -> Option<&mut Interval> {
-        match symbol {
-            Knob::D => Some(&mut self.d),
-            Knob::D2 => Some(&mut self.d2),
-            Knob::D3 => Some(&mut self.d3),
-            Knob::R => Some(&mut self.r),
-            _ => None,
-        }
-    }
-
     /// The parameters halfway.
     #[must_use]
     pub fn middle(&self) -> Parameters {
-        let [d, d2, d3, r] = [self.d, self.d2, self.d3, self.r].map(Interval::middle);
-        Parameters { d, d2, d3, r }
+        self.map(Interval::middle)
     }
 }
 

@@ -5,20 +5,42 @@ use serde::{Deserialize, Serialize};
 use crate::numerics::scaling::times_power;
 
 /// The parameters of equation (4): damping, asymmetry, cubic damping, friction. All dimensionless, and each 0 or
-/// within 1e-150 .. 1e150 in magnitude ([`KNOBS`](super::KNOBS)): beyond that, nothing is promised.
+/// within 1e-150 .. 1e150 in magnitude ([`KNOBS`](super::KNOBS)): beyond that, nothing is promised. They are numbers, or
+/// intervals in which these lie ([`ParameterBox`](super::ParameterBox)).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Parameters {
+pub struct Parameters<N = f64> {
     /// Effective linear damping D; negative means self-excited, `abs(D) < 1` oscillatory.
     #[serde(rename = "D")]
-    pub d: f64,
+    pub d: N,
     /// Asymmetric (quadratic) damping D2.
     #[serde(rename = "D2")]
-    pub d2: f64,
+    pub d2: N,
     /// Cubic damping D3.
     #[serde(rename = "D3")]
-    pub d3: f64,
+    pub d3: N,
     /// Intensity r of the dry friction, not negative.
-    pub r: f64,
+    pub r: N,
+}
+
+impl<N> From<[N; 4]> for Parameters<N> {
+    /// D, D2, D3 and r.
+    fn from([d, d2, d3, r]: [N; 4]) -> Self {
+        Parameters { d, d2, d3, r }
+    }
+}
+
+impl<N> Parameters<N> {
+    /// D, D2, D3 and r, as `of` makes them of these.
+    #[must_use]
+    pub fn map<M>(self, of: impl Fn(N) -> M) -> Parameters<M> {
+        self.numbers().map(of).into()
+    }
+
+    /// D, D2, D3 and r.
+    #[must_use]
+    pub fn numbers(self) -> [N; 4] {
+        [self.d, self.d2, self.d3, self.r]
+    }
 }
 
 /// A point of the phase plane.

@@ -17,8 +17,7 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
     if !proof.is_complete() {
         return Err("the number of cycles is not proved".to_owned());
     }
-    let super::ParameterBox { d, d2, d3, r } = proof.parameters;
-    let parameters = [d, d2, d3, r];
+    let parameters = proof.parameters.numbers();
     let steps = if let Some(theorem) = proof.theorem {
         let kind = match theorem {
             Theorem::OneWay => StepKind::OneWay,

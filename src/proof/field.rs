@@ -1,7 +1,7 @@
 //! The field of a half plane with coefficients in intervals.
 
 pub use crate::model::ParameterBox;
-use crate::model::{Knob, Side};
+use crate::model::Side;
 use crate::numerics::{Interval, times_power};
 
 impl ParameterBox {
@@ -12,24 +12,10 @@ impl ParameterBox {
         ParameterBox { d: self.d, d2: scaled(self.d2, k), d3, r: scaled(self.r, -k) }
     }
 
-    /// The same parameters with one replaced; symbols of a start are ignored.
-    #[must_use]
-    pub fn with(&self, symbol: Knob, value: Interval) -> Self {
-        let mut changed = *self;
-        match symbol {
-            Knob::D => changed.d = value,
-            Knob::D2 => changed.d2 = value,
-            Knob::D3 => changed.d3 = value,
-            Knob::R => changed.r = value,
-            _ => {}
-        }
-        changed
-    }
-
     /// Whether every parameter is a single double.
     #[must_use]
     pub fn is_point(&self) -> bool {
-        [self.d, self.d2, self.d3, self.r].iter().all(|it| it.is_point())
+        self.numbers().iter().all(|it| it.is_point())
     }
 }
 

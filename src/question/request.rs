@@ -211,9 +211,7 @@ impl Request {
     /// The numbers on which the answer depends, except those that only say how finely to compute it: the more
     /// of them are equal, the more alike two requests are.
     fn numbers(&self) -> Vec<f64> {
-        let with = |Parameters { d, d2, d3, r }: Parameters, others: &[f64]| {
-            [&[d, d2, d3, r], others].concat()
-        };
+        let with = |it: Parameters, others: &[f64]| [&it.numbers(), others].concat();
         match self {
             Request::Trajectory { problem, .. }
             | Request::Trade(problem)

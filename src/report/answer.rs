@@ -203,8 +203,7 @@ impl About {
 
     /// The oscillator of the paper at all parameters in a box.
     pub fn boxed(known: &ParameterBox) -> Self {
-        let ParameterBox { d, d2, d3, r } = *known;
-        let numbers = Knob::PARAMETERS.into_iter().zip([d, d2, d3, r]);
+        let numbers = Knob::PARAMETERS.into_iter().zip(known.numbers());
         let numbers = numbers.map(|(knob, known)| (knob, known, true)).collect();
         About { machine: None, numbers }
     }

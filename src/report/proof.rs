@@ -5,7 +5,6 @@ use super::cycle_numbers::{CycleNumber, NUMBERS, cycle_fields, number_columns};
 use super::{About, Answer, Columns, Document, Format, Quantity};
 use crate::branch::fold::BoundaryPoint;
 use crate::check::{Bounds, Certificate, StepKind};
-use crate::model::ParameterBox;
 use crate::numerics::Interval;
 use crate::portrait::proved::matching;
 use crate::portrait::{Border, Cycle};
@@ -165,8 +164,8 @@ pub fn certificate_table(certificate: &Certificate) -> String {
         some => counted(some, "limit cycle"),
     };
     let steps = certificate.steps.len();
-    let [d, d2, d3, r] = certificate.parameters.map(interval);
-    Answer::new("", About::boxed(&ParameterBox { d, d2, d3, r }).heading())
+    let parameters = certificate.parameters.map(interval).into();
+    Answer::new("", About::boxed(&parameters).heading())
         .table(columns.table(proved))
         .lines([format!("{count} and no other, at any amplitude: {steps} steps checked")])
         .told(Format::Table)

@@ -62,11 +62,26 @@ impl Parameters {
     pub fn value(&self, knob: Knob) -> f64 {
         knob.get(self, &State { q: 0.0, v: 0.0 })
     }
+}
+
+impl<N> Parameters<N> {
+    /// One of the parameters; `None` if the knob is none of them.
+    pub fn part(&mut self, knob: Knob) -> Option<&mut N> {
+        match knob {
+            Knob::D => Some(&mut self.d),
+            Knob::D2 => Some(&mut self.d2),
+            Knob::D3 => Some(&mut self.d3),
+            Knob::R => Some(&mut self.r),
+            _ => None,
+        }
+    }
 
     /// The same with another value of one of them; a knob that is none of them changes nothing.
     #[must_use]
-    pub fn with(mut self, knob: Knob, value: f64) -> Self {
-        knob.set(&mut self, &mut State { q: 0.0, v: 0.0 }, value);
+    pub fn with(mut self, knob: Knob, value: N) -> Self {
+        if let Some(part) = self.part(knob) {
+            *part = value;
+        }
         self
     }
 }
@@ -270,8 +285,7 @@ impl<'de> Deserialize<'de> for Knob {
 
 impl Default for Parameters {
     fn default() -> Self {
-        let [d, d2, d3, r, ..] = Knob::MOTION.map(Knob::usual);
-        Parameters { d, d2, d3, r }
+        Knob::PARAMETERS.map(Knob::usual).into()
     }
 }
 

@@ -38,19 +38,21 @@ impl TwoSided {
     /// friction.
     #[must_use]
     pub fn worst(known: &ParameterBox, disturbance: f64) -> Self {
-        let ParameterBox { d, d2, d3, r } = *known;
-        let r = if disturbance > 0.0 { (r.lower() - disturbance).next_down() } else { r.lower() };
-        let upper = Parameters { d: d.lower(), d2: d2.lower(), d3: d3.lower(), r };
-        TwoSided { upper, lower: Parameters { d2: d2.upper(), ..upper } }
+        let mut upper = known.map(|it| it.lower());
+        if disturbance > 0.0 {
+            upper.r = (upper.r - disturbance).next_down();
+        }
+        TwoSided { upper, lower: Parameters { d2: known.d2.upper(), ..upper } }
     }
 
     /// The system that keeps the largest basin.
     #[must_use]
     pub fn best(known: &ParameterBox, disturbance: f64) -> Self {
-        let ParameterBox { d, d2, d3, r } = *known;
-        let r = if disturbance > 0.0 { (r.upper() + disturbance).next_up() } else { r.upper() };
-        let upper = Parameters { d: d.upper(), d2: d2.upper(), d3: d3.upper(), r };
-        TwoSided { upper, lower: Parameters { d2: d2.lower(), ..upper } }
+        let mut upper = known.map(|it| it.upper());
+        if disturbance > 0.0 {
+            upper.r = (upper.r + disturbance).next_up();
+        }
+        TwoSided { upper, lower: Parameters { d2: known.d2.lower(), ..upper } }
     }
 
     fn on(&self, side: Side) -> &Parameters {
