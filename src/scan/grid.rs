@@ -9,7 +9,7 @@ use super::measure::{Conditions, Measure, OF_THE_PAPER, Value, measure};
 use super::sweep::Sweep;
 use crate::flow::{Cost, Limits, Problem, Reason, Subject};
 use crate::model::belt::FrictionLaw;
-use crate::model::{Interval, Knob, ParameterBox, State};
+use crate::model::{Interval, Knob, State};
 use crate::portrait::{RandomKick, StartWindow};
 
 /// Most points of a scan.
@@ -179,9 +179,9 @@ impl Scan {
         let certain = asked(Measure::Guaranteed);
         let designed = asked(Measure::Design) && !tolerances.is_none();
         if let Some(problem) = paper.filter(|_| certain) {
-            let ParameterBox { d, d2, d3, r } = tolerances.around(&problem.parameters);
+            let known = tolerances.around(&problem.parameters).numbers();
             inputs.extend(named([("w", tolerances.disturbance)]));
-            inputs.extend(Knob::PARAMETERS.into_iter().zip([d, d2, d3, r]).flat_map(ends));
+            inputs.extend(Knob::PARAMETERS.into_iter().zip(known).flat_map(ends));
         }
         if let Some(belt) = belt.filter(|_| certain || designed) {
             inputs.extend(named([("w", tolerances.disturbance)]));
