@@ -2,6 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
+use super::basin::arc::Arc;
 use super::basin::orbit::Orbit;
 use super::cycle::Cycle;
 use crate::flow::Reason;
@@ -116,7 +117,8 @@ impl Edge {
     pub fn area(&self) -> Option<f64> {
         match self {
             Edge::Orbit(orbit) => {
-                orbit.is_closed().then(|| orbit.upper.area() + orbit.lower.area())
+                let area = |arc: &Arc| arc.powers().second;
+                orbit.closed.then(|| area(&orbit.upper) + area(&orbit.lower))
             }
             Edge::Curve(curve) => Some(curve.area()),
         }

@@ -198,13 +198,13 @@ pub fn friction_of_guide(
     wanted: f64,
 ) -> Result<Option<FrictionNeeded>, Reason> {
     let model = subject.model()?;
-    // As a length: what the guide holds at rest.
-    let length = match kick {
-        Kick::Displacement => wanted,
-        Kick::Impulse => wanted / (model.mass * model.omega_0),
+    // The friction that holds at rest as much as is wanted.
+    let holds = match kick {
+        Kick::Displacement => wanted * model.stiffness,
+        Kick::Impulse => wanted * model.omega_0,
     };
-    let mut margin = |held: f64| -> Result<Margin, Reason> {
-        let machine = subject.with_friction(held * model.stiffness);
+    let mut margin = |friction: f64| -> Result<Margin, Reason> {
+        let machine = subject.with_friction(friction);
         if known.is_none() {
             return Ok(machine.portrait()?.margin);
         }
@@ -215,18 +215,12 @@ pub fn friction_of_guide(
     if !known.is_none() {
         // As much friction holds a displacement by itself; where even that guarantees nothing, no friction does.
         let half = known.half_widths.get("R").copied().unwrap_or(0.0);
-        let ample = 8.0 * (length + (known.disturbance + half) / model.stiffness);
-        if kick.margin(&margin(ample)?) < wanted {
+        if kick.margin(&margin(8.0 * (holds + known.disturbance + half))?) < wanted {
             return Ok(None);
         }
     }
     let without = (model.damping > 0.0 && known.is_none()).then_some(0.0);
-    let found = least_friction((kick, wanted), (length, without), &mut margin)?;
-    Ok(found.map(|needed| match needed {
-        FrictionNeeded::Any => FrictionNeeded::Any,
-        FrictionNeeded::Friction { r } => FrictionNeeded::Friction { r: r * model.stiffness },
-        FrictionNeeded::Fold { r, below } => FrictionNeeded::Fold { r: r * model.stiffness, below },
-    }))
+    least_friction((kick, wanted), (holds, without), &mut margin)
 }
 
 #[cfg(test)]

@@ -196,11 +196,11 @@ impl Portrait {
             return Ok(Fate::Rest);
         }
         if self.orders_starts() {
-            let open = |edge: &Edge| matches!(edge, Edge::Orbit(orbit) if !orbit.is_closed());
+            let open = |edge: &Edge| matches!(edge, Edge::Orbit(orbit) if !orbit.closed);
             if x.abs() > self.followed && self.borders.iter().any(open) {
                 return Err(Reason::OutOfRange);
             }
-            return Ok(self.fates[self.region(x, y)]);
+            return Ok(self.fates[self.regions_at(x)(y)]);
         }
         let mut flow = Flow::new(&self.model);
         let turn = match flow.to_the_right(x, y) {
@@ -250,7 +250,7 @@ impl Portrait {
         if self.orders_starts() {
             let index = self.cycles.iter().position(|own| own == cycle);
             let inner = self.borders.len() - self.cycles.len();
-            return index.is_some_and(|index| self.region(x, y) <= inner + index);
+            return index.is_some_and(|index| self.regions_at(x)(y) <= inner + index);
         }
         let turn = Flow::new(&self.model).to_the_right(x, y);
         turn.is_ok_and(|turn| turn.is_none_or(|turn| turn < cycle.q_max))
@@ -262,10 +262,14 @@ impl Portrait {
         !self.fates.is_empty() && !self.model.holds_more_at_rest()
     }
 
-    /// How many of the nested borders a start lies outside of.
-    fn region(&self, x: f64, y: f64) -> usize {
-        let inside = |edge: &Edge| edge.span_at(x).is_some_and(|(low, high)| y > low && y < high);
-        self.borders.iter().position(inside).unwrap_or(self.borders.len())
+    /// How many of the nested borders a start at a displacement lies outside of, by its velocity.
+    fn regions_at(&self, x: f64) -> impl Fn(f64) -> usize {
+        let spans: Vec<_> = self.borders.iter().map(|edge| edge.span_at(x)).collect();
+        move |y| {
+            let inside = |(low, high): (f64, f64)| y > low && y < high;
+            let region = spans.iter().position(|span| span.is_some_and(inside));
+            region.unwrap_or(spans.len())
+        }
     }
 
     /// Why the portrait is incomplete: the friction law ends before all motions are known.
@@ -281,7 +285,7 @@ impl Portrait {
     /// The fate of a motion that turns on the right at `x`.
     fn fate_of_turn(&self, x: f64) -> Fate {
         if !self.fates.is_empty() {
-            return self.fates[self.region(x, 0.0)];
+            return self.fates[self.regions_at(x)(0.0)];
         }
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
         gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
@@ -340,40 +344,23 @@ impl Portrait {
                 return Err(Reason::Interrupted);
             }
             let x = between(window.q, column, columns);
-            if self.orders_starts() {
-                return Ok(self.count_ordered(x, &velocities));
-            }
+            let region = self.orders_starts().then(|| self.regions_at(x));
             let mut counts = Counts::default();
             for v in &velocities {
-                counts.add(self.fate(x, *v).unwrap_or_else(Fate::Unknown), 1);
+                // Without friction the one point that rests counts as what is around it.
+                let rests = *v == 0.0 && self.model.guide > 0.0 && self.model.rests_at(x);
+                let fate = match &region {
+                    Some(region) if !rests => {
+                        Ok(self.fates[region(self.model.scaled_velocity(*v))])
+                    }
+                    _ => self.fate(x, *v),
+                };
+                counts.add(fate.unwrap_or_else(Fate::Unknown), 1);
             }
             Ok(counts)
         };
         let columns = (0..columns).into_par_iter().map(of_column);
         columns.try_reduce(Counts::default, |one, other| Ok(one.and(other)))
-    }
-
-    /// Where the starts at a displacement with these velocities, in ascending order, end: sorted by the borders there.
-    fn count_ordered(&self, x: f64, velocities: &[f64]) -> Counts {
-        let mut counts = Counts::default();
-        // Without friction the one point that rests counts as what is around it.
-        let rests = |v: f64| v == 0.0 && self.model.guide > 0.0 && self.model.rests_at(x);
-        // The rows between two speeds, a row at rest included: next to a node none else may be.
-        let rows_within = |(low, high): (f64, f64)| {
-            let scaled = |v: f64| self.model.scaled_velocity(v);
-            let first = velocities.partition_point(|&v| scaled(v) <= low && !rests(v));
-            let end = velocities.partition_point(|&v| scaled(v) < high || rests(v));
-            end.saturating_sub(first)
-        };
-        // The rows inside each border; nested, so that each takes what the inner ones left.
-        let mut taken = 0;
-        for (border, &fate) in self.borders.iter().zip(&self.fates) {
-            let rows_inside = rows_within(border.span_at(x).unwrap_or((0.0, 0.0)));
-            counts.add(fate, rows_inside.saturating_sub(taken) as u64);
-            taken = taken.max(rows_inside);
-        }
-        counts.add(self.fates[self.borders.len()], (velocities.len() - taken) as u64);
-        counts
     }
 
     /// The fraction of a window, in m and m/s, from which the mass comes to rest; `None` if motions from the window
@@ -396,7 +383,7 @@ impl Portrait {
         };
         if window.reach() > self.followed
             && let Edge::Orbit(orbit) = edge
-            && !orbit.is_closed()
+            && !orbit.closed
         {
             let parameters = self.model.parameters()?;
             let farther = Orbit::separatrix(&parameters, window.reach(), &Limits::PATIENT).ok()?;

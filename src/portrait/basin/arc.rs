@@ -144,16 +144,7 @@ impl Arc {
         Some(self.swing.end).filter(|end| *end != Length::INFINITE)
     }
 
-    /// Area between the arc and `v = 0`: the integral of `v dq`, which is that of `v^2 dtau`.
-    pub fn area(&self) -> f64 {
-        let piece_area = |piece: &ArcStep| {
-            let second = piece.step.powers().second;
-            times_power(times_power(second, piece.unit), piece.unit)
-        };
-        self.pieces.iter().map(piece_area).sum()
-    }
-
-    /// The integrals of powers of the speed over time.
+    /// The integrals of powers of the speed over time: that of `v^2` is the area between the arc and `v = 0`.
     pub fn powers(&self) -> Powers {
         let mut sum = Powers::default();
         for ArcStep { step, unit, .. } in &self.pieces {

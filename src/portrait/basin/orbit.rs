@@ -29,7 +29,8 @@ pub struct Orbit {
     pub upper: Arc,
     /// Below `v = 0`.
     pub lower: Arc,
-    closed: bool,
+    /// Whether it encloses a bounded part of the plane.
+    pub closed: bool,
 }
 
 impl Orbit {
@@ -139,7 +140,7 @@ impl Orbit {
         let [upper, lower] = [&self.upper, &self.lower];
         let arcs = if lower.clearance().is_none() { [lower, upper] } else { [upper, lower] };
         let mut points: Vec<State> = arcs.iter().flat_map(|arc| arc.points(count)).collect();
-        if self.is_closed() {
+        if self.closed {
             points.extend(points.first().copied());
         }
         points
@@ -149,11 +150,6 @@ impl Orbit {
     pub fn clearance(&self) -> f64 {
         let clearances = [&self.upper, &self.lower].into_iter().filter_map(Arc::clearance);
         clearances.map(|clearance| clearance.value).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Whether it encloses a bounded part of the plane.
-    pub fn is_closed(&self) -> bool {
-        self.closed
     }
 
     /// The velocities at displacement `q` between which a start lies inside; `None` where none does.
