@@ -8,7 +8,7 @@ use super::basin::arc::Arc;
 use super::basin::cycle::{described, picture_reach};
 use super::basin::orbit::Orbit;
 use super::closing::all::{STEP, all_closings};
-use super::closing::equation::Equation;
+use super::closing::equation::{Equation, first_side};
 use super::closing::pair::Closing;
 use super::portrait::Portrait;
 use super::{Border, Cycle, Edge, Reach};
@@ -100,7 +100,9 @@ impl Portrait {
             fates.push(if is_centre(parameters) { Fate::Neutral } else { Fate::Rest });
         }
         for closing in found {
-            orbits.push(Orbit::of_cycle(parameters, closing, limits)?);
+            let repels = closing.log_multiplier(parameters) > 0.0;
+            let (both, side) = ([parameters; 2], first_side(parameters));
+            orbits.push(Orbit::of_closing(both, side, closing, repels, limits)?);
         }
         fates.extend(fates_between(parameters, &cycles, fates.is_empty()));
         let cycles = cycles.iter().map(|cycle| cycle.scaled(1.0, model.omega_0)).collect();

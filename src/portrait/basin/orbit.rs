@@ -42,20 +42,11 @@ impl Orbit {
         }
     }
 
-    /// The two arcs of a cycle. Fails with the [`Reason`] why one could not be
-    /// computed, or [`Reason::NoConvergence`] where an arc does not end at the beginning of the other one.
-    pub fn of_cycle(
-        parameters: &Parameters,
-        closing: &Closing,
-        limits: &Limits,
-    ) -> Result<Self, Reason> {
-        let repels = closing.log_multiplier(parameters) > 0.0;
-        Self::of_closing([parameters; 2], first_side(parameters), closing, repels, limits)
-    }
-
-    /// The same with parameters of its own for each of the two arcs, the first of them on `side`; `repels` is the direction in time that is tried first.
+    /// The two arcs of a cycle with parameters of its own for each, the first of them on `side`; `repels` says in which
+    /// direction in time they are tried first. Fails with the [`Reason`] why one could not be computed, or
+    /// [`Reason::NoConvergence`] where an arc does not end at the beginning of the other one.
     pub fn of_closing(
-        parameters: [&Parameters; 2],
+        [own, other]: [&Parameters; 2],
         side: Side,
         closing: &Closing,
         repels: bool,
@@ -63,7 +54,6 @@ impl Orbit {
     ) -> Result<Self, Reason> {
         let Closing { first, second, .. } = *closing;
         let arc = |of, side, start, next| attracting(of, side, (start, next), repels, limits);
-        let [own, other] = parameters;
         let arcs = [arc(own, side, first, second)?, arc(other, side.opposite(), second, first)?];
         Ok(Orbit::of(side, arcs, true))
     }

@@ -35,8 +35,9 @@ pub fn guaranteed(
         corners.bounded(belt)?
     };
     Ok(found.map(|portrait| {
-        let lightest = corners.lightest() / portrait.model.omega_0;
-        let margin = portrait.margin_within(corners.farthest_rest, lightest);
+        // An impulse less than the smallest `m omega_0` times a velocity starts no machine faster.
+        let lightest = corners.least(|model| model.mass * model.omega_0) / portrait.model.omega_0;
+        let margin = portrait.margin_within(corners.farthest_rest(), lightest);
         (portrait, margin)
     }))
 }
@@ -64,7 +65,7 @@ impl Corners {
         /// Ranges of velocities that are tried, each larger than the border of the one before.
         const ROUNDS: usize = 8;
         const ROOM: f64 = 1.2;
-        let slowest = self.slowest();
+        let slowest = self.least(|model| model.speed);
         let middle = slip_border(&Portrait::of_belt(belt)?).unwrap_or((-slowest, slowest));
         let mut range = (ROOM * middle.0, (ROOM * middle.1).min(slowest));
         for _ in 0..ROUNDS {
@@ -72,7 +73,7 @@ impl Corners {
                 return Ok(Err(Uncertain::OutsideLaw));
             }
             let (corner, less) = self.bound(range.0, range.1);
-            if less * self.stiffest >= self.friction {
+            if less * self.stiffest() >= self.friction {
                 return Ok(Err(Uncertain::Tolerances));
             }
             let Some(found) = self.below_the_line(corner, less)? else {
@@ -91,7 +92,7 @@ impl Corners {
     /// as that allows, and the velocities along the border.
     fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>, Reason> {
         const HALVINGS: u32 = 24;
-        let slowest = self.slowest();
+        let slowest = self.least(|model| model.speed);
         let at = |less: f64| -> Result<Option<SlipBorder>, Reason> {
             let portrait = Portrait::of_belt(&self.worst(corner, less))?;
             let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
@@ -101,7 +102,7 @@ impl Corners {
             return Ok(Some(found));
         }
         let mut best = None;
-        try_bisect(less, self.friction / self.stiffest, HALVINGS, |less| {
+        try_bisect(less, self.friction / self.stiffest(), HALVINGS, |less| {
             let found = at(less)?;
             let holds = found.is_some();
             best = found.or_else(|| best.take());
@@ -118,98 +119,90 @@ pub const MOST: usize = 5;
 
 /// The machines that all others lie between, each with the smallest damping and friction: three values of
 /// each further number that is uncertain.
-#[derive(Debug)]
-pub struct Corners {
+struct Corners {
     /// The machines; those next to each other in number k are `3^k` apart.
-    pub belts: Vec<Belt>,
-    /// Their models.
-    pub models: Vec<Model>,
+    belts: Vec<Belt>,
+    models: Vec<Model>,
     /// How many numbers vary.
-    pub numbers: u32,
+    numbers: u32,
     /// What the disturbance leaves of the guide's smallest friction, in N.
-    pub friction: f64,
+    friction: f64,
     /// The same at rest.
-    pub at_rest: f64,
-    /// The largest stiffness, in N/m.
-    pub stiffest: f64,
-    /// How far out one of the machines may rest before a kick, in m: pushed there by the disturbance, and held by
-    /// the largest static friction; by the smallest if it is that of the moving mass, because the gap to the border
-    /// only grows with friction.
-    pub farthest_rest: f64,
+    at_rest: f64,
+    /// By how much more than the smallest static friction a mass at rest may be pushed, in N: by the disturbance, and by
+    /// what static friction is uncertain.
+    pushed: f64,
 }
 
 impl Corners {
-    /// The corners of a machine's tolerances, unless more than [`MOST`] of its other numbers are uncertain.
-    ///
-    /// # Errors
+    /// The corners of a machine's tolerances, unless more than [`MOST`] of its other numbers are uncertain. Fails with
     /// [`Reason`] where one of them has no model.
-    pub fn new(belt: &Belt, known: &Tolerances) -> Result<Option<Self>, Reason> {
-        let mut worst = belt.clone();
+    fn new(belt: &Belt, known: &Tolerances) -> Result<Option<Self>, Reason> {
         let (monotone, others): (Vec<_>, Vec<_>) =
             known.intervals(belt).into_iter().partition(|(varied, _)| MONOTONE.contains(varied));
-        for (varied, interval) in monotone {
-            set(&mut worst, varied, interval.lower());
-        }
         if others.len() > MOST {
             return Ok(None);
         }
+        let with = |mut belt: Belt, varied: Knob, value: f64| {
+            set(&mut belt, varied, value);
+            belt
+        };
+        let worst = monotone
+            .into_iter()
+            .fold(belt.clone(), |worst, (varied, interval)| with(worst, varied, interval.lower()));
+        let (moving, at_rest) = (worst.friction, worst.static_guide);
         let mut belts = vec![worst];
         for (varied, interval) in &others {
-            let with = |value: f64| {
-                belts.iter().cloned().map(move |mut belt| {
-                    set(&mut belt, *varied, value);
-                    belt
-                })
-            };
-            belts = [interval.lower(), interval.middle(), interval.upper()]
-                .into_iter()
-                .flat_map(with)
-                .collect();
+            let values = [interval.lower(), interval.middle(), interval.upper()].into_iter();
+            let at = |value: f64| belts.iter().map(move |belt| with(belt.clone(), *varied, value));
+            belts = values.flat_map(at).collect();
         }
-        let stiffest = belts.iter().map(|belt| belt.stiffness).fold(0.0, f64::max);
         let left = |force: f64| {
             let left = force - known.disturbance;
             if known.disturbance > 0.0 { left.next_down() } else { left }
         };
-        let (moving, at_rest) = (belts[0].friction, belts[0].static_guide);
-        let models: Vec<Model> = belts.iter().map(Model::new).collect::<Result<_, _>>()?;
-        let held = models.iter().map(|model| model.guide_static).fold(0.0, f64::max);
         let holds = known.interval(Knob::StaticGuide, belt);
-        let more = holds.map_or(0.0, |holds| holds.upper() - holds.lower()) + known.disturbance;
-        let softest = belts.iter().map(|belt| belt.stiffness).fold(f64::INFINITY, f64::min);
-        let farthest_rest = if more > 0.0 { (held + more / softest).next_up() } else { held };
         Ok(Some(Corners {
-            models,
+            models: belts.iter().map(Model::new).collect::<Result<_, _>>()?,
             belts,
             numbers: u32::try_from(others.len()).unwrap_or(u32::MAX),
             friction: left(moving),
             at_rest: left(at_rest.unwrap_or(moving)),
-            stiffest,
-            farthest_rest,
+            pushed: holds.map_or(0.0, |it| it.upper() - it.lower()) + known.disturbance,
         }))
     }
 
+    /// How far out one of the machines may rest before a kick, in m: pushed there by the disturbance, and held by
+    /// the largest static friction; by the smallest if it is that of the moving mass, because the gap to the border
+    /// only grows with friction.
+    fn farthest_rest(&self) -> f64 {
+        let held = self.most(|model| model.guide_static);
+        let softest = self.least(|model| model.stiffness);
+        if self.pushed > 0.0 { (held + self.pushed / softest).next_up() } else { held }
+    }
+
     /// The machine at a corner with the least friction of all, and less by `less` (a length).
-    #[must_use]
-    pub fn worst(&self, corner: usize, less: f64) -> Belt {
+    fn worst(&self, corner: usize, less: f64) -> Belt {
         let belt = &self.belts[corner];
-        let scale = belt.stiffness / self.stiffest;
+        let scale = belt.stiffness / self.stiffest();
         let friction = self.friction * scale - less * belt.stiffness;
         let at_rest = (self.at_rest * scale).max(friction);
         Belt { friction, static_guide: Some(at_rest), ..belt.clone() }
     }
 
-    /// The speed of the slowest belt.
-    #[must_use]
-    pub fn slowest(&self) -> f64 {
-        self.models.iter().map(|model| model.speed).fold(f64::INFINITY, f64::min)
+    /// The largest stiffness, in N/m.
+    fn stiffest(&self) -> f64 {
+        self.most(|model| model.stiffness)
     }
 
-    /// The smallest `m omega_0`: an impulse less than this times a velocity starts no machine faster.
-    #[must_use]
-    pub fn lightest(&self) -> f64 {
-        let inertia = |model: &Model| model.mass * model.omega_0;
-        self.models.iter().map(inertia).fold(f64::INFINITY, f64::min)
+    /// The least of a number of the machines.
+    fn least(&self, number: fn(&Model) -> f64) -> f64 {
+        self.models.iter().map(number).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The largest of a number of the machines.
+    fn most(&self, number: fn(&Model) -> f64) -> f64 {
+        self.models.iter().map(number).fold(0.0, f64::max)
     }
 
     /// The corner whose forces need the smallest addition to drive the mass harder than those of any machine
@@ -217,8 +210,7 @@ impl Corners {
     ///
     /// Between the corners and between the velocities forces are taken to bend by no more than twice what
     /// their second differences say.
-    #[must_use]
-    pub fn bound(&self, low: f64, high: f64) -> (usize, f64) {
+    fn bound(&self, low: f64, high: f64) -> (usize, f64) {
         const VELOCITIES: u32 = 200;
         let sides = [(Phase::Below, low), (Phase::Between, high)];
         // For each corner the forces along the motion, at velocities of both signs.
