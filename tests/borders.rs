@@ -5,7 +5,6 @@ use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason, Trajectory
 use hopfscope::model::{Parameters, State};
 use hopfscope::numerics::elementary::{hypot, pow};
 use hopfscope::portrait::basin::StartWindow;
-use hopfscope::portrait::basin::cycle::cycles_drawn;
 use hopfscope::portrait::{Border, Edge, Portrait};
 use hopfscope::scan::measure::{Measure, Value, measure};
 use hopfscope::session::fate::{End, fate};
@@ -69,7 +68,9 @@ fn borders_are_those_computed_elsewhere() {
 fn the_margin_is_the_extreme_of_the_cycle_that_borders_the_basin() {
     let mut largest = 0.0_f64;
     for row in rows().iter().filter(|row| row.log_multiplier.is_some()) {
-        let found = cycles_drawn(&row.parameters, 12, &LIMITS).unwrap();
+        let found = Portrait::of_oscillator(&row.parameters, 1e3, &LIMITS)
+            .and_then(|found| found.drawn(&row.parameters, 12))
+            .unwrap();
         let cycle = found.cycles[0];
         largest = largest.max(cycle.log_multiplier);
         let expected = row.log_multiplier.unwrap();
@@ -342,7 +343,9 @@ fn what_is_said_early_comes_true_late() {
     let mut ends = [0; 3];
     for [d, d2, d3, r] in SETS {
         let parameters = Parameters { d, d2, d3, r };
-        let found = cycles_drawn(&parameters, 2, &LIMITS).unwrap();
+        let found = Portrait::of_oscillator(&parameters, 1e3, &LIMITS)
+            .and_then(|found| found.drawn(&parameters, 2))
+            .unwrap();
         for part in [0.3, 0.9, 0.99, 1.01, 1.2, 3.0] {
             for (side, v) in [(1.0, 0.0), (-1.0, 0.0), (1.0, 0.3)] {
                 let size = found.cycles.first().map_or(0.6, |cycle| cycle.clearance);
@@ -381,7 +384,9 @@ fn what_is_said_early_comes_true_late() {
 #[test]
 fn a_start_on_the_unstable_cycle_is_left_to_rounding() {
     let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
-    let found = cycles_drawn(&parameters, 2, &LIMITS).unwrap();
+    let found = Portrait::of_oscillator(&parameters, 1e3, &LIMITS)
+        .and_then(|found| found.drawn(&parameters, 2))
+        .unwrap();
     let initial = State { q: found.cycles[0].q_max, v: 0.0 };
     let fate = fate(&found, &followed(parameters, initial, 8.0)).unwrap();
     let End::OnTheEdge { distance } = fate else { panic!("{fate:?}") };

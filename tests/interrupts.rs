@@ -14,7 +14,6 @@ use hopfscope::model::{Knob, Parameters, State};
 use hopfscope::portrait::Portrait;
 use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::basin::capture::bands;
-use hopfscope::portrait::basin::cycle::cycles_drawn;
 
 /// Maximum number of evaluations between two polls.
 const BETWEEN: u64 = 10_000;
@@ -99,7 +98,9 @@ fn motions_stop_by_every_method() {
 fn cycles_stop() {
     for parameters in parameters() {
         check(&format!("cycles at {parameters:?}"), |limits| {
-            match cycles_drawn(&parameters, 12, limits) {
+            match Portrait::of_oscillator(&parameters, 1e3, limits)
+                .and_then(|found| found.drawn(&parameters, 12))
+            {
                 Ok(found) => (None, Some(found.cost)),
                 Err(reason) => (Some(reason), None),
             }

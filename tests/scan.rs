@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 
 use hopfscope::flow::Limits;
 use hopfscope::model::Parameters;
-use hopfscope::portrait::basin::cycle::cycles_drawn;
+use hopfscope::portrait::Portrait;
 use hopfscope::words::provenance::Checksum;
 use program::{Ran, command, run};
 use serde_json::Value;
@@ -35,7 +35,9 @@ fn each_point_has_its_row_in_order_and_the_numbers_are_those_of_the_questions() 
     for row in rows {
         let d = row["D"].parse().unwrap();
         let parameters = Parameters { d, d3: 0.5, ..Parameters::default() };
-        let found = cycles_drawn(&parameters, 12, &Limits::PATIENT).unwrap();
+        let found = Portrait::of_oscillator(&parameters, 1e3, &Limits::PATIENT)
+            .and_then(|found| found.drawn(&parameters, 12))
+            .unwrap();
         let margin = found.picture.unwrap().margin;
         assert_eq!(row["displacement"].parse(), Ok(margin.displacement.unwrap()));
         assert_eq!(row["impulse"].parse(), Ok(margin.impulse.unwrap()));

@@ -239,12 +239,9 @@ fn a_cubic_law_far_from_the_belt_is_the_oscillator_of_the_paper() {
     for belt in belts.into_iter().chain([machine("clutch-static")]) {
         let found = portrait(&belt);
         let reduced = belt.reduce().unwrap();
-        let cycles = hopfscope::portrait::basin::cycle::cycles_drawn(
-            &reduced.parameters,
-            12,
-            &Limits::PATIENT,
-        )
-        .unwrap();
+        let cycles = Portrait::of_oscillator(&reduced.parameters, 1e3, &Limits::PATIENT)
+            .and_then(|found| found.drawn(&reduced.parameters, 12))
+            .unwrap();
         let slips = found.cycles.iter().filter(|cycle| !cycle.sticks());
         assert!(slips.clone().count() >= cycles.cycles.len() && !cycles.cycles.is_empty());
         let units = &reduced.units;
@@ -385,8 +382,9 @@ fn a_law_that_ends_far_out_hides_no_margin() {
     assert_eq!(found.border, Border::Cycle);
     let reduced = belt.reduce().unwrap();
     let limits = hopfscope::flow::Limits::PATIENT;
-    let cubic =
-        hopfscope::portrait::basin::cycle::cycles_drawn(&reduced.parameters, 12, &limits).unwrap();
+    let cubic = Portrait::of_oscillator(&reduced.parameters, 1e3, &limits)
+        .and_then(|found| found.drawn(&reduced.parameters, 12))
+        .unwrap();
     let expected = cubic.cycles[0].q_max * reduced.units.displacement;
     assert!(close(found.reach.unwrap().displacement.0, expected, 1e-13));
     assert!(matches!(found.fate(3.0, 0.0), Err(_) | Ok(Fate::Unknown(_))));

@@ -41,19 +41,6 @@ pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<Cycles, Reason
     Ok(cycles_and_closings(parameters, limits)?.0)
 }
 
-/// The same with a picture, of this many points on each integration step of a curve.
-///
-/// # Errors
-/// The [`Reason`] why the search could not be completed.
-pub fn cycles_drawn(
-    parameters: &Parameters,
-    points: u16,
-    limits: &Limits,
-) -> Result<Cycles, Reason> {
-    let reach = picture_reach(parameters.d2);
-    Portrait::of_oscillator(parameters, reach, limits)?.drawn(parameters, points)
-}
-
 /// All limit cycles, without a picture, and the closed pairs of half swings that they are.
 ///
 /// # Errors

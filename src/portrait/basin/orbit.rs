@@ -288,7 +288,7 @@ mod works_tests {
     }
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits, Problem};
-    use crate::portrait::basin::cycle::cycles_drawn;
+    use crate::portrait::Portrait;
 
     #[test]
     fn the_works_over_a_cycle_cancel_to_ten_digits_and_more() {
@@ -304,7 +304,8 @@ mod works_tests {
             (-0.9, -0.3, 2.0, 1e-3),
         ] {
             let parameters = Parameters { d, d2, d3, r };
-            let found = cycles_drawn(&parameters, 12, &Limits::PATIENT).unwrap();
+            let found = Portrait::of_oscillator(&parameters, 1e3, &Limits::PATIENT).unwrap();
+            let found = found.drawn(&parameters, 12).unwrap();
             let ledgers = found.picture.unwrap().works;
             assert_eq!(ledgers.len(), found.cycles.len());
             assert!(!ledgers.is_empty());

@@ -5,7 +5,7 @@ use crate::model::Belt;
 use crate::model::belt::{FrictionLaw, ReducedBelt, TaylorError, Units};
 use crate::numerics::elementary::{asin, pow, powi, tanh};
 use crate::paper::model::machine as paper;
-use crate::portrait::basin::cycle::cycles_drawn;
+use crate::portrait::Portrait;
 
 fn belt() -> Belt {
     Belt { belt_speed: 0.3, ..paper() }
@@ -140,7 +140,8 @@ fn cycles_and_margins_come_back_in_physical_units() {
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4] };
     let linear = Belt { law, cubic_damping: 0.0, ..belt() };
     let ReducedBelt { parameters, units, .. } = linear.reduce().unwrap();
-    let found = cycles_drawn(&parameters, 12, &Limits::PATIENT).unwrap();
+    let found = Portrait::of_oscillator(&parameters, 1e3, &Limits::PATIENT).unwrap();
+    let found = found.drawn(&parameters, 12).unwrap();
     let margin = found.picture.unwrap().margin;
     let margin = margin.map(|q| q * units.displacement, |speed| speed * units.impulse);
     // A_q = r coth(x/2), x = -pi D/omega (equation 32); in metres R/c takes the place of r.
