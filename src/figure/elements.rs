@@ -23,21 +23,8 @@ pub(super) fn circle(out: &mut String, (x, y): Spot, radius: f64, attributes: &s
     let _ = writeln!(out, "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"{radius}\" {attributes}/>");
 }
 
-/// Where a text stands, seen from its spot.
-#[derive(Clone, Copy)]
-pub(super) enum Anchor {
-    Right,
-    Around,
-    Left,
-}
-
-/// Writes a text at a spot on its base line.
-pub(super) fn text(out: &mut String, (x, y): Spot, anchor: Anchor, attributes: &str, text: &str) {
-    let anchor = match anchor {
-        Anchor::Right => "start",
-        Anchor::Around => "middle",
-        Anchor::Left => "end",
-    };
+/// Writes a text on its base line, of which a spot is the `start`, the `middle` or the `end`.
+pub(super) fn text(out: &mut String, (x, y): Spot, anchor: &str, attributes: &str, text: &str) {
     let text = xml(text);
     let _ = writeln!(
         out,

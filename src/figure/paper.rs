@@ -1,7 +1,11 @@
 //! How a figure stands on white paper: where its panels are, how their world becomes paper, and how roles and dashes
 //! look.
 
+use std::sync::LazyLock;
+
+use crate::numerics::cells;
 use crate::picture::{Dash, Role};
+use crate::scene::views::named;
 use crate::scene::{Point, Window};
 
 /// Size of the plot of a panel, in pixels of 1/96 inch.
@@ -57,27 +61,20 @@ pub(super) fn rows(panels: u32) -> u32 {
     panels.div_ceil(columns(panels))
 }
 
-/// Width and colour of the lines of a role, on white paper.
+/// Width and colour of the lines of roles, on white paper: the lines of `assets/paper.txt`.
+static INKS: LazyLock<Vec<(Role, f64, &str)>> = LazyLock::new(|| {
+    include_str!("../../assets/paper.txt").lines().filter_map(described).collect()
+});
+
+fn described(line: &'static str) -> Option<(Role, f64, &'static str)> {
+    let [role, width, color] = cells(line)?;
+    Some((named(role)?, width.parse().ok()?, color))
+}
+
+/// Width and colour of the lines of a role.
 pub(super) fn ink(role: Role) -> (f64, &'static str) {
-    match role {
-        Role::Stable => (1.6, "#0b6e3a"),
-        Role::Unstable => (1.6, "#b3261e"),
-        Role::Trajectory => (1.1, "#1f4e9c"),
-        Role::Beside => (1.1, "#6f8fb8"),
-        Role::Sticking => (1.4, "#111111"),
-        Role::Harmonic | Role::Energy => (1.2, "#7a3fa0"),
-        Role::Asymptote => (0.9, "#8a6d1f"),
-        Role::Lyapunov => (1.2, "#a05a00"),
-        Role::Bands => (0.8, "#5f7f9f"),
-        Role::Map => (1.6, "#14628c"),
-        Role::Velocity | Role::Safe | Role::Loss => (1.2, "#00838f"),
-        Role::Danger | Role::Gain => (1.2, "#b26a00"),
-        Role::Current => (0.9, "#444444"),
-        Role::GhostStable => (0.8, "#9cc4ab"),
-        Role::GhostUnstable => (0.8, "#dda8a4"),
-        Role::Axis | Role::Field | Role::Ghost => (0.8, "#8a8a8a"),
-        _ => (1.0, "#222222"),
-    }
+    let row = INKS.iter().find(|(known, ..)| *known == role);
+    row.map_or((1.0, "#222222"), |(_, width, color)| (*width, *color))
 }
 
 /// The attributes of a line of a role.
@@ -102,4 +99,15 @@ pub(super) fn shading(role: Role) -> String {
         _ => ("#dbe7f3", 0.75),
     };
     format!("fill=\"{color}\" fill-opacity=\"{opacity}\"")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_of_the_file_is_read() {
+        let lines = include_str!("../../assets/paper.txt").lines();
+        assert_eq!(INKS.len(), lines.filter(|line| line.contains(" | ")).count());
+    }
 }

@@ -6,7 +6,7 @@
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
 //!   integrates, [`polynomial`] evaluates and interpolates by cubics, [`spline`] smooths measured points.
 //! - Texts: [`mod@decimal`] writes numbers and steps from one round number to the next, [`similar`] finds the name that was
-//!   meant.
+//!   meant, [`table`] reads the tables of the program.
 
 pub(crate) mod count;
 pub(crate) mod decimal;
@@ -21,6 +21,7 @@ pub mod scaling;
 pub(crate) mod similar;
 pub(crate) mod spline;
 pub(crate) mod sum;
+pub(crate) mod table;
 pub mod twofold;
 
 pub(crate) use count::{real, reciprocals, truncated};
@@ -42,4 +43,5 @@ pub(crate) use scaling::{exponent, rough_exp2, rough_log2, times_power};
 pub(crate) use similar::most_similar;
 pub(crate) use spline::SmoothingSpline;
 pub(crate) use sum::Sum;
+pub(crate) use table::cells;
 pub(crate) use twofold::Twofold;

@@ -19,6 +19,7 @@ pub use verdict::{Certain, Certainty, Evidence, Known, POOR, Sense, Verdict};
 use std::sync::LazyLock;
 
 use crate::flow::{Limits, Reason};
+use crate::numerics::cells;
 use measure::ClaimCase;
 
 /// A sentence or an equation of the paper that numbers can decide.
@@ -133,10 +134,7 @@ static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| {
 
 /// A line of the table; `None` if there is no test of its name.
 fn claim(line: &'static str) -> Option<Claim> {
-    let mut cells = line.split(" | ");
-    let mut cell = || cells.next();
-    let (name, equation, section) = (cell()?, cell()?, cell()?);
-    let (basis, scene, statement) = (cell()?, cell()?, cell()?);
+    let [name, equation, section, basis, scene, statement] = cells(line)?;
     let (_, test) = SECTIONS.into_iter().flatten().find(|(known, _)| *known == name)?;
     let scene = Some(scene).filter(|scene| *scene != "-");
     Some(Claim { equation, section, statement, basis, scene, cases: Vec::new(), test })

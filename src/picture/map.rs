@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::elementary::{ln, pow};
+use crate::numerics::{cells, ln, pow};
 use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
 use crate::scene::views::named;
@@ -20,10 +20,8 @@ pub enum Dangerous {
 
 /// The lines of `assets/columns.txt`: a column, its unit, which of its values are dangerous, and what it means that there
 /// is none.
-static COLUMNS: LazyLock<Vec<[&str; 4]>> = LazyLock::new(|| {
-    let lines = include_str!("../../assets/columns.txt").lines();
-    lines.filter_map(|line| line.split(" | ").collect::<Vec<_>>().try_into().ok()).collect()
-});
+static COLUMNS: LazyLock<Vec<[&str; 4]>> =
+    LazyLock::new(|| include_str!("../../assets/columns.txt").lines().filter_map(cells).collect());
 
 /// What [`COLUMNS`] says of the column that is plotted.
 fn plotted(scanned: &ScanOnShow) -> [&'static str; 4] {

@@ -12,6 +12,7 @@ use serde::de::value::StrDeserializer;
 use serde::{Deserialize, Serialize};
 
 use super::window::{Span, Window};
+use crate::numerics::cells;
 use crate::question::Topic;
 
 /// The content of a plot; [`VIEWS`] describes each view.
@@ -85,8 +86,7 @@ pub static VIEWS: LazyLock<Vec<ViewSpec>> = LazyLock::new(|| {
 
 /// The view that a line of the file describes; `None` for a comment. A test reads every line.
 fn described(line: &'static str) -> Option<ViewSpec> {
-    let parts = <[&str; 7]>::try_from(line.split(" | ").collect::<Vec<_>>()).ok()?;
-    let [name, title, heading, needs, window, meaning, nothing] = parts;
+    let [name, title, heading, needs, window, meaning, nothing] = cells(line)?;
     let ends: Vec<f64> = window.split(' ').filter_map(|end| end.parse().ok()).collect();
     let [left, right, low, high] = ends[..] else { return None };
     let window = Window { x: Span::known(left, right), y: Span::known(low, high) };

@@ -51,7 +51,7 @@ pub fn draw(
                 let short =
                     format!("{} q_max {}", symbols.mark(mark), significant(cycle.q_max, DIGITS));
                 let texts = [format!("{short}, {name}"), short];
-                let text = pane::fitting(texts, plot.inner().width.into());
+                let text = pane::fitting(texts, plot.inner.width.into());
                 plot.write(y, &text, cycle_role(cycle.stable));
             }
             LedgerLine::Work { work, part, so_far, .. } => {

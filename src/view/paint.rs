@@ -35,13 +35,13 @@ pub fn paint(area: Rect, picture: &Picture, heading: &Heading, screen: &mut Surf
         captions.into_iter().partition(|caption| !caption.or_at.is_empty());
     for Caption { at, long, short, role, .. } in beside_points {
         let texts: [&str; 2] = [long, short];
-        let texts = if plot.inner().width >= WIDE { &texts[..] } else { &texts[1..] };
+        let texts = if plot.inner.width >= WIDE { &texts[..] } else { &texts[1..] };
         plot.caption(*at, texts, *role);
     }
     if let Some(cursor) = cursor {
         plot.cross(*cursor);
     }
-    let labelled = plot.inner().width >= LABELLED;
+    let labelled = plot.inner.width >= LABELLED;
     let named = |name: &&Caption| labelled || !name.long.is_empty();
     let curves: Vec<&[Point]> = items.iter().filter_map(followed).collect();
     plot.names(&names.into_iter().filter(named).collect::<Vec<_>>(), &curves);
@@ -81,7 +81,7 @@ fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {
         }
         Item::Arrows(role, flow) => plot.arrows(*role, flow),
         Item::Marks(Marks { mark, role, at, sparse, at_edge, .. }) => {
-            if !sparse || at.len() * APART <= usize::from(plot.inner().width) {
+            if !sparse || at.len() * APART <= usize::from(plot.inner.width) {
                 for at in at {
                     match Marks::edge(*at, window).filter(|_| *at_edge) {
                         Some((at, above)) => {

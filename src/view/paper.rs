@@ -4,6 +4,7 @@ use ratatui::text::Line;
 
 use super::Look;
 use super::list::{ListContent, TEXT};
+use crate::numerics::cells;
 use crate::paper::{Claim, ClaimResult, Verdict};
 use crate::picture::Role;
 use crate::session::{List, Session};
@@ -38,9 +39,8 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> ListConten
 
 /// What stands above the claims of a section.
 fn heading(section: &'static str) -> &'static str {
-    let lines = include_str!("../../assets/sections.txt").lines();
-    let mut headings = lines.filter_map(|line| line.split_once(" | "));
-    headings.find(|(number, _)| *number == section).map_or(section, |(_, heading)| heading)
+    let mut rows = include_str!("../../assets/sections.txt").lines().filter_map(cells);
+    rows.find(|[number, _]| *number == section).map_or(section, |[_, heading]| heading)
 }
 
 /// What holds is quiet, what does not is loud.

@@ -15,8 +15,9 @@ use crate::session::settings::Glyphs;
 use crate::words::significant;
 
 /// Shades from the weakest to the strongest, and the letters that do without colour.
-const SHADES: &str = "\u{b7}\u{2591}\u{2592}\u{2593}\u{2588}";
-const LETTERS: &str = ".-+*#";
+const SHADES: [char; STEPS] = ['\u{b7}', '\u{2591}', '\u{2592}', '\u{2593}', '\u{2588}'];
+const LETTERS: [char; STEPS] = ['.', '-', '+', '*', '#'];
+const STEPS: usize = 5;
 
 /// The letters of words, in the order of [`WORDS`], and how dangerous each is; of the last that is unknown.
 const OF_WORDS: [(char, Option<f64>); 4] =
@@ -27,43 +28,27 @@ const NOTHING: char = '-';
 const UNKNOWN: char = '?';
 
 /// The shades of a map, from the smallest value up.
-struct Ramp {
-    shades: Vec<char>,
-    scale: Danger,
+fn shades(scale: Danger, look: &Look) -> [char; STEPS] {
+    let mut shades = if look.glyphs == Glyphs::Ascii { LETTERS } else { SHADES };
+    if scale.dangerous == Some(Dangerous::Small) {
+        shades.reverse();
+    }
+    shades
 }
 
-impl Ramp {
-    fn of(scale: Danger, look: &Look) -> Self {
-        let plain = look.glyphs == Glyphs::Ascii;
-        let mut shades: Vec<char> = if plain { LETTERS } else { SHADES }.chars().collect();
-        if scale.dangerous == Some(Dangerous::Small) {
-            shades.reverse();
-        }
-        Ramp { shades, scale }
-    }
-
-    /// The shade of a value, and how dangerous it is.
-    fn shade(&self, value: f64) -> (char, f64) {
-        let part = self.scale.part(value);
-        let step = truncated(part * real(self.shades.len())).min(self.shades.len() - 1);
-        (self.shades[step], self.scale.strength(part))
-    }
-
-    /// The value at which a shade begins.
-    fn begin(&self, step: usize) -> f64 {
-        self.scale.at(real(step) / real(self.shades.len()))
-    }
+/// The style of a value's shade: how dangerous it is.
+fn style(value: f64, scale: Danger, look: &Look) -> Style {
+    look.danger(scale.strength(scale.part(value)))
 }
 
 /// Fills each cell with the shade of the point nearest to it.
 pub fn draw(plot: &Canvas, map: &ScanMap, screen: &mut Surface) {
     let look = screen.look;
-    let ramp = map.scale.map(|scale| Ramp::of(scale, look));
     let quiet = look.style(Role::Quiet);
-    let sign = |cell: MapCell| match (cell, &ramp) {
-        (MapCell::Number(value), Some(ramp)) => {
-            let (shade, danger) = ramp.shade(value);
-            (shade, look.danger(danger))
+    let sign = |cell: MapCell| match (cell, map.scale) {
+        (MapCell::Number(value), Some(scale)) => {
+            let step = truncated(scale.part(value) * real(STEPS)).min(STEPS - 1);
+            (shades(scale, look)[step], style(value, scale, look))
         }
         (MapCell::Word(word), _) => match WORDS.iter().position(|known| *known == word) {
             Some(index) => (OF_WORDS[index].0, of_word(OF_WORDS[index].1, look)),
@@ -71,7 +56,7 @@ pub fn draw(plot: &Canvas, map: &ScanMap, screen: &mut Surface) {
         },
         (MapCell::Number(_), None) => (NOTHING, quiet),
     };
-    let inner = plot.inner();
+    let inner = plot.inner;
     for column in 0..inner.width {
         for row in 0..inner.height {
             let Point { x, y } = plot.world(column, row);
@@ -128,19 +113,17 @@ pub fn legend(scanned: &ScanOnShow, width: usize, look: &Look) -> Line<'static> 
             .map(|before| [vec![quiet(before)], words.clone()].concat())
             .into()
     } else if let Some(scale) = Danger::of(scanned) {
-        let ramp = Ramp::of(scale, look);
-        let shade = |(step, shade): (usize, &char)| {
-            Span::styled(shade.to_string(), look.danger(ramp.shade(ramp.begin(step)).1))
+        let begins = [0, 1, 2, 3, 4].map(|step| scale.at(real(step) / real(STEPS)));
+        let shade = |(value, shade): (f64, char)| {
+            Span::styled(shade.to_string(), style(value, scale, look))
         };
-        let shades: Vec<Span> = ramp.shades.iter().enumerate().map(shade).collect();
-        let begin = |(step, shade): (usize, &Span<'static>)| {
-            [
-                quiet(format!("{} ", significant(ramp.begin(step), 3))),
-                shade.clone(),
-                quiet(" ".into()),
-            ]
+        let shades = begins.into_iter().zip(shades(scale, look)).map(shade);
+        let shades: Vec<Span> = shades.collect();
+        let begin = |(value, shade): (f64, &Span<'static>)| {
+            let begin = quiet(format!("{} ", significant(value, 3)));
+            [begin, shade.clone(), quiet(" ".into())]
         };
-        let all: Vec<Span> = shades.iter().enumerate().flat_map(begin).collect();
+        let all: Vec<Span> = begins.into_iter().zip(&shades).flat_map(begin).collect();
         let [low, high] = [scale.low, scale.high].map(|value| significant(value, 4));
         let [lowest, highest] = scale.ends().map(|end| format!(" {end} "));
         let (from, to) = (lowest.trim_start(), highest.trim_end());

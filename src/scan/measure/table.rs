@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use crate::model::{Knob, Model};
-use crate::numerics::count::real;
+use crate::numerics::{cells, real};
 use crate::portrait::{Kick, RandomKick, StartWindow};
 
 /// One row of [`MEASURES`].
@@ -72,9 +72,7 @@ pub enum Measure {
 
 /// The measures as the lines of `assets/measures.txt` describe them, in the same order.
 pub static MEASURES: LazyLock<Vec<MeasureSpec>> = LazyLock::new(|| {
-    let lines = include_str!("../../../assets/measures.txt").lines();
-    let parts = lines.map(|line| line.split(" | ").collect::<Vec<_>>());
-    let described = parts.filter_map(|parts| <[&str; 3]>::try_from(parts).ok());
+    let described = include_str!("../../../assets/measures.txt").lines().filter_map(cells);
     let row = |(measure, [name, columns, meaning]): (_, [&'static str; 3])| MeasureSpec {
         measure,
         name,

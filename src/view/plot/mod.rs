@@ -28,7 +28,8 @@ use crate::scene::{Point, Window};
 pub struct Canvas<'a> {
     look: &'a Look,
     window: Window,
-    inner: Rect,
+    /// The cells between the axes.
+    pub inner: Rect,
     dots: Dots,
     inside: Option<(Ticks, Ticks)>,
 }
@@ -64,11 +65,6 @@ impl<'a> Canvas<'a> {
             plot.inside = Some((rightward, upward));
         }
         plot
-    }
-
-    /// The cells between the axes.
-    pub fn inner(&self) -> Rect {
-        self.inner
     }
 
     fn axes(&self, rightward: &Ticks, upward: &Ticks, buffer: &mut Buffer) {
