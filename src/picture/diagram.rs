@@ -1,12 +1,13 @@
 //! The bifurcation diagram: a property of the cycles, over a parameter.
 //!
 //! Computed branches are solid where the cycle is stable and dashed where it is not; the first-order
-//! harmonic answer is dotted beside them. Rest belongs to every diagram (`equilibria`). A dotted upright stands at
+//! harmonic answer is dotted beside them. Rest belongs to every diagram: with friction the
+//! sticking set, a band that attracts; without, the equilibrium at 0, stable on one side of the Hopf point and unstable on
+//! the other. A dotted upright stands at
 //! the present value of the parameter, and the cycles there are marked. Beside the branch of the present values
 //! those of others are paler, without marks. A point of the branch that is held has a cross.
 
-use super::equilibria;
-use super::{Dash, LineStyle, Picture, Role, Text, cycle_style};
+use super::{Dash, Fill, Item, LineStyle, Picture, Role, Text, cycle_style};
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
@@ -59,13 +60,13 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         }
     }
     let rest = |shown: &ShownMotion| match (shown.present || all.len() == 1, has_present) {
-        (true, _) => (equilibria::REST, Dash::Thick),
+        (true, _) => (REST, Dash::Thick),
         (false, true) => ("rest at other values", Dash::Solid),
-        (false, false) => (equilibria::REST, Dash::Solid),
+        (false, false) => (REST, Dash::Solid),
     };
     for shown in &all {
         let height = diagram.axes.height(shown.problem.parameters.r);
-        equilibria::draw(picture, shown, rest(shown), abscissa, height);
+        rest_in(picture, shown, rest(shown), abscissa, height);
     }
     let pieces = || {
         found.iter().flat_map(|found| found.branch.pieces.iter().map(move |piece| (found, piece)))
@@ -287,6 +288,75 @@ fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
     let at = Point { x: special.value, y };
     let letter = special.kind.letter(special.cycle.as_ref());
     picture.special(at, letter, &significant(special.value, 4));
+}
+
+/// The name of rest in every diagram.
+const REST: &str = "rest (attracts)";
+
+/// Draws where one of the motions of a diagram can rest; nothing where the ordinate is not a property of a
+/// rest (its period, its multiplier).
+fn rest_in(
+    picture: &mut Picture,
+    shown: &ShownMotion,
+    (name, dash): (&'static str, Dash),
+    abscissa: Knob,
+    height: Height,
+) {
+    let has_band = match height.ordinate {
+        Ordinate::QMax | Ordinate::QMin | Ordinate::Mean => true,
+        Ordinate::VMax | Ordinate::Amplitude => false,
+        Ordinate::Period | Ordinate::Multiplier => return,
+    };
+    if shown.problem.parameters.r == 0.0 && abscissa != Knob::R {
+        // There is no height in units of a friction that is zero.
+        if !height.is_ratio() {
+            rest_without_friction(picture, shown, abscissa);
+        }
+        return;
+    }
+    let line = LineStyle { dash, ..LineStyle::from(name) }.of(&shown.variant);
+    if !has_band {
+        return picture.level(line, 0.0);
+    }
+    let of = shown.clone();
+    let edge = move |value: f64| {
+        let r = of.problem.parameters.with(abscissa, value).r;
+        let unit = if height.is_ratio() { r } else { 1.0 };
+        (r >= 0.0 && unit > 0.0).then_some(r / unit)
+    };
+    let (upper, lower) = (edge, edge);
+    let band = edge(picture.window.x.from()).filter(|_| abscissa != Knob::R);
+    if abscissa == Knob::R {
+        let fill = Fill { role: Role::Sticking, name };
+        let within =
+            move |place: Point| edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill);
+        picture.items.push(Item::Texture(Box::new(within)));
+    }
+    picture.graph(line.clone(), upper);
+    if picture.window.y.from() < 0.0 {
+        picture.graph(line.clone(), move |value| lower(value).map(|edge| -edge));
+    }
+    if let Some(edge) = band {
+        picture.items.push(Item::Rows(line, -edge, edge));
+    }
+}
+
+/// Whether the equilibrium without friction is stable: decided by the eigenvalues (9), on the imaginary axis
+/// by cubic damping, whatever D2 (its first integral grows or falls with D3 alone); `None` for a centre.
+fn is_stable(parameters: &Parameters) -> Option<bool> {
+    let Parameters { d, d3, .. } = *parameters;
+    let decisive = if d == 0.0 { d3 } else { d };
+    (decisive != 0.0).then_some(decisive > 0.0)
+}
+
+/// The equilibrium at 0 without friction.
+fn rest_without_friction(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob) {
+    for (stable, name) in [(true, "rest (stable)"), (false, "rest (unstable)")] {
+        let of = shown.clone();
+        picture.graph(LineStyle::from(name).of(&shown.variant), move |value| {
+            (is_stable(&of.problem.parameters.with(abscissa, value)) == Some(stable)).then_some(0.0)
+        });
+    }
 }
 
 #[cfg(test)]

@@ -1,22 +1,22 @@
 //! The phase plane: where motions go, where they rest, and what separates those that do.
 //!
 //! Layers from back to front: directions of the flow, shading of the basin, borders of the capture bands,
-//! the point left for a mark, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers,
+//! the point left for a mark, random kicks, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers,
 //! cursor. Formulas show the present parameters; computed layers show the last answer, and the title
 //! says when that is stale.
 
-use super::{
-    Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_style, ellipse, kicks,
-};
+use super::{Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_style, ellipse};
 use crate::closed_form::lyapunov;
 use crate::fit::{Fitted, Signal};
 use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
+use crate::portrait::kicks::{Distribution, RandomKick};
 use crate::portrait::{Border, Cycle, Cycles, Ride};
 use crate::question::zones::Extent;
-use crate::scene::{Finding, Layer, Point, Topic};
+use crate::scene::{Finding, Layer, Point, Topic, rectangle};
 use crate::session::{Session, ShownMotion, VariantTag};
+use crate::words::significant;
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.axes("q", "v");
@@ -61,7 +61,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     if shows(Layer::Ghost) && session.variants(index).is_none() {
         ghost(picture, session);
     }
-    kicks::draw(picture, session, index);
+    kicks(picture, session, index);
     picture.level(LineStyle::guide(), 0.0);
     if shows(Layer::Lyapunov) {
         for shown in &shown {
@@ -340,5 +340,51 @@ fn end(picture: &mut Picture, motion: &Trajectory, role: Role) {
         Outcome::Captured { q, .. } => picture.mark(Mark::Rest, Point { x: q, y: 0.0 }, role),
         Outcome::Moving { q, v, .. } => picture.mark(Mark::Head, Point { x: q, y: v }, role),
         Outcome::Escaped { .. } | Outcome::GaveUp { .. } => {}
+    }
+}
+
+/// Lines of equal density: their names, and their distances from the mean in spreads.
+const NORMAL: [(&str, f64); 3] = [
+    ("kicks, 1 standard deviation", 1.0),
+    ("kicks, 2 standard deviations", 2.0),
+    ("kicks, 3 standard deviations", 3.0),
+];
+
+/// Draws the density of the kicks into a phase plane, and adds the lost part to its title.
+fn kicks(picture: &mut Picture, session: &Session, index: usize) {
+    if !session.layers.contains(&Layer::Kicks) {
+        return;
+    }
+    let RandomKick { q, v, law, .. } = session.kicks;
+    match law {
+        Distribution::Normal => {
+            for (name, distance) in NORMAL {
+                picture.curve(name, ellipse((q.0, distance * q.1), (v.0, distance * v.1)));
+            }
+        }
+        Distribution::Uniform => {
+            let ends = |(middle, half): (f64, f64)| [middle - half, middle + half];
+            picture.curve("all kicks, evenly", rectangle(ends(q), ends(v)));
+        }
+    }
+    picture.add_to_title(&lost_part(session, index));
+}
+
+/// The lost part with its error, at the present parameters; or why it is not known.
+fn lost_part(session: &Session, index: usize) -> String {
+    if session.draws_whole() {
+        return "kicks lost: not known of the whole model".to_owned();
+    }
+    if let Some(failure) = session.failure(Topic::Kicks, index) {
+        return format!("kicks lost: {failure}");
+    }
+    match session.answer(Topic::Kicks, index) {
+        Some(Finding::Kicks(found, _)) if !session.is_stale(Topic::Kicks, index) => {
+            let [part, error] = [(found.part, 4), (found.error, 2)]
+                .map(|(value, digits)| significant(value, digits));
+            let of = if session.variants(index).is_some() { " at the present values" } else { "" };
+            format!("kicks lost{of} {part} +- {error}")
+        }
+        _ => "kicks lost: ..".to_owned(),
     }
 }

@@ -4,7 +4,7 @@
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::{Surface, keys, prose};
+use super::{Surface, keys, pane};
 use crate::picture::Role;
 use crate::session::{Session, overlay::SessionCaption};
 
@@ -35,12 +35,12 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let role = if session.caption == SessionCaption::Scene { Role::Text } else { Role::Title };
     let styled = |text| Line::styled(text, look.style(role));
     let lines: Vec<Line> = paragraphs.into_iter().map(styled).collect();
-    let height = prose::rows(&lines, inner).saturating_add(2).min(area.height);
+    let height = pane::rows(&lines, inner).saturating_add(2).min(area.height);
     if inner < 10 || height < 3 {
         return;
     }
     let place =
         Rect { x: area.x + (area.width - width) / 2, y: area.bottom() - height, width, height };
     let text = screen.boxed(place, &heading, "");
-    prose::write(text, lines, screen);
+    screen.prose(text, lines);
 }

@@ -9,7 +9,7 @@ use super::pane::{self, Heading};
 use super::plot::{point_at, shown};
 use super::{
     Look, Surface, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters,
-    prose, scan, signs, status,
+    scan, signs, status,
 };
 use crate::picture::{self, Picture, Role};
 use crate::scene::View;
@@ -101,9 +101,9 @@ fn nothing(area: Rect, text: String, screen: &mut Surface) {
     let line = vec![screen.look.span(text, Role::Text).into()];
     let body = pane::below(area, 1);
     let width = area.width.saturating_sub(2);
-    let height = prose::rows(&line, width).min(body.height);
+    let height = pane::rows(&line, width).min(body.height);
     let y = body.y + (body.height - height) / 2;
-    prose::write(Rect { x: area.x + 1, y, width, height }, line, screen);
+    screen.prose(Rect { x: area.x + 1, y, width, height }, line);
 }
 
 /// What a screen too small for everything else shows.

@@ -3,7 +3,7 @@
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::{Look, Surface, pane, prose};
+use super::{Look, Surface, pane};
 use crate::picture::Role;
 use crate::session::List;
 
@@ -76,7 +76,7 @@ impl ListContent {
         screen.lines(rows, lines.into_iter().skip(first));
         if about > 0 {
             let text = Rect { y: rows.bottom() + 1, height: about - 1, ..inner };
-            prose::write(text, self.about, screen);
+            screen.prose(text, self.about);
         }
     }
 }

@@ -22,7 +22,6 @@ pub mod pane;
 pub mod paper;
 pub mod parameters;
 pub mod plot;
-mod prose;
 pub mod scan;
 mod scan_map;
 pub mod screen;

@@ -10,6 +10,7 @@ use ratatui::widgets::{Block, Clear, Widget};
 use super::Look;
 use crate::picture::Role;
 use crate::session::{AnswerState, Pane, Session};
+use crate::words::wrapped;
 
 /// A surface to draw on, and how things look there.
 pub struct Surface<'a> {
@@ -54,6 +55,25 @@ impl Surface<'_> {
         for (row, text) in (0..area.height).zip(lines) {
             self.line(area, row, text);
         }
+    }
+
+    /// Writes lines from the top of `area` down; those that are too long for a row go on in the next, in the
+    /// style of their first words, and a mark says that the rest does not fit.
+    pub fn prose(&mut self, area: Rect, lines: Vec<Line<'static>>) {
+        let width = usize::from(area.width);
+        let mut rows: Vec<Line> = lines.into_iter().flat_map(|line| broken(line, width)).collect();
+        let height = usize::from(area.height);
+        if rows.len() > height && height > 0 {
+            rows.truncate(height);
+            let mark = self.look.symbols().more;
+            if let Some(last) = rows.last_mut() {
+                let room = width.saturating_sub(mark.chars().count() + 1);
+                // As many words as fit.
+                *last = broken(std::mem::take(last), room).into_iter().next().unwrap_or_default();
+                last.push_span(format!(" {mark}"));
+            }
+        }
+        self.lines(area, rows);
     }
 
     /// Writes a title line into the first row of `area`: what fits of the title, `names`, and the marks at the right.
@@ -254,10 +274,27 @@ pub fn below(area: Rect, rows: u16) -> Rect {
     Rect { y: area.y + rows, height: area.height - rows, ..area }
 }
 
+/// A line in rows of at most so many columns, broken between words.
+fn broken(line: Line<'static>, width: usize) -> Vec<Line<'static>> {
+    if line.width() <= width {
+        return vec![line];
+    }
+    let style = line.style.patch(line.spans.first().map(|span| span.style).unwrap_or_default());
+    let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
+    wrapped(&text, width).into_iter().map(|row| Line::from(Span::styled(row, style))).collect()
+}
+
+/// The rows that lines take in `width` columns.
+pub fn rows(lines: &[Line<'static>], width: u16) -> u16 {
+    let rows = lines.iter().map(|line| broken(line.clone(), width.into()).len()).sum::<usize>();
+    u16::try_from(rows).unwrap_or(u16::MAX)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::session::settings;
+    use crate::view::screen;
 
     #[test]
     fn a_cut_text_has_a_mark_and_no_part_of_a_number() {
@@ -276,5 +313,20 @@ mod tests {
         }
         let styled = Line::from(vec![Span::raw("margin 0.01"), Span::raw("00305 of")]);
         assert_eq!(fitted(styled, 12, &look).to_string(), "margin \u{2026}");
+    }
+
+    #[test]
+    fn what_goes_on_below_has_a_mark() {
+        let look = Look::new(settings::DisplaySettings::default());
+        let lines = || vec![Line::from("one two three four five"), Line::from("six")];
+        assert_eq!(rows(&lines(), 9), 4);
+        for (height, expected) in
+            [(4, "one two\nthree\nfour five\nsix\n"), (3, "one two\nthree\nfour \u{2026}\n")]
+        {
+            let mut buffer = Buffer::empty(Rect::new(0, 0, 9, height));
+            let area = buffer.area;
+            Surface { look: &look, buffer: &mut buffer }.prose(area, lines());
+            assert_eq!(screen::text(&buffer), expected);
+        }
     }
 }

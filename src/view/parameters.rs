@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use super::fitted::{fitted, spread};
 use super::pane::{self, Heading};
-use super::{Look, Surface, keys, margin, prose, verdict::multiplier};
+use super::{Look, Surface, keys, margin, verdict::multiplier};
 use crate::accuracy::harmonic_error::BalanceResult;
 use crate::flow::Problem;
 use crate::model::Knob;
@@ -81,12 +81,12 @@ fn guide(area: Rect, session: &Session, screen: &mut Surface) {
     let together = [&watch[..], &press].concat();
     let inner = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
     let full = [apart, together].into_iter();
-    let mut full = full.filter(|lines| prose::rows(lines, inner.width) <= area.height);
+    let mut full = full.filter(|lines| pane::rows(lines, inner.width) <= area.height);
     let lines = full.next().unwrap_or_else(|| {
-        let blank = (prose::rows(&watch, inner.width) + 1 < area.height).then(Line::default);
+        let blank = (pane::rows(&watch, inner.width) + 1 < area.height).then(Line::default);
         watch.into_iter().chain(blank).chain([short]).collect()
     });
-    prose::write(inner, lines, screen);
+    screen.prose(inner, lines);
 }
 
 fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'static> {

@@ -1,11 +1,5 @@
 //! Parts of the world filled with textures, and directions on a lattice.
 
-#![expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "an eighth of a turn is an index"
-)]
-
 use ratatui::layout::Rect;
 
 use super::Canvas;

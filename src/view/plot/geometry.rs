@@ -1,11 +1,5 @@
 //! Where the parts of a plot stand on the screen, and which point a cell stands for.
 
-#![expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "fractions of the screen count cells"
-)]
-
 use ratatui::layout::{Position, Rect};
 
 use crate::picture::{Picture, Scale, Tick, Ticks};

@@ -5,7 +5,7 @@
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "fractions of the screen count cells"
+    reason = "fractions of the screen and lengths of short texts count cells, eighths of a turn are indices"
 )]
 
 mod area;

@@ -1,7 +1,5 @@
 //! Texts in a plot: beside points and curves, and in rows; and the cross of the cursor.
 
-#![expect(clippy::cast_possible_truncation, reason = "lengths of short texts count cells")]
-
 use super::Canvas;
 use crate::picture::{Caption, Role, along};
 use crate::scene::Point;
