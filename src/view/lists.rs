@@ -1,19 +1,21 @@
-//! What the lists over the panes hold: everything, the scenes, the layers, the views, the costs. Those that are
-//! searched show what is searched for.
+//! What the lists over the panes hold: everything, the scenes, the layers, the views, the costs, the claims of the paper. Those
+//! that are searched show what is searched for. The rows scroll so that the selected one is seen, and below them stands what
+//! is said of that one.
 
 use ratatui::layout::Rect;
-use ratatui::text::Line;
+use ratatui::text::{Line, Span};
 
-use super::list::{ListContent, TEXT};
-use super::{Look, Surface, keys, paper};
+use super::{Look, Surface, keys, pane};
+use crate::numerics::cells;
+use crate::paper::{Claim, ClaimResult, Verdict};
 use crate::picture::Role;
 use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
 use crate::scene::{Answered, Finding, Layer, Topic, letters};
 use crate::session::wants::{CostRow, Requirement, named};
 use crate::session::{AnswerState, List, Listed, Overlay, PaletteRow, Session};
-use crate::words::duration;
 use crate::words::number::count;
+use crate::words::{claim, duration, significant};
 
 /// Columns of keys in the help.
 const KEYS: usize = 16;
@@ -27,7 +29,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         Listed::Layers => layers(session, list, look),
         Listed::Views => views(session, list, look),
         Listed::Cost => costs(session, list, look),
-        Listed::Paper => paper::content(session, list, look),
+        Listed::Paper => paper(session, list, look),
         Listed::Palette => palette(session, list, look),
         Listed::Interrupted => interrupted(session, list, look),
     };
@@ -190,4 +192,174 @@ fn consequence(reused: &[Topic], anew: &[Topic]) -> String {
     let parts = part("recomputes", anew).into_iter().chain(part("reuses", reused));
     let parts: Vec<_> = parts.collect();
     if parts.is_empty() { "nothing is asked".to_owned() } else { parts.join("; ") }
+}
+
+/// The claims of the paper, section by section, with their verdicts.
+fn paper(session: &Session, list: &List, look: &Look) -> ListContent {
+    let found = session.claim_rows(list);
+    let mut content =
+        ListContent { below: TEXT, ..ListContent::new("the paper against computation") };
+    for (claim, examined) in &found {
+        let (verdict, role) = match examined {
+            Some(examined) => (claim::verdict(examined), role_of(examined)),
+            None => ("computing".to_owned(), Role::Quiet),
+        };
+        let cells = [
+            look.span(format!("{:<14} ", claim.equation), Role::Key),
+            look.span(format!("{verdict:<17} "), role),
+            look.span(claim.statement, Role::Text),
+        ];
+        content.row(heading_of(claim.section), cells);
+    }
+    if let Some((claim, examined)) = found.get(list.selected) {
+        content.about = about_claim(claim, *examined, look);
+    }
+    if !session.examined().is_empty() {
+        let summary = claim::summary(session.examined());
+        content.about.push(Line::styled(summary, look.style(Role::Quiet)));
+    }
+    content
+}
+
+/// What stands above the claims of a section.
+fn heading_of(section: &'static str) -> &'static str {
+    let mut rows = include_str!("../../assets/sections.txt").lines().filter_map(cells);
+    rows.find(|[number, _]| *number == section).map_or(section, |[_, heading]| heading)
+}
+
+/// What holds is quiet, what does not is loud.
+fn role_of(examined: &ClaimResult) -> Role {
+    match examined.verdict() {
+        Some(Verdict::Agrees | Verdict::Approximates { .. }) => Role::Text,
+        Some(Verdict::Corrected { .. } | Verdict::InPart) => Role::Warning,
+        Some(Verdict::False) => Role::Failure,
+        None => Role::Quiet,
+    }
+}
+
+/// The claim in full, its numbers, and the scene that shows it.
+fn about_claim(claim: &Claim, examined: Option<&ClaimResult>, look: &Look) -> Vec<Line<'static>> {
+    let text = |text: String| Line::styled(text, look.style(Role::Text));
+    let mut lines = vec![text(format!("{}: {}", claim.equation, claim.statement))];
+    match examined.map(|examined| &examined.evidence) {
+        None => {}
+        Some(Err(reason)) => lines.push(text(format!("not computed: {reason}"))),
+        Some(Ok(evidence)) => {
+            let number = |name: &str, value: Option<f64>| {
+                value.map(|value| format!("{name} {}", significant(value, 10)))
+            };
+            let error = Some(evidence.computed.error).filter(|error| *error > 0.0);
+            let parts = [
+                number("paper", evidence.paper),
+                number("corrected", evidence.corrected),
+                number("computed", Some(evidence.computed.value)),
+                error.map(|error| format!("known to {}", significant(error, 1))),
+            ];
+            lines.push(text(parts.into_iter().flatten().collect::<Vec<_>>().join(", ")));
+            let judged = [
+                &format!("compared with: {}", claim.basis),
+                &claim::sense(evidence.sense),
+                &evidence.place,
+            ];
+            let judged = judged.into_iter().filter(|text| !text.is_empty());
+            let judged: Vec<&str> = judged.map(String::as_str).collect();
+            lines.push(Line::styled(judged.join("; "), look.style(Role::Quiet)));
+        }
+    }
+    if let Some(scene) = claim.scene {
+        lines.push(Line::styled(format!("scene {scene}"), look.style(Role::Quiet)));
+    }
+    lines
+}
+
+const WIDTH: u16 = 90;
+
+/// Rows of text below a list of scenes or claims.
+const TEXT: u16 = 8;
+
+#[derive(Default)]
+struct ListContent {
+    title: &'static str,
+    /// The rows, each with the heading of its group, which may be empty.
+    rows: Vec<(&'static str, Vec<Span<'static>>)>,
+    /// About the selected row, below the list.
+    about: Vec<Line<'static>>,
+    below: u16,
+}
+
+impl ListContent {
+    /// An empty list.
+    fn new(title: &'static str) -> Self {
+        ListContent { title, ..ListContent::default() }
+    }
+
+    fn row<const N: usize>(&mut self, heading: &'static str, cells: [Span<'static>; N]) {
+        self.rows.push((heading, cells.into()));
+    }
+
+    /// The lines of the list, with the headings of groups, and the number of the one that is selected.
+    fn lines(&mut self, selected: usize, look: &Look) -> (Vec<Line<'static>>, usize) {
+        let (mut lines, mut group, mut place) = (Vec::new(), "", 0);
+        for (index, (heading, cells)) in std::mem::take(&mut self.rows).into_iter().enumerate() {
+            if heading != group {
+                lines.push(Line::styled(heading, look.style(Role::Title)));
+                group = heading;
+            }
+            if index == selected {
+                place = lines.len();
+            }
+            lines.push(drawn(cells, index == selected, look));
+        }
+        (lines, place)
+    }
+
+    /// Draws it into the middle of the screen.
+    fn draw(mut self, area: Rect, list: &List, screen: &mut Surface) {
+        let count = self.rows.len();
+        let (lines, selected) = self.lines(list.selected, screen.look);
+        let below = if self.about.is_empty() { 0 } else { self.below + 1 };
+        let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX);
+        let wanted = rows.saturating_add(2 + below);
+        // No slivers of panes beside the list; the footer stays in sight.
+        let width = if area.width < WIDTH + 10 { area.width } else { WIDTH };
+        let height = area.height.saturating_sub(1).min(wanted.max(4));
+        let area = pane::centred(area, width, height);
+        if area.width < 4 || area.height < 4 {
+            return;
+        }
+        let remark = match count {
+            0 => String::new(),
+            _ => format!(" {} of {count} ", (list.selected + 1).min(count)),
+        };
+        let inner = screen.boxed(area, &heading(self.title, list), &remark);
+        let about = below.min(inner.height.saturating_sub(4));
+        let rows = Rect { height: inner.height - about, ..inner };
+        if count == 0 {
+            screen.line(rows, 0, screen.look.span("nothing found", Role::Quiet));
+        }
+        let first = pane::first_seen(selected, lines.len(), rows.height.into());
+        screen.lines(rows, lines.into_iter().skip(first));
+        if about > 0 {
+            let text = Rect { y: rows.bottom() + 1, height: about - 1, ..inner };
+            screen.prose(text, self.about);
+        }
+    }
+}
+
+fn heading(title: &str, list: &List) -> String {
+    if list.searching || !list.search.is_empty() {
+        let caret = if list.searching { "_" } else { "" };
+        format!(" {title}: /{}{caret} ", list.search)
+    } else {
+        format!(" {title} ")
+    }
+}
+
+fn drawn(spans: Vec<Span<'static>>, selected: bool, look: &Look) -> Line<'static> {
+    let pointer = if selected { look.symbols().pointer } else { " " };
+    let style = |span: Span<'static>| {
+        if selected { span.patch_style(look.style(Role::Selected)) } else { span }
+    };
+    let pointer = look.span(format!("{pointer} "), Role::Focus);
+    std::iter::once(pointer).chain(spans.into_iter().map(style)).collect()
 }

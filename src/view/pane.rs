@@ -47,12 +47,8 @@ impl Surface<'_> {
     }
 
     /// Writes lines from the top of `area` down, as far as they fit.
-    pub fn lines<L: Into<Line<'static>>>(
-        &mut self,
-        area: Rect,
-        lines: impl IntoIterator<Item = L>,
-    ) {
-        for (row, text) in (0..area.height).zip(lines) {
+    pub fn lines(&mut self, area: Rect, all: impl IntoIterator<Item = impl Into<Line<'static>>>) {
+        for (row, text) in (0..area.height).zip(all) {
             self.line(area, row, text);
         }
     }
