@@ -85,19 +85,18 @@ fn plots(area: Rect, session: &Session) -> Vec<Rect> {
 
 /// Divides an area among this many plots.
 fn divided(area: Rect, count: usize, arrangement: Arrangement) -> Vec<Rect> {
-    let [halves, others]: [fn(Rect, usize) -> Vec<Rect>; 2] =
-        if is_wide(area) { [beside, above] } else { [above, beside] };
+    let wide = is_wide(area);
     match (count, arrangement) {
         (0 | 1, _) => vec![area],
-        (_, Arrangement::Columns) => beside(area, count),
-        (_, Arrangement::Rows) => above(area, count),
-        (2, Arrangement::Auto) => halves(area, 2),
+        (_, Arrangement::Columns) => parts(area, count, true),
+        (_, Arrangement::Rows) => parts(area, count, false),
+        (2, Arrangement::Auto) => parts(area, 2, wide),
         (3, Arrangement::Auto) => {
-            let places = halves(area, 2);
-            [&places[..1], &others(places[1], 2)].concat()
+            let halves = parts(area, 2, wide);
+            [&halves[..1], &parts(halves[1], 2, !wide)].concat()
         }
         (_, Arrangement::Auto) => {
-            above(area, 2).into_iter().flat_map(|row| beside(row, 2)).collect()
+            parts(area, 2, false).into_iter().flat_map(|row| parts(row, 2, true)).collect()
         }
     }
 }
@@ -110,20 +109,18 @@ fn is_wide(area: Rect) -> bool {
     beside >= above
 }
 
-/// Parts of an area beside each other, with a column between them that stays empty.
-fn beside(area: Rect, count: usize) -> Vec<Rect> {
-    let part = |(begin, width)| Rect { x: area.x + begin, width, ..area };
-    parts(area.width, count, 1).map(part).collect()
-}
-
-fn above(area: Rect, count: usize) -> Vec<Rect> {
-    let part = |(begin, height)| Rect { y: area.y + begin, height, ..area };
-    parts(area.height, count, 0).map(part).collect()
-}
-
-/// Where this many equal parts of a length begin, and how long they are, with a gap between them.
-fn parts(length: u16, count: usize, gap: u16) -> impl Iterator<Item = (u16, u16)> {
+/// Equal parts of an area beside each other, with a column between them that stays empty, or above each other.
+fn parts(area: Rect, count: usize, beside: bool) -> Vec<Rect> {
+    let (length, gap) = if beside { (area.width, 1) } else { (area.height, 0) };
     let count = u16::try_from(count).unwrap_or(u16::MAX);
-    let begin = move |part: u16| ((length + gap) * part + gap) / count;
-    (0..count).map(move |part| (begin(part), (begin(part + 1) - begin(part)).saturating_sub(gap)))
+    let begin = |part: u16| ((length + gap) * part + gap) / count;
+    let part = |part: u16| {
+        let (begin, length) = (begin(part), (begin(part + 1) - begin(part)).saturating_sub(gap));
+        if beside {
+            Rect { x: area.x + begin, width: length, ..area }
+        } else {
+            Rect { y: area.y + begin, height: length, ..area }
+        }
+    };
+    (0..count).map(part).collect()
 }
