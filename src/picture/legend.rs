@@ -22,11 +22,9 @@ pub struct LegendEntry {
 }
 
 /// What these pictures have to explain, in the order in which they are painted.
-pub fn entries(pictures: &[Picture]) -> Vec<LegendEntry> {
-    let all = pictures
-        .iter()
-        .flat_map(|picture| picture.items.iter().filter_map(|item| entry(picture, item)));
-    distinct(all.filter(|entry| !entry.text.is_empty()))
+pub fn entries<'a>(pictures: impl IntoIterator<Item = &'a Picture<'a>>) -> Vec<LegendEntry> {
+    let of = |picture: &'a Picture| picture.items.iter().filter_map(move |it| entry(picture, it));
+    distinct(pictures.into_iter().flat_map(of).filter(|entry| !entry.text.is_empty()))
 }
 
 /// Entries of one colour and text once: an area whose edge has its name needs no entry of its own.

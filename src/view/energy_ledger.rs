@@ -7,7 +7,7 @@
 use ratatui::layout::Rect;
 
 use super::Surface;
-use super::pane::{self, Heading};
+use super::pane::{self, Framed};
 use super::plot::{Canvas, rows};
 use crate::numerics::count::real;
 use crate::picture::energy_ledger::reading;
@@ -28,16 +28,10 @@ pub fn seat(area: Rect, picture: &mut Picture, lines: &[LedgerLine]) {
 }
 
 /// Draws a ledger whose lines have their seats.
-pub fn draw(
-    area: Rect,
-    mut picture: Picture,
-    heading: &Heading,
-    lines: &[LedgerLine],
-    screen: &mut Surface,
-) {
-    let seats = Seats::of(area, lines, picture.window);
-    picture.title = View::EnergyLedger.spec().title.into();
-    let mut plot = Canvas::new(area, &picture, heading, screen);
+pub fn draw(mut framed: Framed, lines: &[LedgerLine], screen: &mut Surface) {
+    let seats = Seats::of(framed.area, lines, framed.picture.window);
+    framed.picture.title = View::EnergyLedger.spec().title.into();
+    let mut plot = Canvas::new(&framed, screen);
     plot.upright(0.0, Role::Axis, Dash::Solid);
     let symbols = screen.look.symbols();
     for y in seats.left_out {
@@ -67,7 +61,7 @@ pub fn draw(
             }
         }
     }
-    if let Some(cursor) = picture.cursor {
+    if let Some(cursor) = framed.picture.cursor {
         plot.cross(cursor);
     }
     plot.finish(screen);

@@ -5,13 +5,13 @@ use ratatui::layout::{Position, Rect, Size};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use super::layout::{Layout, SMALLEST, layout};
-use super::pane::{self, Heading};
+use super::pane::{self, Framed, Heading};
 use super::plot::{point_at, shown};
 use super::{
     Look, Surface, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters,
     scan, signs, status,
 };
-use crate::picture::{self, Picture, Role};
+use crate::picture::{self, Role, legend::entries};
 use crate::scene::View;
 use crate::session::{Overlay, Pane, PointerTarget, Session, settings::Glyphs};
 
@@ -49,50 +49,47 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
     status::title(parts.title, session, screen);
     let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
-    let pictures = shown.clone().map(|(index, area)| framed(*area, session, index));
-    let pictures: Vec<_> = pictures.collect();
+    let all: Vec<(usize, Framed)> =
+        shown.map(|(index, area)| (index, framed(*area, session, index))).collect();
     parameters::draw(parts.parameters, session, screen);
-    legend::draw(parts.legend, &pictures, screen);
-    for ((index, area), picture) in shown.zip(pictures) {
-        plot(*area, session, index, picture, screen);
+    let entries = entries(all.iter().map(|(_, framed)| &framed.picture));
+    legend::draw(parts.legend, entries, screen);
+    for (index, framed) in all {
+        plot(framed, session, index, screen);
     }
     status::draw(parts.status, session, screen);
     footer::draw(parts.footer, session, screen);
 }
 
 /// The picture of a plot in its place.
-fn framed(area: Rect, session: &Session, index: usize) -> Picture<'_> {
+fn framed(area: Rect, session: &Session, index: usize) -> Framed<'_> {
     let mut picture = picture::of(session, index);
     picture.window = shown(area, session, index, picture.scales);
     if session.plots[index].view == View::EnergyLedger {
         energy_ledger::seat(area, &mut picture, &session.ledger());
     }
-    picture
+    Framed { area, picture, heading: Heading::of(session, Pane::Plot(index)) }
 }
 
-fn plot(area: Rect, session: &Session, index: usize, picture: Picture, screen: &mut Surface) {
+fn plot(mut framed: Framed, session: &Session, index: usize, screen: &mut Surface) {
+    let Framed { area, picture, heading } = &mut framed;
     let draws = match session.plots[index].view {
         View::EnergyLedger => !session.ledger().is_empty(),
         View::Scan => session.scanned.is_some(),
         _ => picture.draws(),
     };
-    let mut heading = Heading::of(session, Pane::Plot(index));
     if let Some(text) = session.nothing(index).filter(|_| !draws) {
-        screen.title(area, &picture.title, "", &heading);
+        screen.title(*area, &picture.title, "", heading);
         let text = keys::sentence(&text, &session.keymap, screen.look);
-        return nothing(area, text, screen);
+        return nothing(*area, text, screen);
     }
     heading.reading.clone_from(&picture.reading);
     match (session.plots[index].view, &session.scanned) {
         // Its lines are whole rows of the screen.
-        (View::EnergyLedger, _) => {
-            energy_ledger::draw(area, picture, &heading, &session.ledger(), screen);
-        }
+        (View::EnergyLedger, _) => energy_ledger::draw(framed, &session.ledger(), screen),
         // Its shades fill cells, and its table is text.
-        (View::Scan, Some(scanned)) => {
-            scan::draw(area, picture, &heading, scanned, screen);
-        }
-        _ => paint(area, &picture, &heading, screen),
+        (View::Scan, Some(scanned)) => scan::draw(framed, scanned, screen),
+        _ => paint(&framed, screen),
     }
 }
 
@@ -122,7 +119,7 @@ pub fn panels(session: &Session, (width, height): (u16, u16), look: &Look) -> Ve
     let panel = |index: usize| {
         let mut buffer = Buffer::empty(area);
         let screen = &mut Surface { look, buffer: &mut buffer };
-        plot(area, session, index, framed(area, session, index), screen);
+        plot(framed(area, session, index), session, index, screen);
         buffer
     };
     (0..session.plots.len()).map(panel).collect()
@@ -139,7 +136,7 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerT
     }
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
     let area = parts.plots[index];
-    let picture = framed(area, session, index);
+    let Framed { picture, .. } = framed(area, session, index);
     let area = if session.plots[index].view == View::Scan { scan::body(area) } else { area };
     let point = point_at(area, &picture, cell);
     point.map(|point| PointerTarget::Plot(index, point))

@@ -4,7 +4,7 @@ use ratatui::layout::Rect;
 
 use super::Surface;
 use super::dots::{DotPen, Dots};
-use crate::picture::{Dash, LegendEntry, LegendSample, Mark, Picture, Role, legend::entries};
+use crate::picture::{Dash, LegendEntry, LegendSample, Mark, Role};
 
 const SAMPLE: u16 = 3;
 
@@ -13,10 +13,9 @@ const GAP: u16 = 2;
 /// Columns of what says how much is left out.
 const MORE: u16 = 8;
 
-/// Draws the legend of some pictures, each entry in the first row with room, the main things first; what is
+/// Draws what some pictures have to explain, each entry in the first row with room, the main things first; what is
 /// left out is counted.
-pub fn draw(area: Rect, pictures: &[Picture], screen: &mut Surface) {
-    let mut entries = entries(pictures);
+pub fn draw(area: Rect, mut entries: Vec<LegendEntry>, screen: &mut Surface) {
     entries.sort_by_key(|entry| rank(entry.sample));
     let letters = |entry: &LegendEntry| u16::try_from(entry.text.chars().count());
     let width = |entry| letters(entry).unwrap_or(u16::MAX).saturating_add(SAMPLE + 1);

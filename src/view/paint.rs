@@ -1,8 +1,6 @@
 //! A picture painted into a part of the screen.
 
-use ratatui::layout::Rect;
-
-use super::{Look, Surface, look::Symbols, pane::Heading, plot::Canvas, scan_map};
+use super::{Look, Surface, look::Symbols, pane::Framed, plot::Canvas, scan_map};
 use crate::picture::{Caption, Dash, Item, Mark, Marks, Picture, Role};
 use crate::scene::{Point, Window};
 
@@ -15,11 +13,11 @@ const LABELLED: u16 = 30;
 /// Columns between marks that are left out where they would touch.
 const APART: usize = 4;
 
-pub fn paint(area: Rect, picture: &Picture, heading: &Heading, screen: &mut Surface) {
+pub fn paint(framed: &Framed, screen: &mut Surface) {
     let look = screen.look;
-    let Picture { window, cursor, items, .. } = picture;
-    let mut plot = Canvas::new(area, picture, heading, screen);
-    if let Some(map) = &picture.map {
+    let Picture { window, cursor, items, map, .. } = &framed.picture;
+    let mut plot = Canvas::new(framed, screen);
+    if let Some(map) = map {
         scan_map::draw(&plot, map, screen);
     }
     // Texts find their places when all else is there; names of curves last, since they have many places

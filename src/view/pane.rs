@@ -8,7 +8,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
 
 use super::Look;
-use crate::picture::Role;
+use crate::picture::{Picture, Role};
 use crate::session::{AnswerState, Pane, Session};
 use crate::words::wrapped;
 
@@ -168,6 +168,13 @@ fn clear(area: Rect, buffer: &mut Buffer) {
 /// The first of so many rows that is seen where `height` of them are, with the selected one among them.
 pub fn first_seen(selected: usize, rows: usize, height: usize) -> usize {
     selected.saturating_sub(height / 2).min(rows.saturating_sub(height))
+}
+
+/// A picture in its place, below a title line.
+pub struct Framed<'a> {
+    pub area: Rect,
+    pub picture: Picture<'a>,
+    pub heading: Heading,
 }
 
 /// What stands in a title line besides the title.

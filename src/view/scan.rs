@@ -7,7 +7,7 @@
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::pane::{self, Heading};
+use super::pane::{self, Framed};
 use super::{Surface, paint::paint, scan_map};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Picture, Role};
@@ -28,17 +28,12 @@ pub fn body(area: Rect) -> Rect {
     Rect { height: area.height.saturating_sub(BELOW), ..area }
 }
 
-pub fn draw(
-    area: Rect,
-    picture: Picture,
-    heading: &Heading,
-    scanned: &ScanOnShow,
-    screen: &mut Surface,
-) {
+pub fn draw(framed: Framed, scanned: &ScanOnShow, screen: &mut Surface) {
     let look = screen.look;
+    let Framed { area, picture, heading } = framed;
     let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
     if scanned.table {
-        screen.title(area, &title, "", heading);
+        screen.title(area, &title, "", &heading);
         return table(pane::below(area, 1), scanned, screen);
     }
     let width = usize::from(area.width);
@@ -46,8 +41,9 @@ pub fn draw(
     let full = title.chars().count() + picture.y.len() + picture.x.len() + 9 <= width;
     let short = if full { title.into() } else { View::Scan.spec().title.into() };
     let picture = Picture { title: short, ..picture };
-    paint(body(area), &picture, heading, screen);
-    let legend = match picture.map {
+    let framed = Framed { area: body(area), picture, heading };
+    paint(&framed, screen);
+    let legend = match framed.picture.map {
         Some(_) => scan_map::legend(scanned, width, look),
         None => Line::styled(meaning(scanned, width), look.style(Role::Quiet)),
     };

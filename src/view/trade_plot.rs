@@ -3,7 +3,8 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::{Look, Surface, pane::Heading, plot::Canvas, screen};
+use super::pane::{Framed, Heading};
+use super::{Look, Surface, plot::Canvas, screen};
 use crate::accuracy::trade::Trade;
 use crate::flow::METHODS;
 use crate::numerics::elementary::log10;
@@ -48,10 +49,10 @@ pub fn in_letters(trade: &Trade) -> String {
         ..settings::DisplaySettings::default()
     });
     let mut buffer = Buffer::empty(AREA);
-    let heading = Heading::default();
     let picture = Picture::new("trade", "log10(time/ms)", "log10(error)", Window { x, y });
+    let framed = Framed { area: AREA, picture, heading: Heading::default() };
     let screen = &mut Surface { look: &look, buffer: &mut buffer };
-    let mut plot = Canvas::new(AREA, &picture, &heading, screen);
+    let mut plot = Canvas::new(&framed, screen);
     for (point, letter) in points.into_iter().rev() {
         plot.mark(point, letter, Role::Text);
     }

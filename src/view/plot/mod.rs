@@ -20,8 +20,8 @@ use geometry::{Geometry, along, centred, column};
 pub use geometry::{point_at, rows, shown};
 
 use super::dots::{Covering, DotPen, Dots};
-use super::{Look, Surface, pane};
-use crate::picture::{Dash, Picture, Role, Tick, Ticks};
+use super::{Look, Surface, pane::Framed};
+use crate::picture::{Dash, Role, Tick, Ticks};
 use crate::scene::{Point, Window};
 
 #[derive(Debug)]
@@ -35,17 +35,13 @@ pub struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    /// Writes the title and the axes of a picture into `area`, and gives the raster between them.
-    pub fn new(
-        area: Rect,
-        picture: &Picture,
-        heading: &pane::Heading,
-        screen: &mut Surface<'a>,
-    ) -> Self {
+    /// Writes the title and the axes of a picture into its place, and gives the raster between them.
+    pub fn new(framed: &Framed, screen: &mut Surface<'a>) -> Self {
         let look = screen.look;
+        let Framed { area, picture, heading } = framed;
         let (window, scales) = (picture.window, picture.scales);
         let Geometry { inner, roomy, rightward, mut upward } =
-            Geometry::of(area, window, scales, picture.upward.clone());
+            Geometry::of(*area, window, scales, picture.upward.clone());
         let x = rightward.named(scales[0].title(&picture.x));
         let axes = if picture.y.is_empty() {
             if picture.upward.is_none() {
@@ -56,7 +52,7 @@ impl<'a> Canvas<'a> {
         } else {
             format!("{} over {x}", upward.named(scales[1].title(&picture.y)))
         };
-        screen.title(area, &picture.title, &axes, heading);
+        screen.title(*area, &picture.title, &axes, heading);
         let dots = Dots::new(inner, look.glyphs);
         let mut plot = Canvas { look, window, inner, dots, inside: None };
         if roomy {

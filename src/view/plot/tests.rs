@@ -4,9 +4,10 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::numerics::count::real;
-use crate::picture::{Caption, Scale};
+use crate::picture::{Caption, Picture, Scale};
 use crate::scene::Span;
 use crate::session::settings::{DisplaySettings, Glyphs, choices};
+use crate::view::pane::Heading;
 
 fn look(glyphs: Glyphs) -> Look {
     Look::new(DisplaySettings { glyphs, ..DisplaySettings::default() })
@@ -16,7 +17,7 @@ fn look(glyphs: Glyphs) -> Look {
 fn canvas<'a>(size: (u16, u16), window: Window, screen: &mut Surface<'a>) -> Canvas<'a> {
     let picture = Picture::new("", "", "y", window);
     let area = Rect::new(0, 0, size.0, size.1);
-    Canvas::new(area, &picture, &pane::Heading::default(), screen)
+    Canvas::new(&Framed { area, picture, heading: Heading::default() }, screen)
 }
 
 /// The rows in which something stands.
