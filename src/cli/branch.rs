@@ -156,7 +156,7 @@ fn enclosed(found: &Boundary) -> Vec<BorderProof> {
         let known = ParameterBox::from(&parameters);
         // Where two cycles do not merge smoothly, as at a grazing, only the change in the number of cycles can be
         // enclosed.
-        let changes = |d: f64| Some(change_near(&known, Knob::D, d)?.between);
+        let changes = |d: f64| change_near(&known, Knob::D, d);
         let fold = point.fold.and_then(|fold| {
             let clearance = fold.q_max - parameters.r;
             let met = enclose_fold(&known, Knob::D, fold.d, clearance).map(|met| met.value);

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::basin::cycle::Cycles;
 use crate::numerics::Interval;
 use crate::portrait::{Border, Cycle, Margin, Portrait};
-use crate::proof::cycles::{OpenGap, ProvedCycle};
+use crate::proof::cycles::ProvedCycle;
 use crate::proof::kicks::{ProvedEdge, ProvedKicks};
 use crate::proof::{ParameterBox, Proof, prove};
 
@@ -35,8 +35,7 @@ pub fn proved(found: &Cycles) -> Result<Proof, Contradiction> {
 pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     let contradiction = |what| Err(Contradiction { what });
     for cycle in found {
-        let is_open =
-            |open: &OpenGap| is_near(Interval::new(open.lower, open.upper), cycle.clearance);
+        let is_open = |gap: &Interval| is_near(*gap, cycle.clearance);
         if matching(proof, cycle).is_none() && !proof.open.iter().any(is_open) {
             return contradiction(format!("there is no cycle with q_max = {:?}", cycle.q_max));
         }

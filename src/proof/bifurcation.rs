@@ -17,6 +17,7 @@ use super::count::{Count, Sign, sign_at};
 use super::field::{FieldBox, ParameterBox};
 use super::funnel::Funnel;
 use super::map::{MapDirection, ProvedMap};
+use super::range::bracket;
 use super::swing::{Passage, swing};
 use crate::model::{Knob, Side};
 use crate::numerics::{Interval, powi};
@@ -52,7 +53,7 @@ pub fn enclose_fold(
     let mut steps = 0;
     WIDTHS.into_iter().zip((HALVINGS..).step_by(MORE)).find_map(|(width, halvings)| {
         let gap = Interval::new(clearance * (1.0 - width), clearance * (1.0 + width));
-        let value = bracket(near, |at| {
+        let value = change(near, |at| {
             let mut map = ProvedMap::new(&place(Interval::point(at)));
             let found = (steps < MOST_STEPS).then(|| inside(&mut map, gap, clearance, halvings))?;
             steps += map.steps;
@@ -81,7 +82,7 @@ fn inside(map: &mut ProvedMap, gap: Interval, near: f64, halvings: u32) -> Optio
     }
     let mut count = Count::default();
     count.decide(map, (gap.lower(), sign), (gap.upper(), sign), halvings);
-    (count.open.is_empty() && count.unique.is_empty()).then_some(false)
+    (count.open.is_empty() && count.cycles.is_empty()).then_some(false)
 }
 
 /// All clearances in a gap at which the derivative of the return map may be 1, as it is where two cycles merge.
@@ -109,7 +110,7 @@ fn touching(parameters: &ParameterBox, gap: Interval) -> Interval {
 /// for `D3 = 0`. The other parameters are those of `parameters`, which may be intervals. `None` where nothing
 /// could be proved.
 pub fn enclose_escape(parameters: &ParameterBox, symbol: Knob, near: f64) -> Option<Interval> {
-    bracket(near, |at| returns_from_infinity(&parameters.with(symbol, Interval::point(at))))
+    change(near, |at| returns_from_infinity(&parameters.with(symbol, Interval::point(at))))
 }
 
 /// Whether the half swing after one from infinity returns; `None` where that is not certain.
@@ -148,37 +149,24 @@ fn returns_from_infinity(parameters: &ParameterBox) -> Option<bool> {
 /// An interval near a guess in which a verdict changes: at its ends the verdict is certain and different.
 ///
 /// Inside it may be uncertain (`None`); the ends are moved inward as far as practicable.
-fn bracket<T: PartialEq>(near: f64, mut verdict: impl FnMut(f64) -> Option<T>) -> Option<Interval> {
+fn change(near: f64, mut verdict: impl FnMut(f64) -> Option<bool>) -> Option<Interval> {
     /// First distance from the guess relative to it, its growth factor, and the number of distances tried.
     const FIRST: f64 = 1e-15;
     const GROWTH: f64 = 8.0;
     const TIMES: i32 = 15;
     /// Attempts to move each end further in once an uncertain value was found.
     const CLOSER: usize = 4;
-    let (mut low, mut high, kind) = (0..TIMES).find_map(|step| {
-        let away = FIRST * powi(GROWTH, step) * near.abs();
-        let kind = verdict(near - away)?;
-        let other = verdict(near + away)?;
-        (kind != other).then_some((near - away, near + away, kind))
-    })?;
+    let distances = (0..TIMES).map(|step| FIRST * powi(GROWTH, step));
+    let found = bracket(near, distances, &mut verdict)?;
+    let (mut low, mut high) = (found.lower(), found.upper());
     let middle = |low: f64, high: f64| low + 0.5 * (high - low);
-    loop {
-        let at = middle(low, high);
-        if !(at > low && at < high) {
-            break;
-        }
-        match verdict(at) {
-            Some(found) if found == kind => low = at,
-            Some(_) => high = at,
-            None => {
-                let (mut from, mut to) = (at, at);
-                for _ in 0..CLOSER {
-                    let (left, right) = (middle(low, from), middle(to, high));
-                    *(if verdict(left).is_some() { &mut low } else { &mut from }) = left;
-                    *(if verdict(right).is_some() { &mut high } else { &mut to }) = right;
-                }
-                break;
-            }
+    let at = middle(low, high);
+    if at > low && at < high {
+        let (mut from, mut to) = (at, at);
+        for _ in 0..CLOSER {
+            let (left, right) = (middle(low, from), middle(to, high));
+            *(if verdict(left).is_some() { &mut low } else { &mut from }) = left;
+            *(if verdict(right).is_some() { &mut high } else { &mut to }) = right;
         }
     }
     Some(Interval::new(low, high))

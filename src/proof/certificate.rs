@@ -4,10 +4,11 @@
 //! the map of the checker: a walk from the sticking set outwards, each step up to the image of its start.
 
 use super::cycles::{Proof, ProvedCycle, Theorem};
+use super::funnel::fences;
 use super::map::{MapDirection, ProvedMap};
 use crate::check::map::Map;
 use crate::check::{Bounds, Certificate, CertificateStep, StepKind};
-use crate::numerics::{Interval, cbrt};
+use crate::numerics::Interval;
 
 /// Makes the certificate of a proof.
 ///
@@ -71,7 +72,8 @@ impl Walk {
     fn maps(&self, inverse: bool) -> [(Fences, Map); 2] {
         let [d, d2, d3, _] = self.parameters.map(Interval::middle);
         let sign = if inverse { -1.0 } else { 1.0 };
-        let fences = [-d2, d2].map(|b| fence([2.0 * d * sign, b, d3 * sign]));
+        let fences =
+            [-d2, d2].map(|b| fences([2.0 * d * sign, b, d3 * sign]).map_or(0.0, |it| it.0));
         [None, Some(fences)]
             .map(|fences| (fences, Map::new(self.parameters, inverse, fences.unwrap_or_default())))
     }
@@ -193,17 +195,4 @@ impl Walk {
             self.step(f64::MAX)?;
         }
     }
-}
-
-/// The fence velocity for these coefficients, where the slope of the damping is large enough for motions to merge.
-pub fn fence([linear, square, cube]: [f64; 3]) -> f64 {
-    let steep = 8.0_f64.max(4.0 * linear);
-    let steep = if square < 0.0 { steep.max(6.0 * cbrt(square * square / cube)) } else { steep };
-    let root = (square * square + 3.0 * cube * (steep - linear)).sqrt();
-    let e = if square < 0.0 {
-        (root - square) / (3.0 * cube)
-    } else {
-        (steep - linear) / (square + root)
-    };
-    if e.is_finite() && e > 0.0 { e } else { 0.0 }
 }

@@ -8,6 +8,7 @@
 //! diagonal in the middle. Otherwise the gap is halved.
 
 use super::ball::StartBox;
+use super::enclose::Enclosure;
 use super::field::FieldBox;
 use super::funnel::Funnel;
 use super::map::{Bound, MapDirection, ProvedMap};
@@ -20,16 +21,53 @@ const NARROWEST: f64 = 1e-13;
 /// An end of a gap, and the side of the diagonal on which the map lies there.
 pub type GapEnd = (f64, Sign);
 
+/// A limit cycle that exists and is unique in an interval of clearances.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProvedCycle {
+    /// Contains its clearance `q_max - r` and that of no other cycle.
+    pub within: Interval,
+    /// Whether it attracts.
+    pub stable: bool,
+    /// Bounds of its characteristics, where they could be computed.
+    pub enclosure: Option<Enclosure>,
+}
+
+impl ProvedCycle {
+    /// One that is not enclosed yet.
+    pub(super) fn new(within: Interval, stable: bool) -> Self {
+        ProvedCycle { within, stable, enclosure: None }
+    }
+}
+
 /// The outcome for all gaps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Count {
-    /// Intervals of clearances that contain exactly one cycle each, and whether it attracts.
-    pub unique: Vec<(Interval, bool)>,
+    /// The cycles that there are.
+    pub cycles: Vec<ProvedCycle>,
     /// Undecided intervals.
     pub open: Vec<Interval>,
 }
 
 impl Count {
+    /// Counts the cycles by the return map, as far as it can be bounded.
+    pub fn of(map: &mut ProvedMap) -> Self {
+        /// Halvings of the whole range before a gap is left open.
+        const HALVINGS: u32 = 60;
+        match inner_end(map).and_then(|low| Ok((low, outer_end(map, low.0)?))) {
+            Ok((low, high)) => {
+                let mut count = Count::default();
+                count.decide(map, low, high, HALVINGS);
+                count
+            }
+            Err(known) => known,
+        }
+    }
+
+    /// Nothing is known beyond a clearance.
+    fn beyond(clearance: f64) -> Self {
+        Count { cycles: Vec::new(), open: vec![Interval::new(clearance, f64::INFINITY)] }
+    }
+
     /// Decides the gap between two edges.
     pub fn decide(
         &mut self,
@@ -99,7 +137,7 @@ impl Count {
         let Some(slope) = map.slope(direction, gap) else { return false };
         if slope.lower() > 1.0 || slope.upper() < 1.0 {
             if low != high {
-                self.unique.push((gap, low == Sign::Above));
+                self.cycles.push(ProvedCycle::new(gap, low == Sign::Above));
             }
             return true;
         }
@@ -147,32 +185,25 @@ pub enum Sign {
     Below,
 }
 
-/// The result at one end of the search.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SearchEnd {
-    /// No cycle has its clearance beyond this one, at which the map has this sign.
-    At(f64, Sign),
-    /// There is no cycle at all.
-    Empty,
-    /// Nothing could be proved.
-    Open,
-}
+/// An end of the search, beyond which no cycle has its clearance; or the count, where there is no cycle at all, or nothing
+/// could be proved.
+type SearchEnd = Result<GapEnd, Count>;
 
 /// The inner end of the search.
-pub fn inner_end(map: &mut ProvedMap) -> SearchEnd {
+fn inner_end(map: &mut ProvedMap) -> SearchEnd {
     /// Halvings of the trial clearance where the inverse is not known.
     const HALVINGS: i32 = 40;
     // The largest clearances from which the second swing, and both swings, end in the sticking set.
     let second = map.half(1, MapDirection::Backward, Interval::point(0.0));
     if second.lower() == f64::INFINITY {
-        return SearchEnd::Empty;
+        return Err(Count::default());
     }
     let first = map.half(0, MapDirection::Backward, Interval::point(second.lower()));
     if first.lower() == f64::INFINITY {
-        return SearchEnd::Empty;
+        return Err(Count::default());
     }
     if first.lower() > 0.0 {
-        return SearchEnd::At(first.lower(), Sign::Below);
+        return Ok((first.lower(), Sign::Below));
     }
     let gap = map.gap;
     if map.field(0, MapDirection::Forward).a.upper() <= -2.0 {
@@ -187,21 +218,21 @@ pub fn inner_end(map: &mut ProvedMap) -> SearchEnd {
             // No image is smaller, provided that every motion returns.
             let returns = map.parameters.d3.lower() > 0.0 && least[0] > 0.0;
             let sign = if returns { Some(Sign::Above) } else { sign_at(map, bound) };
-            return sign.map_or(SearchEnd::Open, |sign| SearchEnd::At(bound, sign));
+            return sign.map(|sign| (bound, sign)).ok_or_else(|| Count::beyond(0.0));
         }
         if bound == f64::INFINITY {
-            return SearchEnd::Empty;
+            return Err(Count::default());
         }
     }
     let mut clearance = gap.lower();
     for _ in 0..HALVINGS {
         if map.image(MapDirection::Forward, Interval::point(clearance)).upper() == f64::NEG_INFINITY
         {
-            return SearchEnd::At(clearance, Sign::Below);
+            return Ok((clearance, Sign::Below));
         }
         clearance *= 0.5;
     }
-    SearchEnd::Open
+    Err(Count::beyond(0.0))
 }
 
 /// Lower bound of the ends of swings that start next to the centre, for `a <= -2`. The centre is then a
@@ -224,12 +255,12 @@ fn least_end(field: &FieldBox, funnel: Option<&Funnel>) -> f64 {
     let start = StartBox { x: at, v: Interval::point(v.lower()) };
     let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
     let field = field.strongest();
-    let passage = swing_below(&field, &start, ceiling);
+    let passage = swing_below(&field, &start, ceiling, false);
     Funnel::least_after(funnel, &field, &passage).max(0.0)
 }
 
 /// The outer end of the search; `inner` is the clearance at the inner one.
-pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
+fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     let [first, second] = [0, 1].map(|index| {
         let greatest = map.greatest(index, MapDirection::Forward);
         if greatest < f64::INFINITY {
@@ -239,7 +270,7 @@ pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
         }
     });
     if first <= 0.0 || second <= 0.0 {
-        return SearchEnd::Empty;
+        return Err(Count::default());
     }
     let through = if first < f64::INFINITY {
         map.half(1, MapDirection::Forward, Interval::point(first)).upper()
@@ -248,13 +279,13 @@ pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     };
     let bound = second.min(through);
     if bound < inner {
-        return SearchEnd::Empty;
+        return Err(Count::default());
     }
     if bound < f64::INFINITY {
         // No image is larger: the map is not above the diagonal there, unless the motion never turns again.
         let sign =
             if map.parameters.d3.lower() > 0.0 { Some(Sign::Below) } else { sign_at(map, bound) };
-        return sign.map_or(SearchEnd::Open, |sign| SearchEnd::At(bound, sign));
+        return sign.map(|sign| (bound, sign)).ok_or_else(|| Count::beyond(inner));
     }
     // The same for the inverse, all of whose images are below its greatest one.
     let back = map.greatest(1, MapDirection::Backward);
@@ -262,7 +293,7 @@ pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     let through = map.half(0, MapDirection::Backward, Interval::point(back)).upper();
     let bound = through.min(whole);
     if bound < f64::INFINITY && bound > inner {
-        return SearchEnd::At(bound, Sign::Above);
+        return Ok((bound, Sign::Above));
     }
     escape(map, inner)
 }
@@ -276,10 +307,10 @@ fn escape(map: &mut ProvedMap, inner: f64) -> SearchEnd {
             break;
         }
         if map.image(MapDirection::Forward, Interval::point(clearance)).lower() == f64::INFINITY {
-            return SearchEnd::At(clearance, Sign::Above);
+            return Ok((clearance, Sign::Above));
         }
     }
-    SearchEnd::Open
+    Err(Count::beyond(inner))
 }
 
 /// The side of the diagonal on which the map certainly lies at a clearance.
@@ -308,7 +339,7 @@ mod tests {
         let mut count = Count::default();
         count.decide(&mut map, (0.414, Sign::Below), (0.417, Sign::Below), 40);
         let cycles = [(0.415_062_415_659, false), (0.416_021_602_729, true)];
-        assert!(count.open.is_empty() && count.unique.len() == 2, "{count:?}");
+        assert!(count.open.is_empty() && count.cycles.len() == 2, "{count:?}");
         // Between them the derivative passes through 1. At both it differs from 1 by only 0.0022, so it decides
         // nothing.
         let both = Interval::new(0.415_06, 0.416_03);
@@ -316,8 +347,8 @@ mod tests {
             let mut settled = Count::default();
             assert!(!settled.settle_along(&mut map, direction, both, Sign::Below, Sign::Below));
         }
-        for ((within, attracts), (clearance, stable)) in count.unique.iter().zip(cycles) {
-            assert!(within.contains(clearance) && *attracts == stable, "{count:?}");
+        for (found, (clearance, stable)) in count.cycles.iter().zip(cycles) {
+            assert!(found.within.contains(clearance) && found.stable == stable, "{count:?}");
         }
     }
 

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use super::count::{Count, SearchEnd, inner_end, outer_end};
-use super::enclose::{Enclosure, affine_cycle, enclose};
+use super::count::Count;
+pub use super::count::ProvedCycle;
+use super::enclose::{affine_cycle, enclose};
 use super::field::{ParameterBox, scaled};
 use super::map::ProvedMap;
 use crate::numerics::{Interval, exponent};
@@ -22,28 +23,6 @@ pub enum Theorem {
     Frictionless,
 }
 
-/// A limit cycle that exists and is unique in an interval of clearances.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProvedCycle {
-    /// Contains its clearance `q_max - r` and that of no other cycle.
-    pub within: Interval,
-    /// Whether it attracts.
-    pub stable: bool,
-    /// Bounds of its characteristics, where they could be computed.
-    pub enclosure: Option<Enclosure>,
-}
-
-/// Clearances for which nothing is proved.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct OpenGap {
-    /// Smallest clearance.
-    pub lower: f64,
-    /// Largest clearance; infinite where there is no bound.
-    pub upper: f64,
-    /// Why they are open.
-    pub reason: &'static str,
-}
-
 /// What is proved about the limit cycles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proof {
@@ -53,8 +32,8 @@ pub struct Proof {
     pub theorem: Option<Theorem>,
     /// The cycles, by amplitude.
     pub cycles: Vec<ProvedCycle>,
-    /// What could not be decided. If this is empty, there are these cycles and no others.
-    pub open: Vec<OpenGap>,
+    /// Clearances for which nothing is proved. If there are none, there are these cycles and no others.
+    pub open: Vec<Interval>,
     /// Number of certified half swings computed.
     pub swings: u32,
 }
@@ -65,12 +44,19 @@ impl Proof {
     pub fn is_complete(&self) -> bool {
         self.open.is_empty()
     }
-}
 
-const STIFF: &str = "a half swing is too stiff to be enclosed";
-const CLOSE: &str = "the return map comes closer to its diagonal than it can be bounded";
-const PARTLY: &str =
-    "the number of cycles differs, or may differ, within the parameters' intervals";
+    /// Why clearances of [`Self::open`] are so.
+    #[must_use]
+    pub fn why_open(&self, gap: Interval) -> &'static str {
+        if gap.upper() == f64::INFINITY {
+            "a half swing is too stiff to be enclosed"
+        } else if self.parameters.is_point() {
+            "the return map comes closer to its diagonal than it can be bounded"
+        } else {
+            "the number of cycles differs, or may differ, within the parameters' intervals"
+        }
+    }
+}
 
 /// Proves the number of cycles and encloses them; `hints` are clearances near which cycles may lie.
 #[must_use]
@@ -84,10 +70,7 @@ pub fn prove(parameters: &ParameterBox, hints: &[f64]) -> Proof {
         cycle.within = scaled(cycle.within, unit);
         cycle.enclosure = cycle.enclosure.map(|it| it.times_power(unit));
     }
-    for open in &mut proof.open {
-        let clearances = scaled(Interval::new(open.lower, open.upper), unit);
-        (open.lower, open.upper) = (clearances.lower(), clearances.upper());
-    }
+    proof.open = proof.open.iter().map(|gap| scaled(*gap, unit)).collect();
     proof
 }
 
@@ -97,7 +80,7 @@ pub(crate) fn stabilities(parameters: &ParameterBox) -> (Option<Vec<bool>>, u32)
     let (local, _) = in_own_units(parameters);
     let mut map = ProvedMap::new(&local);
     let count = counted(theorem(&local), &mut map);
-    let stable = || count.unique.iter().map(|(_, stable)| *stable).collect();
+    let stable = || count.cycles.iter().map(|cycle| cycle.stable).collect();
     (count.open.is_empty().then(stable), map.steps)
 }
 
@@ -112,61 +95,31 @@ fn in_own_units(parameters: &ParameterBox) -> (ParameterBox, i32) {
 fn prove_in_units(parameters: &ParameterBox, hints: &[f64]) -> Proof {
     let theorem = theorem(parameters);
     let mut map = ProvedMap::new(parameters);
-    let mut proof =
-        Proof { parameters: *parameters, theorem, cycles: Vec::new(), open: Vec::new(), swings: 0 };
-    let known = counted(theorem, &mut map);
-    let reason = if parameters.is_point() { CLOSE } else { PARTLY };
-    for (within, stable) in known.unique {
+    let Count { mut cycles, open } = counted(theorem, &mut map);
+    for cycle in &mut cycles {
+        let ProvedCycle { within, stable, .. } = *cycle;
         let hint = hints.iter().copied().find(|&hint| within.contains(hint));
         let guess = hint.unwrap_or(if within.is_finite() { within.middle() } else { 1.0 });
         let enclosure = match theorem {
             Some(Theorem::Affine) => affine_cycle(parameters),
             _ => enclose(&mut map, guess, within, stable),
         };
-        let enclosure = enclosure.filter(|it| it.clearance.intersection(within).is_some());
-        proof.cycles.push(ProvedCycle { within, stable, enclosure });
+        cycle.enclosure = enclosure.filter(|it| it.clearance.intersection(within).is_some());
     }
-    for open in known.open {
-        let reason = if open.upper() == f64::INFINITY { STIFF } else { reason };
-        proof.open.push(OpenGap { lower: open.lower(), upper: open.upper(), reason });
-    }
-    proof.swings = map.swings;
-    proof
+    Proof { parameters: *parameters, theorem, cycles, open, swings: map.swings }
 }
 
 /// Counts cycles by the theorem, or by the return map.
 fn counted(theorem: Option<Theorem>, map: &mut ProvedMap) -> Count {
-    let one = |stable| {
-        let within = Interval::new(0.0, f64::INFINITY);
-        Count { unique: vec![(within, stable)], open: Vec::new() }
-    };
+    let everywhere = Interval::new(0.0, f64::INFINITY);
+    let one =
+        |stable| Count { cycles: vec![ProvedCycle::new(everywhere, stable)], open: Vec::new() };
     match theorem {
         Some(Theorem::OneWay | Theorem::Overdamped) => Count::default(),
         Some(Theorem::Affine) => one(false),
         Some(Theorem::Frictionless) => one(map.parameters.d.upper() < 0.0),
-        None => searched(map),
+        None => Count::of(map),
     }
-}
-
-/// Counts cycles by the return map.
-fn searched(map: &mut ProvedMap) -> Count {
-    /// Halvings of the whole range before a gap is left open.
-    const HALVINGS: u32 = 60;
-    let mut count = Count::default();
-    let all =
-        |from: f64| Count { unique: Vec::new(), open: vec![Interval::new(from, f64::INFINITY)] };
-    let low = match inner_end(map) {
-        SearchEnd::At(clearance, sign) => (clearance, sign),
-        SearchEnd::Empty => return count,
-        SearchEnd::Open => return all(0.0),
-    };
-    let high = match outer_end(map, low.0) {
-        SearchEnd::At(clearance, sign) => (clearance, sign),
-        SearchEnd::Empty => return count,
-        SearchEnd::Open => return all(low.0),
-    };
-    count.decide(map, low, high, HALVINGS);
-    count
 }
 
 /// The theorem that decides the number of cycles, if there is one.

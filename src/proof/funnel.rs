@@ -24,7 +24,7 @@ pub struct Climb {
 #[derive(Clone, Copy, Debug)]
 pub struct Funnel {
     /// The velocity at which the fences end.
-    speed: f64,
+    pub speed: f64,
     /// A velocity from which motions certainly reach `speed`.
     pub ceiling: f64,
     /// Starts at rest up to this distance from the centre stay between the fences; may be infinite.
@@ -41,13 +41,6 @@ pub struct Funnel {
     beyond_fold: Interval,
 }
 
-/// The velocities between which the fences run, chosen but not verified.
-#[derive(Clone, Copy, Debug)]
-struct Fences {
-    speed: f64,
-    fastest: f64,
-}
-
 impl Funnel {
     /// The funnel of a field, if there is one: for `c > 0`, or `b > 0`.
     pub fn new(field: &FieldBox, swings: &mut u32) -> Option<Self> {
@@ -55,7 +48,7 @@ impl Funnel {
         let (b, c) = (field.b.magnitude(), field.c.magnitude());
         let unit = if b > 0.0 { -exponent(b) } else { -exponent(c) / 2 };
         let local = field.in_units_of(unit);
-        let mut funnel = Self::in_units(&local, Fences::place(&local)?)?;
+        let mut funnel = Self::in_units(&local)?;
         let mut follow = |field: &FieldBox, x: f64| {
             *swings += 1;
             let [x, v] = [x, funnel.speed].map(Interval::point);
@@ -76,9 +69,13 @@ impl Funnel {
     }
 
     /// Verifies the conditions of lemma 11 in intervals.
-    fn in_units(field: &FieldBox, fences: Fences) -> Option<Self> {
+    fn in_units(field: &FieldBox) -> Option<Self> {
+        /// Relative margin that keeps the fences on the safe side of the roots.
+        const ROOM: f64 = 1e-9;
+        let FieldBox { a, b, c } = field.weakest();
+        let (speed, fastest) = fences([a, b, c].map(Interval::lower))?;
+        let (speed, fastest) = (speed * (1.0 + ROOM), fastest * (1.0 - ROOM));
         let FieldBox { a, b, c } = *field;
-        let Fences { speed, fastest } = fences;
         let v = Interval::point(speed);
         let force = |v: Interval| v * (a + v * (b + v * c));
         let (top, reach) = if c.lower() >= 0.0 {
@@ -98,16 +95,10 @@ impl Funnel {
             let excess = (a - c * 3.0 * to.square()) * 4.0;
             least.lower() > 0.0 && excess.upper() <= (least * least.square()).lower()
         };
-        let mut from = speed;
-        loop {
-            let to = (2.0 * from).min(top.lower());
-            if !fenced(from, to) {
-                return None;
-            }
-            if to >= top.lower() {
-                break;
-            }
-            from = to;
+        let farther = |at: &f64| (*at < top.lower()).then(|| (2.0 * at).min(top.lower()));
+        let (mut from, mut ends) = (speed, std::iter::successors(Some(speed), farther));
+        if !ends.all(|to| fenced(std::mem::replace(&mut from, to), to)) {
+            return None;
         }
         let least = Interval::point(field.slope(v).lower());
         let force = force(v);
@@ -132,11 +123,6 @@ impl Funnel {
             high: None,
             beyond_fold,
         })
-    }
-
-    /// The velocity at which the fences end.
-    pub fn speed(&self) -> f64 {
-        self.speed
     }
 
     /// Lower bound of the arrivals of all motions that were faster than `speed`.
@@ -344,32 +330,21 @@ fn beyond_fold(field: &FieldBox, entry: Interval, speed: Interval) -> Option<Int
     Some(Interval::new(entry.lower(), last.upper()))
 }
 
-impl Fences {
-    /// Chooses where the fences end, in plain numbers: where the slope of the damping is large enough to make
-    /// the two motions meet.
-    fn place(field: &FieldBox) -> Option<Self> {
-        /// The slope at which a motion is no longer stiff.
-        const SLOPE: f64 = 8.0;
-        /// The same next to a fold of the slow manifold, per cube root of its stiffness.
-        const AT_FOLD: f64 = 6.0;
-        /// Relative margin that keeps the fences on the safe side of the roots.
-        const ROOM: f64 = 1e-9;
-        let FieldBox { a, b, c } = field.weakest();
-        let [a, b, c] = [a, b, c].map(Interval::lower);
-        let gentle = SLOPE.max(4.0 * a);
-        let at_fold = gentle.max(AT_FOLD * cbrt(b * b / c.abs()));
-        // The roots of f' = slope: the larger one for c > 0, both for c < 0.
-        let root = |slope: f64| (b * b + 3.0 * c * (slope - a)).sqrt();
-        let speed = if b >= 0.0 {
-            (gentle - a) / (b + root(gentle))
-        } else {
-            (root(at_fold) - b) / (3.0 * c)
-        };
-        let fastest =
-            if c < 0.0 { (b + root(at_fold)) / (-3.0 * c) * (1.0 - ROOM) } else { f64::INFINITY };
-        let speed = speed * (1.0 + ROOM);
-        (speed > 0.0 && speed.is_finite()).then_some(Fences { speed, fastest })
-    }
+/// The velocities between which the fences run for these coefficients, chosen in plain numbers and not verified: where the
+/// slope of the damping is large enough to make motions meet. The larger one is infinite unless `c < 0`.
+pub fn fences([a, b, c]: [f64; 3]) -> Option<(f64, f64)> {
+    /// The slope at which a motion is no longer stiff.
+    const SLOPE: f64 = 8.0;
+    /// The same next to a fold of the slow manifold, per cube root of its stiffness.
+    const AT_FOLD: f64 = 6.0;
+    let gentle = SLOPE.max(4.0 * a);
+    let at_fold = gentle.max(AT_FOLD * cbrt(b * b / c.abs()));
+    // The roots of f' = slope: the larger one for c > 0, both for c < 0.
+    let root = |slope: f64| (b * b + 3.0 * c * (slope - a)).sqrt();
+    let speed =
+        if b >= 0.0 { (gentle - a) / (b + root(gentle)) } else { (root(at_fold) - b) / (3.0 * c) };
+    let fastest = if c < 0.0 { (b + root(at_fold)) / (-3.0 * c) } else { f64::INFINITY };
+    (speed > 0.0 && speed.is_finite()).then_some((speed, fastest))
 }
 
 #[cfg(test)]
@@ -379,12 +354,12 @@ mod tests {
 
     use super::*;
     use crate::numerics::elementary::exp;
-    use crate::proof::swing::swing_past_peak;
+    use crate::proof::swing::swing_below;
 
     /// The swing from rest, followed to its fall and then continued between the fences.
     fn between_fences(field: &FieldBox, start: Interval) -> ProvedSwing {
         let funnel = Funnel::new(field, &mut 0).unwrap();
-        let fallen = swing_past_peak(field, &StartBox::at_rest(start), funnel.speed());
+        let fallen = swing_below(field, &StartBox::at_rest(start), funnel.speed, true);
         let Passage::Exceeds(fallen) = fallen else { panic!("{field:?}: {fallen:?}") };
         funnel.swing_after(field, start, &fallen).unwrap()
     }

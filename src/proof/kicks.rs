@@ -10,6 +10,7 @@ use super::ball::StartBox;
 use super::cycles::{Proof, ProvedCycle, Theorem};
 use super::field::ParameterBox;
 use super::map::{MapDirection, ProvedMap};
+use super::range::narrowed;
 use super::swing::{Passage, swing};
 use crate::numerics::{Interval, powi};
 
@@ -129,7 +130,7 @@ pub fn edge(proof: &Proof) -> Option<ProvedEdge> {
 /// The innermost cycle, if there is certainly none inside it.
 fn innermost(proof: &Proof) -> Option<&ProvedCycle> {
     let first = proof.cycles.first()?;
-    proof.open.iter().all(|gap| gap.lower >= first.within.upper()).then_some(first)
+    proof.open.iter().all(|gap| gap.lower() >= first.within.upper()).then_some(first)
 }
 
 /// The smaller of two numbers.
@@ -209,37 +210,19 @@ fn threshold(hint: Option<f64>, mut captured: impl FnMut(f64) -> Option<bool>) -
     let hint = hint.filter(|hint| *hint > 0.0 && hint.is_finite()).unwrap_or(1.0);
     let stride = |index: i32| powi(1.5, 2_i32.pow(index.unsigned_abs()));
     let inward = |index| hint / stride(index);
-    let low = (0..STRIDES).map(inward).find(|&at| captured(at) == Some(true))?;
-    let mut high = f64::INFINITY;
-    let mut safe = low;
-    for at in (0..STRIDES).map(|index| hint * stride(index)) {
-        match captured(at) {
-            Some(true) => safe = at,
-            Some(false) => {
-                high = at;
-                break;
-            }
-            None => {}
-        }
-    }
-    if high == f64::INFINITY {
-        return Some(Interval::new(safe, high));
-    }
-    let low = safe;
-    let mut bisect = |mut low: f64, mut high: f64, counts: fn(Option<bool>) -> Option<bool>| loop {
-        let middle = if high > 4.0 * low { (low * high).sqrt() } else { 0.5 * (low + high) };
-        if !(middle > low && middle < high) {
-            return (low, high);
-        }
-        match counts(captured(middle)) {
-            Some(true) => low = middle,
-            Some(false) => high = middle,
-            None => return (low, high),
-        }
+    let mut safe = (0..STRIDES).map(inward).find(|&at| captured(at) == Some(true))?;
+    let lost = (0..STRIDES).map(|index| hint * stride(index)).find(|&at| {
+        let answer = captured(at);
+        safe = if answer == Some(true) { at } else { safe };
+        answer == Some(false)
+    });
+    let Some(high) = lost else { return Some(Interval::new(safe, f64::INFINITY)) };
+    let mut between = |over, counts: fn(Option<bool>) -> Option<bool>| {
+        narrowed(over, [&true, &false], |at| counts(captured(at)))
     };
-    let (low, high) = bisect(low, high, |answer| answer);
+    let over = between(Interval::new(safe, high), |answer| answer);
     // Uncertain values count as not captured for the lower bound, and as captured for the upper.
-    let lower = bisect(low, high, |answer| Some(answer == Some(true))).0;
-    let upper = bisect(low, high, |answer| Some(answer != Some(false))).1;
+    let lower = between(over, |answer| Some(answer == Some(true))).lower();
+    let upper = between(over, |answer| Some(answer != Some(false))).upper();
     Some(Interval::new(lower, upper))
 }

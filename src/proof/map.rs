@@ -10,7 +10,7 @@ use std::cell::OnceCell;
 use super::ball::{MOST_STEPS, StartBox};
 use super::field::{FieldBox, ParameterBox, scaled};
 use super::funnel::Funnel;
-use super::swing::{Passage, ProvedSwing, swing, swing_below, swing_past_peak};
+use super::swing::{Passage, ProvedSwing, swing, swing_below};
 use crate::model::Side;
 use crate::numerics::Interval;
 
@@ -94,7 +94,7 @@ impl ProvedMap {
         if self.steps > MOST_WORK {
             return Passage::Unknown;
         }
-        let passage = swing_below(field, &StartBox::at_rest(start), ceiling);
+        let passage = swing_below(field, &StartBox::at_rest(start), ceiling, false);
         self.swings += 1;
         self.steps += match passage {
             Passage::Arrives(swing) | Passage::Exceeds(swing) => swing.steps,
@@ -117,7 +117,7 @@ impl ProvedMap {
             return Some(swing);
         }
         let funnel = self.funnel(index, direction)?;
-        let fallen = swing_past_peak(&field, &StartBox::at_rest(start), funnel.speed());
+        let fallen = swing_below(&field, &StartBox::at_rest(start), funnel.speed, true);
         let Passage::Exceeds(fallen) = fallen else { return None };
         funnel.swing_after(&field, start, &fallen)
     }

@@ -112,7 +112,8 @@ pub fn range(base: &ParameterBox, symbol: Knob, (low, high): (f64, f64)) -> Rang
             && below != above
         {
             let mut near = Inquiry::new(base, symbol, MOST_FOR_CHANGE);
-            let between = narrowed(&mut near, open.over, [below, above]);
+            let between =
+                narrowed(open.over, [below, above], |at| near.cycles(Interval::point(at)));
             asked.steps += near.steps;
             changes.push(CountChange { between, below: below.clone(), above: above.clone() });
         }
@@ -130,20 +131,39 @@ fn halves(piece: RangePiece) -> Vec<RangePiece> {
     vec![part(low, middle), part(middle, high)]
 }
 
-/// Narrows an interval of values over which the cycles change, while both ends remain proved.
-fn narrowed(asked: &mut Inquiry, over: Interval, [below, above]: [&Vec<bool>; 2]) -> Interval {
+/// Narrows an interval at whose ends these verdicts are certain, as long as the verdict in its middle is one of both.
+pub(super) fn narrowed<T: PartialEq>(
+    over: Interval,
+    [below, above]: [&T; 2],
+    mut verdict: impl FnMut(f64) -> Option<T>,
+) -> Interval {
     let (mut low, mut high) = (over.lower(), over.upper());
     while let middle = Interval::new(low, high).middle()
         && middle > low
         && middle < high
     {
-        match asked.cycles(Interval::point(middle)) {
-            Some(cycles) if cycles == *below => low = middle,
-            Some(cycles) if cycles == *above => high = middle,
+        match verdict(middle) {
+            Some(found) if found == *below => low = middle,
+            Some(found) if found == *above => high = middle,
             _ => break,
         }
     }
     Interval::new(low, high)
+}
+
+/// An interval near a guess at whose ends a verdict is certain and different, the nearest of those whose ends have these
+/// distances from the guess, relative to it; narrowed as far as the verdict in its middle is certain.
+pub(super) fn bracket<T: PartialEq>(
+    near: f64,
+    mut distances: impl Iterator<Item = f64>,
+    mut verdict: impl FnMut(f64) -> Option<T>,
+) -> Option<Interval> {
+    let (over, below, above) = distances.find_map(|distance| {
+        let away = distance * near.abs();
+        let (below, above) = (verdict(near - away)?, verdict(near + away)?);
+        (below != above).then_some((Interval::new(near - away, near + away), below, above))
+    })?;
+    Some(narrowed(over, [&below, &above], verdict))
 }
 
 /// The change between the values `at - away abs(at)` and `at + away abs(at)`, if there is one.
@@ -156,14 +176,11 @@ pub fn change_within(base: &ParameterBox, symbol: Knob, at: f64, away: f64) -> O
     (below != above).then_some(CountChange { between, below, above })
 }
 
-/// The change nearest to a value, if there is one: between values on both sides at which the numbers of cycles
-/// are proved and differ.
-pub fn change_near(base: &ParameterBox, symbol: Knob, hint: f64) -> Option<CountChange> {
-    /// Distances to try, as powers of ten relative to the value.
+/// Values nearest to this one between which the number of cycles changes, if there are any: at both it is proved.
+pub fn change_near(base: &ParameterBox, symbol: Knob, hint: f64) -> Option<Interval> {
+    /// Distances to try, as powers of ten.
     const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;
-    let mut asked = Inquiry::new(base, symbol, MOST_FOR_CHANGE);
-    let mut found = AWAY.map(|power| powi(10.0, power));
-    let found = found.find_map(|away| change_within(base, symbol, hint, away))?;
-    let between = narrowed(&mut asked, found.between, [&found.below, &found.above]);
-    Some(CountChange { between, ..found })
+    let mut asked = Inquiry::new(base, symbol, MOST_STEPS);
+    let distances = AWAY.map(|power| powi(10.0, power));
+    bracket(hint, distances, |at| asked.cycles(Interval::point(at)))
 }

@@ -14,8 +14,8 @@ pub const ORDER: usize = 28;
 /// Length of the arrays: `ORDER + 1` coefficients, filled with zeros to a multiple of [`LANES`].
 pub(super) const LENGTH: usize = 32;
 
-/// Sums run in this many lanes; the rounding count does not depend on the order within a sum.
-const LANES: usize = 4;
+/// Sums run in this many independent lanes; the rounding count does not depend on the order within a sum.
+pub(super) const LANES: usize = 4;
 
 /// `1 / k`, rounded to the nearest double.
 pub(super) const INVERSE: [f64; LENGTH + 1] = reciprocals();

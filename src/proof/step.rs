@@ -14,8 +14,8 @@
 //! `docs/proofs.md` has the lemmas and the count of every rounding.
 
 use super::field::FieldBox;
-use super::series::{INVERSE, LENGTH, MotionSeries, ORDER};
-use crate::numerics::{Interval, ln};
+use super::series::{INVERSE, LANES, LENGTH, MotionSeries, ORDER};
+use crate::numerics::{Interval, ln, real};
 
 /// The unit roundoff of doubles, `2^-53`.
 pub const UNIT: f64 = f64::EPSILON / 2.0;
@@ -214,24 +214,18 @@ struct Sums {
 /// Of three degrees that sum to [`ORDER`] or more, at least one is larger than this.
 const THIRD: usize = ORDER / 3;
 
-/// Sums run in this many independent lanes.
-const LANES: usize = 4;
-
 /// The degrees, and each of them times the previous one.
 const DEGREES: [[f64; LENGTH]; 2] = {
-    let (mut table, mut degree) = ([[0.0; LENGTH]; 2], 0.0);
-    let mut k = 0;
+    let (mut table, mut k) = ([[0.0; LENGTH]; 2], 0);
     while k < LENGTH {
-        table[0][k] = degree;
-        table[1][k] = degree * (degree - 1.0);
-        degree += 1.0;
+        (table[0][k], table[1][k]) = (real(k), real(k) * (real(k) - 1.0));
         k += 1;
     }
     table
 };
 
 /// The sum of products.
-fn dot(one: &[f64; LENGTH], other: &[f64; LENGTH]) -> f64 {
+fn dot(one: &[f64], other: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
     for (one, other) in one.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
         for (lane, sum) in lanes.iter_mut().enumerate() {
@@ -281,7 +275,8 @@ impl Sums {
             high_cubes: dot(&sizes, &tails),
             last_x: h * terms[ORDER - 1] * INVERSE[ORDER] * INFLATE,
             last_v: terms[ORDER],
-            integral: dot(&squares, &NEXT),
+            // Divided by `k + 1`.
+            integral: dot(&squares, &INVERSE[1..]),
         }
     }
 
@@ -299,17 +294,6 @@ impl Sums {
         UNIT * (self.v * self.v + INTEGRAL * self.squares)
     }
 }
-
-/// `1/(k + 1)`.
-const NEXT: [f64; LENGTH] = {
-    let mut table = [0.0; LENGTH];
-    let mut k = 0;
-    while k < LENGTH {
-        table[k] = INVERSE[k + 1];
-        k += 1;
-    }
-    table
-};
 
 impl StepField {
     /// Carries a ball around the start of a series over a step of length h to its `end` by [`MotionSeries::at`];

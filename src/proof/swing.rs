@@ -69,20 +69,17 @@ impl Passage {
 /// Guarantee: the bounds hold for the exact motions, whatever the rounding. The result is `Unknown` where there
 /// are no bounds: for a stiff or a wide motion, or one that arrives within its own error of the centre.
 pub fn swing(field: &FieldBox, start: &StartBox, wants_fastest: bool) -> Passage {
-    run(field, start, f64::INFINITY, wants_fastest)
+    swing_below(field, start, f64::INFINITY, wants_fastest)
 }
 
-/// As [`swing`], but stops as soon as every motion is certainly faster than `ceiling`.
-pub fn swing_below(field: &FieldBox, start: &StartBox, ceiling: f64) -> Passage {
-    run(field, start, ceiling, false)
-}
-
-/// As [`swing_below`] with the largest velocity; it stops only after that was reached.
-pub fn swing_past_peak(field: &FieldBox, start: &StartBox, ceiling: f64) -> Passage {
-    run(field, start, ceiling, true)
-}
-
-fn run(field: &FieldBox, start: &StartBox, ceiling: f64, wants_fastest: bool) -> Passage {
+/// As [`swing`], but stops as soon as every motion is certainly faster than `ceiling`; where the largest velocity is
+/// wanted, only after that was reached.
+pub fn swing_below(
+    field: &FieldBox,
+    start: &StartBox,
+    ceiling: f64,
+    wants_fastest: bool,
+) -> Passage {
     if start.v.lower() == 0.0 && (start.v.upper() > 0.0 || start.x.upper() >= 0.0) {
         return Passage::Unknown;
     }

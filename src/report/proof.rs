@@ -8,7 +8,7 @@ use crate::check::{Bounds, Certificate, StepKind};
 use crate::numerics::Interval;
 use crate::portrait::proved::matching;
 use crate::portrait::{Border, Cycle};
-use crate::proof::cycles::{OpenGap, ProvedCycle};
+use crate::proof::cycles::ProvedCycle;
 use crate::proof::kicks::ProvedKicks;
 use crate::proof::motion::{ProvedFate, ProvedMotion, ProvedTurn};
 use crate::proof::range::{CountChange, Range, RangePiece};
@@ -22,7 +22,7 @@ pub(super) struct ProvedRow<'a> {
     /// `None` if it is one for each of many parameters.
     cycle: Option<&'a Cycle>,
     enclosure: Option<Enclosure>,
-    open: Option<&'a OpenGap>,
+    open: Option<Interval>,
 }
 
 impl<'a> ProvedRow<'a> {
@@ -46,7 +46,6 @@ impl<'a> ProvedRow<'a> {
     /// Where a number is proved to lie; of an open interval, the clearance.
     fn bounds(&self, CycleNumber { name, bounds, .. }: &CycleNumber) -> Option<Interval> {
         let open = self.open.filter(|_| *name == "clearance");
-        let open = open.map(|it| Interval::new(it.lower, it.upper));
         open.or(self.enclosure.as_ref().map(bounds))
     }
 
@@ -74,10 +73,10 @@ impl<'a> ProvedRow<'a> {
 }
 
 /// The columns of files for what is proved.
-fn bound_columns<'a>() -> Columns<'a, ProvedRow<'a>> {
+fn bound_columns(proof: &Proof) -> Columns<'_, ProvedRow<'_>> {
     let columns = Columns::default()
         .file("proved", |row: &ProvedRow| row.enclosure.is_some())
-        .file("open", |row| row.open.map(|open| open.reason));
+        .file("open", |row| row.open.map(|gap| proof.why_open(gap)));
     [1, 0, 3, 2, 4, 5, 6]
         .map(|at| &NUMBERS[at])
         .into_iter()
@@ -87,8 +86,14 @@ fn bound_columns<'a>() -> Columns<'a, ProvedRow<'a>> {
 /// An answer with its cycles and what is proved about them: a row for each, and in files for each interval of clearances
 /// that is open; the parameters for which this holds are the doubles nearest to the decimal numbers given.
 pub(super) fn with_proof(answer: Answer, rows: &[ProvedRow], proof: &Proof) -> Answer {
-    let open = proof.open.iter().map(|open| ProvedRow { open: Some(open), ..Default::default() });
+    let open = proof.open.iter().map(|gap| ProvedRow { open: Some(*gap), ..Default::default() });
     let open: Vec<_> = open.collect();
+    let gap = |gap: &Interval| {
+        Document::default()
+            .with("lower", gap.lower())
+            .with("upper", gap.upper())
+            .with("reason", proof.why_open(*gap))
+    };
     let is_box = !proof.parameters.is_point();
     let own = if is_box {
         Columns::default().file("stable", |row: &ProvedRow| row.stable)
@@ -104,12 +109,12 @@ pub(super) fn with_proof(answer: Answer, rows: &[ProvedRow], proof: &Proof) -> A
     let is_unknown = |row: &ProvedRow| NUMBERS.iter().any(|number| row.text(number) == "?");
     let count = Document::default()
         .with("proved", proof.is_complete())
-        .with("open", &proof.open)
+        .with("open", proof.open.iter().map(gap).collect::<Vec<_>>())
         .with("parameters", proof.parameters);
     answer
         .with("cycles", rows.iter().map(ProvedRow::document).collect::<Vec<_>>())
         .with("count", count)
-        .csv(&own.and(bound_columns()), rows.iter().chain(&open))
+        .csv(&own.and(bound_columns(proof)), rows.iter().chain(&open))
         .table(number_columns(texts, ProvedRow::text).table(rows))
         .lines(rows.iter().any(is_unknown).then_some(UNKNOWN))
         .lines(sentences(rows.len(), proof, if is_box { BOX } else { POINT }))
@@ -129,15 +134,15 @@ fn sentences(found: usize, proof: &Proof, parameters: &str) -> Vec<String> {
     if proof.is_complete() {
         return vec![format!("{cycles}, proved {parameters}")];
     }
-    let open = proof.open.iter().map(|open| {
-        let (lower, upper) = (significant(open.lower, 6), significant(open.upper, 6));
-        let range = if open.upper.is_finite() {
-            let width = significant(open.upper - open.lower, 2);
+    let open = proof.open.iter().map(|gap| {
+        let (lower, upper) = (significant(gap.lower(), 6), significant(gap.upper(), 6));
+        let range = if gap.upper().is_finite() {
+            let width = significant(gap.upper() - gap.lower(), 2);
             format!("from {lower} to {upper} (width {width})")
         } else {
             format!("from {lower} on")
         };
-        format!("  clearances {range} are open: {}", open.reason)
+        format!("  clearances {range} are open: {}", proof.why_open(*gap))
     });
     let first = format!("{cycles} found; not proved that there are no others:");
     std::iter::once(first).chain(open).collect()
