@@ -166,7 +166,11 @@ fn the_general_path_gives_the_piecewise_linear_cycle_to_twelve_digits() {
     let r = 0.5;
     for d in [-0.999_999, -0.999, -0.99, -0.7, -0.1, -1e-3, -1e-6, -1e-12] {
         let parameters = Parameters { d, d2: 0.0, d3: 0.0, r };
-        let series = |field| HalfMap::integrating_above(1e-9, field, f64::EPSILON);
+        let series = |field| {
+            let mut map = HalfMap::new(field, f64::EPSILON);
+            map.linear_below = 1e-9;
+            map
+        };
         let fields = [Side::Upper, Side::Lower].map(|side| HalfPlane::new(&parameters, side));
         let mut equation = Equation::on_fields(&parameters, Side::Upper, fields, &LIMITS, series);
         let found = closings(&mut equation, usize::MAX, &[]).unwrap();

@@ -13,7 +13,7 @@ use crate::flow::step::{Powers, Stepper};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::{Bracket, PlaceTolerance, newton, times_power};
-use crate::portrait::closing::half_map::{Direction, HalfMap, HalfSwing, Length, linear_below};
+use crate::portrait::closing::half_map::{Direction, HalfMap, HalfSwing, Length};
 
 /// Integration tolerance of an arc.
 const TOLERANCE: f64 = 1e-14;
@@ -71,9 +71,8 @@ impl Arc {
             Direction::Backward => (forward.reversed(), clearance.plus(2.0 * parameters.r)),
         };
         // Where friction is many times the natural scale, the motion is not linear yet at that size.
-        let detail =
-            (DETAIL * (clearance.value + parameters.r)).min(linear_below(&field, TOLERANCE));
-        let mut map = HalfMap::integrating_above(detail, field, TOLERANCE);
+        let mut map = HalfMap::new(field, TOLERANCE);
+        map.linear_below = map.linear_below.min(DETAIL * (clearance.value + parameters.r));
         let mut pieces: Vec<ArcStep> = Vec::new();
         let limits = limits.up_to(BUDGET);
         let swing = map.swing_watched(length, true, &limits, |stepper, unit, duration| {
@@ -88,7 +87,7 @@ impl Arc {
             direction,
             clearance,
             length,
-            rest: rest(&field, &pieces, detail),
+            rest: rest(&field, &pieces, map.linear_below),
             pieces,
             swing,
             cost: map.cost(),

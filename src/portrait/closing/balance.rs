@@ -73,7 +73,7 @@ fn weigh(
     let HalfPlane { d, d2, d3 } = map.field().in_units(measure);
     let mut gained = 0.0;
     // Every part of the swing counts: none may be skipped by a closed form.
-    let skipped = map.set_linear_below(0.0);
+    let skipped = std::mem::replace(&mut map.linear_below, 0.0);
     let swing = map.swing_watched(start, true, limits, |stepper, unit, duration| {
         for &(node, weight) in &GAUSS {
             let point = stepper.at(node * duration);
@@ -83,7 +83,7 @@ fn weigh(
             gained -= weight * duration * exp(2.0 * d2 * x) * square * (2.0 * d + d3 * square);
         }
     });
-    map.set_linear_below(skipped);
+    map.linear_below = skipped;
     Ok((swing?, gained))
 }
 

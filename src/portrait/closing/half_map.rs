@@ -30,12 +30,6 @@ const ROUNDING: f64 = 1e-16;
 /// A half swing longer than this is taken to never arrive; slow ones of 1e100 do (D3 = 1 from 1e150).
 const LONGEST: f64 = 1e300;
 
-/// The size below which the damping is linear for steps within the relative `tolerance`.
-pub fn linear_below(field: &HalfPlane, tolerance: f64) -> f64 {
-    let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
-    LINEAR_BELOW * tolerance.max(ROUNDING) * natural
-}
-
 /// A positive length with its logarithm, which exists even where the length underflows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Length {
@@ -127,11 +121,6 @@ impl HalfSwing {
         }
     }
 
-    /// Where it arrives at `v = 0`, if it does.
-    pub fn arrival(&self) -> Option<f64> {
-        self.arrives().then_some(self.end.value)
-    }
-
     /// Whether it arrives at `v = 0`.
     pub fn arrives(&self) -> bool {
         self.end.log.is_finite()
@@ -145,8 +134,8 @@ pub struct HalfMap {
     stepper: Auto,
     /// Relative error of a step.
     tolerance: f64,
-    /// States smaller than this move linearly.
-    linear_below: f64,
+    /// States smaller than this move linearly: all others are integrated step by step.
+    pub linear_below: f64,
     /// Whether to find the largest velocity of each swing, and the errors of its numbers.
     pub fastest: bool,
     steps: u64,
@@ -157,20 +146,12 @@ pub struct HalfMap {
 impl HalfMap {
     /// The map of this field, each step within the relative `tolerance`.
     pub fn new(field: HalfPlane, tolerance: f64) -> Self {
-        Self::integrating_above(linear_below(&field, tolerance), field, tolerance)
-    }
-
-    /// The same map, integrated step by step wherever the state is larger than `linear_below`.
-    pub fn integrating_above(linear_below: f64, field: HalfPlane, tolerance: f64) -> Self {
         let stepper = Auto::new(tolerance);
+        let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
+        let linear_below = LINEAR_BELOW * tolerance.max(ROUNDING) * natural;
         // A node that repels has no part worth skipping.
         let linear_below = if field.d > -1.0 { linear_below } else { 0.0 };
         HalfMap { field, stepper, tolerance, linear_below, fastest: false, steps: 0, swings: 0 }
-    }
-
-    /// Changes the size below which the motion is taken to be linear; returns the former one.
-    pub fn set_linear_below(&mut self, bound: f64) -> f64 {
-        std::mem::replace(&mut self.linear_below, bound)
     }
 
     /// Relative error of a step.

@@ -9,9 +9,8 @@ use super::equation::{Equation, Route};
 use super::half_map::Length;
 use super::pair::Closing;
 use super::precise::{FINER, PreciseClosing};
-use super::search::{Bracket, Node};
+use super::search::{Bracket, Node, places};
 use crate::flow::Reason;
-use crate::numerics::root;
 use crate::numerics::{PlaceTolerance, Twofold, exp_m1, try_newton};
 
 /// Slope of the residual below which it is weighed as energy.
@@ -85,7 +84,7 @@ fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<Clo
     const STEEP: f64 = 1e3;
     /// No change ends the method by itself: what ends it depends on noise.
     const NEVER: f64 = -1.0;
-    let mut ends = as_ends(&bracket);
+    let mut ends = places(&bracket);
     if (bracket.1.value() - bracket.0.value()).abs() > STEEP * (ends.high - ends.low) {
         (ends.low, ends.high) = (ends.low - SLACK, ends.high + SLACK);
     }
@@ -235,7 +234,7 @@ fn sharpen(
     let start = Twofold::of(Length::from_log(rough.node.at).value);
     // The ends of the bracket were decided by doubles, which may have been too few.
     let slack = 2.0 * rough.uncertainty.min(1.0);
-    let mut ends = as_ends(&bracket);
+    let mut ends = places(&bracket);
     ends.low = (ends.low - rough.node.at).min(-slack);
     ends.high = (ends.high - rough.node.at).max(slack);
     let mut seen: Vec<(f64, Twofold, PreciseClosing)> = Vec::new();
@@ -293,14 +292,9 @@ fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<Guess, Reason
     Ok((u, flat))
 }
 
-/// The places of a bracket.
-fn as_ends((low, high): &Bracket) -> root::Bracket {
-    root::Bracket { low: low.at, high: high.at, rising: high.value() > low.value() }
-}
-
 /// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.
 fn secant(bracket: &Bracket) -> f64 {
     let (low, high) = bracket;
     let rise = (high.at - low.at) / (high.value() - low.value());
-    as_ends(bracket).inside(low.at - low.value() * rise)
+    places(bracket).inside(low.at - low.value() * rise)
 }

@@ -91,32 +91,25 @@ impl Equation<'_> {
             if passed <= 0.0 {
                 break;
             }
-            let start = Length::new(passed);
-            let Some(end) = self.swing(index, Direction::Forward, start)?.arrival() else {
+            let swing = self.swing(index, Direction::Forward, Length::new(passed))?;
+            if !swing.arrives() {
                 return Ok(None);
-            };
+            }
+            let end = swing.end.value;
             (place, passed) = (side.displacement(end, r), end - 2.0 * r);
         }
         Ok(Some(place))
     }
 
     /// Distances from zero of the turning points that are captured on an end of the sticking set: by the
-    /// first half swing, and by the second.
-    fn kinks(&mut self) -> Result<Vec<f64>, Reason> {
+    /// first half swing, and by the second; infinite where there is none.
+    fn kinks(&mut self) -> Result<[f64; 2], Reason> {
         let r = self.parameters.r;
-        if r == 0.0 {
-            return Ok(Vec::new());
-        }
-        let whole = Length::new(2.0 * r);
-        let once = self.swing(0, Direction::Backward, whole)?.arrival();
-        let twice = match self.swing(1, Direction::Backward, whole)?.arrival() {
-            Some(clearance) => {
-                let start = Length::new(clearance + 2.0 * r);
-                self.swing(0, Direction::Backward, start)?.arrival()
-            }
-            None => None,
-        };
-        Ok(once.into_iter().chain(twice).map(|clearance| r + clearance).collect())
+        let gap = Length::new(2.0 * r);
+        let once = self.swing(0, Direction::Backward, gap)?.end;
+        let between = self.swing(1, Direction::Backward, gap)?.end;
+        let twice = self.swing(0, Direction::Backward, between.plus(gap.value))?.end;
+        Ok([once, twice].map(|clearance| r + clearance.value))
     }
 }
 

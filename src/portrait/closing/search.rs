@@ -11,7 +11,7 @@
 //! Guarantee: every interval between the roots found is excluded by monotonicity, or by a cubic whose error was
 //! measured. Assumption: the function varies on scales not below the finest interval; those at which it does are told.
 
-use crate::numerics::{Hermite, PlaceTolerance, illinois};
+use crate::numerics::{Hermite, PlaceTolerance, illinois, root};
 
 /// Relative width to which an extremum is sought: rounding.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
@@ -61,6 +61,11 @@ impl Node {
 
 /// Two nodes between which the function changes its sign.
 pub type Bracket = (Node, Node);
+
+/// The places of a bracket.
+pub fn places((low, high): &Bracket) -> root::Bracket {
+    root::Bracket { low: low.at, high: high.at, rising: high.value() > low.value() }
+}
 
 /// A search, and what it found so far.
 #[derive(Clone, Debug, Default)]

@@ -4,9 +4,8 @@ use super::machine_return::{Grazing, Image, Landmarks};
 use crate::flow::machine::curve::MachineCurve;
 use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Model, Phase};
-use crate::numerics::root;
 use crate::numerics::{PlaceTolerance, bisect, exp, exponent, ln, pow, times_power, try_newton};
-use crate::portrait::closing::search::{Bracket, Node, RootSearch};
+use crate::portrait::closing::search::{Bracket, Node, RootSearch, places};
 use crate::portrait::{Cycle, Portrait, Ride};
 
 /// A right turning point at which the return map changes.
@@ -245,7 +244,7 @@ impl FixedPointSearch<'_, '_> {
         if best.value() == 0.0 {
             return Ok(best.at);
         }
-        let bracket = root::Bracket { low: left.at, high: right.at, rising: right.value() > 0.0 };
+        let bracket = places(&(left, right));
         let width = 2.0 * f64::EPSILON * (1.0 + best.at.abs()).min(2.0);
         let start = bracket.inside(best.at - best.value() / best.slope);
         let root = try_newton(bracket, start, PlaceTolerance::Absolute(width), |u| {
@@ -366,10 +365,9 @@ impl Flow<'_> {
             log_multiplier,
             clearance: x - guide,
             log_clearance: ln(x - guide),
-            error: None,
-            errors: None,
             ride: ride.filter(|_| sticks),
             overtakes,
+            ..Cycle::default()
         })
     }
 

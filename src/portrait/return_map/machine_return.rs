@@ -216,52 +216,36 @@ fn if_any<T>(found: Result<T, Reason>) -> Result<Option<T>, Reason> {
 // jumps.
 
 impl Flow<'_> {
-    /// The closed border through a jump of the return map at the right turning point `x`, backward in time
-    /// from the belt's line to the line again, and the piece of line between.
-    pub(crate) fn jump_border(
+    /// The closed border through the right turning point `x`, backward in time, and its left turning point.
+    ///
+    /// Where the return map `jumps`, it leads from the belt's line to the line again, with the piece of line between.
+    /// Else `x` is where the guide catches the mass up to: the border is the motion that comes there, and below it the one
+    /// that comes to the left end of what is caught; so it is, too, where static friction holds what an orbit through a
+    /// jump comes from, so that its way to the line is not on the border.
+    pub(crate) fn border(
         &mut self,
         x: f64,
+        jumps: bool,
         landmarks: Option<&Landmarks>,
     ) -> Result<(MachineCurve, f64), Reason> {
         let speed = self.model.speed;
-        let Some(marks) = landmarks else { return Err(Reason::Steps) };
-        // Where static friction holds what the orbit comes from, its way to the line is not on the border.
-        if !self.settling_arc(Phase::Between, (x, 0.0), true, &mut |_| {})?.is_on_belt() {
-            return self.capture_border(x, landmarks);
-        }
         let mut curve = MachineCurve::default();
-        let corner =
-            if Some(x) == marks.grazing.right { marks.lines.fold } else { marks.lines.low };
-        let left = self.settling_arc(Phase::Between, (corner, speed), true, &mut curve.keeper())?.x;
-        let left = left.min(-self.model.guide_static);
-        self.arc(Phase::Below, (left, 0.0), true, &mut curve.keeper())?;
-        let mut end = self.arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;
-        if end.is_on_belt() && end.x > marks.lines.release {
-            end = self.arc(Phase::Above, (end.x, speed), true, &mut curve.keeper())?;
-        }
-        curve.steps.push(MachineStep::ride(corner, end.x, speed));
-        Ok((curve, left))
-    }
-
-    /// The border through the right turning point `x` up to which the guide catches the mass: the motion
-    /// that comes there, backward in time, and below it the one that comes to the left end of what is caught.
-    pub(crate) fn capture_border(
-        &mut self,
-        x: f64,
-        landmarks: Option<&Landmarks>,
-    ) -> Result<(MachineCurve, f64), Reason> {
-        let mut curve = MachineCurve::default();
-        let end = self.settling_arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;
-        let mut left = end.x;
-        if let Some(Landmarks { lines, .. }) = landmarks.filter(|_| end.is_on_belt()) {
-            let speed = self.model.speed;
-            curve.steps.push(MachineStep::ride(lines.fold, end.x, speed));
-            left = self
-                .settling_arc(Phase::Between, (lines.fold, speed), true, &mut curve.keeper())?
-                .x;
+        let mut end = self.settling_arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;
+        let (mut left, mut before) = (end.x, 0);
+        if let Some(Landmarks { lines, grazing, .. }) = landmarks.filter(|_| end.is_on_belt()) {
+            if jumps && end.x > lines.release {
+                end = self.arc(Phase::Above, (end.x, speed), true, &mut curve.keeper())?;
+            }
+            let touches = !jumps || Some(x) == grazing.right;
+            let corner = if touches { lines.fold } else { lines.low };
+            curve.steps.push(MachineStep::ride(corner, end.x, speed));
+            before = if jumps { curve.steps.len() } else { 0 };
+            left = self.settling_arc(Phase::Between, (corner, speed), true, &mut curve.keeper())?.x;
         }
         left = left.min(-self.model.guide_static);
         self.settling_arc(Phase::Below, (left, 0.0), true, &mut curve.keeper())?;
+        // A border through a jump begins where it leaves the line.
+        curve.steps.rotate_left(before);
         Ok((curve, left))
     }
 }

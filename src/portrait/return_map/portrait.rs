@@ -52,8 +52,9 @@ impl Portrait {
                     self.border = Border::Cycle;
                     flow.around(*x, image.slips())?
                 }
-                Divide::Jump => flow.jump_border(*x, landmarks)?,
-                Divide::Capture => flow.capture_border(*x, landmarks)?,
+                Divide::Jump | Divide::Capture => {
+                    flow.border(*x, matches!(mark, Divide::Jump), landmarks)?
+                }
             };
             if !matches!(mark, Divide::Cycle(_)) {
                 let touches = curve.steps.iter().any(|step| step.place == ContactState::Sticks);
