@@ -16,36 +16,21 @@ use crate::portrait::Cycle;
 use crate::proof::range::{MOST_STEPS, Range, RangePiece};
 use crate::words::{significant, stability, with_unit};
 
-/// A point with the number of the connected piece to which it belongs, or a part of the range of which something is
-/// proved.
-#[derive(Clone, Copy)]
-enum PieceRow<'a> {
-    Point(usize, &'a BranchPoint),
-    Proved(&'a RangePiece),
-}
+/// A point with the number of the connected piece to which it belongs.
+type PointRow<'a> = (usize, &'a BranchPoint);
 
-impl<'a> PieceRow<'a> {
-    fn proved(&self) -> Option<&'a RangePiece> {
-        if let PieceRow::Proved(piece) = self { Some(piece) } else { None }
-    }
-
-    /// Something of a point.
-    fn of<T>(&self, part: impl Fn(usize, &BranchPoint) -> T) -> Option<T> {
-        if let PieceRow::Point(piece, point) = self { Some(part(*piece, point)) } else { None }
-    }
-}
+/// A point, or a part of the range of which something is proved.
+type BranchRow<'a> = (Option<PointRow<'a>>, Option<&'a RangePiece>);
 
 /// The columns of points; `value` names the number that varies.
-fn point_columns<'a>(value: &'static str, digits: usize) -> Columns<'a, PieceRow<'a>> {
+fn point_columns<'a>(value: &'static str, digits: usize) -> Columns<'a, PointRow<'a>> {
     let columns = Columns::default()
-        .file("piece", |row: &PieceRow| row.of(|piece, _| piece))
-        .number(value, Quantity::pure(digits), |row| row.of(|_, point| point.value))
-        .and(cycle_fields(|row: &PieceRow| row.of(|_, point| point.cycle)))
-        .text("piece", |row| row.of(|piece, _| piece.to_string()).unwrap_or_default())
-        .text("cycle", |row| row.of(|_, it| stability(it.cycle.stable)).unwrap_or("").to_owned());
-    number_columns(columns, move |row, number| {
-        row.of(|_, point| number.text(&point.cycle, digits)).unwrap_or_default()
-    })
+        .file("piece", |(piece, _): &PointRow| *piece)
+        .number(value, Quantity::pure(digits), |(_, point)| point.value)
+        .and(cycle_fields(|(_, point): &PointRow| Some(point.cycle)))
+        .text("piece", |(piece, _)| piece.to_string())
+        .text("cycle", |(_, point)| stability(point.cycle.stable).to_owned());
+    number_columns(columns, move |(_, point), number| number.text(&point.cycle, digits))
 }
 
 /// The branch of the oscillator of the paper: one row for each point, and for each part of the range in which the number
@@ -57,16 +42,20 @@ pub fn branch(
     tolerance: f64,
     seconds: f64,
 ) -> Answer {
-    let rows = || {
+    let points = || {
         let pieces = branch.pieces.iter().enumerate();
-        pieces.flat_map(|(piece, points)| points.iter().map(move |it| PieceRow::Point(piece, it)))
+        pieces.flat_map(|(piece, points)| points.iter().map(move |point| (piece, point)))
     };
     let name = branch.parameter.spec().name;
     let shown = digits(tolerance).min(10);
     let proved = certified.map(|range| {
-        Columns::default().part("certified", piece_columns(range, name), PieceRow::proved)
+        Columns::default().part("certified", piece_columns(range, name), |row: &BranchRow| row.1)
     });
-    let parts = certified.into_iter().flat_map(|range| &range.pieces).map(PieceRow::Proved);
+    let columns = Columns::default()
+        .part("point", point_columns(name, shown), |row: &BranchRow| row.0)
+        .and(proved);
+    let parts = certified.into_iter().flat_map(|range| &range.pieces);
+    let parts = parts.map(|piece| (None, Some(piece)));
     let special = Quantity::pure(digits(tolerance));
     let special = Columns::default()
         .text("special point", |it: &Special| it.kind.name(it.cycle.as_ref()).to_owned())
@@ -75,12 +64,12 @@ pub fn branch(
     let mut answer = about
         .answer()
         .with("parameter", branch.parameter)
-        .with("points", point_columns("value", shown).objects(rows()))
+        .with("points", point_columns("value", shown).objects(points()))
         .with("special", &branch.special)
         .with("vague", &branch.vague)
         .with_any("certified", certified.map(decided))
-        .csv(&point_columns(name, shown).and(proved), rows().chain(parts))
-        .table(point_columns(name, shown).table(rows()))
+        .csv(&columns, points().map(|point| (Some(point), None)).chain(parts))
+        .table(point_columns(name, shown).table(points()))
         .lines(branch.pieces.is_empty().then_some("no limit cycle"))
         .table(special.table(&branch.special))
         .lines(vague(branch));
@@ -148,30 +137,23 @@ pub fn border<'a>(
 }
 
 /// A cycle of a machine at a value; a value without an answer has one row, with the reason.
-struct MachineBranchRow {
-    value: f64,
-    cycle: Option<Cycle>,
-    reason: Option<String>,
-}
+type MachineBranchRow = (f64, Option<Cycle>, Option<String>);
 
 /// The branch of a machine: a row for each cycle at each value; below them in text, each change in a sentence.
 pub fn of_machine(about: &About, varied: Knob, found: &MachineBranch, seconds: f64) -> Answer {
     let (name, unit) = (varied.spec().name, varied.spec().unit);
     let columns = |name| {
         Columns::default()
-            .number(name, Quantity::of(unit, PLACES), |row: &MachineBranchRow| row.value)
-            .and(machine_cycles(|row: &MachineBranchRow| row.cycle))
-            .file("reason", |row| row.reason.clone())
+            .number(name, Quantity::of(unit, PLACES), |row: &MachineBranchRow| row.0)
+            .and(machine_cycles(|(_, cycle, _): &MachineBranchRow| *cycle))
+            .file("reason", |(.., reason)| reason.clone())
     };
     let rows: Vec<_> = found
         .points
         .iter()
-        .flat_map(|point| {
-            let row = |cycle, reason| MachineBranchRow { value: point.value, cycle, reason };
-            match &point.cycles {
-                Ok(cycles) => cycles.iter().map(|cycle| row(Some(*cycle), None)).collect(),
-                Err(why) => vec![row(None, Some(why.to_string()))],
-            }
+        .flat_map(|point| match &point.cycles {
+            Ok(cycles) => cycles.iter().map(|cycle| (point.value, Some(*cycle), None)).collect(),
+            Err(why) => vec![(point.value, None, Some(why.to_string()))],
         })
         .collect();
     let cost = Cost { steps: found.cost.steps, ..Cost::default() };

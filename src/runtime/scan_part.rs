@@ -4,6 +4,7 @@
 //! Nothing in a file is trusted: every row is recognized by its beginning, which names everything that it depends on,
 //! and compared with the checksum of the rows up to it where one is known.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::ops::Range;
@@ -200,44 +201,41 @@ pub fn merge(
     let mut parts = parts.to_vec();
     parts.sort_by_key(|file| file.part.points.start);
     let mut waiting = parts.into_iter().peekable();
-    // Open parts, each with its next row that is not written yet.
-    let mut reading: Vec<(RowReader, FileRow)> = Vec::new();
-    let check = |(rows, row): &(RowReader, FileRow)| {
-        recheck.map_or(Ok(()), |limits| rows.check(row, limits))
-    };
+    // Open parts, each by the point of its next row that is not written yet.
+    let mut reading: BTreeMap<usize, (RowReader, FileRow)> = BTreeMap::new();
+    let check =
+        |rows: &RowReader, row: &FileRow| recheck.map_or(Ok(()), |limits| rows.check(row, limits));
     let mut missing = Vec::new();
     let mut expected = 0;
     write(whole.heading().as_bytes())?;
     loop {
-        let indices = reading.iter().map(|(_, row)| row.index).enumerate();
-        let next = indices.min_by_key(|(_, index)| *index);
-        let due = |file: &&PartFile| next.is_none_or(|(_, index)| file.part.points.start <= index);
-        if let Some(file) = waiting.next_if(due) {
+        let next = reading.keys().next().copied();
+        let due = |file: &&PartFile| next.is_none_or(|index| file.part.points.start <= index);
+        let (rows, row) = if let Some(file) = waiting.next_if(due) {
             let opened = File::open(&file.path);
             let opened = opened.map_err(|error| Failure::file(&file.path, &error))?;
             let mut rows = RowReader::new(&file.part, &file.path, opened, file.checksum)?;
-            if let Some(row) = rows.row()? {
-                let open = (rows, row);
-                check(&open)?;
-                reading.push(open);
+            let Some(row) = rows.row()? else { continue };
+            check(&rows, &row)?;
+            (rows, row)
+        } else {
+            let Some((index, (mut rows, last))) = reading.pop_first() else { break };
+            if expected < index {
+                missing.push(expected..index);
             }
-            continue;
-        }
-        let Some((place, index)) = next else { break };
-        if let Some(other) = reading[place + 1..].iter().find(|(_, row)| row.index == index) {
-            let [one, other] = [&reading[place], other].map(|(rows, _)| rows.path.display());
+            expected = index + 1;
+            write(&last.line)?;
+            let Some(row) = rows.row()? else {
+                check(&rows, &last)?;
+                continue;
+            };
+            (rows, row)
+        };
+        let (index, path) = (row.index, rows.path);
+        if let Some((other, _)) = reading.insert(index, (rows, row)) {
+            let [one, other] = [other.path, path].map(Path::display);
             let row = index + 1;
             return Err(Failure::Usage(format!("{one} and {other} both hold row {row}")));
-        }
-        if expected < index {
-            missing.push(expected..index);
-        }
-        expected = index + 1;
-        write(&reading[place].1.line)?;
-        if let Some(row) = reading[place].0.row()? {
-            reading[place].1 = row;
-        } else {
-            check(&reading.remove(place))?;
         }
     }
     if expected < whole.scan.points() {
