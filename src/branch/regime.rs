@@ -50,23 +50,23 @@ impl Regime {
         REGIMES[self as usize].1
     }
 
-    /// The regime at parameters of which the boundaries in D are known.
+    /// The regime at parameters of which the boundary in D is known.
     ///
-    /// `fold` is `D_F` (asked for only where `D3 > 0`, `r > 0`; minus infinity where it is lower than
-    /// anyone asks), `escape` is `D_c` (only where `D3 = 0`, `D2 != 0`; `None` where it lies below -1).
+    /// That is `D_F` where `D3 > 0` (asked for only where `r > 0`; minus infinity where it is lower than
+    /// anyone asks), and `D_c` where `D3 = 0` (only where `D2 != 0`; `None` where it lies below -1).
     ///
     /// Why nothing else is needed: for a given clearance exactly one D closes a cycle, so for `D3 > 0` all
     /// cycles are one graph with one maximum, the fold; for `D3 < 0` the graph rises through all `D > -1`;
     /// and between, for `D3 = 0`, it ends at `D_c`. Beyond critical negative damping the rest is a node
     /// that a motion can leave.
     #[must_use]
-    pub fn of(parameters: &Parameters, fold: Option<f64>, escape: Option<f64>) -> Self {
+    pub fn of(parameters: &Parameters, boundary: Option<f64>) -> Self {
         let Parameters { d, d2, d3, r } = *parameters;
         if r == 0.0 {
             return Self::without_friction(d, d2, d3);
         }
+        let below = boundary.is_some_and(|boundary| d < boundary);
         if d3 > 0.0 {
-            let below = fold.is_some_and(|fold| d < fold);
             return if below { Regime::Coexisting } else { Regime::Global };
         }
         if d <= -1.0 {
@@ -75,7 +75,7 @@ impl Regime {
         if d3 < 0.0 {
             return Regime::Finite;
         }
-        let cycle = if d2 == 0.0 { d < 0.0 } else { escape.is_some_and(|escape| d < escape) };
+        let cycle = if d2 == 0.0 { d < 0.0 } else { below };
         match (cycle, d2 == 0.0) {
             (true, _) => Regime::Finite,
             (false, true) => Regime::Global,
@@ -107,9 +107,14 @@ impl Regime {
 pub fn regime(parameters: &Parameters, limits: &Limits) -> Result<Regime, Reason> {
     let Parameters { d, d3, r, .. } = *parameters;
     // Without self-excitation neither is needed: no cycle folds there.
-    let fold = if d3 > 0.0 && r > 0.0 && d < 0.0 { fold(parameters, limits)?.0 } else { None };
-    let escape = if d < 0.0 { escape_point(parameters, limits)?.0 } else { None };
-    Ok(Regime::of(parameters, fold.map(|fold| fold.d), escape))
+    let boundary = if d >= 0.0 {
+        None
+    } else if d3 > 0.0 && r > 0.0 {
+        fold(parameters, limits)?.0.map(|fold| fold.d)
+    } else {
+        escape_point(parameters, limits)?.0
+    };
+    Ok(Regime::of(parameters, boundary))
 }
 
 #[cfg(test)]

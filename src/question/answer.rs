@@ -20,7 +20,7 @@ use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Cycles, Margin, Portrait, ReturnMap, Share, bands};
 use crate::proof::{ParameterBox, Proof, prove};
-use crate::scan::grid::{Scan, ScanRow};
+use crate::scan::grid::ScanRow;
 
 /// The answer of the worker.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,17 +115,6 @@ impl Rows {
     }
 }
 
-/// The means by which a question is answered.
-#[derive(Clone, Copy)]
-pub struct Resources<'a> {
-    /// Number of points on curves.
-    pub fineness: Fineness,
-    /// When to stop.
-    pub limits: &'a Limits<'a>,
-    /// Computes rows of a scan, beginning with the point of this index.
-    pub rows: &'a dyn Fn(&Scan, usize) -> Result<Rows, Reason>,
-}
-
 /// Number of points on each kind of curve, as a multiple of that on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness(u16);
@@ -164,28 +153,18 @@ pub fn answer(request: &Request, limits: &Limits) -> Result<Finding, Reason> {
     answer_for(request, Fineness::SCREEN, limits)
 }
 
-/// Answers a request on this thread, with curves of this fineness.
-pub fn answer_for(
-    request: &Request,
-    fineness: Fineness,
-    limits: &Limits,
-) -> Result<Finding, Reason> {
-    let rows = |scan: &Scan, first: usize| {
-        let rows = (first..scan.points()).map(|index| scan.row(index, limits));
-        Ok(Rows { first, rows: rows.collect::<Result<_, _>>()? })
-    };
-    answer_by(request, &Resources { fineness, limits, rows: &rows })
-}
-
 /// Maximum number of evaluations for a row of the trade on the screen; the command line allows more.
 const ROW: u64 = 1_000_000;
 
 /// Maximum number of evaluations for a reference in the explorer; beyond it, the energy ledger must do.
 const REFERENCE: u64 = 4_000_000;
 
-/// Answers a request: the only place where a question becomes a computation.
-pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason> {
-    let Resources { fineness, limits, rows } = *means;
+/// Answers a request on this thread, with curves of this fineness: the only place where a question becomes a computation.
+pub fn answer_for(
+    request: &Request,
+    fineness: Fineness,
+    limits: &Limits,
+) -> Result<Finding, Reason> {
     let points = fineness.points_per_step();
     Ok(match request {
         Request::Fit { recording } => Finding::Fit(Fit::of(recording, limits, &|_| ())?),
@@ -222,7 +201,7 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason
             Finding::ReturnMap(return_map(parameters, *range, fineness.points(128), limits)?)
         }
         Request::Regimes { parameters, plane, rough } => {
-            Finding::Regimes(regimes(parameters, *plane, *rough, means)?)
+            Finding::Regimes(regimes(parameters, *plane, *rough, fineness, limits)?)
         }
         Request::Speeds { belt, range, rough } => {
             Finding::Speeds(speeds(belt, *range, *rough, limits)?)
@@ -230,7 +209,10 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason
         Request::Trade(problem) => {
             Finding::Trade(Box::new(Trade::of(problem, &limits.up_to(ROW))?))
         }
-        Request::Scan { scan, from } => Finding::Scan(rows(scan, *from)?),
+        Request::Scan { scan, from } => {
+            let rows = (*from..scan.points()).map(|index| scan.row(index, limits));
+            Finding::Scan(Rows { first: *from, rows: rows.collect::<Result<_, _>>()? })
+        }
         Request::Claims => Finding::Claims(examine_all(limits)?),
         Request::Proof { parameters } => {
             Finding::Proof(prove(&ParameterBox::from(parameters), &[]))
@@ -247,14 +229,14 @@ fn regimes(
     parameters: &Parameters,
     plane: Plane,
     rough: bool,
-    means: &Resources,
+    fineness: Fineness,
+    limits: &Limits,
 ) -> Result<Chart, Reason> {
     /// Boundaries are interpolated between the evenly spaced lines; the tolerance is the relative error of clearances
     /// at boundaries.
     const DRAFT: Resolution = Resolution { lines: 4, chord: f64::INFINITY, tolerance: 1e-3 };
-    let chord = means.fineness.chord();
-    let fine = Resolution { lines: 40, chord, tolerance: 1e-13 };
-    chart(parameters, plane, if rough { DRAFT } else { fine }, means.limits)
+    let fine = Resolution { lines: 40, chord: fineness.chord(), tolerance: 1e-13 };
+    chart(parameters, plane, if rough { DRAFT } else { fine }, limits)
 }
 
 /// The cycles of a machine over these speeds of its belt, and the changes between them unless it is a `rough` draft. Fails

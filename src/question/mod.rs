@@ -1,6 +1,6 @@
 //! Questions that the screen asks, and their answers.
 //!
-//! A [`Request`] names exactly the inputs of one question, its [`Topic`] what it is about, and [`answer_by`] is
+//! A [`Request`] names exactly the inputs of one question, its [`Topic`] what it is about, and [`answer_for`] is
 //! the only place where a question becomes a computation. What is asked about a machine is asked by the same
 //! request as about the oscillator of the paper, with the machine in it. What a user says about a record beside its
 //! file is read by [`record`], on the command line and in the explorer.
@@ -13,6 +13,6 @@ pub mod whole;
 pub mod zones;
 
 pub use answer::{Answered, Finding, NoAnswer};
-pub use answer::{Fineness, Resources, Rows, answer, answer_by, answer_for};
+pub use answer::{Fineness, Rows, answer, answer_for};
 pub use fit::{Fit, Opened, Recording};
 pub use request::{Request, TOPICS, Topic};

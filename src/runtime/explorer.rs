@@ -20,8 +20,7 @@ use super::{print, provenance_file, scanning};
 use crate::figure::{self, FileForm};
 use crate::fit::Unfit;
 use crate::flow::{Limits, Reason};
-use crate::question::{self, Fineness, Fit, Recording, Resources};
-use crate::scan::grid::Scan;
+use crate::question::{self, Fit, Recording};
 use crate::scene::{Finding, Request};
 use crate::session::replay::Script;
 use crate::session::{Effect, Msg, Session, update};
@@ -90,11 +89,13 @@ impl Application for Explorer {
 
 /// Answers a request: a scan on all cores, everything else on this thread.
 pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Finding, Reason> {
-    let rows = |scan: &Scan, from| scanning::answer(scan, from, limits, tell);
-    if let Request::Fit { recording } = request {
-        return fitted(recording, limits, tell).map(Finding::Fit);
+    match request {
+        Request::Fit { recording } => fitted(recording, limits, tell).map(Finding::Fit),
+        Request::Scan { scan, from } => {
+            scanning::answer(scan, *from, limits, tell).map(Finding::Scan)
+        }
+        _ => question::answer(request, limits),
     }
-    question::answer_by(request, &Resources { fineness: Fineness::SCREEN, limits, rows: &rows })
 }
 
 /// Fits a record, and reports its progress from time to time.

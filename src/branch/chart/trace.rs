@@ -139,23 +139,24 @@ impl Tracer<'_> {
     pub fn line(&mut self, at: f64) -> Result<ChartLine, Reason> {
         let here = self.parameters.with(self.plane.across(), at);
         let harmonic = self.harmonic(&here);
-        let boundaries = if self.plane.along() == Knob::D {
-            self.boundaries_in_d(&here)
+        let boundary = if self.plane.along() == Knob::D {
+            self.boundary_in_d(&here)
         } else {
-            self.boundaries_at_d(&here)
+            self.boundary_at_d(&here)
         };
-        let (boundaries, failure) = match Reason::tolerated(boundaries)? {
-            Err(reason) => ([None; 2], Some(reason)),
-            Ok(boundaries) => (boundaries, None),
+        let (boundary, failure) = match Reason::tolerated(boundary)? {
+            Err(reason) => (None, Some(reason)),
+            Ok(boundary) => (boundary, None),
         };
-        if let (Some(fold), Some(harmonic)) = (boundaries[0], harmonic)
-            && fold.is_finite()
+        let bands = self.bands(&here, boundary, failure.is_some());
+        let boundary = boundary.filter(|boundary| boundary.is_finite());
+        if let (Some(fold), Some(harmonic)) = (boundary, harmonic)
             && fold != 0.0
         {
             self.ratio = fold / harmonic;
         }
-        let bands = self.bands(&here, boundaries, failure.is_some());
-        let [fold, escape] = boundaries.map(|it| it.filter(|boundary| boundary.is_finite()));
+        let folds = self.plane.along() == Knob::D3 || here.d3 > 0.0;
+        let [fold, escape] = [folds, !folds].map(|it| boundary.filter(|_| it));
         Ok(ChartLine { at, bands, fold, harmonic, escape, failure })
     }
 
@@ -181,17 +182,17 @@ impl Tracer<'_> {
             .ok_or(Reason::NoConvergence { sought: "the fold", change: f64::NAN })
     }
 
-    /// `D_F` and `D_c` on a line along D.
-    fn boundaries_in_d(&mut self, here: &Parameters) -> Result<Boundaries, Reason> {
+    /// `D_F` or `D_c` on a line along D; minus infinity where it lies below everything that is asked for.
+    fn boundary_in_d(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
         /// Beyond critical damping folds take long; whether the range has any can be asked at its end.
         const CRITICAL: f64 = -1.0 + 1e-6;
         const DOUBTFUL: f64 = -0.75;
         if here.r == 0.0 || here.d3 < 0.0 {
-            return Ok([None; 2]);
+            return Ok(None);
         }
         if here.d3 == 0.0 {
             let escape = self.cost.spend(escape_point(here, self.limits)?);
-            return Ok([None, escape.or(Some(f64::NEG_INFINITY))]);
+            return Ok(escape.or(Some(f64::NEG_INFINITY)));
         }
         let strong = harmonic::fold(here.d3, here.r).is_none_or(|fold| fold.d < DOUBTFUL)
             || here.r * here.d2.abs() > -DOUBTFUL;
@@ -201,40 +202,38 @@ impl Tracer<'_> {
             let found = cycles(&end, self.limits)?;
             self.cost += found.cost;
             if found.cycles.is_empty() {
-                return Ok([Some(f64::NEG_INFINITY), None]);
+                return Ok(Some(f64::NEG_INFINITY));
             }
         }
-        Ok([Some(self.fold(here)?), None])
+        Ok(Some(self.fold(here)?))
     }
 
     /// Where on a line along D3 or r the fold or the escape point comes to the given D.
-    fn boundaries_at_d(&mut self, here: &Parameters) -> Result<Boundaries, Reason> {
+    fn boundary_at_d(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
         let Parameters { d, d2, d3, r } = *here;
-        let nowhere = Ok([None; 2]);
         if d >= 0.0 {
-            return nowhere;
+            return Ok(None);
         }
         if self.plane.along() == Knob::D3 {
             if r == 0.0 {
-                return nowhere;
+                return Ok(None);
             }
             // As D3 goes to 0 the fold goes to D_c: if that lies below D, so do all folds.
             let without = Parameters { d3: 0.0, ..*here };
             let least = self.cost.spend(escape_point(&without, self.limits)?);
             let none = d2 != 0.0 && least.is_none_or(|least| d >= least);
-            let fold = if none { Some(0.0) } else { self.seek(here)? };
-            return Ok([fold, None]);
+            return if none { Ok(Some(0.0)) } else { self.seek(here) };
         }
         if d3 > 0.0 {
-            return Ok([self.seek(here)?, None]);
+            return self.seek(here);
         }
         if d3 == 0.0 && d2 != 0.0 && d > -1.0 {
             // D_c depends on r D2 alone.
             let product = self.cost.spend(escape_product(d, self.limits)?);
             let lost = Reason::NoConvergence { sought: "the escape point", change: f64::NAN };
-            return Ok([None, Some(product.ok_or(lost)? / d2.abs())]);
+            return Ok(Some(product.ok_or(lost)? / d2.abs()));
         }
-        nowhere
+        Ok(None)
     }
 
     /// The value along the line at which the fold is at the line's D; infinite where none is.
@@ -278,22 +277,21 @@ impl Tracer<'_> {
         (d < 0.0 && value.is_finite() && value > 0.0).then_some(value)
     }
 
-    /// The bands between the boundaries within the range.
-    fn bands(&self, here: &Parameters, boundaries: Boundaries, failed: bool) -> Vec<Band> {
+    /// The bands on both sides of the boundary within the range.
+    fn bands(&self, here: &Parameters, boundary: Option<f64>, failed: bool) -> Vec<Band> {
         let (from, to) = self.plane.range(self.plane.along());
         let inside = |value: &f64| *value > from && *value < to;
         let fixed = match self.plane.along() {
             Knob::D => vec![-1.0, 0.0],
             _ => vec![0.0],
         };
-        let boundaries_there = boundaries.iter().copied().flatten();
-        let mut ends: Vec<f64> = fixed.into_iter().chain(boundaries_there).filter(inside).collect();
+        let mut ends: Vec<f64> = fixed.into_iter().chain(boundary).filter(inside).collect();
         ends.extend([from, to]);
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let mut bands: Vec<Band> = Vec::new();
         for pair in ends.windows(2) {
-            let regime = self.regime(here, 0.5 * (pair[0] + pair[1]), boundaries, failed);
+            let regime = self.regime(here, 0.5 * (pair[0] + pair[1]), boundary, failed);
             match bands.last_mut() {
                 Some(last) if last.regime == regime => last.to = pair[1],
                 _ => bands.push(Band { from: pair[0], to: pair[1], regime }),
@@ -306,7 +304,7 @@ impl Tracer<'_> {
         &self,
         here: &Parameters,
         value: f64,
-        boundaries: Boundaries,
+        boundary: Option<f64>,
         failed: bool,
     ) -> Option<Regime> {
         let parameters = here.with(self.plane.along(), value);
@@ -315,19 +313,13 @@ impl Tracer<'_> {
             return None;
         }
         if self.plane.along() == Knob::D {
-            return Some(Regime::of(&parameters, boundaries[0], boundaries[1]));
+            return Some(Regime::of(&parameters, boundary));
         }
-        // A line that crosses a boundary at the given D lies below the boundary in D before it.
-        let [fold, escape] = boundaries.map(|boundary| {
-            let beyond = boundary.is_some_and(|boundary| value >= boundary);
-            Some(if beyond { f64::NEG_INFINITY } else { 0.0 })
-        });
-        Some(Regime::of(&parameters, fold, escape))
+        // A line that crosses the boundary at the given D lies below it in D before it.
+        let beyond = boundary.is_some_and(|boundary| value >= boundary);
+        Some(Regime::of(&parameters, Some(if beyond { f64::NEG_INFINITY } else { 0.0 })))
     }
 }
-
-/// The fold and the escape point on a line; one below everything that is asked for is minus infinity.
-type Boundaries = [Option<f64>; 2];
 
 /// Where an increasing function is at most `small`, near `start`: strides until its zero lies between,
 /// then the Illinois rule.
