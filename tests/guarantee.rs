@@ -5,14 +5,13 @@ mod explorer;
 
 use explorer::{Trial, refuses, reopened};
 use hopfscope::flow::Limits;
-use hopfscope::model::{Interval, Knob, ParameterBox, Parameters, State, Tolerances};
+use hopfscope::model::{Body, Interval, Knob, ParameterBox, Parameters, State, Tolerances};
 use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::Portrait;
 use hopfscope::portrait::guarantee::oscillator::{TwoSided, guaranteed, nominal};
 use hopfscope::portrait::{Border, Margin};
 use hopfscope::question::answer;
-use hopfscope::question::zones::UncertainSubject;
 use hopfscope::scene::{Finding, Request, Topic};
 use hopfscope::session::{Row, Uncertainty};
 
@@ -419,16 +418,14 @@ fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
     assert!((margin - 0.1743).abs() < 5e-5, "{margin}");
     assert!((found.nominal.displacement.unwrap() - 0.2190).abs() < 5e-5);
     trial.press(":set<space>D3=0.5+-0.1<enter>");
-    let Some(Request::Zones(UncertainSubject::Parameters { known, disturbance })) =
-        certainty(&trial)
-    else {
-        panic!()
-    };
-    assert_eq!((known.d3, disturbance), (Interval::around(0.5, 0.1), 0.02));
+    let Some(Request::Zones { source, tolerances }) = certainty(&trial) else { panic!() };
+    let Body::Paper(parameters) = &source.body else { panic!() };
+    let known = tolerances.around(parameters);
+    assert_eq!((known.d3, tolerances.disturbance), (Interval::around(0.5, 0.1), 0.02));
     // However close to 0 its ends are: a tolerance that were left out would promise too much.
     for (d2, half) in [(0.2, 0.2), (3e-150, 2.5e-150)] {
         let doubt = Uncertainty::default().with_half_width(Knob::D2, half).unwrap();
-        let known = doubt.known(&Parameters { d2, ..Parameters::default() });
+        let known = doubt.tolerances().around(&Parameters { d2, ..Parameters::default() });
         assert_eq!(known.d2, Interval::around(d2, half));
     }
 }
@@ -451,7 +448,10 @@ fn a_machine_brings_its_tolerances_and_keeps_them_in_newtons_at_another_speed() 
     assert!((after.1 / before.1 - 1.0).abs() < 1e-12, "{before:?} {after:?}");
     trial.press(":layer<space>whole<space>on<enter>");
     assert!(
-        matches!(certainty(&trial), Some(Request::Zones(UncertainSubject::Machine { .. }))),
+        certainty(&trial).is_some_and(|request| match request {
+            Request::Zones { source, .. } => source.of_belt().is_some(),
+            _ => false,
+        }),
         "by the whole model"
     );
 }

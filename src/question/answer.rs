@@ -178,7 +178,9 @@ pub fn answer_for(
             let (drawn, known) = whole::cycles(parameters, machine, *whole, points, limits)?;
             Finding::Cycles(drawn, known)
         }
-        Request::Zones(subject) => Finding::Zones(zones(subject, points, limits)?),
+        Request::Zones { source, tolerances } => {
+            Finding::Zones(zones(source, tolerances, points, limits)?)
+        }
         Request::Kicks { parameters, kicks } => {
             let found = Portrait::of_oscillator(parameters, kicks.reach(), limits)?;
             Finding::Kicks(kicks.lost(&found)?, found.cost)

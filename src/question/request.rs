@@ -7,12 +7,11 @@ use serde::Serialize;
 use strum::{EnumDiscriminants, IntoStaticStr, VariantArray};
 
 use super::fit::{Fit, Recording};
-use super::zones::UncertainSubject;
 use crate::branch::chart::Plane;
 use crate::fit::MarginQuestion;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Method, Problem};
-use crate::model::{Belt, Knob, Parameters};
+use crate::model::{Belt, Knob, Parameters, Source, Tolerances};
 use crate::portrait::kicks::RandomKick;
 use crate::scan::grid::Scan;
 
@@ -71,7 +70,12 @@ pub enum Request {
     },
     /// Starts that are certainly safe or certainly lost.
     #[strum_discriminants(strum(serialize = "certainty"))]
-    Zones(UncertainSubject),
+    Zones {
+        /// What moves: the oscillator of the paper, or a machine by the whole model.
+        source: Arc<Source>,
+        /// How exactly its numbers are known, and what disturbs it.
+        tolerances: Tolerances,
+    },
     /// The fraction of random kicks that is lost.
     Kicks {
         parameters: Parameters,
@@ -222,11 +226,9 @@ impl Request {
             Request::Cycles { parameters, .. }
             | Request::Proof { parameters }
             | Request::Balance { parameters, .. } => with(*parameters, &[]),
-            Request::Zones(UncertainSubject::Parameters { known, disturbance }) => {
-                with(known.middle(), &[*disturbance])
-            }
-            Request::Zones(UncertainSubject::Machine { belt, tolerances }) => {
-                vec![belt.belt_speed, tolerances.disturbance]
+            Request::Zones { source, tolerances } => {
+                let numbers = source.numbers().map(|(_, value)| value);
+                numbers.chain([tolerances.disturbance]).collect()
             }
             Request::Kicks { parameters, kicks: RandomKick { q, v, .. } } => {
                 with(*parameters, &[q.0, q.1, v.0, v.1])

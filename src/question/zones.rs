@@ -1,66 +1,10 @@
 //! Starts that are certainly safe or certainly lost, for all parameters within their intervals and all bounded
 //! disturbances, as the phase plane draws them and the pane states them.
 
-use std::sync::Arc;
-
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Belt, ParameterBox, State, Tolerances};
-use crate::portrait::guarantee::{Uncertain, machine, oscillator};
+use crate::model::{Body, Source, State, Tolerances};
+use crate::portrait::guarantee::{certain, oscillator};
 use crate::portrait::{Margin, Portrait, picture_reach};
-
-/// What is not known exactly, and disturbed.
-#[derive(Clone, Debug, PartialEq)]
-pub enum UncertainSubject {
-    /// The oscillator of the paper.
-    Parameters {
-        /// Intervals of the parameters.
-        known: ParameterBox,
-        /// Bound on the disturbance.
-        disturbance: f64,
-    },
-    /// A machine, by the whole model.
-    Machine {
-        belt: Arc<Belt>,
-        /// Tolerances of its numbers, and the bound on the disturbance.
-        tolerances: Tolerances,
-    },
-}
-
-impl UncertainSubject {
-    /// What its border parts at the nominal parameters without disturbance. Fails with the [`Reason`] why the border
-    /// could not be computed.
-    pub fn nominal(&self, limits: &Limits) -> Result<Portrait, Reason> {
-        match self {
-            UncertainSubject::Parameters { known, .. } => oscillator::nominal(known, limits),
-            UncertainSubject::Machine { belt, .. } => Portrait::of_belt(belt),
-        }
-    }
-
-    /// That whose basin lies within all others, and the margin that holds for certain, or why there is none; a border that
-    /// is not closed is followed as far as `reach`. Fails with the [`Reason`] why the border could not be computed.
-    pub fn guaranteed(
-        &self,
-        reach: f64,
-        limits: &Limits,
-    ) -> Result<Result<(Portrait, Margin), Uncertain>, Reason> {
-        match self {
-            UncertainSubject::Parameters { known, disturbance } => {
-                oscillator::guaranteed(known, *disturbance, reach, limits)
-            }
-            UncertainSubject::Machine { belt, tolerances } => machine::guaranteed(belt, tolerances),
-        }
-    }
-
-    /// That whose basin all others lie within, where it is known.
-    fn hopeful(&self, reach: f64, limits: &Limits) -> Result<Option<Portrait>, Reason> {
-        match self {
-            UncertainSubject::Parameters { known, disturbance } => {
-                oscillator::hopeful(known, *disturbance, reach, limits)
-            }
-            UncertainSubject::Machine { belt, tolerances } => machine::hopeful(belt, tolerances),
-        }
-    }
-}
 
 /// A region of the phase plane around the sticking set.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,20 +33,22 @@ pub struct CertainZones {
 /// The zones, with `points` on each step of a border; of a machine in the units of its oscillator. Fails with the
 /// [`Reason`] why a border could not be computed.
 pub(super) fn zones(
-    subject: &UncertainSubject,
+    source: &Source,
+    known: &Tolerances,
     points: u16,
     limits: &Limits,
 ) -> Result<CertainZones, Reason> {
-    let reach = match subject {
-        UncertainSubject::Parameters { known, .. } => {
-            picture_reach(known.d2.lower().abs().min(known.d2.upper().abs()))
+    let (reach, nominal) = match &source.body {
+        Body::Paper(parameters) => {
+            let known = known.around(parameters);
+            let d2 = known.d2.lower().abs().min(known.d2.upper().abs());
+            (picture_reach(d2), oscillator::nominal(&known, limits)?)
         }
         // On a belt every border is closed.
-        UncertainSubject::Machine { .. } => 0.0,
+        Body::Belt(_) | Body::Mode(_) => (0.0, source.portrait()?),
     };
-    let nominal = subject.nominal(limits)?;
-    let found = subject.guaranteed(reach, limits)?;
-    let hopeful = subject.hopeful(reach, limits)?;
+    let found = certain::guaranteed(source, known, reach, limits)?;
+    let hopeful = certain::hopeful(source, known, reach, limits)?;
     let mut cost = nominal.cost;
     let others = found.iter().map(|(worst, _)| worst).chain(&hopeful);
     others.for_each(|portrait| cost += portrait.cost);

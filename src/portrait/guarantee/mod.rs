@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+pub mod certain;
 pub mod machine;
 pub mod oscillator;
 

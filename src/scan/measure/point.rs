@@ -5,9 +5,9 @@ use super::table::{CYCLES, Measure, Value};
 use crate::branch::escape::escape_point;
 use crate::branch::fold::fold;
 use crate::flow::{Detail, Problem, Reason, Subject};
-use crate::model::{Parameters, State};
+use crate::model::{Body, Parameters, State};
 use crate::numerics::Interval;
-use crate::portrait::guarantee::{machine, oscillator};
+use crate::portrait::guarantee::certain::guaranteed;
 use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::proved;
 use crate::portrait::{
@@ -33,17 +33,14 @@ impl Cells<'_> {
                 let found = self.cost.spend(escape_point(&parameters, limits)?);
                 self.fill(Measure::Escape, || found);
             }
-            (Measure::Guaranteed, Some(parameters)) => {
-                let (known, bound) = (tolerances.around(&parameters), tolerances.disturbance);
-                let found = oscillator::guaranteed(&known, bound, 0.0, limits)?;
+            // The numbers of a mode have no tolerances.
+            (Measure::Guaranteed, _) if matches!(source.body, Body::Mode(_)) => {}
+            (Measure::Guaranteed, paper) => {
+                let found = guaranteed(source, tolerances, 0.0, limits)?;
                 let (basin, margin) = found.map_err(|why| why.to_string())?;
-                self.cost += basin.cost;
-                self.margin(Measure::Guaranteed, margin);
-            }
-            (Measure::Guaranteed, None) => {
-                let Some(belt) = source.of_belt() else { return Ok(()) };
-                let found = machine::guaranteed(belt, tolerances)?;
-                let (_, margin) = found.map_err(|why| why.to_string())?;
+                if paper.is_some() {
+                    self.cost += basin.cost;
+                }
                 self.margin(Measure::Guaranteed, margin);
             }
             (Measure::Design, paper) => {

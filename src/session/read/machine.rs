@@ -8,9 +8,8 @@ use std::sync::Arc;
 
 use crate::fit::Fitted;
 use crate::flow::Problem;
-use crate::model::{Belt, Body, Knob, Parameters};
+use crate::model::{Belt, Body, Knob, Parameters, Source};
 use crate::portrait::Margin;
-use crate::question::zones::UncertainSubject;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Finding, Layer, Request, ScaledMachine, Setting, Topic, View};
 use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
@@ -154,15 +153,12 @@ impl Session {
     /// drawn. `None` if something uncertain corresponds to no part of the machine.
     pub(crate) fn zones_request(&self, parameters: &Parameters) -> Option<Request> {
         let running = self.running().filter(|_| self.draws_whole());
-        Some(Request::Zones(match running.zip(self.machine()) {
-            Some((running, belt)) => UncertainSubject::Machine {
-                tolerances: self.doubt.on_machine(running, &belt).ok()?,
-                belt: Arc::new(belt),
-            },
-            None => UncertainSubject::Parameters {
-                known: self.doubt.known(parameters),
-                disturbance: self.doubt.disturbance,
-            },
-        }))
+        let (source, tolerances) = match running.zip(self.machine()) {
+            Some((running, belt)) => {
+                (Source::from(&belt), self.doubt.on_machine(running, &belt).ok()?)
+            }
+            None => (Body::Paper(*parameters).into(), self.doubt.tolerances()),
+        };
+        Some(Request::Zones { source: Arc::new(source), tolerances })
     }
 }

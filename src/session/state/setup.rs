@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
-use crate::model::{Belt, Group, KNOBS, Knob, ParameterBox, Parameters, State, Tolerances};
+use crate::model::{Belt, Group, KNOBS, Knob, State, Tolerances};
 use crate::numerics::decimal::StepSize;
 use crate::scene::{ScaledMachine, Scene, Setting};
 
@@ -141,9 +141,11 @@ impl Uncertainty {
         Ok(self)
     }
 
-    /// The intervals of the parameters, limited to their ranges.
-    pub fn known(&self, parameters: &Parameters) -> ParameterBox {
-        ParameterBox::around(parameters, Knob::PARAMETERS.into_iter().zip(self.half_widths))
+    /// The half widths by name, and the disturbance.
+    pub fn tolerances(&self) -> Tolerances {
+        let named = Knob::PARAMETERS.into_iter().zip(self.half_widths);
+        let half_widths = named.map(|(knob, half)| (knob.to_string(), half)).collect();
+        Tolerances { half_widths, disturbance: self.disturbance }
     }
 
     /// The tolerances from a machine's file, in the units of its oscillator.

@@ -1,0 +1,49 @@
+//! What is certain of the oscillator of the paper, of a machine or of a mode, whose numbers are known to tolerances.
+
+use super::{Uncertain, machine, oscillator};
+use crate::flow::{Limits, Reason};
+use crate::model::{Body, Source, Tolerances};
+use crate::portrait::{Margin, Portrait};
+
+/// That whose basin lies within all others, and the margin that holds for certain, or why there is none; a border that
+/// is not closed is followed as far as `reach`. A mode is known exactly.
+///
+/// # Errors
+/// The [`Reason`] why the border could not be computed.
+pub fn guaranteed(
+    source: &Source,
+    known: &Tolerances,
+    reach: f64,
+    limits: &Limits,
+) -> Result<Result<(Portrait, Margin), Uncertain>, Reason> {
+    match &source.body {
+        Body::Paper(parameters) => {
+            oscillator::guaranteed(&known.around(parameters), known.disturbance, reach, limits)
+        }
+        Body::Belt(belt) => machine::guaranteed(belt, known),
+        Body::Mode(_) => {
+            let portrait = source.portrait()?;
+            let margin = portrait.margin;
+            Ok(Ok((portrait, margin)))
+        }
+    }
+}
+
+/// That whose basin all others lie within, where it is known.
+///
+/// # Errors
+/// The [`Reason`] why the border could not be computed.
+pub fn hopeful(
+    source: &Source,
+    known: &Tolerances,
+    reach: f64,
+    limits: &Limits,
+) -> Result<Option<Portrait>, Reason> {
+    match &source.body {
+        Body::Paper(parameters) => {
+            oscillator::hopeful(&known.around(parameters), known.disturbance, reach, limits)
+        }
+        Body::Belt(belt) => machine::hopeful(belt, known),
+        Body::Mode(_) => source.portrait().map(Some),
+    }
+}
