@@ -43,7 +43,7 @@ pub struct Figure {
 }
 
 /// A plot, as data.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Panel {
     /// What it is called.
     pub title: String,
@@ -81,7 +81,7 @@ pub struct Panel {
 }
 
 /// An axis: its name, and the values at its ends.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Axis {
     /// What stands on it.
     pub name: String,
@@ -153,15 +153,9 @@ impl Panel {
             y: axis(y, scales[1], window.y),
             names: [scales[0].title(x).to_owned(), scales[1].title(y).to_owned()],
             scales: *scales,
-            curves: Vec::new(),
-            areas: Vec::new(),
-            marks: Vec::new(),
             map: picture.map.clone(),
             window: *window,
-            captions: Vec::new(),
-            nothing: None,
-            guides: Vec::new(),
-            arrows: Vec::new(),
+            ..Panel::default()
         };
         for item in &picture.items {
             panel.add(picture, item);

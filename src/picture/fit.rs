@@ -28,7 +28,7 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
     let name = ["x", "x'", "x''"][fitted.record.signal.order()];
     let name = with_unit(name, &fitted.record.signal_unit());
-    let mut picture = Picture::new("record and fit", "t [s]", name, EMPTY);
+    let mut picture = Picture::new("record and fit", "t [s]", name, Window::default());
     picture.curve("record", seen.points.iter().map(|[t, x, _]| [*t, *x]));
     picture.curve("fitted motion", seen.motion.iter().map(|[t, .., x]| [*t, *x]));
     picture.window = around(&picture)?;
@@ -45,7 +45,7 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
 pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
     let name = with_unit("measured - fitted", &fitted.record.signal_unit());
-    let mut picture = Picture::new("residuals", "t [s]", name, EMPTY);
+    let mut picture = Picture::new("residuals", "t [s]", name, Window::default());
     picture.curve("residuals", seen.points.iter().map(|[t, _, e]| [*t, *e]));
     let deviation = fitted.estimate.covariance.deviation;
     band(&mut picture, [seen.points.first()?[0], seen.points.last()?[0]], 2.0 * deviation);
@@ -173,7 +173,7 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
         return None;
     }
     let r = with_unit("r", fitted.unit());
-    let mut picture = Picture::new("D and r together", "D", r, EMPTY);
+    let mut picture = Picture::new("D and r together", "D", r, Window::default());
     for (rise, name) in RISES.into_iter().zip(LINES) {
         let contour = contour(estimate, [D, R], rise, &Runs::new(&|| false));
         if let Some(contour) = contour.ok().filter(|it| !it.is_empty()) {
@@ -235,9 +235,6 @@ fn at(x: f64, y: f64) -> Point {
 fn points(places: &[PlotPoint]) -> Vec<Point> {
     places.iter().copied().map(Point::from).collect()
 }
-
-/// The window of a picture until its own is known.
-const EMPTY: Window = Window { x: Span::known(0.0, 1.0), y: Span::known(0.0, 1.0) };
 
 /// A window that holds all curves with some room; `None` if they have no extent.
 fn around(picture: &Picture) -> Option<Window> {

@@ -174,6 +174,7 @@ pub struct Caption {
 }
 
 /// What a plot shows, in the order in which it is painted.
+#[derive(Default)]
 pub struct Picture<'a> {
     pub title: Text,
     /// Name of the horizontal axis.
@@ -284,20 +285,7 @@ impl<'a> Picture<'a> {
         window: Window,
     ) -> Self {
         let (title, x, y) = (title.into(), x.into(), y.into());
-        Picture {
-            title,
-            x,
-            y,
-            scales: [Scale::Even; 2],
-            upward: None,
-            window,
-            variants: Vec::new(),
-            varied: Vec::new(),
-            cursor: None,
-            reading: None,
-            map: None,
-            items: Vec::new(),
-        }
+        Picture { title, x, y, window, ..Picture::default() }
     }
 
     pub fn axes(&mut self, x: impl Into<Text>, y: impl Into<Text>) {

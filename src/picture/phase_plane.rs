@@ -175,23 +175,13 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
             let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
             let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
             let points: Vec<Point> = samples.map(|sample| sample.state().into()).collect();
-            if !family {
-                number_curve(picture, session.number(place), &points, line.role);
+            // One of several motions has its number at its end, as at its start: dashes repeat.
+            let number = session.number(place).filter(|_| !family);
+            if let Some((number, end)) = number.zip(points.last()) {
+                picture.caption(*end, number.to_string(), line.role);
             }
             picture.curve(line.of(&variant), points);
         }
-    }
-}
-
-/// Numbers a curve of one of several motions at its end, as at its start: dashes repeat.
-pub(super) fn number_curve(
-    picture: &mut Picture,
-    number: Option<usize>,
-    points: &[Point],
-    role: Role,
-) {
-    if let Some((number, end)) = number.zip(points.last()) {
-        picture.caption(*end, number.to_string(), role);
     }
 }
 

@@ -9,7 +9,7 @@ use crate::branch::chart::{Chart, ChartLine};
 use crate::branch::regime::{REGIMES, Regime};
 use crate::model::{Knob, Parameters};
 use crate::scene::machine::path::Station;
-use crate::scene::{Axes, Layer, Point, ScaledMachine, Window};
+use crate::scene::{Axes, Layer, Point, Window};
 use crate::session::Session;
 use crate::words::with_unit;
 
@@ -144,26 +144,8 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
     let place = |(_, parameters): Station| parameters.as_ref().map_or(Point::NOWHERE, at);
     let line = LineStyle { varies: true, ..LineStyle::from("over the speed of the belt") };
     picture.curve(line, running.path().into_iter().map(place));
-    let here = at(&session.problem.parameters);
-    milestones(picture, running, here, place);
-    let present = at(&running.reduced.parameters);
-    let speed = running.machine.belt.belt_speed;
-    let text = with_unit(speed, 4, "m/s");
-    if present != here {
-        // Off the belt: where its speed would have the parameters.
-        picture.items.push(milestone(present, speed, Role::Current));
-    }
-    picture.caption(present, text, Role::Current);
-}
-
-/// Marks round speeds with their numbers, as far apart as these are wide.
-fn milestones(
-    picture: &mut Picture,
-    running: &ScaledMachine,
-    here: Point,
-    place: impl Fn(Station) -> Point,
-) {
-    let window = picture.window;
+    // Round speeds have marks and their numbers, as far apart as these are wide.
+    let (here, window) = (at(&session.problem.parameters), picture.window);
     let apart = |one: Point, other: Point, x: f64, y: f64| {
         let (across, along) = (one.x - other.x, one.y - other.y);
         across.abs() >= x * window.x.width() || along.abs() >= y * window.y.width()
@@ -178,6 +160,14 @@ fn milestones(
             picture.caption(at, with_unit(speed, 1, "m/s"), PEN);
         }
     }
+    let present = at(&running.reduced.parameters);
+    let speed = running.machine.belt.belt_speed;
+    let text = with_unit(speed, 4, "m/s");
+    if present != here {
+        // Off the belt: where its speed would have the parameters.
+        picture.items.push(milestone(present, speed, Role::Current));
+    }
+    picture.caption(present, text, Role::Current);
 }
 
 /// The mark of a speed.

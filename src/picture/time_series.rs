@@ -3,7 +3,7 @@
 //! Displacement and energy change smoothly through the turning points, where the force of friction
 //! jumps from one end of `[-r, r]` to the other; at rest it balances the spring.
 
-use super::phase_plane::{self, number_curve};
+use super::phase_plane;
 use super::{
     Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, Text, fit::mark_dropped, units::said,
 };
@@ -114,7 +114,9 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Trajectory, pla
             line = LineStyle::new(name, beside, line.dash).briefly("other motions");
         }
         let role = line.role;
-        number_curve(picture, number, &points, role);
+        if let Some((number, end)) = number.zip(points.last()) {
+            picture.caption(*end, number.to_string(), role);
+        }
         picture.curve(line, points);
         let number = number.filter(|_| place > 0).map(|number| number.to_string().into());
         label(picture, first, number.unwrap_or(physical(picture, letter).into()), role);

@@ -66,6 +66,9 @@ impl Options {
     }
 }
 
+/// Why the loop ends or pauses after a step, if it does; or why the terminal cannot be written to.
+type Step = io::Result<Option<LoopEnd>>;
+
 pub struct Pump<M, W: Write> {
     application: M,
     screen: Screen<W>,
@@ -213,7 +216,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    fn handle(&mut self, event: Event) -> io::Result<Option<LoopEnd>> {
+    fn handle(&mut self, event: Event) -> Step {
         match event {
             Event::Session(msg) if is_users(&msg) => return self.users(msg),
             Event::Session(msg) => {
@@ -253,7 +256,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Changes the session and carries out the resulting effects in their order.
-    fn update(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
+    fn update(&mut self, msg: Msg) -> Step {
         self.changed.get_or_insert_with(Instant::now);
         for effect in self.application.update(msg) {
             let stop = self.carry_out(effect)?;
@@ -270,12 +273,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Begins to write a figure; if that fails, the session is told why.
-    fn write_figure(
-        &mut self,
-        path: PathBuf,
-        plot: Option<usize>,
-        replace: bool,
-    ) -> io::Result<Option<LoopEnd>> {
+    fn write_figure(&mut self, path: PathBuf, plot: Option<usize>, replace: bool) -> Step {
         let begun = Files::admit(&path, replace)
             .and_then(|()| self.application.figure(&path, plot))
             .and_then(|work| self.workers.write(path, replace, work));
@@ -334,12 +332,12 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Tells the application what became of an effect, which may have further effects.
-    fn told(&mut self, notice: Notice, of_figure: bool) -> io::Result<Option<LoopEnd>> {
+    fn told(&mut self, notice: Notice, of_figure: bool) -> Step {
         self.note_unwritten(&notice);
         self.update(if of_figure { Msg::Written(notice) } else { Msg::Told(notice) })
     }
 
-    fn carry_out(&mut self, effect: Effect) -> io::Result<Option<LoopEnd>> {
+    fn carry_out(&mut self, effect: Effect) -> Step {
         if let Some(text) = self.withheld(&effect) {
             let of_figure = matches!(effect, Effect::Figure { .. });
             let notice = Notice { error: true, text };

@@ -24,6 +24,12 @@ pub struct Span {
     to: f64,
 }
 
+impl Default for Span {
+    fn default() -> Self {
+        Span::known(0.0, 1.0)
+    }
+}
+
 impl Span {
     /// The interval between two numbers. Fails with one line unless both are finite, `from < to`, and their
     /// distance can be resolved.
@@ -139,7 +145,7 @@ impl std::convert::From<Span> for [f64; 2] {
 }
 
 /// A rectangle in the world coordinates of a plot.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     pub x: Span,
     pub y: Span,

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use ratatui::layout::Size;
 
-use super::{Application, Files, Pump};
+use super::{Application, Files, Pump, Step};
 use crate::runtime::application::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
 use crate::session::replay::{Action, Player, Script, ScriptError};
@@ -68,7 +68,7 @@ fn is_key(msg: &Msg, code: Code) -> bool {
 
 impl<M: Application, W: Write> Pump<M, W> {
     /// Handles input of the user: gives it to the session or, while something is played, to the replay.
-    pub(super) fn users(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
+    pub(super) fn users(&mut self, msg: Msg) -> Step {
         let Some(playing) = &mut self.playing else {
             if self.application.is_waiting() {
                 if !forgets(&msg) && !leaves(&msg) {
@@ -129,7 +129,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Begins a replay; one that is already being played continues afterwards.
-    pub(super) fn begin(&mut self, script: Script) -> io::Result<Option<LoopEnd>> {
+    pub(super) fn begin(&mut self, script: Script) -> Step {
         self.options.recorder.forget(self.application.asked());
         let Some(playing) = &mut self.playing else {
             self.playing = Some(Playing::new(script));
@@ -175,7 +175,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     /// Takes the next step of a replay, if the screen shows everything before it.
     ///
     /// Inside the explorer, a replay has the size of the terminal and keeps no pictures.
-    pub(super) fn play(&mut self) -> io::Result<Option<LoopEnd>> {
+    pub(super) fn play(&mut self) -> Step {
         let has_events = !(self.unattended || self.events.is_empty() && self.missed.is_empty());
         if self.changed.is_some() || has_events || self.application.is_waiting() {
             return Ok(None);
@@ -234,7 +234,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Ends a replay whose file cannot be played further.
-    fn fail(&mut self, unmet: ScriptError) -> io::Result<Option<LoopEnd>> {
+    fn fail(&mut self, unmet: ScriptError) -> Step {
         if !self.unattended {
             return self.played(true, format!("replay stopped: {unmet}"));
         }
@@ -243,7 +243,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Ends a replay.
-    fn played(&mut self, error: bool, text: String) -> io::Result<Option<LoopEnd>> {
+    fn played(&mut self, error: bool, text: String) -> Step {
         self.playing = None;
         self.update(Msg::Say(String::new(), None))?;
         self.update(Msg::Told(Notice { error, text }))
@@ -260,7 +260,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Gives the session a message that is recorded, unless it quits.
-    fn record(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
+    fn record(&mut self, msg: Msg) -> Step {
         self.options.recorder.note(&msg);
         let stop = self.update(msg)?;
         if stop == Some(LoopEnd::Quit) {
