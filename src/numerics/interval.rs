@@ -276,72 +276,56 @@ impl Neg for Interval {
     }
 }
 
-impl Add for Interval {
-    type Output = Interval;
+/// Makes an operation of two intervals, and that with a double as the other operand, exact as given.
+macro_rules! operation {
+    ($operation:ident $method:ident: $of:ident) => {
+        impl $operation for Interval {
+            type Output = Interval;
 
-    fn add(self, other: Interval) -> Interval {
-        Interval::outward(self.lower + other.lower, self.upper + other.upper)
-    }
-}
-
-impl Sub for Interval {
-    type Output = Interval;
-
-    fn sub(self, other: Interval) -> Interval {
-        Interval::outward(self.lower - other.upper, self.upper - other.lower)
-    }
-}
-
-impl Mul for Interval {
-    type Output = Interval;
-
-    fn mul(self, other: Interval) -> Interval {
-        extremes([
-            self.lower * other.lower,
-            self.lower * other.upper,
-            self.upper * other.lower,
-            self.upper * other.upper,
-        ])
-    }
-}
-
-impl Div for Interval {
-    type Output = Interval;
-
-    fn div(self, other: Interval) -> Interval {
-        if other.contains(0.0) {
-            return Interval::ALL;
+            fn $method(self, other: Interval) -> Interval {
+                $of(self, other)
+            }
         }
-        extremes([
-            self.lower / other.lower,
-            self.lower / other.upper,
-            self.upper / other.lower,
-            self.upper / other.upper,
-        ])
-    }
-}
 
-/// Operations with a double as the other operand, exact as given.
-macro_rules! with_a_double {
-    ($($operation:ident $method:ident),*) => {$(
         impl $operation<f64> for Interval {
             type Output = Interval;
 
             fn $method(self, other: f64) -> Interval {
-                $operation::$method(self, Interval::point(other))
+                $of(self, Interval::point(other))
             }
         }
-    )*};
+    };
 }
 
-with_a_double!(Add add, Sub sub, Mul mul, Div div);
+operation!(Add add: sum);
+operation!(Sub sub: difference);
+operation!(Mul mul: product);
+operation!(Div div: quotient);
 
-/// The outward hull of four rounded results. Since `min` and `max` ignore NaN, it is tested for first.
-fn extremes(results: [f64; 4]) -> Interval {
-    if results.iter().any(|result| result.is_nan()) {
+fn sum(one: Interval, other: Interval) -> Interval {
+    Interval::outward(one.lower + other.lower, one.upper + other.upper)
+}
+
+fn difference(one: Interval, other: Interval) -> Interval {
+    Interval::outward(one.lower - other.upper, one.upper - other.lower)
+}
+
+fn product(one: Interval, other: Interval) -> Interval {
+    extremes(one, other, |a, b| a * b)
+}
+
+fn quotient(one: Interval, other: Interval) -> Interval {
+    if other.contains(0.0) { Interval::ALL } else { extremes(one, other, |a, b| a / b) }
+}
+
+/// The outward hull of the rounded results of an operation on the bounds. Since `min` and `max` ignore NaN, it is tested
+/// for first.
+fn extremes(one: Interval, other: Interval, of: impl Fn(f64, f64) -> f64) -> Interval {
+    let [a, b] = [other.lower, other.upper].map(|bound| of(one.lower, bound));
+    let [c, d] = [other.lower, other.upper].map(|bound| of(one.upper, bound));
+    if [a, b, c, d].iter().any(|result| result.is_nan()) {
         return Interval::ALL;
     }
-    let [a, b, c, d] = results;
     Interval::outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
 }
 

@@ -71,7 +71,7 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
             picture.curve("the same spiral before and after", turn(from, to, side));
         }
         picture.curve(name, turn(0.0, 1.0, side));
-        picture.mark(Mark::Head, Point { x: -side * r, y: 0.0 }, Role::Special);
+        picture.mark(Mark::Head, [-side * r, 0.0], Role::Special);
         let end = Point { x: side * (r + cycle.clearance), y: 0.0 };
         picture.mark(Mark::Turn, end, Role::Special);
         picture.caption(end, if side > 0.0 { "r + c" } else { "-r - c" }, Role::Special);

@@ -26,7 +26,7 @@ fn locus(picture: &mut Picture) {
     picture.curve("eigenvalues over D", ellipse((0.0, 1.0), (0.0, 1.0)));
     picture.level("eigenvalues over D", 0.0);
     for (at, name) in [([0.0, 1.0], "D = 0"), ([-1.0, 0.0], "D = 1"), ([1.0, 0.0], "D = -1")] {
-        picture.caption(at.into(), name, Role::Special);
+        picture.caption(at, name, Role::Special);
     }
 }
 

@@ -324,12 +324,12 @@ impl<'a> Picture<'a> {
         self.items.push(Item::Upright(line.into(), x));
     }
 
-    pub fn mark(&mut self, mark: Mark, at: Point, role: Role) {
-        self.items.push(Item::Marks(Marks::new(mark, role, vec![at])));
+    pub fn mark(&mut self, mark: Mark, at: impl Into<Point>, role: Role) {
+        self.items.push(Item::Marks(Marks::new(mark, role, vec![at.into()])));
     }
 
-    pub fn caption(&mut self, at: Point, text: impl Into<Text>, role: Role) {
-        let long = text.into();
+    pub fn caption(&mut self, at: impl Into<Point>, text: impl Into<Text>, role: Role) {
+        let (at, long) = (at.into(), text.into());
         let short = long.clone();
         self.items.push(Item::Caption(Caption { at, or_at: Vec::new(), short, long, role }));
     }

@@ -100,7 +100,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         ends(picture, session, index, &shown);
     }
     if let Some(head) = session.head() {
-        picture.mark(Mark::Head, head.state().into(), Role::Cursor);
+        picture.mark(Mark::Head, head.state(), Role::Cursor);
     }
 }
 
@@ -327,8 +327,8 @@ fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMo
 
 fn end(picture: &mut Picture, motion: &Trajectory, role: Role) {
     match motion.outcome {
-        Outcome::Captured { q, .. } => picture.mark(Mark::Rest, Point { x: q, y: 0.0 }, role),
-        Outcome::Moving { q, v, .. } => picture.mark(Mark::Head, Point { x: q, y: v }, role),
+        Outcome::Captured { q, .. } => picture.mark(Mark::Rest, [q, 0.0], role),
+        Outcome::Moving { q, v, .. } => picture.mark(Mark::Head, [q, v], role),
         Outcome::Escaped { .. } | Outcome::GaveUp { .. } => {}
     }
 }

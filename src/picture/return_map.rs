@@ -88,6 +88,6 @@ fn turns(picture: &mut Picture, motion: &Trajectory, like: &LineStyle) {
         }
     }
     if let Some(q) = rest {
-        picture.mark(Mark::Rest, Point { x: q, y: q }, like.role);
+        picture.mark(Mark::Rest, [q, q], like.role);
     }
 }

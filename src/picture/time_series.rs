@@ -5,7 +5,7 @@
 
 use super::phase_plane;
 use super::{
-    Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, Text, fit::mark_dropped, units::said,
+    Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, fit::mark_dropped, units::said,
 };
 use crate::fit::Signal;
 use crate::flow::{Outcome, Sample, Trajectory};
@@ -50,7 +50,9 @@ pub fn draw(picture: &mut Picture, session: &Session) {
     let force = force.map(|motion| friction_force(motion, motion.problem.until));
     if let Some(force) = &force {
         picture.curve("friction force f", force.iter().copied());
-        label(picture, force.first().copied().map(Point::from), "f".into(), Role::Sticking);
+        if let Some(first) = force.first() {
+            picture.caption(*first, "f", Role::Sticking);
+        }
     }
     if let Some(motion) = session.trajectory() {
         quantities(picture, session, motion, 0);
@@ -107,19 +109,22 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Trajectory, pla
     let LineStyle { name: of, role: beside, .. } = phase_plane::motion(session, place);
     for (_, letter, name, read) in quantities_on_show(session) {
         let points = curve(motion, motion.problem.until, read);
-        let (first, number) = (points.first().copied(), session.number(place));
+        let (Some(first), Some(end)) = (points.first().copied(), points.last().copied()) else {
+            continue;
+        };
         let mut line = LineStyle::from(physical(picture, name));
         if place > 0 {
             let name = format!("{}, {of}", line.name);
             line = LineStyle::new(name, beside, line.dash).briefly("other motions");
         }
         let role = line.role;
-        if let Some((number, end)) = number.zip(points.last()) {
-            picture.caption(*end, number.to_string(), role);
-        }
         picture.curve(line, points);
-        let number = number.filter(|_| place > 0).map(|number| number.to_string().into());
-        label(picture, first, number.unwrap_or(physical(picture, letter).into()), role);
+        let number = session.number(place).map(|number| number.to_string());
+        if let Some(number) = number.clone() {
+            picture.caption(end, number, role);
+        }
+        let number = number.filter(|_| place > 0);
+        picture.caption(first, number.unwrap_or(physical(picture, letter).to_owned()), role);
     }
 }
 
@@ -155,28 +160,15 @@ fn curve(motion: &Trajectory, end: f64, read: fn(State) -> f64) -> Vec<Point> {
     points
 }
 
-/// The letter of a curve, where it begins.
-fn label(picture: &mut Picture, first: Option<Point>, letter: Text, role: Role) {
-    if let Some(first) = first {
-        picture.caption(first, letter, role);
-    }
-}
-
 /// The turning points, where they stand apart, and how the motion ends.
 fn events(picture: &mut Picture, motion: &Trajectory) {
     let turns = motion.crossings.iter().map(|turn| Point { x: turn.tau, y: turn.q });
     let marks = Marks::new(Mark::Turn, Role::Trajectory, turns.collect());
     picture.items.push(Item::Marks(Marks { sparse: true, ..marks }));
     match motion.outcome {
-        Outcome::Captured { tau, q } => {
-            picture.mark(Mark::Rest, Point { x: tau, y: q }, Role::Trajectory);
-        }
-        Outcome::Moving { tau, q, .. } => {
-            picture.mark(Mark::Head, Point { x: tau, y: q }, Role::Trajectory);
-        }
-        Outcome::Escaped { tau } => {
-            picture.upright("escapes", tau);
-        }
+        Outcome::Captured { tau, q } => picture.mark(Mark::Rest, [tau, q], Role::Trajectory),
+        Outcome::Moving { tau, q, .. } => picture.mark(Mark::Head, [tau, q], Role::Trajectory),
+        Outcome::Escaped { tau } => picture.upright("escapes", tau),
         Outcome::GaveUp { .. } => {}
     }
 }
