@@ -10,10 +10,7 @@ use thiserror::Error;
 
 use crate::flow::precise::{COARSE, FINE, precise};
 use crate::flow::trajectory::trajectory;
-use crate::flow::{
-    Cost, Crossing, Detail, Limits, Method, MotionUnits, Outcome, Problem, Reason, Trajectory,
-    follow,
-};
+use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
 use crate::model::Model;
 use crate::model::model::FINEST;
 use crate::numerics::{Scalar, Twofold};
@@ -87,9 +84,15 @@ pub enum NoComparison {
 }
 
 impl Reference {
-    /// The reference for a motion; method and tolerance of the problem are not looked at. Fails with [`Reason`]
-    /// where no two ways of computing it come to an end.
-    pub fn of(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
+    /// The reference for a motion, that of a `machine` in SI units; method and tolerance of the problem are not looked at.
+    /// Fails with [`Reason`] where no two ways of computing it come to an end, or where the machine cannot be followed.
+    pub fn of(machine: Option<&Model>, problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
+        if machine.is_some() {
+            let best = Problem { method: Method::Taylor, tolerance: FINEST, ..*problem };
+            let found = best.followed(machine, Detail::default(), limits);
+            let alone = Self::new(&found, ReferenceSource::Machine)?;
+            return Ok(Reference { error: f64::NAN, ..alone });
+        }
         let tight = limits.up_to(MOST);
         let run =
             |grain| Self::new(&precise(problem, grain, &tight)?, ReferenceSource::TwicePrecision);
@@ -111,13 +114,6 @@ impl Reference {
             Self::new(&trajectory(&question, Detail::default(), limits), source)
         };
         Ok(run(first, TIGHT.0)?.checked_by(&run(second, TIGHT.1)?))
-    }
-
-    /// The reference for a motion of a machine in SI units. Fails with [`Reason`] where it cannot be followed.
-    pub fn of_machine(model: &Model, problem: &Problem) -> Result<Self, Reason> {
-        let best = Problem { method: Method::Taylor, tolerance: FINEST, ..*problem };
-        let found = follow(model, &best, MotionUnits::physical(model), Detail::default());
-        Ok(Reference { error: f64::NAN, ..Self::new(&found, ReferenceSource::Machine)? })
     }
 
     /// What a method found, as a reference with an error unknown yet; or why it gave up.
@@ -180,15 +176,15 @@ impl Reference {
     fn deviation(&self, other: &Self) -> Option<Deviation> {
         let apart = |one: Twofold, other: Twofold| (one - other).value().abs();
         let ends = self.end.state().zip(other.end.state());
-        let mut error = match (self.end, other.end, ends) {
-            (_, _, Some((one, other))) if self.is_of_machine() => apart(one.0, other.0),
-            (Outcome::Escaped { .. }, Outcome::Escaped { .. }, _) if self.is_of_machine() => 0.0,
-            (_, _, Some((one, other))) => apart(one.0, other.0).max(apart(one.1, other.1)),
-            (Outcome::Escaped { tau: one }, Outcome::Escaped { tau: other }, _) => {
-                apart(one, other)
-            }
-            _ => return None,
+        let besides = match (self.end, other.end) {
+            (Outcome::Escaped { tau: one }, Outcome::Escaped { tau: other }) => apart(one, other),
+            _ => ends.map(|(one, other)| apart(one.1, other.1))?,
         };
+        let mut error = ends.map_or(0.0, |(one, other)| apart(one.0, other.0));
+        // Of a machine only displacements count.
+        if !self.is_of_machine() {
+            error = error.max(besides);
+        }
         let mut time: f64 = 0.0;
         for index in 0..self.turns.len().max(other.turns.len()) {
             let turns = (self.turns.get(index), other.turns.get(index));
@@ -229,7 +225,7 @@ mod tests {
     #[test]
     fn the_closed_form_is_right_to_rounding_and_the_reference_knows_it() {
         let question = problem([-0.1, 0.0, 0.0, 0.5], 2.0, 50.0);
-        let reference = Reference::of(&question, &Limits::PATIENT).unwrap();
+        let reference = Reference::of(None, &question, &Limits::PATIENT).unwrap();
         assert_eq!(reference.source, ReferenceSource::TwicePrecision);
         assert!(reference.error < 1e-28 && reference.turns.len() == 3);
         let deviation = reference.compare(&run(&question)).unwrap();
@@ -240,7 +236,7 @@ mod tests {
     #[test]
     fn an_error_is_that_of_the_turning_points_and_of_the_end() {
         let question = problem([-0.1, 0.0, 0.05, 0.1], 3.0, 50.0);
-        let reference = Reference::of(&question, &Limits::PATIENT).unwrap();
+        let reference = Reference::of(None, &question, &Limits::PATIENT).unwrap();
         let exact = run(&Problem { tolerance: 1e-14, ..question });
         let mut wrong = exact.clone();
         wrong.crossings[4].q += 1e-3;
@@ -262,7 +258,7 @@ mod tests {
     #[test]
     fn an_escape_is_compared_by_its_time() {
         let question = problem([0.1, 0.0, -1.0, 0.1], 5.0, 100.0);
-        let reference = Reference::of(&question, &Limits::PATIENT).unwrap();
+        let reference = Reference::of(None, &question, &Limits::PATIENT).unwrap();
         let found = run(&question);
         let deviation = reference.compare(&found).unwrap();
         assert!(deviation.agrees && deviation.error < 1e-9, "{deviation:?}");
@@ -276,10 +272,10 @@ mod tests {
     fn where_series_take_too_long_two_other_methods_stand_for_them() {
         let question = problem([-0.1, 0.0, 1.0, 0.1], 1e6, 100.0);
         let limits = Limits { evaluations: 100_000, ..Limits::PATIENT };
-        let reference = Reference::of(&question, &limits).unwrap();
+        let reference = Reference::of(None, &question, &limits).unwrap();
         assert_eq!(reference.source, ReferenceSource::Implicit);
         assert!(reference.error < 1e-5, "of a million: {:e}", reference.error);
         let never = Limits { interrupted: &|| true, ..Limits::PATIENT };
-        assert_eq!(Reference::of(&question, &never), Err(Reason::Interrupted));
+        assert_eq!(Reference::of(None, &question, &never), Err(Reason::Interrupted));
     }
 }

@@ -4,11 +4,7 @@
 //! added by the caller that has a clock. The front are the rows that no other row beats in both.
 
 use super::reference::{Deviation, NoComparison, Reference};
-use crate::flow::trajectory::trajectory;
-use crate::flow::{
-    Cost, Detail, Limits, METHODS, Method, MotionUnits, Outcome, Problem, Reason, Trajectory,
-    follow,
-};
+use crate::flow::{Cost, Detail, Limits, METHODS, Method, Outcome, Problem, Reason, Trajectory};
 use crate::model::model::FINEST;
 use crate::model::{Knob, Model};
 use crate::numerics::elementary::{ln, log10};
@@ -126,18 +122,22 @@ impl TradePoint {
 }
 
 impl Trade {
-    /// Computes every row.
+    /// Computes every row: of all methods, or of those that know a `machine`, whose motion is in SI units.
     ///
     /// A method that gives up for want of budget is not asked for more digits. Fails with [`Reason`] where there is
     /// no reference, or when interrupted.
-    pub fn of(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
-        let reference = Reference::of(problem, limits)?;
+    pub fn of(machine: Option<&Model>, problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
+        let reference = Reference::of(machine, problem, limits)?;
         let mut rows = Vec::new();
         let bounded = limits.up_to(MOST);
-        for spec in METHODS {
-            for rung in ladder(problem, spec.method) {
-                let row =
-                    TradePoint::new(&trajectory(&rung, Detail::default(), &bounded), &reference);
+        // Of a machine, `auto` is another name for the series, whose finest tolerance is the reference itself.
+        let told = |method: Method| method != Method::Auto && method.follows_machines();
+        let methods = METHODS.iter().map(|spec| spec.method);
+        for method in methods.filter(|method| machine.is_none() || told(*method)) {
+            let rungs = ladder(problem, method).into_iter();
+            for rung in rungs.filter(|rung| machine.is_none() || rung.tolerance > FINEST) {
+                let found = rung.followed(machine, Detail::default(), &bounded);
+                let row = TradePoint::new(&found, &reference);
                 let reason = match row.deviation {
                     Err(NoComparison::GaveUp(reason)) => Some(reason),
                     _ => None,
@@ -150,21 +150,6 @@ impl Trade {
                 }
             }
         }
-        Ok(Trade { problem: *problem, reference, rows })
-    }
-
-    /// Computes every row of the methods that know a machine, for a motion in SI units. Fails with [`Reason`] where there
-    /// is no reference.
-    pub fn of_machine(model: &Model, problem: &Problem) -> Result<Self, Reason> {
-        let reference = Reference::of_machine(model, problem)?;
-        let row = |rung: &Problem| {
-            let found = follow(model, rung, MotionUnits::physical(model), Detail::default());
-            TradePoint::new(&found, &reference)
-        };
-        let methods = [Method::Taylor, Method::Dop853, Method::Dopri5];
-        let rungs = methods.iter().flat_map(|method| ladder(problem, *method));
-        // The finest tolerance is the reference itself.
-        let rows = rungs.filter(|rung| rung.tolerance > FINEST).map(|rung| row(&rung)).collect();
         Ok(Trade { problem: *problem, reference, rows })
     }
 
@@ -215,7 +200,7 @@ mod tests {
             until,
             ..Problem::default()
         };
-        Trade::of(&problem, &Limits::PATIENT).unwrap()
+        Trade::of(None, &problem, &Limits::PATIENT).unwrap()
     }
 
     fn rows(trade: &Trade, method: Method) -> Vec<&TradePoint> {
@@ -308,7 +293,7 @@ mod tests {
             tolerance: 3e-7,
             ..Problem::default()
         };
-        let trade = Trade::of(&problem, &Limits::PATIENT).unwrap();
+        let trade = Trade::of(None, &problem, &Limits::PATIENT).unwrap();
         let own: Vec<&TradePoint> = trade.rows.iter().filter(|row| trade.is_own(row)).collect();
         assert_eq!(own.len(), 1);
         assert_eq!(own[0].problem.tolerance, 3e-7);

@@ -109,13 +109,16 @@ pub struct TradeCommand {
 impl TradeCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let (asked, output) = (self.asked.asked(self.named.as_deref())?, &self.asked.output);
-        let unmeasured = |reason| {
-            Failure::Unanswered(format!("there is nothing to measure errors against: {reason}"))
+        let machine = asked.model.as_ref();
+        let unmeasured = |reason| match machine {
+            Some(_) => troubled(reason),
+            None => {
+                let nothing = "there is nothing to measure errors against";
+                Failure::Unanswered(format!("{nothing}: {reason}"))
+            }
         };
-        let mut found = match &asked.model {
-            Some(model) => Trade::of_machine(model, &asked.problem).map_err(troubled)?,
-            None => Trade::of(&asked.problem, &Limits::PATIENT).map_err(unmeasured)?,
-        };
+        let found = Trade::of(machine, &asked.problem, &Limits::PATIENT);
+        let mut found = found.map_err(unmeasured)?;
         let seconds = in_turn(output.repeat, found.rows.len(), |index| {
             // A row that was given up used its whole budget; it is not repeated.
             let row = &found.rows[index];

@@ -27,6 +27,14 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// A motion to ten digits.
+    #[must_use]
+    pub fn new(parameters: Parameters, initial: State, until: f64) -> Self {
+        let [tolerance, step, epsilon] =
+            [Knob::Tolerance, Knob::Step, Knob::Epsilon].map(Knob::usual);
+        Problem { parameters, initial, until, method: Method::Auto, tolerance, step, epsilon }
+    }
+
     /// A number of the motion, or of how it is computed, that is not one of the oscillator.
     fn own(&mut self, knob: Knob) -> Option<&mut f64> {
         match knob {
@@ -57,15 +65,7 @@ impl Problem {
 impl Default for Problem {
     /// A motion of the plain oscillator to the end time 60, to ten digits.
     fn default() -> Self {
-        Problem {
-            parameters: Parameters::default(),
-            initial: State::default(),
-            until: Knob::Until.usual(),
-            method: Method::Auto,
-            tolerance: Knob::Tolerance.usual(),
-            step: Knob::Step.usual(),
-            epsilon: Knob::Epsilon.usual(),
-        }
+        Problem::new(Parameters::default(), State::default(), Knob::Until.usual())
     }
 }
 

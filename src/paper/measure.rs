@@ -154,14 +154,10 @@ impl<'a> ClaimCase<'a> {
         (method, tolerance): (Method, f64),
         energy: bool,
     ) -> Result<Trajectory, Reason> {
-        let parameters = self.parameters;
-        let problem =
-            Problem { parameters, initial, until, method, tolerance, ..Problem::default() };
+        let problem = Problem::new(self.parameters, initial, until);
+        let problem = Problem { method, tolerance, ..problem };
         let motion = trajectory(&problem, Detail { energy, ..Detail::default() }, &self.limits);
-        if let Outcome::GaveUp { reason, .. } = motion.outcome {
-            return Err(reason);
-        }
-        Ok(motion)
+        motion.outcome.answered().map(|()| motion)
     }
 
     /// A motion by both methods, each reduced to numbers by `read`. Fails, too, where one has none.

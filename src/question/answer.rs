@@ -209,7 +209,7 @@ pub fn answer_for(
             Finding::Speeds(speeds(belt, *range, *rough, limits)?)
         }
         Request::Trade(problem) => {
-            Finding::Trade(Box::new(Trade::of(problem, &limits.up_to(ROW))?))
+            Finding::Trade(Box::new(Trade::of(None, problem, &limits.up_to(ROW))?))
         }
         Request::Scan { scan, from } => {
             let rows = (*from..scan.points()).map(|index| scan.row(index, limits));
@@ -220,7 +220,7 @@ pub fn answer_for(
             Finding::Proof(prove(&ParameterBox::from(parameters), &[]))
         }
         Request::Reference(problem) => {
-            let found = Reference::of(problem, &limits.up_to(REFERENCE));
+            let found = Reference::of(None, problem, &limits.up_to(REFERENCE));
             Finding::Reference(Reason::tolerated(found)?.map(Box::new))
         }
     })

@@ -274,7 +274,7 @@ pub fn compared() -> Box<Trade> {
         let parameters = Parameters { d: -0.1, d2: 0.0, d3: 0.05, r: 0.1 };
         let problem = Problem { parameters, until: 20.0, ..Problem::default() };
         let limits = Limits { evaluations: 50_000, ..Limits::PATIENT };
-        Box::new(Trade::of(&problem, &limits).unwrap())
+        Box::new(Trade::of(None, &problem, &limits).unwrap())
     });
     FOUND.clone()
 }

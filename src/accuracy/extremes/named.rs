@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::lattice::UNTIL;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Method, Outcome, Problem, Trajectory};
 use crate::model::parameters::energy;
@@ -78,14 +79,10 @@ impl NamedExtreme {
 /// A million half swings of the undamped oscillator, and what they did to its energy.
 fn million_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits) -> NamedExtreme {
     const SWINGS: f64 = 1e6;
-    let problem = Problem {
-        parameters: Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 },
-        initial: State { q: 1.0, v: 0.0 },
-        until: (SWINGS + 0.5) * std::f64::consts::PI,
-        method,
-        tolerance,
-        ..Problem::default()
-    };
+    let undamped = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
+    let until = (SWINGS + 0.5) * std::f64::consts::PI;
+    let problem = Problem::new(undamped, State { q: 1.0, v: 0.0 }, until);
+    let problem = Problem { method, tolerance, ..problem };
     let measure = ("energy gained or lost", allowed);
     NamedExtreme::of("a million half swings at D = r = 0", measure, &problem, limits, |motion| {
         let Outcome::Moving { q, v, .. } = motion.outcome else { return None };
@@ -99,12 +96,8 @@ fn blow_up(
     method: Method,
     limits: &Limits,
 ) -> NamedExtreme {
-    let problem = Problem {
-        parameters: Parameters { d, d2, d3, r: 0.0 },
-        initial: State { q, v },
-        method,
-        ..Problem::default()
-    };
+    let problem = Problem::new(Parameters { d, d2, d3, r: 0.0 }, State { q, v }, UNTIL);
+    let problem = Problem { method, ..problem };
     let measure = ("relative error of its time", 1e-8);
     NamedExtreme::of(what, measure, &problem, limits, |motion| match motion.outcome {
         Outcome::Escaped { tau } => Some((tau / time - 1.0).abs()),
@@ -114,13 +107,9 @@ fn blow_up(
 
 /// The start from which an explicit method needs a hundred million steps.
 fn far_out(method: Method, limits: &Limits) -> NamedExtreme {
-    let problem = Problem {
-        parameters: Parameters { d: -0.1, d2: 0.0, d3: 1.0, r: 0.1 },
-        initial: State { q: 1e6, v: 0.0 },
-        until: 2e4,
-        method,
-        ..Problem::default()
-    };
+    let parameters = Parameters { d: -0.1, d2: 0.0, d3: 1.0, r: 0.1 };
+    let problem = Problem::new(parameters, State { q: 1e6, v: 0.0 }, 2e4);
+    let problem = Problem { method, ..problem };
     let what = "far out at q0 = 1e6, D3 = 1, until it rests";
     NamedExtreme::of(what, ("steps", 5_000.0), &problem, limits, |motion| {
         #[expect(clippy::cast_precision_loss, reason = "the budget ends it long before")]
@@ -132,13 +121,8 @@ fn far_out(method: Method, limits: &Limits) -> NamedExtreme {
 /// One motion in units of every power of two from -240 to 240, and its mirror image in each.
 fn scaled_and_mirrored(method: Method, limits: &Limits) -> NamedExtreme {
     let parameters = Parameters { d: -0.1, d2: 0.3, d3: 0.4, r: 0.05 };
-    let plain = Problem {
-        parameters,
-        initial: State { q: 2.0, v: -1.0 },
-        until: 20.0,
-        method,
-        ..Problem::default()
-    };
+    let plain = Problem::new(parameters, State { q: 2.0, v: -1.0 }, 20.0);
+    let plain = Problem { method, ..plain };
     let follow = |problem: &Problem| trajectory(problem, Detail::default(), limits);
     let reference = follow(&plain);
     let mut cost = reference.cost;

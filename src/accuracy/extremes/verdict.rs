@@ -103,15 +103,8 @@ fn changed(motion: &Trajectory, part: f64, limits: &Limits) -> Trajectory {
 }
 
 fn follow(case: &Case, method: Method, tolerance: f64, budget: u64, limits: &Limits) -> Trajectory {
-    let problem = Problem {
-        parameters: case.parameters,
-        initial: case.initial,
-        until: UNTIL,
-        method,
-        tolerance,
-        ..Problem::default()
-    };
-    trajectory(&problem, Detail::default(), &limits.up_to(budget))
+    let problem = Problem::new(case.parameters, case.initial, UNTIL);
+    trajectory(&Problem { method, tolerance, ..problem }, Detail::default(), &limits.up_to(budget))
 }
 
 /// The motion to compare with: the closed form, else a tight motion by the series, else, where that is

@@ -205,7 +205,7 @@ fn why_there_is_no_measured_error_is_known() {
             let request = session.request(topic, 0).unwrap();
             let result = match topic {
                 Topic::Reference => {
-                    let found = Reference::of(&problem, &Limits::PATIENT).unwrap();
+                    let found = Reference::of(None, &problem, &Limits::PATIENT).unwrap();
                     Finding::Reference(Ok(Box::new(found)))
                 }
                 _ => answer(&request, &Limits::PATIENT).unwrap(),
