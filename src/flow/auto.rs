@@ -54,11 +54,10 @@ pub struct Auto {
     /// Created when first needed: most motions are never stiff.
     stiff: Option<Box<Stiff>>,
     exact: Exact,
-    /// The method of the last step.
-    last: Taken,
-    /// Whether the field is a linear oscillation.
+    /// Whether the field is a linear oscillation, so that steps are those of the closed form.
     linear: bool,
-    /// Whether the next step is to be implicit.
+    /// Whether the last step was implicit, and whether the next one is to be.
+    was_implicit: bool,
     implicit: bool,
     /// Length of the last implicit step in the current run, and whether any step of the run was worthwhile.
     reached: f64,
@@ -71,14 +70,6 @@ pub struct Auto {
     /// How often implicit steps were not worthwhile since they last were.
     in_vain: u32,
     implicit_steps: u64,
-}
-
-/// The method that took a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Taken {
-    Series,
-    Implicit,
-    Closed,
 }
 
 /// One step of a motion, kept for later evaluation.
@@ -94,8 +85,8 @@ impl Auto {
             tolerance,
             stiff: None,
             exact: Exact::new(),
-            last: Taken::Series,
             linear: false,
+            was_implicit: false,
             implicit: false,
             reached: 0.0,
             worthwhile: false,
@@ -114,14 +105,14 @@ impl Auto {
 
     /// The implicit method, if it took the last step.
     fn implicit(&self) -> Option<&Stiff> {
-        self.stiff.as_deref().filter(|_| self.last == Taken::Implicit)
+        self.stiff.as_deref().filter(|_| self.was_implicit)
     }
 
     /// The method that took the last step.
     fn taken(&self) -> &dyn Stepper {
         match self.implicit() {
             Some(stiff) => stiff,
-            None if self.last == Taken::Closed => &self.exact,
+            None if self.linear => &self.exact,
             None => &self.taylor,
         }
     }
@@ -130,7 +121,7 @@ impl Auto {
     pub fn last_step(&self) -> KeptStep {
         match self.implicit() {
             Some(stiff) => Arc::new(stiff.clone()),
-            None if self.last == Taken::Closed => Arc::new(self.exact.clone()),
+            None if self.linear => Arc::new(self.exact.clone()),
             None => Arc::new(self.taylor.clone()),
         }
     }
@@ -179,15 +170,15 @@ impl Stepper for Auto {
 
     /// Takes a step by the current method, then chooses the method of the next one.
     fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
+        self.was_implicit = false;
         if self.linear {
-            self.last = Taken::Closed;
             return self.exact.advance(from, longest.min(CLOSED), arrives);
         }
         if self.implicit
             && let Some(stiff) = self.stiff.as_deref_mut()
             && let Ok(step) = stiff.advance(from, longest, arrives)
         {
-            self.last = Taken::Implicit;
+            self.was_implicit = true;
             self.implicit_steps += 1;
             if self.damping_times(&step) >= WORTHWHILE {
                 (self.worthwhile, self.stalled) = (true, 0);
@@ -201,7 +192,7 @@ impl Stepper for Auto {
             self.reached = step.duration;
             return Ok(step);
         }
-        (self.last, self.implicit) = (Taken::Series, false);
+        self.implicit = false;
         let step = self.taylor.advance(from, longest, arrives)?;
         let limited = self.damping_times(&step) > LIMITED * self.taylor.order();
         self.limited = if limited { self.limited + 1 } else { 0 };

@@ -7,7 +7,9 @@
 use std::cell::Cell;
 
 use super::motion::Cost;
-use super::step::{Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, stopping_time};
+use super::step::{
+    Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length, stopping_time,
+};
 use super::tableau::{ErrorEstimate, Scheme};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::{Bracket, PlaceTolerance, newton, rough_exp2, rough_log2};
@@ -137,7 +139,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         accept: impl Fn(StepPoint) -> bool,
     ) -> Result<(f64, StepPoint), Reason> {
         if self.next == 0.0 {
-            self.next = self.first_step();
+            self.next = first_length(self.start, self.acceleration[0]);
         }
         let mut grow = 10.0;
         let mut length = self.next.min(longest);
@@ -189,12 +191,6 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         (self.duration, self.end) = (length, end);
         let end = StepPoint { x: end.x + rest * end.v + 0.5 * rest * rest * slope, v: 0.0 };
         Step { duration: (length + rest).max(0.0), end, crossed: true }
-    }
-
-    /// First step: the state may change by a hundredth of its size (Hairer, Norsett and Wanner II.4).
-    fn first_step(&self) -> f64 {
-        let slope = self.velocity[0].abs().max(self.acceleration[0].abs());
-        if slope > 0.0 { (0.01 * self.start.size() / slope).min(LONGEST) } else { LONGEST }
     }
 
     /// Rejects a step of fixed length if damping is too fast at any of its stages.

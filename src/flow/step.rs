@@ -55,6 +55,12 @@ pub fn stopping_time(v: f64, acceleration: f64) -> f64 {
     if v > 0.0 && acceleration < 0.0 { FEW * v / -acceleration } else { f64::INFINITY }
 }
 
+/// A first step: the state may change by a hundredth of its size (Hairer, Norsett and Wanner II.4).
+pub fn first_length(from: StepPoint, acceleration: f64) -> f64 {
+    let slope = from.v.abs().max(acceleration.abs());
+    if slope > 0.0 { (0.01 * from.size() / slope).min(LONGEST) } else { LONGEST }
+}
+
 /// A smooth field `x' = v, v' = acceleration(x, v)` with `acceleration = -x - (a function of v)`.
 pub trait Field: Copy + Debug {
     /// The acceleration `v'`.

@@ -21,7 +21,9 @@ mod arrival;
 use algebra::{differences, interpolated};
 
 use super::motion::Cost;
-use super::step::{Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, stopping_time};
+use super::step::{
+    Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length, stopping_time,
+};
 use super::tableau::radau::{Collocation, FIVE, MOST, SEVEN, StageMatrix, Stages, THREE};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
@@ -107,9 +109,7 @@ impl<F: Field> Stiff<F> {
         }
         self.start = from;
         if self.next == 0.0 {
-            let slope = from.v.abs().max(self.slope.abs());
-            self.next =
-                if slope > 0.0 { (0.01 * from.size() / slope).min(LONGEST) } else { LONGEST };
+            self.next = first_length(from, self.slope);
         }
     }
 
