@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::limits::Limits;
 use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
-use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper};
+use super::step::{PlaneField, Powers, Step, StepPoint, Stepper};
 use super::stop::ComingToRest;
 use super::swing::swing;
 use crate::model::parameters::{energy, rests};
@@ -138,8 +138,8 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     }
 
     /// Runs one smooth piece on a side whose centre is displaced by some shift, from a point in units of a power of two,
-    /// for some time or up to `v = 0`; keeps points for drawing and adds up the work. `see` may stop it after a step.
-    /// Returns its end, and whether that is at `v = 0`.
+    /// for some time or up to `v = 0`; keeps evenly spaced points of each step for drawing, its end but not its start,
+    /// and adds up the work. `see` may stop it after a step. Returns its end, and whether that is at `v = 0`.
     fn piece<F: PlaneField, S: Stepper<F, N>>(
         &mut self,
         stepper: &mut S,
@@ -152,14 +152,21 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         let (detail, time) = (self.detail, self.time);
         let (samples, works) = (&mut self.found.samples, &mut self.works);
         let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
-            if detail.samples_per_step > 0 {
-                sample(stepper, step, detail.samples_per_step, |offset, point| {
+            let count = detail.samples_per_step * stepper.pieces();
+            for index in 1..=count {
+                let offset = step.duration.value() * (real(index) / real(count));
+                let at_end = index == count;
+                let StepPoint { x, v } =
+                    if at_end { step.end.rounded() } else { stepper.at(offset) };
+                // Near the largest numbers, a position measured from the centre of its spiral may overflow, and so may
+                // the polynomial of a step between two finite points.
+                if x.is_finite() && v.is_finite() {
                     samples.push(Sample {
                         tau: time.plus(N::of(at + offset)).value(),
-                        q: side.displacement(times_power(point.x, unit), shift),
-                        v: side.sign() * times_power(point.v, unit),
+                        q: side.displacement(times_power(x, unit), shift),
+                        v: side.sign() * times_power(v, unit),
                     });
-                });
+                }
             }
             if detail.energy {
                 add_works(works, &stepper.powers(), &field.frictionless(), unit);
@@ -239,30 +246,6 @@ fn add_works(works: &mut [f64; 3], powers: &Powers, field: &HalfPlane, unit: i32
     for (work, rate) in works.iter_mut().zip(rates) {
         *work += times_power(times_power(rate, unit), unit);
     }
-}
-
-/// Passes evenly spaced points of a step to `keep`, including its end but not its start.
-///
-/// Near the largest numbers, a position measured from the centre of its spiral may overflow, and so may the
-/// polynomial of a step between two finite points. Points that are not finite are left out.
-fn sample<N: Scalar, F: Field, S: Stepper<F, N>>(
-    stepper: &mut S,
-    step: &Step<N>,
-    count: usize,
-    mut keep: impl FnMut(f64, StepPoint),
-) {
-    let duration = step.duration.value();
-    let mut keep_number = |offset, point: StepPoint| {
-        if point.x.is_finite() && point.v.is_finite() {
-            keep(offset, point);
-        }
-    };
-    let count = count * stepper.pieces();
-    for index in 1..count {
-        let offset = duration * (real(index) / real(count));
-        keep_number(offset, stepper.at(offset));
-    }
-    keep_number(duration, step.end.rounded());
 }
 
 #[cfg(test)]
