@@ -128,7 +128,7 @@ impl Auto {
 
     /// The integral of `v^2` over the last step; nonlinear fields only.
     pub fn square_integral(&self) -> f64 {
-        self.implicit().map_or_else(|| self.taylor.square_integral(), |stiff| stiff.powers().second)
+        self.implicit().map_or_else(|| self.taylor.square_integral(), |stiff| stiff.powers().x)
     }
 
     /// The largest v in the last step, which took this long, if the acceleration changes sign there.

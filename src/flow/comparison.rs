@@ -17,7 +17,7 @@
 //! Mechanics and Engineering 177, 1999).
 
 use super::motion::Cost;
-use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper};
+use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper, powers_of_stages};
 use crate::model::{HalfPlane, Parameters, Reason, Side};
 use crate::numerics::{tanh, times_power};
 
@@ -170,7 +170,7 @@ impl Stepper<SmoothField> for TimeStepping {
     }
 
     fn powers(&self) -> Powers {
-        Powers::of_stages(self.duration, &[1.0], &[0.5 * (self.start.v + self.end.v)])
+        powers_of_stages(self.duration, &[1.0], &[0.5 * (self.start.v + self.end.v)])
     }
 
     fn cost(&self) -> Cost {

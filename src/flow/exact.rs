@@ -1,7 +1,7 @@
 //! The closed form of the piecewise linear oscillator as a stepper: one step is a whole half swing.
 
 use super::motion::Cost;
-use super::step::{Powers, Step, StepPoint, Stepper};
+use super::step::{Powers, Step, StepPoint, Stepper, powers_over};
 use crate::closed_form::linear::Linear;
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::count::truncated;
@@ -57,7 +57,7 @@ impl Stepper for Exact {
     }
 
     fn powers(&self) -> Powers {
-        Powers::over(self.duration, self.pieces(), |time| self.at(time).v)
+        powers_over(self.duration, self.pieces(), |time| self.at(time).v)
     }
 
     fn pieces(&self) -> usize {

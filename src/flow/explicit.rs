@@ -8,7 +8,8 @@ use std::cell::Cell;
 
 use super::motion::Cost;
 use super::step::{
-    Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length, stopping_time,
+    Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length,
+    powers_of_stages, stopping_time,
 };
 use super::tableau::{ErrorEstimate, Scheme};
 use crate::model::{HalfPlane, Reason};
@@ -253,7 +254,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
 
     /// The quadrature of the method: its stages are the nodes.
     fn powers(&self) -> Powers {
-        Powers::of_stages(self.duration, &self.scheme.weights, &self.velocity)
+        powers_of_stages(self.duration, &self.scheme.weights, &self.velocity)
     }
 
     fn cost(&self) -> Cost {

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use nalgebra::Vector3;
+
 use super::limits::Limits;
 use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
@@ -23,7 +25,7 @@ pub struct MotionRun<'a, N = f64> {
     found: Trajectory<N>,
     time: Sum<N>,
     /// Work of the linear, the quadratic and the cubic damping.
-    works: [f64; 3],
+    works: Vector3<f64>,
     /// Length of the path, half swing by half swing: a short way has digits that the places of its ends have not.
     path: f64,
 }
@@ -36,7 +38,14 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         if detail.samples_per_step > 0 {
             found.samples.push(Sample { tau: 0.0, q, v });
         }
-        MotionRun { detail, limits, found, time: Sum::default(), works: [0.0; 3], path: 0.0 }
+        MotionRun {
+            detail,
+            limits,
+            found,
+            time: Sum::default(),
+            works: Vector3::zeros(),
+            path: 0.0,
+        }
     }
 
     /// Ends the run without an answer.
@@ -65,7 +74,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             && let Some((q, v)) = outcome.state()
         {
             let end = State { q: q.value(), v: v.value() };
-            let [linear, quadratic, cubic] = self.works;
+            let [linear, quadratic, cubic] = self.works.into();
             let works = [linear, quadratic, cubic, -parameters.r * self.path];
             let energies = (energy(initial), energy(end));
             let ledger = Ledger::of_terms(&parameters, energies, works);
@@ -150,7 +159,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         mut see: impl FnMut(f64, i32, &Step<N>) -> bool,
     ) -> (Result<StepPoint<N>, Reason>, bool) {
         let (detail, time) = (self.detail, self.time);
-        let (samples, works) = (&mut self.found.samples, &mut self.works);
+        let (samples, sum) = (&mut self.found.samples, &mut self.works);
         let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
             let count = detail.samples_per_step * stepper.pieces();
             for index in 1..=count {
@@ -169,7 +178,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
                 }
             }
             if detail.energy {
-                add_works(works, &stepper.powers(), &field.frictionless(), unit);
+                *sum += works(stepper.powers(), &field.frictionless(), unit);
             }
             if see(at, unit, step) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
@@ -239,13 +248,11 @@ impl MotionRun<'_> {
     }
 }
 
-/// Adds the work of the damping terms over one step measured in units of `2^unit`.
-fn add_works(works: &mut [f64; 3], powers: &Powers, field: &HalfPlane, unit: i32) {
+/// The work of the damping terms over one step measured in units of `2^unit`.
+fn works(powers: Powers, field: &HalfPlane, unit: i32) -> Vector3<f64> {
     let HalfPlane { d, d2, d3 } = field.in_units(unit);
-    let rates = [-2.0 * d * powers.second, -d2 * powers.third, -d3 * powers.fourth];
-    for (work, rate) in works.iter_mut().zip(rates) {
-        *work += times_power(times_power(rate, unit), unit);
-    }
+    let works = powers.component_mul(&Vector3::new(-2.0 * d, -d2, -d3));
+    works.map(|work| times_power(times_power(work, unit), unit))
 }
 
 #[cfg(test)]

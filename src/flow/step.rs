@@ -2,6 +2,8 @@
 
 use std::fmt::Debug;
 
+use nalgebra::Vector3;
+
 use super::motion::Cost;
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::quadrature::GAUSS;
@@ -127,44 +129,26 @@ impl<N: Scalar> Step<N> {
     }
 }
 
-/// Integrals of powers of `v` over a piece of a motion; they give the work of the damping terms.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Powers {
-    /// Integral of `v^2`.
-    pub second: f64,
-    /// Integral of `v^3`.
-    pub third: f64,
-    /// Integral of `v^4`.
-    pub fourth: f64,
+/// Integrals of `v^2`, `v^3` and `v^4` over a piece of a motion; they give the work of the damping terms.
+pub type Powers = Vector3<f64>;
+
+/// These powers of a velocity.
+pub fn powers(v: f64) -> Powers {
+    let square = v * v;
+    Powers::new(square, square * v, square * square)
 }
 
-impl Powers {
-    /// The integrals of a velocity from 0 to `duration`, by Gauss's rule on so many pieces.
-    pub fn over(duration: f64, pieces: usize, velocity: impl Fn(f64) -> f64) -> Self {
-        let width = duration / real(pieces);
-        let mut powers = Powers::default();
-        for piece in 0..pieces {
-            for &(node, weight) in &GAUSS {
-                powers.add_node(weight * width, velocity((real(piece) + node) * width));
-            }
-        }
-        powers
-    }
+/// The integrals of a velocity from 0 to `duration`, by Gauss's rule on so many pieces.
+pub fn powers_over(duration: f64, pieces: usize, velocity: impl Fn(f64) -> f64) -> Powers {
+    let width = duration / real(pieces);
+    let node = |piece, (node, weight)| weight * width * powers(velocity((piece + node) * width));
+    (0..pieces).flat_map(|piece| GAUSS.map(|at| node(real(piece), at))).sum()
+}
 
-    /// The integrals over `duration` by the quadrature of a method, whose stages are the nodes.
-    pub fn of_stages(duration: f64, weights: &[f64], velocity: &[f64]) -> Self {
-        let mut powers = Powers::default();
-        weights.iter().zip(velocity).for_each(|(weight, &v)| powers.add_node(weight * duration, v));
-        powers
-    }
-
-    /// Adds `weight * (v^2, v^3, v^4)`: one node of a quadrature.
-    pub fn add_node(&mut self, weight: f64, v: f64) {
-        let square = v * v;
-        self.second += weight * square;
-        self.third += weight * square * v;
-        self.fourth += weight * square * square;
-    }
+/// The integrals over `duration` by the quadrature of a method, whose stages are the nodes.
+pub fn powers_of_stages(duration: f64, weights: &[f64], velocity: &[f64]) -> Powers {
+    let nodes = weights.iter().zip(velocity);
+    nodes.map(|(weight, v)| weight * duration * powers(*v)).sum()
 }
 
 /// A method that integrates a smooth field, by default that of one side, in numbers of one kind.
@@ -184,7 +168,7 @@ pub trait Stepper<F: Field = HalfPlane, N: Scalar = f64>: Debug {
     /// The point at `time` after the start of the last step.
     fn at(&self, time: f64) -> StepPoint;
 
-    /// The integrals of powers of `v` over the last step.
+    /// The integrals of the powers of `v` over the last step.
     fn powers(&self) -> Powers;
 
     /// Number of pieces of moderate curvature in the last step, for drawing.

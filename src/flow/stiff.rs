@@ -22,7 +22,8 @@ use algebra::{differences, interpolated};
 
 use super::motion::Cost;
 use super::step::{
-    Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length, stopping_time,
+    Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length,
+    powers_of_stages, stopping_time,
 };
 use super::tableau::radau::{Collocation, FIVE, MOST, SEVEN, StageMatrix, Stages, THREE};
 use crate::model::{HalfPlane, Reason};
@@ -349,7 +350,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
     /// The quadrature of the collocation scheme, exact for polynomials of degree below its order.
     fn powers(&self) -> Powers {
         let weights = self.scheme.integrals.row(self.scheme.nodes.len() - 1).transpose();
-        Powers::of_stages(self.duration, weights.as_slice(), self.velocity.as_slice())
+        powers_of_stages(self.duration, weights.as_slice(), self.velocity.as_slice())
     }
 
     fn cost(&self) -> Cost {

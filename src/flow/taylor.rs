@@ -9,7 +9,7 @@
 //! `e h/(rho - h)` of the state.
 
 use super::motion::Cost;
-use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
+use super::step::{LONGEST, Powers, Step, StepPoint, Stepper, powers_over};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::polynomial::{
     value_and_slope_in_two as value_and_slope, value_in_two as value,
@@ -348,7 +348,7 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
     }
 
     fn powers(&self) -> Powers {
-        Powers::over(self.duration, 1, |time| self.at(time).v)
+        powers_over(self.duration, 1, |time| self.at(time).v)
     }
 
     fn cost(&self) -> Cost {

@@ -117,7 +117,7 @@ impl Edge {
     pub fn area(&self) -> Option<f64> {
         match self {
             Edge::Orbit(orbit) => {
-                let area = |arc: &Arc| arc.powers().second;
+                let area = |arc: &Arc| arc.powers().x;
                 orbit.closed.then(|| area(&orbit.upper) + area(&orbit.lower))
             }
             Edge::Curve(curve) => Some(curve.area()),

@@ -1,6 +1,8 @@
 //! A motion of a machine as a curve: the series of its steps, in slip and while the mass rides on the belt; and where
 //! its energy comes from and goes, the belt's work against the damper's and the guide's.
 
+use nalgebra::Vector3;
+
 use crate::model::{ContactState, Ledger, Model, Phase, State, Work};
 use crate::numerics::polynomial::{value, value_and_slope};
 use crate::numerics::quadrature::gauss;
@@ -81,7 +83,7 @@ impl MachineStep {
     /// The works of belt, damper and guide up to a time from the start of the step, divided by the stiffness.
     ///
     /// In slip the belt pulls by its law; a mass that rides is pulled as much as it takes to hold it at the belt's speed.
-    pub(super) fn works(&self, model: &Model, until: f64) -> [f64; 3] {
+    pub(super) fn works(&self, model: &Model, until: f64) -> Vector3<f64> {
         let belt = |part: f64| {
             let (x, y) = self.at(part * until);
             let other = model.damper(y);
@@ -96,7 +98,7 @@ impl MachineStep {
             y * model.damper(y)
         };
         let way = value(&self.x, until) - self.x[0];
-        [gauss(belt) * until, gauss(damper) * until, model.guide * way.abs()]
+        Vector3::new(gauss(belt) * until, gauss(damper) * until, model.guide * way.abs())
     }
 }
 
@@ -145,10 +147,7 @@ impl MachineCurve {
 
     /// The ledger of a closed curve, in J.
     pub fn ledger(&self, model: &Model) -> Ledger {
-        let mut sum = [0.0; 3];
-        for step in &self.steps {
-            add(&mut sum, step.works(model, step.duration));
-        }
+        let sum = self.steps.iter().map(|step| step.works(model, step.duration)).sum();
         let start = self.steps.first().map_or((0.0, 0.0), |step| step.at(0.0));
         ledger(model, sum, start, start)
     }
@@ -161,22 +160,15 @@ impl MachineCurve {
     }
 }
 
-/// Adds the works of a step.
-pub(super) fn add(sum: &mut [f64; 3], works: [f64; 3]) {
-    for (sum, work) in sum.iter_mut().zip(works) {
-        *sum += work;
-    }
-}
-
 /// The ledger of a motion between two states with these works of belt, damper and guide, in J.
 pub(super) fn ledger(
     model: &Model,
-    [belt, damper, guide]: [f64; 3],
+    works: Vector3<f64>,
     start: (f64, f64),
     end: (f64, f64),
 ) -> Ledger {
     let energy = |(x, y): (f64, f64)| 0.5 * ((x + model.pull) * (x + model.pull) + y * y);
-    let works = [("belt", belt), ("damper", -damper), ("guide", -guide)];
+    let works = [("belt", works.x), ("damper", -works.y), ("guide", -works.z)];
     let work = |(source, amount)| Work { source, amount, acts: amount != 0.0 };
     let works = works.into_iter().map(work).collect();
     Ledger::new((energy(start), energy(end)), works).scaled(model.stiffness)

@@ -1,7 +1,9 @@
 //! A motion of a machine in time, by any of the methods that can follow one.
 
+use nalgebra::Vector3;
+
 use super::arc::Flow;
-use super::curve::{MachineStep, ORDER, add, ledger};
+use super::curve::{MachineStep, ORDER, ledger};
 use super::series::PhaseSeries;
 use super::stepped;
 use crate::flow::motion::Leg;
@@ -54,7 +56,7 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
         units,
         detail: Detail { samples_per_step, energy: detail.energy && by_series, ..detail },
         whole,
-        works: [0.0; 3],
+        works: Vector3::zeros(),
         state: start,
         extremes: [(start.0, start.0), (start.1, start.1)],
         found: Trajectory::begun(problem, if by_series { Method::Taylor } else { method }),
@@ -101,7 +103,7 @@ struct MotionRecorder {
     /// How long the motion is followed.
     whole: f64,
     /// Works of belt, damper and guide.
-    works: [f64; 3],
+    works: Vector3<f64>,
     /// Displacement and velocity at the end of the last step, and their extremes.
     state: (f64, f64),
     extremes: [(f64, f64); 2],
@@ -154,7 +156,7 @@ impl MotionRecorder {
             self.found.samples.push(self.sample(left - t, step.at(t)));
         }
         if self.detail.energy {
-            add(&mut self.works, step.works(model, step.duration));
+            self.works += step.works(model, step.duration);
         }
         self.found.cost.steps += 1;
         self.state = step.at(step.duration);

@@ -145,13 +145,15 @@ impl Arc {
 
     /// The integrals of powers of the speed over time: that of `v^2` is the area between the arc and `v = 0`.
     pub fn powers(&self) -> Powers {
-        let mut sum = Powers::default();
+        let mut sum = Powers::zeros();
         for ArcStep { step, unit, .. } in &self.pieces {
-            let powers = step.powers();
+            let [second, third, fourth] = step.powers().into();
             let square = times_power(times_power(1.0, *unit), *unit);
-            sum.second += square * powers.second;
-            sum.third += times_power(square * powers.third, *unit);
-            sum.fourth += square * (square * powers.fourth);
+            sum += Powers::new(
+                square * second,
+                times_power(square * third, *unit),
+                square * (square * fourth),
+            );
         }
         sum
     }

@@ -13,7 +13,7 @@
 //! and finite, a separatrix where not.
 
 use super::arc::Arc;
-use crate::flow::step::Powers;
+use crate::flow::step::{Powers, powers};
 use crate::flow::{Limits, Reason, Trajectory};
 use crate::model::parameters::energy;
 use crate::model::{Ledger, Parameters, Side, State};
@@ -212,12 +212,11 @@ pub fn works(border: &Orbit, parameters: &Parameters) -> Option<Ledger> {
     let Parameters { d, d2, d3, r } = *parameters;
     let [left, right] = [border.upper.clearance()?.value, border.lower.clearance()?.value];
     let path = 2.0 * (left + right + 2.0 * r);
-    let [upper, lower]: [Powers; 2] = [border.upper.powers(), border.lower.powers()];
+    // Below `v = 0` the speed is that of the mirror image.
+    let lower = border.lower.powers().component_mul(&Powers::new(1.0, -1.0, 1.0));
+    let [second, third, fourth] = (border.upper.powers() + lower).into();
     let stored = energy(State { q: r + right, v: 0.0 });
-    let linear = -2.0 * d * (upper.second + lower.second);
-    let quadratic = -d2 * (upper.third - lower.third);
-    let cubic = -d3 * (upper.fourth + lower.fourth);
-    let works = [linear, quadratic, cubic, -r * path];
+    let works = [-2.0 * d * second, -d2 * third, -d3 * fourth, -r * path];
     Some(Ledger::of_terms(parameters, (stored, stored), works))
 }
 
@@ -228,7 +227,7 @@ pub fn works(border: &Orbit, parameters: &Parameters) -> Option<Ledger> {
 pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
     let Parameters { d, d2, d3, r } = motion.problem.parameters;
     let now = motion.at(until)?;
-    let mut powers = Powers::default();
+    let mut sum = Powers::zeros();
     let mut path = 0.0;
     let mut before = *motion.samples.first()?;
     for sample in motion.samples.iter().skip(1).chain([&now]) {
@@ -238,13 +237,14 @@ pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
         let end = if sample.tau < until { *sample } else { now };
         let h = end.tau - before.tau;
         for (node, weight) in GAUSS {
-            powers.add_node(weight * h, before.between(&end, before.tau + node * h).v);
+            sum += weight * h * powers(before.between(&end, before.tau + node * h).v);
         }
         path += (end.q - before.q).abs();
         before = end;
     }
     let energies = (energy(motion.problem.initial), energy(now.state()));
-    let works = [-2.0 * d * powers.second, -d2 * powers.third, -d3 * powers.fourth, -r * path];
+    let [second, third, fourth] = sum.into();
+    let works = [-2.0 * d * second, -d2 * third, -d3 * fourth, -r * path];
     Some(Ledger::of_terms(&motion.problem.parameters, energies, works))
 }
 
