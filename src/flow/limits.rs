@@ -25,12 +25,6 @@ impl Limits<'_> {
     }
 }
 
-impl Default for Limits<'static> {
-    fn default() -> Self {
-        Limits::PATIENT
-    }
-}
-
 /// What becomes of a motion: for good, or for as long as it was followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fate {

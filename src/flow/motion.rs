@@ -342,12 +342,13 @@ impl Trajectory {
         {
             return Some(Sample { tau, q, v: 0.0 });
         }
-        let after = self.samples.partition_point(|sample| sample.tau <= tau);
-        let Some(to) = self.samples.get(after) else { return Some(last) };
-        let Some(from) = after.checked_sub(1).and_then(|before| self.samples.get(before)) else {
-            return Some(*to);
-        };
-        Some(from.between(to, tau))
+        let (before, after) =
+            self.samples.split_at(self.samples.partition_point(|sample| sample.tau <= tau));
+        Some(match (before.last(), after.first()) {
+            (Some(from), Some(to)) => from.between(to, tau),
+            (None, Some(first)) => *first,
+            (_, None) => last,
+        })
     }
 }
 

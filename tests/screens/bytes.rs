@@ -58,7 +58,7 @@ impl Explorer {
     /// Answers all requests and draws; returns the number of bytes written.
     fn draw(&mut self) -> usize {
         settle(&mut self.session, |_, request| {
-            let result = answer(request, &Limits::default()).map_err(NoAnswer::Reason);
+            let result = answer(request, &Limits::PATIENT).map_err(NoAnswer::Reason);
             Some(Msg::answered(request.clone(), result, 0.000_25))
         });
         update(&mut self.session, Msg::Elapsed { seconds: 0.0 });

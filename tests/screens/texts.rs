@@ -219,7 +219,7 @@ fn the_texts_of_scenes_follow_the_state() {
             }
             for request in session.asks() {
                 if matches!(request.topic(), Topic::Cycles | Topic::Trajectory)
-                    && let Ok(found) = answer(&request, &Limits::default())
+                    && let Ok(found) = answer(&request, &Limits::PATIENT)
                 {
                     update(&mut session, Msg::answered(request, Ok(found), 0.0));
                 }

@@ -44,29 +44,28 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
     model.tolerance = problem.tolerance;
     let model = &model;
     let Problem { initial: State { q, v }, until, method, .. } = *problem;
-    let MotionUnits { length, omega_0, energy } = units;
-    let start = (q * length, v * length / omega_0);
-    let whole = until * omega_0;
     let mut flow = Flow { stepper: stepped::stepper(model, method), ..Flow::new(model) };
-    (flow.series.left, flow.follows) = (whole, true);
+    (flow.series.left, flow.follows) = (until * units.omega_0, true);
     let by_series = flow.stepper.is_none();
     // A step without series is known at its end alone.
     let samples_per_step = detail.samples_per_step.min(if by_series { usize::MAX } else { 1 });
+    let energy = detail.energy && by_series;
+    let start = (q * units.length, v * units.length / units.omega_0);
     let mut recorder = MotionRecorder {
         units,
-        detail: Detail { samples_per_step, energy: detail.energy && by_series, ..detail },
-        whole,
+        detail: Detail { samples_per_step, energy, ..detail },
+        whole: flow.series.left,
         works: Vector3::zeros(),
         state: start,
-        extremes: [(start.0, start.0), (start.1, start.1)],
         found: Trajectory::begun(problem, if by_series { Method::Taylor } else { method }),
     };
     recorder.found.samples = vec![Sample { tau: 0.0, q, v }];
+    recorder.found.extremes = Some([(q, q), (v, v)]);
     let ended = recorder.run(&mut flow);
     let end = recorder.sample(flow.series.left, recorder.state);
     let Sample { tau, q, v } = end;
-    let MotionRecorder { detail, works, state, extremes: [x, y], mut found, .. } = recorder;
-    if detail.samples_per_step == 0 {
+    let MotionRecorder { works, state, mut found, .. } = recorder;
+    if samples_per_step == 0 {
         found.samples.push(end);
     }
     found.outcome = match ended {
@@ -74,12 +73,10 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
         Some(Reason::Settles) => Outcome::Captured { tau, q },
         Some(reason) => Outcome::without_end(tau, reason),
     };
-    let scaled = |(low, high): (f64, f64), one: f64| (low * one, high * one);
-    found.extremes = Some([scaled(x, 1.0 / length), scaled(y, omega_0 / length)]);
     let by_terms = found.cost.steps * ORDER as u64;
     found.cost.evaluations = flow.stepper.map_or(by_terms, |stepper| stepper.cost().evaluations);
-    let works = detail.energy.then(|| ledger(model, works, start, state));
-    found.ledger = works.map(|works| works.scaled(1.0 / energy));
+    let works = energy.then(|| ledger(model, works, start, state));
+    found.ledger = works.map(|works| works.scaled(1.0 / units.energy));
     found
 }
 
@@ -104,9 +101,8 @@ struct MotionRecorder {
     whole: f64,
     /// Works of belt, damper and guide.
     works: Vector3<f64>,
-    /// Displacement and velocity at the end of the last step, and their extremes.
+    /// Displacement and velocity at the end of the last step.
     state: (f64, f64),
-    extremes: [(f64, f64); 2],
     found: Trajectory,
 }
 
@@ -160,8 +156,9 @@ impl MotionRecorder {
         }
         self.found.cost.steps += 1;
         self.state = step.at(step.duration);
-        for (x, y) in step.peak.map(|peak| step.at(peak)).into_iter().chain([self.state]) {
-            for ((low, high), value) in self.extremes.iter_mut().zip([x, y]) {
+        for state in step.peak.map(|peak| step.at(peak)).into_iter().chain([self.state]) {
+            let Sample { q, v, .. } = self.sample(left, state);
+            for ((low, high), value) in self.found.extremes.iter_mut().flatten().zip([q, v]) {
                 (*low, *high) = (low.min(value), high.max(value));
             }
         }
