@@ -76,7 +76,9 @@ pub struct KnobSpec {
 }
 
 impl KnobSpec {
+    /// A number of a motion may not be so close to 0 that products of a few of them underflow.
     const fn of(group: Group, unit: &'static str, (min, max): (f64, f64)) -> Self {
+        let least = if matches!(group, Group::Motion) { 1.0 / FAR } else { 0.0 };
         KnobSpec {
             knob: Knob::D,
             name: "",
@@ -86,7 +88,7 @@ impl KnobSpec {
             group,
             min,
             max,
-            least: 0.0,
+            least,
             default: None,
             step: 0.05,
             drawn: (-1.0, 1.0),
@@ -125,21 +127,24 @@ impl KnobSpec {
     }
 }
 
-/// The names of numbers, and their table.
+/// The names of numbers and their table, group by group: of each number its name, its meaning, its unit, its range, and
+/// what else is said of it.
 macro_rules! knobs {
-    ($($knob:ident $name:literal $meaning:literal $row:expr;)+) => {
+    ($([$group:ident]
+        $($knob:ident $name:literal $meaning:literal $unit:literal $range:tt $(.$more:ident $values:tt)*;)+
+    )+) => {
         /// A number that can be set.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Knob {
-            $(#[doc = $meaning] $knob,)+
+            $($(#[doc = $meaning] $knob,)+)+
         }
 
         /// Every number that can be set, those of a group together.
-        pub const KNOBS: &[KnobSpec] = &[$({
-            let row = $row;
+        pub const KNOBS: &[KnobSpec] = &[$($({
+            let row = KnobSpec::of(Group::$group, $unit, $range)$(.$more $values)*;
             let symbol = if row.symbol.is_empty() { $name } else { row.symbol };
             KnobSpec { knob: Knob::$knob, name: $name, symbol, meaning: $meaning, ..row }
-        }),+];
+        }),+),+];
     };
 }
 
@@ -211,30 +216,6 @@ const POSITIVE: (f64, f64) = (1e-12, 1e12);
 /// A start in metres or metres per second.
 const START: (f64, f64) = (-1e6, 1e6);
 
-const fn motion(range: (f64, f64)) -> KnobSpec {
-    KnobSpec { least: 1.0 / FAR, ..KnobSpec::of(Group::Motion, "", range) }
-}
-
-const fn machine(unit: &'static str, range: (f64, f64)) -> KnobSpec {
-    KnobSpec::of(Group::Machine, unit, range)
-}
-
-const fn friction(unit: &'static str, range: (f64, f64)) -> KnobSpec {
-    KnobSpec::of(Group::Law, unit, range)
-}
-
-const fn mode(unit: &'static str, range: (f64, f64)) -> KnobSpec {
-    KnobSpec::of(Group::Mode, unit, range)
-}
-
-const fn course(unit: &'static str, range: (f64, f64)) -> KnobSpec {
-    KnobSpec::of(Group::Course, unit, range).or(0.0)
-}
-
-const fn setting(range: (f64, f64)) -> KnobSpec {
-    KnobSpec::of(Group::Setting, "", range)
-}
-
 /// The coefficient of the belt at rest: that of the law where nothing is said.
 const HELD_BY_BELT: Access<Belt> = (
     |belt| belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
@@ -254,61 +235,69 @@ const MODE_HELD: Access<Modal> = (
 );
 
 knobs! {
-    D "D" "linear damping" motion((-1e6, 1e6)).or(-0.1).step(0.01).drawn(-0.9, 0.1).motion(at!(0.d));
-    D2 "D2" "asymmetric damping" motion(WIDE).or(0.0).motion(at!(0.d2));
-    D3 "D3" "cubic damping" motion(WIDE).or(0.0).motion(at!(0.d3));
-    R "r" "dry friction" motion((0.0, FAR)).or(0.1).step(0.01).drawn(0.0, 0.5).motion(at!(0.r));
-    Q0 "q0" "initial displacement" motion(WIDE).or(1.0).motion(at!(1.q));
-    V0 "v0" "initial velocity" motion(WIDE).or(0.0).motion(at!(1.v));
+    [Motion]
+    D "D" "linear damping" "" (-1e6, 1e6) .or(-0.1).step(0.01).drawn(-0.9, 0.1).motion(at!(0.d));
+    D2 "D2" "asymmetric damping" "" WIDE .or(0.0).motion(at!(0.d2));
+    D3 "D3" "cubic damping" "" WIDE .or(0.0).motion(at!(0.d3));
+    R "r" "dry friction" "" (0.0, FAR) .or(0.1).step(0.01).drawn(0.0, 0.5).motion(at!(0.r));
+    Q0 "q0" "initial displacement" "" WIDE .or(1.0).motion(at!(1.q));
+    V0 "v0" "initial velocity" "" WIDE .or(0.0).motion(at!(1.v));
 
-    Mass "m" "mass" machine("kg", POSITIVE).belt(at!(mass));
-    Stiffness "c" "stiffness of the spring" machine("N/m", POSITIVE).belt(at!(stiffness));
-    Damping "d1" "linear damping" machine("N s/m", ANY).or(0.0).belt(at!(damping));
-    CubicDamping "d3" "cubic damping" machine("N s^3/m^3", ANY).or(0.0).belt(at!(cubic_damping));
-    NormalForce "F" "force onto the belt" machine("N", POSITIVE).belt(at!(normal_force));
-    Friction "R" "friction element" machine("N", NO_LESS).or(0.0).belt(at!(friction)).mode(at!(friction));
-    BeltSpeed "v0" "belt speed" machine("m/s", POSITIVE).shown("belt").step(1.0 / 30.0).belt(at!(belt_speed));
+    [Machine]
+    Mass "m" "mass" "kg" POSITIVE .belt(at!(mass));
+    Stiffness "c" "stiffness of the spring" "N/m" POSITIVE .belt(at!(stiffness));
+    Damping "d1" "linear damping" "N s/m" ANY .or(0.0).belt(at!(damping));
+    CubicDamping "d3" "cubic damping" "N s^3/m^3" ANY .or(0.0).belt(at!(cubic_damping));
+    NormalForce "F" "force onto the belt" "N" POSITIVE .belt(at!(normal_force));
+    Friction "R" "friction element" "N" NO_LESS .or(0.0).belt(at!(friction)).mode(at!(friction));
+    BeltSpeed "v0" "belt speed" "m/s" POSITIVE .shown("belt").step(1.0 / 30.0).belt(at!(belt_speed));
 
-    StaticCoefficient "mu_s" "static friction of the belt" friction("", NO_LESS).belt(HELD_BY_BELT);
-    StaticGuide "R_static" "static friction element" friction("N", NO_LESS).belt(HELD_BY_GUIDE).mode(MODE_HELD);
-    Mu "mu" "coefficient of friction" friction("", ANY).belt(law!(Constant mu));
-    Rest "rest" "coefficient of friction at rest" friction("", ANY).belt(law!(Stribeck rest));
-    Kinetic "kinetic" "coefficient to which friction falls" friction("", ANY).belt(law!(Stribeck kinetic));
-    Velocity "velocity" "velocity over which friction falls" friction("m/s", POSITIVE).belt(law!(Stribeck velocity));
-    Exponent "exponent" "1 exponential, 2 Gaussian" friction("", (0.1, 10.0)).or(1.0).belt(law!(Stribeck exponent));
-    Viscous "viscous" "rise by lubrication" friction("s/m", ANY).or(0.0).belt(law!(Stribeck viscous));
-    Mu0 "mu0" "coefficient of friction at rest" friction("", ANY).belt(coefficient!(0));
-    Mu1 "mu1" "its slope at rest" friction("s/m", ANY).belt(coefficient!(1));
-    Mu2 "mu2" "coefficient of v^2" friction("s^2/m^2", ANY).belt(coefficient!(2));
-    Mu3 "mu3" "coefficient of v^3" friction("s^3/m^3", ANY).belt(coefficient!(3));
-    Mu4 "mu4" "coefficient of v^4" friction("s^4/m^4", ANY).belt(coefficient!(4));
-    Mu5 "mu5" "coefficient of v^5" friction("s^5/m^5", ANY).belt(coefficient!(5));
+    [Law]
+    StaticCoefficient "mu_s" "static friction of the belt" "" NO_LESS .belt(HELD_BY_BELT);
+    StaticGuide "R_static" "static friction element" "N" NO_LESS .belt(HELD_BY_GUIDE).mode(MODE_HELD);
+    Mu "mu" "coefficient of friction" "" ANY .belt(law!(Constant mu));
+    Rest "rest" "coefficient of friction at rest" "" ANY .belt(law!(Stribeck rest));
+    Kinetic "kinetic" "coefficient to which friction falls" "" ANY .belt(law!(Stribeck kinetic));
+    Velocity "velocity" "velocity over which friction falls" "m/s" POSITIVE .belt(law!(Stribeck velocity));
+    Exponent "exponent" "1 exponential, 2 Gaussian" "" (0.1, 10.0) .or(1.0).belt(law!(Stribeck exponent));
+    Viscous "viscous" "rise by lubrication" "s/m" ANY .or(0.0).belt(law!(Stribeck viscous));
+    Mu0 "mu0" "coefficient of friction at rest" "" ANY .belt(coefficient!(0));
+    Mu1 "mu1" "its slope at rest" "s/m" ANY .belt(coefficient!(1));
+    Mu2 "mu2" "coefficient of v^2" "s^2/m^2" ANY .belt(coefficient!(2));
+    Mu3 "mu3" "coefficient of v^3" "s^3/m^3" ANY .belt(coefficient!(3));
+    Mu4 "mu4" "coefficient of v^4" "s^4/m^4" ANY .belt(coefficient!(4));
+    Mu5 "mu5" "coefficient of v^5" "s^5/m^5" ANY .belt(coefficient!(5));
 
-    Frequency "frequency" "natural frequency" mode("Hz", (1e-9, 1e12)).mode(at!(frequency));
-    ModalMass "modal_mass" "modal mass" mode("kg", POSITIVE).mode(at!(mass));
-    Ratio0 "ratio0" "damping ratio at rest" mode("", ANY).mode(ratio!(0));
-    Ratio1 "ratio1" "its slope at rest" mode("s/m", ANY).mode(ratio!(1));
-    Ratio2 "ratio2" "coefficient of v^2" mode("s^2/m^2", ANY).mode(ratio!(2));
-    Ratio3 "ratio3" "coefficient of v^3" mode("s^3/m^3", ANY).mode(ratio!(3));
-    Ratio4 "ratio4" "coefficient of v^4" mode("s^4/m^4", ANY).mode(ratio!(4));
-    Ratio5 "ratio5" "coefficient of v^5" mode("s^5/m^5", ANY).mode(ratio!(5));
+    [Mode]
+    Frequency "frequency" "natural frequency" "Hz" (1e-9, 1e12) .mode(at!(frequency));
+    ModalMass "modal_mass" "modal mass" "kg" POSITIVE .mode(at!(mass));
+    Ratio0 "ratio0" "damping ratio at rest" "" ANY .mode(ratio!(0));
+    Ratio1 "ratio1" "its slope at rest" "s/m" ANY .mode(ratio!(1));
+    Ratio2 "ratio2" "coefficient of v^2" "s^2/m^2" ANY .mode(ratio!(2));
+    Ratio3 "ratio3" "coefficient of v^3" "s^3/m^3" ANY .mode(ratio!(3));
+    Ratio4 "ratio4" "coefficient of v^4" "s^4/m^4" ANY .mode(ratio!(4));
+    Ratio5 "ratio5" "coefficient of v^5" "s^5/m^5" ANY .mode(ratio!(5));
 
-    Scatter "scatter" "scatter of the points" KnobSpec::of(Group::Table, "", NO_LESS).or(0.0);
+    [Table]
+    Scatter "scatter" "scatter of the points" "" NO_LESS .or(0.0);
 
-    Omega0 "omega0" "natural frequency" KnobSpec::of(Group::Record, "1/s", (1.0 / FAR, FAR));
-    Offset "offset" "displacement of the middle" KnobSpec::of(Group::Record, "", WIDE).or(0.0);
-    Confidence "confidence" "confidence of a statement" KnobSpec::of(Group::Record, "", (0.5, 0.999)).or(0.95);
+    [Record]
+    Omega0 "omega0" "natural frequency" "1/s" (1.0 / FAR, FAR);
+    Offset "offset" "displacement of the middle" "" WIDE .or(0.0);
+    Confidence "confidence" "confidence of a statement" "" (0.5, 0.999) .or(0.95);
 
-    X "x" "displacement at the start" course("m", START);
-    V "v" "velocity at the start" course("m/s", START);
-    Duration "until" "end time" course("s", (0.0, 1e6));
-    DisturbingForce "disturbance" "bound on a disturbance" course("N", (0.0, 1e6));
+    [Course]
+    X "x" "displacement at the start" "m" START .or(0.0);
+    V "v" "velocity at the start" "m/s" START .or(0.0);
+    Duration "until" "end time" "s" (0.0, 1e6) .or(0.0);
+    DisturbingForce "disturbance" "bound on a disturbance" "N" (0.0, 1e6) .or(0.0);
 
-    Disturbance "disturbance" "bound on a disturbance" setting((0.0, FAR)).shown("w").or(0.0).step(0.01);
-    Until "until" "end time" setting((0.0, 1e9)).or(60.0).step(10.0);
-    Tolerance "tolerance" "relative error of a step" setting((1e-15, 1e-2)).or(1e-10);
-    Step "step" "length of a step" setting((1e-7, 1.0)).or(0.01);
-    Epsilon "epsilon" "velocity that smooths" setting((1e-12, 1e6)).or(1e-3);
+    [Setting]
+    Disturbance "disturbance" "bound on a disturbance" "" (0.0, FAR) .shown("w").or(0.0).step(0.01);
+    Until "until" "end time" "" (0.0, 1e9) .or(60.0).step(10.0);
+    Tolerance "tolerance" "relative error of a step" "" (1e-15, 1e-2) .or(1e-10);
+    Step "step" "length of a step" "" (1e-7, 1.0) .or(0.01);
+    Epsilon "epsilon" "velocity that smooths" "" (1e-12, 1e6) .or(1e-3);
 }
 
 impl Knob {
