@@ -65,22 +65,6 @@ impl<'a> Section<'a> {
             Err(Complaint { at: name.span(), message: unknown(name.get_ref(), known) })
         })
     }
-
-    /// A number as `read` takes it, or its default.
-    fn number(
-        &self,
-        knob: Knob,
-        read: impl FnOnce(Knob, &Spanned<Number>) -> Result<f64, Complaint>,
-    ) -> Result<f64, Complaint> {
-        let KnobSpec { name, meaning, default, .. } = *knob.spec();
-        if let Some(given) = self.get(name)? {
-            return read(knob, &given);
-        }
-        default.ok_or_else(|| {
-            let such = knob.print(1.0);
-            lacks(format!("{knob} ({meaning}) is missing; such as {knob} = \"{such}\""))
-        })
-    }
 }
 
 /// Whether a text describes a mode: only modes have a modal mass.
@@ -104,23 +88,6 @@ fn other_names(is_mode: bool) -> &'static [&'static str] {
     }
 }
 
-/// The coefficients of a polynomial in the velocity, the constant one first; each is read as the number of its
-/// `name` and power, or by its unit where the table ends.
-fn polynomial(
-    name: &str,
-    given: &[Spanned<Number>],
-    mut read: impl FnMut(Knob, &Spanned<Number>) -> Result<f64, Complaint>,
-) -> Result<Vec<f64>, Complaint> {
-    let coefficient = |(power, given): (usize, &Spanned<Number>)| {
-        if let Ok(knob) = Knob::named(&format!("{name}{power}"), Group::SOURCE) {
-            return read(knob, given);
-        }
-        let number = given.get_ref().in_unit(&format!("s^{power}/m^{power}"));
-        number.map_err(|message| Complaint { at: given.span(), message })
-    };
-    given.iter().enumerate().map(coefficient).collect()
-}
-
 /// A number, or a number with a unit as text.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged, expecting = "expected a number, or a text such as \"2 kg\"")]
@@ -139,32 +106,6 @@ impl Number {
     }
 }
 
-/// A number that has no tolerance.
-fn exact(knob: Knob, given: &Spanned<Number>) -> Result<f64, Complaint> {
-    let read = match given.get_ref() {
-        Number::Plain(value) => knob.check(*value).map_err(|refused| refused.to_string()),
-        Number::Text(text) => knob.parse(text),
-    };
-    read.map_err(|message| Complaint { at: given.span(), message })
-}
-
-/// The tolerances of the numbers read so far: half widths in SI units, by name.
-#[derive(Default)]
-struct HalfWidths(BTreeMap<String, f64>);
-
-impl HalfWidths {
-    /// A number that may have a tolerance.
-    fn read(&mut self, knob: Knob, given: &Spanned<Number>) -> Result<f64, Complaint> {
-        let Number::Text(text) = given.get_ref() else { return exact(knob, given) };
-        let read = knob.parse_toleranced(text);
-        let read = read.map_err(|message| Complaint { at: given.span(), message })?;
-        if read.half_width > 0.0 {
-            self.0.insert(knob.to_string(), read.half_width);
-        }
-        Ok(read.middle.value)
-    }
-}
-
 /// Reads a machine or a mode; `name` is the name by which it is opened, `file` the one in error messages. `fetch`
 /// returns the text of a table that the file names, or why it cannot. Fails with [`Misread`], which names the place
 /// and what is allowed there.
@@ -172,204 +113,226 @@ pub fn parse(
     name: &str,
     file: &str,
     text: &str,
-    fetch: impl FnOnce(&str) -> Result<String, String>,
+    mut fetch: impl FnMut(&str) -> Result<String, String>,
 ) -> Result<Description, Misread> {
+    let described = |read: Spanned<DeTable>| {
+        let is_mode = read.get_ref().contains_key("modal_mass");
+        let half_widths = BTreeMap::new();
+        let reader = MachineReader { is_mode, half_widths, fetch: &mut fetch };
+        reader.described(name, &Section { entries: read.get_ref(), at: 0..0 })
+    };
     let read = DeTable::parse(text).map_err(|error| Complaint::new(&error, 0..0));
-    read.and_then(|read| described(name, &Section { entries: read.get_ref(), at: 0..0 }, fetch))
-        .map_err(|complaint| complaint.in_file(file, text))
-}
-
-fn described(
-    name: &str,
-    read: &Section,
-    fetch: impl FnOnce(&str) -> Result<String, String>,
-) -> Result<Description, Complaint> {
-    /// Periods of the free oscillation for which a motion is followed where nothing is said.
-    const PERIODS: f64 = 20.0;
-    let is_mode = read.entries.contains_key("modal_mass");
-    let known = numbers(is_mode).map(|knob| knob.spec().name);
-    read.has_only(&known.chain(other_names(is_mode).to_vec()).collect::<Vec<_>>())?;
-    let mut half_widths = HalfWidths::default();
-    let (body, section) = if is_mode { mode(read)? } else { belt(read, &mut half_widths, fetch)? };
-    let mut source = Source::from(body);
-    set_numbers(&mut source, read, is_mode, &mut half_widths)?;
-    let unfit = |message| Complaint { at: section.clone(), message };
-    let period = match &source.body {
-        Body::Belt(belt) => {
-            let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
-            std::f64::consts::TAU * reduced.units.time
-        }
-        Body::Mode(mode) => 1.0 / mode.frequency,
-        Body::Paper(_) => std::f64::consts::TAU,
-    };
-    source.model().map_err(|error| unfit(error.to_string()))?;
-    let disturbance = read.number(Knob::DisturbingForce, exact)?;
-    let tolerances = Tolerances { half_widths: half_widths.0, disturbance };
-    if let Some(belt) = source.of_belt() {
-        tolerances.check(belt).map_err(unfit)?;
-    }
-    let start = match read.section("start")? {
-        Some(start) => {
-            start.has_only(&["x", "v"])?;
-            (start.number(Knob::X, exact)?, start.number(Knob::V, exact)?)
-        }
-        None => (0.0, 0.0),
-    };
-    let until = read.get(Knob::Duration.spec().name)?;
-    let until = until.map_or(Ok(PERIODS * period), |given| exact(Knob::Duration, &given))?;
-    let title = read.text("title")?;
-    Ok(Description {
-        name: name.to_owned(),
-        title: if title.is_empty() { name.to_owned() } else { title },
-        watch: read.text("look")?,
-        subject: Subject::moving(source, tolerances, start, until),
-    })
+    read.and_then(described).map_err(|complaint| complaint.in_file(file, text))
 }
 
 fn lacks(message: String) -> Complaint {
     Complaint { at: 0..0, message }
 }
 
-/// A mass on a belt with its friction and no other numbers yet, and the place of the friction in the file.
-fn belt(
-    read: &Section,
-    half_widths: &mut HalfWidths,
-    fetch: impl FnOnce(&str) -> Result<String, String>,
-) -> Result<(Body, Range<usize>), Complaint> {
-    let friction = read.section("friction")?;
-    let friction = friction.ok_or_else(|| lacks("friction is missing".to_owned()))?;
-    let at_rest = friction.get("static")?;
-    let static_coefficient =
-        at_rest.map(|given| half_widths.read(Knob::StaticCoefficient, &given)).transpose()?;
-    let mut belt = Belt {
-        mass: 0.0,
-        stiffness: 0.0,
-        damping: 0.0,
-        cubic_damping: 0.0,
-        normal_force: 0.0,
-        friction: 0.0,
-        belt_speed: 0.0,
-        law: FrictionLaw::Constant { mu: 0.0 },
-        static_coefficient,
-        static_guide: None,
-    };
-    set_law(&mut belt, &friction, half_widths, fetch)?;
-    Ok((Body::Belt(Box::new(belt)), friction.at))
-}
-
-/// A mode with its damping ratio and no other numbers yet, and the place of the ratio in the file.
-fn mode(read: &Section) -> Result<(Body, Range<usize>), Complaint> {
-    let ratio = read.get::<Vec<_>>("damping_ratio")?;
-    let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing".to_owned()))?;
-    let damping_ratio = polynomial("ratio", ratio.get_ref(), exact)?;
-    let (frequency, mass, friction) = (0.0, 0.0, 0.0);
-    let mode = Modal { frequency, mass, damping_ratio, friction, static_guide: None };
-    Ok((Body::Mode(mode), ratio.span()))
-}
-
-/// Sets the numbers that the file gives, and the defaults of the others.
-fn set_numbers(
-    source: &mut Source,
-    read: &Section,
+/// What reads a file.
+struct MachineReader<'a> {
     is_mode: bool,
-    half_widths: &mut HalfWidths,
-) -> Result<(), Complaint> {
-    for knob in numbers(is_mode) {
-        if knob == Knob::StaticGuide && !read.entries.contains_key(knob.spec().name) {
-            continue;
-        }
-        // The guaranteed margins of a mode are not computed.
-        let value = read.number(knob, |knob, given| {
-            if is_mode { exact(knob, given) } else { half_widths.read(knob, given) }
-        })?;
-        source.set(knob, value).map_err(lacks)?;
-    }
-    Ok(())
+    /// The tolerances of the numbers read so far: half widths in SI units, by name.
+    half_widths: BTreeMap<String, f64>,
+    /// Returns the text of a table.
+    fetch: &'a mut dyn FnMut(&str) -> Result<String, String>,
 }
 
-/// Gives a mass its friction law: the one table beside the coefficient of static friction.
-fn set_law(
-    belt: &mut Belt,
-    friction: &Section,
-    half_widths: &mut HalfWidths,
-    fetch: impl FnOnce(&str) -> Result<String, String>,
-) -> Result<(), Complaint> {
-    friction.has_only(&[&["static"], &FrictionLaw::NAMES[..]].concat())?;
-    let unfit = |message: &str| Complaint { at: friction.at.clone(), message: message.to_owned() };
-    let mut laws = friction.entries.keys().map(|name| name.get_ref().as_ref());
-    let mut other = || laws.find(|name| *name != "static");
-    let one_of = || {
-        let [others @ .., last] = FrictionLaw::NAMES;
-        unfit(&format!("friction takes one law: {} or {last}", others.join(", ")))
-    };
-    let (Some(name), None) = (other(), other()) else { return Err(one_of()) };
-    let Some(given) = friction.section(name)? else { return Err(unfit("no law")) };
-    let mut read = |knob, number: &Spanned<Number>| half_widths.read(knob, number);
-    belt.law = match (FrictionLaw::blank(name), name) {
-        (Some(blank), _) => {
-            belt.law = blank;
-            let own = |knob: &Knob| !AT_REST.contains(knob) && knob.of_belt(belt).is_some();
-            let numbers: Vec<Knob> = Group::Law.knobs().filter(own).collect();
-            given.has_only(&numbers.iter().map(|knob| knob.spec().name).collect::<Vec<_>>())?;
-            for knob in numbers {
-                knob.set_in_belt(belt, given.number(knob, &mut read)?).map_err(lacks)?;
+impl MachineReader<'_> {
+    fn described(mut self, name: &str, read: &Section) -> Result<Description, Complaint> {
+        /// Periods of the free oscillation for which a motion is followed where nothing is said.
+        const PERIODS: f64 = 20.0;
+        let numbers = numbers(self.is_mode);
+        let known = numbers.clone().map(|knob| knob.spec().name);
+        read.has_only(&known.chain(other_names(self.is_mode).to_vec()).collect::<Vec<_>>())?;
+        let (body, section) = if self.is_mode { self.mode(read)? } else { self.belt(read)? };
+        let mut source = Source::from(body);
+        for knob in numbers {
+            let is_given = read.entries.contains_key(knob.spec().name);
+            if knob != Knob::StaticGuide || is_given {
+                source.set(knob, self.number(read, knob)?).map_err(lacks)?;
             }
-            return Ok(());
         }
-        (None, "polynomial") => {
-            given.has_only(&["coefficients"])?;
-            let listed = given.get::<Vec<_>>("coefficients")?;
-            let listed = listed.ok_or_else(|| unfit("coefficients = [..] is missing"))?;
-            FrictionLaw::Polynomial { coefficients: polynomial("mu", listed.get_ref(), read)? }
+        let unfit = |message| Complaint { at: section.clone(), message };
+        let period = match &source.body {
+            Body::Belt(belt) => {
+                let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
+                std::f64::consts::TAU * reduced.units.time
+            }
+            Body::Mode(mode) => 1.0 / mode.frequency,
+            Body::Paper(_) => std::f64::consts::TAU,
+        };
+        source.model().map_err(|error| unfit(error.to_string()))?;
+        let disturbance = self.number(read, Knob::DisturbingForce)?;
+        let mut start = (0.0, 0.0);
+        if let Some(given) = read.section("start")? {
+            given.has_only(&["x", "v"])?;
+            start = (self.number(&given, Knob::X)?, self.number(&given, Knob::V)?);
         }
-        (None, "table") => spline(&given, unfit, fetch)?,
-        // A law that has a name but is not read here must not pass for another one.
-        (None, _) => return Err(one_of()),
-    };
-    Ok(())
-}
-
-fn spline(
-    law: &Section,
-    unfit: impl FnOnce(&str) -> Complaint,
-    fetch: impl FnOnce(&str) -> Result<String, String>,
-) -> Result<FrictionLaw, Complaint> {
-    law.has_only(&["file", "points", "scatter"])?;
-    let scatter = law.number(Knob::Scatter, exact)?;
-    let (at, points) = match (law.get::<String>("file")?, law.get("points")?) {
-        (Some(file), None) => {
-            let name = file.get_ref();
-            let read = fetch(name).and_then(|text| table(name, &text));
-            (file.span(), read.map_err(|message| Complaint { at: file.span(), message })?)
+        let until = read.get(Knob::Duration.spec().name)?;
+        let until = until.map_or(Ok(PERIODS * period), |it| self.read(Knob::Duration, &it))?;
+        let tolerances = Tolerances { half_widths: self.half_widths, disturbance };
+        if let Some(belt) = source.of_belt() {
+            tolerances.check(belt).map_err(unfit)?;
         }
-        (None, Some(points)) => (points.span(), listed(&points)?),
-        _ => {
-            return Err(unfit(
-                "a table takes either file = \"NAME.csv\" or points = [[v, mu], ..]",
-            ));
-        }
-    };
-    if points.len() > MOST_POINTS {
-        let message = format!("{} points; {MOST_POINTS} are allowed", points.len());
-        return Err(Complaint { at, message });
+        let title = read.text("title")?;
+        Ok(Description {
+            name: name.to_owned(),
+            title: if title.is_empty() { name.to_owned() } else { title },
+            watch: read.text("look")?,
+            subject: Subject::moving(source, tolerances, start, until),
+        })
     }
-    let spline = SmoothingSpline::new(&points, scatter);
-    let spline = spline.map_err(|message| Complaint { at, message })?;
-    Ok(FrictionLaw::Table(spline))
+
+    /// The value of a number. Those of a mass on a belt may have a tolerance; the guaranteed margins of a mode are not
+    /// computed.
+    fn read(&mut self, knob: Knob, given: &Spanned<Number>) -> Result<f64, Complaint> {
+        let may_differ = !self.is_mode && knob.is_of_machine();
+        let read = match given.get_ref() {
+            Number::Plain(value) => knob.check(*value).map_err(String::from),
+            Number::Text(text) if may_differ => knob.parse_toleranced(text).map(|read| {
+                if read.half_width > 0.0 {
+                    self.half_widths.insert(knob.to_string(), read.half_width);
+                }
+                read.middle.value
+            }),
+            Number::Text(text) => knob.parse(text),
+        };
+        read.map_err(|message| Complaint { at: given.span(), message })
+    }
+
+    /// A number of a table of the file, or its default.
+    fn number(&mut self, section: &Section, knob: Knob) -> Result<f64, Complaint> {
+        let KnobSpec { name, meaning, default, .. } = *knob.spec();
+        if let Some(given) = section.get(name)? {
+            return self.read(knob, &given);
+        }
+        default.ok_or_else(|| {
+            let such = knob.print(1.0);
+            lacks(format!("{knob} ({meaning}) is missing; such as {knob} = \"{such}\""))
+        })
+    }
+
+    /// The coefficients of a polynomial in the velocity, the constant one first; each is read as the number of its `name`
+    /// and power, or by its unit where the table of numbers ends.
+    fn polynomial(&mut self, name: &str, given: &[Spanned<Number>]) -> Result<Vec<f64>, Complaint> {
+        let coefficient = |(power, given): (usize, &Spanned<Number>)| {
+            if let Ok(knob) = Knob::named(&format!("{name}{power}"), Group::SOURCE) {
+                return self.read(knob, given);
+            }
+            let number = given.get_ref().in_unit(&format!("s^{power}/m^{power}"));
+            number.map_err(|message| Complaint { at: given.span(), message })
+        };
+        given.iter().enumerate().map(coefficient).collect()
+    }
+
+    /// A mass on a belt with its friction and no other numbers yet, and the place of the friction in the file.
+    fn belt(&mut self, read: &Section) -> Result<(Body, Range<usize>), Complaint> {
+        let friction = read.section("friction")?;
+        let friction = friction.ok_or_else(|| lacks("friction is missing".to_owned()))?;
+        let at_rest = friction.get("static")?;
+        let read = |given| self.read(Knob::StaticCoefficient, &given);
+        let mut belt = Belt {
+            mass: 0.0,
+            stiffness: 0.0,
+            damping: 0.0,
+            cubic_damping: 0.0,
+            normal_force: 0.0,
+            friction: 0.0,
+            belt_speed: 0.0,
+            law: FrictionLaw::Constant { mu: 0.0 },
+            static_coefficient: at_rest.map(read).transpose()?,
+            static_guide: None,
+        };
+        self.set_law(&mut belt, &friction)?;
+        Ok((Body::Belt(Box::new(belt)), friction.at))
+    }
+
+    /// A mode with its damping ratio and no other numbers yet, and the place of the ratio in the file.
+    fn mode(&mut self, read: &Section) -> Result<(Body, Range<usize>), Complaint> {
+        let ratio = read.get::<Vec<_>>("damping_ratio")?;
+        let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing".to_owned()))?;
+        let damping_ratio = self.polynomial("ratio", ratio.get_ref())?;
+        let (frequency, mass, friction) = (0.0, 0.0, 0.0);
+        let mode = Modal { frequency, mass, damping_ratio, friction, static_guide: None };
+        Ok((Body::Mode(mode), ratio.span()))
+    }
+
+    /// Gives a mass its friction law: the one table beside the coefficient of static friction.
+    fn set_law(&mut self, belt: &mut Belt, friction: &Section) -> Result<(), Complaint> {
+        friction.has_only(&[&["static"], &FrictionLaw::NAMES[..]].concat())?;
+        let unfit =
+            |message: &str| Complaint { at: friction.at.clone(), message: message.to_owned() };
+        let mut laws = friction.entries.keys().map(|name| name.get_ref().as_ref());
+        let mut other = || laws.find(|name| *name != "static");
+        let one_of = || {
+            let [others @ .., last] = FrictionLaw::NAMES;
+            unfit(&format!("friction takes one law: {} or {last}", others.join(", ")))
+        };
+        let (Some(name), None) = (other(), other()) else { return Err(one_of()) };
+        let Some(given) = friction.section(name)? else { return Err(unfit("no law")) };
+        belt.law = match (FrictionLaw::blank(name), name) {
+            (Some(blank), _) => {
+                belt.law = blank;
+                let own = |knob: &Knob| !AT_REST.contains(knob) && knob.of_belt(belt).is_some();
+                let numbers: Vec<Knob> = Group::Law.knobs().filter(own).collect();
+                given.has_only(&numbers.iter().map(|knob| knob.spec().name).collect::<Vec<_>>())?;
+                for knob in numbers {
+                    knob.set_in_belt(belt, self.number(&given, knob)?).map_err(lacks)?;
+                }
+                return Ok(());
+            }
+            (None, "polynomial") => {
+                given.has_only(&["coefficients"])?;
+                let listed = given.get::<Vec<_>>("coefficients")?;
+                let listed = listed.ok_or_else(|| unfit("coefficients = [..] is missing"))?;
+                FrictionLaw::Polynomial { coefficients: self.polynomial("mu", listed.get_ref())? }
+            }
+            (None, "table") => self.spline(&given, unfit)?,
+            // A law that has a name but is not read here must not pass for another one.
+            (None, _) => return Err(one_of()),
+        };
+        Ok(())
+    }
+
+    fn spline(
+        &mut self,
+        law: &Section,
+        unfit: impl FnOnce(&str) -> Complaint,
+    ) -> Result<FrictionLaw, Complaint> {
+        law.has_only(&["file", "points", "scatter"])?;
+        let scatter = self.number(law, Knob::Scatter)?;
+        let (at, points) = match (law.get::<String>("file")?, law.get("points")?) {
+            (Some(file), None) => {
+                let name = file.get_ref();
+                let read = (self.fetch)(name).and_then(|text| table(name, &text));
+                (file.span(), read.map_err(|message| Complaint { at: file.span(), message })?)
+            }
+            (None, Some(points)) => (points.span(), listed(&points)?),
+            _ => {
+                let either = "a table takes either file = \"NAME.csv\" or points = [[v, mu], ..]";
+                return Err(unfit(either));
+            }
+        };
+        if points.len() > MOST_POINTS {
+            let message = format!("{} points; {MOST_POINTS} are allowed", points.len());
+            return Err(Complaint { at, message });
+        }
+        let spline = SmoothingSpline::new(&points, scatter);
+        spline.map(FrictionLaw::Table).map_err(|message| Complaint { at, message })
+    }
 }
 
 /// The points that are listed in the machine file itself.
 fn listed(points: &Spanned<Vec<(Number, Number)>>) -> Result<Vec<(f64, f64)>, Complaint> {
     let read = |(v, mu): &(Number, Number)| Ok((v.in_unit("m/s")?, mu.in_unit("")?));
-    let number = points.get_ref().iter().enumerate();
-    number
-        .map(|(index, point)| {
-            read(point).map_err(|message: String| Complaint {
-                at: points.span(),
-                message: format!("point {}: {message}", index + 1),
-            })
+    let point = |(index, point): (usize, &(Number, Number))| {
+        read(point).map_err(|why: String| {
+            let message = format!("point {}: {why}", index + 1);
+            Complaint { at: points.span(), message }
         })
-        .collect()
+    };
+    points.get_ref().iter().enumerate().map(point).collect()
 }
 
 #[cfg(test)]

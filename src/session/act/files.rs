@@ -130,7 +130,7 @@ fn open_machine(
     }
     let mut wanted = None;
     let found = file::parse(&title, &file, &text, |name| {
-        table.unwrap_or_else(|| {
+        table.clone().unwrap_or_else(|| {
             wanted = Some(path.with_file_name(name));
             Err(String::new())
         })

@@ -37,7 +37,8 @@ pub fn toggle_letter(session: &mut Session, key: Key) {
 
 /// Moves the selection of the open list, within its rows.
 pub fn move_by(session: &mut Session, by: isize) {
-    let last = session.list_length().saturating_sub(1);
+    let Some(Overlay::List(listed, list)) = &session.overlay else { return };
+    let last = session.rows_of(*listed, list).len().saturating_sub(1);
     if let Some(list) = session.list_mut() {
         list.selected = list.selected.saturating_add_signed(by).min(last);
     }

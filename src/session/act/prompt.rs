@@ -138,7 +138,8 @@ pub fn search_done(session: &mut Session) -> Result<Option<NextCommand>, String>
 /// layers. A command that takes words opens the line for typing them. In the list of costs, nothing can be run.
 pub fn choose(session: &mut Session) -> Result<Option<NextCommand>, String> {
     let Some(Overlay::List(listed, list)) = &session.overlay else { return Ok(None) };
-    let (listed, row) = (*listed, session.selected_row(*listed, list));
+    let rows = session.rows_of(*listed, list);
+    let (listed, row) = (*listed, rows.get(list.selected).copied().flatten());
     let closes = row.is_some() || listed == Listed::Cost;
     if closes && listed != Listed::Layers {
         session.overlay = None;

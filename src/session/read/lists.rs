@@ -124,17 +124,20 @@ impl Session {
         self.plots[self.plot].view
     }
 
-    /// The selected row of a list, if it can be run.
-    pub(crate) fn selected_row(&self, listed: Listed, list: &List) -> Option<PaletteRow> {
-        let at = list.selected;
-        Some(match listed {
-            Listed::Scenes => PaletteRow::Scene(self.scene_rows(list).get(at)?),
-            Listed::Layers => PaletteRow::Layer(self.layer_rows(list).get(at)?),
-            Listed::Views => PaletteRow::View(self.view_rows(list).get(at)?),
-            Listed::Paper => PaletteRow::Claim(self.claim_rows(list).get(at)?.0),
-            Listed::Palette => *self.palette_rows(list).get(at)?,
-            Listed::Cost | Listed::Interrupted => return None,
-        })
+    /// The rows of a list; `None` for each that cannot be run.
+    pub(crate) fn rows_of(&self, listed: Listed, list: &List) -> Vec<Option<PaletteRow>> {
+        let rows: Vec<PaletteRow> = match listed {
+            Listed::Scenes => self.scene_rows(list).into_iter().map(PaletteRow::Scene).collect(),
+            Listed::Layers => self.layer_rows(list).into_iter().map(PaletteRow::Layer).collect(),
+            Listed::Views => self.view_rows(list).into_iter().map(PaletteRow::View).collect(),
+            Listed::Paper => {
+                self.claim_rows(list).into_iter().map(|row| PaletteRow::Claim(row.0)).collect()
+            }
+            Listed::Palette => self.palette_rows(list),
+            Listed::Cost => return vec![None; self.cost_rows(list).len()],
+            Listed::Interrupted => return vec![None; self.interrupted_rows(list).len()],
+        };
+        rows.into_iter().map(Some).collect()
     }
 
     /// The heading under which a row stands.
@@ -202,20 +205,6 @@ impl Session {
     pub fn interrupted_rows(&self, list: &List) -> Vec<(usize, &Kept)> {
         let all = self.interrupted.iter().enumerate();
         all.filter(|(_, kept)| list.matches(&[&kept.when, &kept.what])).collect()
-    }
-
-    /// Number of rows of the open list.
-    pub(crate) fn list_length(&self) -> usize {
-        let Some(Overlay::List(listed, list)) = &self.overlay else { return 0 };
-        match listed {
-            Listed::Scenes => self.scene_rows(list).len(),
-            Listed::Layers => self.layer_rows(list).len(),
-            Listed::Views => self.view_rows(list).len(),
-            Listed::Paper => self.claim_rows(list).len(),
-            Listed::Palette => self.palette_rows(list).len(),
-            Listed::Cost => self.cost_rows(list).len(),
-            Listed::Interrupted => self.interrupted_rows(list).len(),
-        }
     }
 
     pub(crate) fn list_mut(&mut self) -> Option<&mut List> {

@@ -131,11 +131,8 @@ impl Script {
 
     /// Number of key presses.
     pub fn keys(&self) -> u64 {
-        let presses = |located: &ScriptStep| match located.step {
-            Instruction::Key { count, .. } => u64::from(count),
-            _ => 0,
-        };
-        self.steps.iter().map(presses).sum()
+        let keys = self.steps.iter().map(|located| &located.step);
+        keys.filter(|step| matches!(step, Instruction::Key { .. })).map(Instruction::length).sum()
     }
 }
 
