@@ -8,7 +8,7 @@ use crate::numerics::{Hermite, Scalar};
 
 /// An initial value problem.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Problem {
     /// Parameters of the oscillator; a machine has its model in their place.
     pub parameters: Parameters,

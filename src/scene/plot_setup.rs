@@ -13,13 +13,13 @@ pub const MOST_PLOTS: usize = 4;
 
 /// The axes of a plot. A view that leaves no choice ignores them and keeps them for other views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Axes {
     /// The parameter to the right.
     pub abscissa: Knob,
     /// The property of the cycles upwards.
     pub ordinate: Ordinate,
     /// The unit of the ordinate, where that is a length.
-    #[serde(default)]
     pub unit: Unit,
     /// The parameter upwards, in a chart over two parameters.
     pub against: Knob,
@@ -48,9 +48,11 @@ impl Axes {
 
 /// A plot as a scene sets it up: its view, its axes, and the part to show.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PlotSetup {
     pub view: View,
     /// The axes, where the view leaves a choice.
+    #[serde(default)]
     pub axes: Axes,
     /// The part to show; `None` for a window fitted to the content.
     pub window: Option<Window>,

@@ -1,14 +1,17 @@
-//! A scene: the setup that shows one phenomenon.
+//! A scene: the setup that shows one phenomenon. Scene files and saved sessions hold it alike.
 //!
 //! A scene declares the terms of the model that it needs. The pane lists only those parameters; a term that is
 //! not declared is zero and never evaluated. A scene also sets windows and layers, and says in a few sentences
 //! what to look for.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
-use super::machine::ScaledMachine;
+use super::machine::{ScaledMachine, library};
 use super::plot_setup::{Arrangement, PlotSetup};
 use super::views::Layer;
 use crate::flow::Problem;
@@ -19,7 +22,8 @@ use crate::question::Recording;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// The name by which it is opened.
+    /// The name by which it is opened; that of its file.
+    #[serde(default)]
     pub name: String,
     /// The figure of the paper that it shows; the scene can also be opened by this name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -31,10 +35,13 @@ pub struct Scene {
     /// What to press to see more.
     pub press: String,
     /// The parameters that the scene uses, in the order of the table; all others are zero.
+    #[serde(default)]
     pub terms: BTreeSet<Knob>,
     /// The motion on show: parameters, start, end time, method and tolerance.
+    #[serde(default)]
     pub problem: Problem,
     /// Step sizes of the keys that differ from those of the table.
+    #[serde(default)]
     pub steps: BTreeMap<Knob, f64>,
     pub layers: BTreeSet<Layer>,
     /// The plots, one to four, in the order in which they get the focus.
@@ -43,12 +50,45 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub families: Vec<Vec<Variant>>,
     /// How the plots share the screen.
+    #[serde(default)]
     pub arrangement: Arrangement,
     /// The machine that the numbers describe, if any.
+    #[serde(default, deserialize_with = "named_or_whole", skip_serializing_if = "Option::is_none")]
     pub machine: Option<Box<ScaledMachine>>,
     /// The record to which the oscillator is fitted, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<Recording>,
+}
+
+/// A machine in full, or the name of a built-in one and, where that is not its own, the speed of its belt in m/s, as in
+/// `textbook 0.2`.
+struct NamedOrWhole;
+
+impl<'de> Visitor<'de> for NamedOrWhole {
+    type Value = Option<Box<ScaledMachine>>;
+
+    fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str("a machine or the name of one")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Self::Value, E> {
+        let (name, speed) = text.split_once(' ').unwrap_or((text, ""));
+        let machine = library::find(name).map_err(E::custom)?;
+        let speed = speed.parse().unwrap_or(machine.belt.belt_speed);
+        let scaled = ScaledMachine::at(machine, speed).map_err(E::custom)?;
+        Ok(Some(Box::new(scaled)))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+        let scaled = ScaledMachine::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(Some(Box::new(scaled)))
+    }
+}
+
+fn named_or_whole<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Box<ScaledMachine>>, D::Error> {
+    deserializer.deserialize_any(NamedOrWhole)
 }
 
 /// Values that are held while the others follow the keys.
