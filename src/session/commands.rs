@@ -196,9 +196,11 @@ fn command(line: &'static str) -> Option<Command> {
     let fields: Vec<&str> = line.split(" | ").collect();
     let action = |name: &str| ACTIONS.iter().find(|row| row.0 == name).map(|row| row.1);
     match fields[..] {
-        [typed, arguments, doc] => {
-            let (name, run) = (typed.strip_prefix(':')?, action(typed)?);
-            Some(Command { name, keys: Vec::new(), hint: "", doc, arguments, run, by: [0; 2] })
+        [typed, arguments, doc, ref needs @ ..] if typed.starts_with(':') => {
+            let (name, run) = (&typed[1..], action(typed)?);
+            let needs = needs.first().unwrap_or(&"");
+            let (keys, hint, by) = (Vec::new(), "", [0; 2]);
+            Some(Command { name, keys, hint, doc, arguments, run, by, needs })
         }
         [name, places, hint, doc, ref does @ ..] => {
             let mut words = does.first().unwrap_or(&name).split(' ');
@@ -208,7 +210,8 @@ fn command(line: &'static str) -> Option<Command> {
                 *by = steps(word)?;
             }
             let hint = if hint == "-" { "" } else { hint };
-            Some(Command { name, keys: keys(places), hint, doc, arguments: "", run, by })
+            let (keys, arguments, needs) = (keys(places), "", does.get(1).unwrap_or(&""));
+            Some(Command { name, keys, hint, doc, arguments, run, by, needs })
         }
         _ => None,
     }
@@ -249,6 +252,7 @@ fn toggle(spec: &LayerSpec) -> Command {
         arguments: "",
         run: Toggle(spec.layer),
         by: [0; 2],
+        needs: "",
     }
 }
 

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use hopfscope::scene::{VIEWS, plain};
 use hopfscope::session::config::{Config, parse};
-use hopfscope::session::read::contexts::NEEDS;
 use hopfscope::session::settings::{Colors, Glyphs, Theme};
 use hopfscope::session::state::keymap::{ContextSpec, chains, contexts};
 use hopfscope::session::{Command, Context, Key, Keymap, Session, Size, commands};
@@ -344,12 +343,4 @@ fn every_context_has_a_name_of_its_own() {
     let names: BTreeSet<_> = contexts().map(|row| row.name).collect();
     assert_eq!(names.len(), contexts().count());
     assert!(VIEWS.iter().all(|row| names.contains(row.name)), "{names:?}");
-}
-
-#[test]
-fn what_needs_something_is_a_command() {
-    for name in NEEDS.iter().flat_map(|(_, names)| names.iter()) {
-        let is_key = commands().any(|command| command.name == *name);
-        assert!(is_key || Keymap::default().lines().any(|line| line.name == *name), "{name}");
-    }
 }

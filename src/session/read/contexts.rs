@@ -8,7 +8,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::{Request, Topic, VIEWS, View};
+use crate::scene::{Request, TOPICS, Topic, VIEWS, View};
 use crate::session::read::wants::COMPARED;
 use crate::session::read::windows;
 use crate::session::state::keymap::{chain, full_name};
@@ -16,45 +16,6 @@ use crate::session::{
     Code, Command, Context, Key, Letter, Listed, Msg, Overlay, PaletteRow, Pane, Pending, Pointed,
     PointerTarget, Prompt, Session, SessionCaption,
 };
-
-/// The need of a command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Need {
-    /// The answers on a topic for the plot in which the command runs, with its variants.
-    Finding(Topic),
-    /// The answer on a topic at the present numbers, whichever variants the plot shows.
-    Present(Topic),
-    /// The motion, if the command runs in a plot over time.
-    MotionOverTime,
-    /// The window of the plot in which the command runs, if that is being fitted.
-    Window,
-    /// The answers at the present point that are to be drawn for comparison once it is left.
-    Comparison,
-    /// The answers to all questions: only then is it known what has failed.
-    Everything,
-}
-
-/// The commands that need something; all others have the same effect at any time.
-#[rustfmt::skip]
-pub const NEEDS: [(Need, &[&str]); 9] = [
-    (Need::Present(Topic::Cycles), &["start-inside", "start-outside"]),
-    (Need::Finding(Topic::Cycles), &["start-on-cycle"]),
-    (Need::Finding(Topic::Trajectory), &["play-motion", "motion-on", "motion-back"]),
-    (Need::Finding(Topic::Trade), &["use-method"]),
-    (Need::Finding(Topic::Branch), &[
-        "walk", "walk-back", "walk-on", "walk-far-back", "walk-far-on", "walk-to-next",
-        "walk-to-previous", "walk-to-first", "walk-to-last", "walk-take",
-    ]),
-    (Need::MotionOverTime, &["start-here"]),
-    (Need::Window, &[
-        "walk", "use-method", "cursor-left", "cursor-right", "cursor-up", "cursor-down",
-        "cursor-far-left", "cursor-far-right", "cursor-far-up", "cursor-far-down", "zoom-in", "zoom-out",
-        "pan-left", "pan-right", "pan-up", "pan-down", "next-ordinate", "next-unit", "copy-command",
-        "scan",
-    ]),
-    (Need::Comparison, &["goto"]),
-    (Need::Everything, &["retry"]),
-];
 
 impl Session {
     /// Whether a press waits for an answer; further input of the user must then wait, too.
@@ -79,7 +40,7 @@ impl Session {
             Some(pending) if self.keymap.command(&[pending.context()], key).is_some() => {
                 return None;
             }
-            Some(Pending::Letter(Letter::GoTo)) => return self.awaited_by("goto", self.plot),
+            Some(Pending::Letter(Letter::GoTo)) => return self.awaited_by_line("goto"),
             Some(Pending::Letter(Letter::Mark)) => return None,
             Some(Pending::Count(_)) | None => {}
         }
@@ -96,7 +57,7 @@ impl Session {
                     _ => None,
                 }
             }
-            _ => self.awaited_by(command.name, self.plot),
+            _ => self.awaited_by(command, self.plot),
         }
     }
 
@@ -107,46 +68,45 @@ impl Session {
             Some(command) if rest.trim().is_empty() => self.awaited_by_command(command),
             // With words of its own, such as those of a scan, it takes nothing from the plot.
             Some(_) => None,
-            None => self.awaited_by(name, self.plot),
+            None => self.awaited_by(self.keymap.line(name)?, self.plot),
         }
     }
 
     /// The question that must be answered before a command that is run by name, in the pane where it applies.
     fn awaited_by_command(&self, command: &Command) -> Option<Request> {
         match place(self, command).ok()?.unwrap_or(self.focus) {
-            Pane::Plot(index) => self.awaited_by(command.name, index),
-            Pane::Parameters => self.awaited_by(command.name, self.plot),
+            Pane::Plot(index) => self.awaited_by(command, index),
+            Pane::Parameters => self.awaited_by(command, self.plot),
         }
     }
 
-    fn awaited_by(&self, name: &str, plot: usize) -> Option<Request> {
+    fn awaited_by(&self, command: &Command, plot: usize) -> Option<Request> {
         // It must not matter whether a layer asks: the answer may have been computed before the layer was
         // switched off.
         let open = |topic| {
             let mut requests = self.requests(topic, plot).into_iter().map(|(_, request)| request);
             requests.find(|request| self.is_open(request))
         };
-        let needs = NEEDS.iter().filter(|(_, names)| names.contains(&name));
-        needs.into_iter().find_map(|(need, _)| match need {
-            Need::Finding(topic) => open(*topic),
-            Need::Present(topic) => {
-                self.request(*topic, plot).filter(|request| self.is_open(request))
+        command.needs.split(' ').find_map(|need| match need {
+            "cycles-at-present" => {
+                self.request(Topic::Cycles, plot).filter(|request| self.is_open(request))
             }
-            Need::MotionOverTime => {
+            "motion-over-time" => {
                 let over_time = self.plots.get(plot)?.view == View::TimeSeries;
                 over_time.then(|| open(Topic::Trajectory)).flatten()
             }
-            Need::Window => windows::awaited(self, plot),
+            "window" => windows::awaited(self, plot),
             // Of the point that is left, only answers that layers ask for are drawn.
-            Need::Comparison => {
+            "comparison" => {
                 let asks = self.asks();
                 let asked = |request: &Request| asks.contains(request);
                 COMPARED.into_iter().find_map(|topic| open(topic).filter(asked))
             }
-            Need::Everything => {
+            "everything" => {
                 let mut wants = self.wants().into_iter();
                 wants.find(|request| !request.is_long() && self.is_open(request))
             }
+            topic => TOPICS.iter().find(|known| known.name() == topic).copied().and_then(open),
         })
     }
 }

@@ -29,6 +29,8 @@ pub struct Command {
     pub run: CommandAction,
     /// The steps by which it moves something.
     pub by: [i32; 2],
+    /// What it waits for, in words of the file of commands.
+    pub needs: &'static str,
 }
 
 impl PartialEq for Command {

@@ -1,5 +1,7 @@
 //! Fast and slow typing: commands that need an answer wait for it, so that the same keys lead to the same end.
 
+use std::collections::BTreeSet;
+
 use proptest::prelude::*;
 
 use super::recorded::assert_alike;
@@ -8,9 +10,8 @@ use super::{Trial, answered};
 use crate::flow::Reason;
 use crate::question::NoAnswer;
 use crate::scene::library;
-use crate::session::read::contexts::NEEDS;
 use crate::session::replay::{Action, Player, parse};
-use crate::session::{Effect, Msg, update};
+use crate::session::{Command, Effect, Keymap, Msg, update};
 
 /// Gives a message and answers only what it waits for; returns whether it waits.
 fn hurry(trial: &mut Trial, message: Msg) -> bool {
@@ -99,9 +100,12 @@ fn whatever_needs_an_answer_leads_to_the_same_end_however_fast_it_is_typed() {
         fast.settle();
         assert_alike(&slow.session, &fast.session, keys);
     }
-    let tried: Vec<&str> = HASTY.iter().map(|(command, ..)| *command).collect();
-    let kinds = NEEDS.iter().filter(|(_, names)| names.iter().any(|name| tried.contains(name)));
-    assert_eq!(kinds.count(), NEEDS.len(), "every need is tried");
+    let keymap = Keymap::default();
+    let all = || keymap.commands().chain(keymap.lines());
+    let tried = all().filter(|command| HASTY.iter().any(|(name, ..)| *name == command.name));
+    let needs = |command: &'static Command| command.needs.split_whitespace();
+    let tried: BTreeSet<&str> = tried.flat_map(needs).collect();
+    assert_eq!(tried, all().flat_map(needs).collect(), "every need is tried");
 }
 
 #[test]
