@@ -115,7 +115,6 @@ pub fn border<'a>(
         .number("q_max", SHORT, |(point, _)| point.fold.map(|fold| fold.q_max))
         .number("period", SHORT, |(point, _)| point.fold.map(|fold| fold.period))
         .number("D_F_harmonic", SHORT, |(point, _)| point.harmonic_fold)
-        .titled("D_F of (48)")
         .number("D_c", EXACT, |(point, _)| point.escape)
         .file("reason", |(point, _)| point.reason.clone())
         .and(certified.map(|_| proved));

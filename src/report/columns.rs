@@ -13,6 +13,15 @@ use super::table::Table;
 use crate::numerics::{Interval, log10, pow, powi};
 use crate::words::{significant, with_unit};
 
+/// What columns are called in text, where that is not their name in files, a line each.
+const TITLES: &str = include_str!("../../assets/titles.txt");
+
+/// The title in text of a column with this name in files.
+fn title(name: &str) -> &str {
+    let named = |line: &'static str| line.split_once(" | ").filter(|(known, _)| *known == name);
+    TITLES.lines().find_map(named).map_or(name, |(_, title)| title)
+}
+
 /// What the numbers of a column measure, and how text shows them; files have all their digits, in SI units.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity {
@@ -113,25 +122,18 @@ impl<'a, R: 'a> Columns<'a, R> {
     ) -> Self {
         let value = Rc::new(move |row: &R| value(row).into());
         let exact = Rc::clone(&value);
-        self.file(name, move |row| exact(row)).text(name, move |row| quantity.text(value(row)))
+        let text = move |row: &R| quantity.text(value(row));
+        self.file(name, move |row| exact(row)).text(title(name), text)
     }
 
     /// Words, counts or marks.
     pub fn word<V: Serialize>(self, name: &'static str, value: impl Fn(&R) -> V + 'a) -> Self {
         let value = Rc::new(move |row: &R| json::value(&value(row)));
         let exact = Rc::clone(&value);
-        self.file(name, move |row| exact(row)).text(name, move |row| match value(row) {
+        self.file(name, move |row| exact(row)).text(title(name), move |row| match value(row) {
             Value::Null => "-".to_owned(),
             value => cell(&value),
         })
-    }
-
-    /// The last column with another title in text.
-    pub fn titled(mut self, title: &str) -> Self {
-        if let Some(column) = self.texts.last_mut() {
-            title.clone_into(&mut column.title);
-        }
-        self
     }
 
     /// Both ends of an interval that is proved, as `name_lower` and `name_upper`; in text its certain digits.
@@ -143,7 +145,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             let cells = value.map_or(vec![], |it| vec![it.lower().into(), it.upper().into()]);
             (cells, Document::default().with(&field, value.map(bounds)))
         })
-        .text(&format!("{name}, proved"), move |row| {
+        .text(&format!("{}, proved", title(name)), move |row| {
             value(row).map_or_else(|| "-".to_owned(), certain)
         })
     }
@@ -320,26 +322,22 @@ mod tests {
     fn a_column_is_told_once_for_every_form() {
         let lost = Columns::default().bounds("loss", |loss: &Interval| Some(*loss));
         let columns = Columns::default()
-            .number("margin", Quantity::of("m", 3).or("any"), |(size, _): &(Option<f64>, bool)| {
-                *size
-            })
-            .titled("smallest kick")
+            .number("area", Quantity::of("m", 3).or("any"), |(size, _): &(Option<f64>, bool)| *size)
             .word("kind", |_| "a,b")
             .fields(&State { q: 0.0, v: 0.0 }, |(size, _)| size.map(|q| State { q, v: 1.0 }))
             .part("lost", lost, |(_, is_lost)| {
                 is_lost.then_some(Interval::new(0.0, f64::INFINITY))
             });
         let rows = || [(Some(0.012_345), true), (None, false)];
-        let table =
-            "smallest kick  kind  loss, proved\n      12.3 mm  a,b   ?\n     any       a,b   -\n";
+        let table = "area of the basin  kind  loss, proved\n          12.3 mm  a,b   ?\n         any       a,b   -\n";
         assert_eq!(columns.table(rows()).to_string(), table);
-        let csv = "margin,kind,q,v,loss_lower,loss_upper\n\
+        let csv = "area,kind,q,v,loss_lower,loss_upper\n\
                    0.012345,\"a,b\",0.012345,1.0,0.0,\n,\"a,b\",,,,\n";
         assert_eq!(columns.csv(rows()), csv);
         let objects = concat!(
-            r#"[{"margin":0.012345,"kind":"a,b","q":0.012345,"v":1.0,"#,
+            r#"[{"area":0.012345,"kind":"a,b","q":0.012345,"v":1.0,"#,
             r#""lost":{"loss":{"lower":0.0,"upper":null}}},"#,
-            r#"{"margin":null,"kind":"a,b"}]"#,
+            r#"{"area":null,"kind":"a,b"}]"#,
             "\n"
         );
         assert_eq!(json::text(&columns.objects(rows())), objects);

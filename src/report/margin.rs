@@ -13,34 +13,25 @@ pub(super) type MarginRow = (&'static str, Margin);
 /// The name of a margin that holds for certain.
 pub(super) const GUARANTEED: &str = "guaranteed";
 
-/// A size of a margin: its name in files and in text, and itself.
-type Size = (&'static str, &'static str, fn(&Margin) -> Option<f64>);
-
-/// The columns of margins. Text does not round up what is guaranteed.
+/// The columns of margins.
 pub(super) fn margin_columns<'a>(about: &About, digits: usize) -> Columns<'a, MarginRow> {
-    const SIZES: [Size; 4] = [
-        ("displacement", "displacement from q = 0", |it| it.displacement),
-        ("impulse", "impulse at q = 0", |it| it.impulse),
-        ("from_rest_displacement", "displacement from any rest position", |it| {
-            it.from_rest.displacement
-        }),
-        ("from_rest_impulse", "impulse at any rest position", |it| it.from_rest.impulse),
-    ];
-    let quantities = ["m", "N s"].map(|unit| about.quantity(unit, digits).or("none"));
-    let quantities = quantities.into_iter().cycle();
-    SIZES.into_iter().zip(quantities).fold(
-        Columns::default(),
-        |all, ((name, title, size), quantity)| {
-            all.file(name, move |(_, margin): &MarginRow| size(margin)).text(
-                title,
-                move |(what, margin)| {
-                    let below =
-                        |size| if *what == GUARANTEED { quantity.below(size) } else { size };
-                    quantity.text(size(margin).map(below))
-                },
-            )
-        },
-    )
+    let [length, impulse] = sizes(about, digits);
+    Columns::default()
+        .number("displacement", length, |(_, margin): &MarginRow| margin.displacement)
+        .number("impulse", impulse, |(_, margin)| margin.impulse)
+        .number("from_rest_displacement", length, |(_, margin)| margin.from_rest.displacement)
+        .number("from_rest_impulse", impulse, |(_, margin)| margin.from_rest.impulse)
+}
+
+/// Displacements and impulses.
+fn sizes(about: &About, digits: usize) -> [Quantity; 2] {
+    ["m", "N s"].map(|unit| about.quantity(unit, digits).or("none"))
+}
+
+/// A margin that holds for certain, which text must not round up.
+pub(super) fn guaranteed(about: &About, margin: Margin, digits: usize) -> MarginRow {
+    let [length, impulse] = sizes(about, digits);
+    (GUARANTEED, margin.map(|size| length.below(size), |size| impulse.below(size)))
 }
 
 /// The margins, nominal and those for certain whatever a force of at most `disturbance` does: a row for each, or why
@@ -52,9 +43,10 @@ pub fn margins(
     disturbance: f64,
 ) -> Answer {
     let reason = certain.err().map(|why| why.to_string());
-    let guaranteed = certain.unwrap_or(Margin::ENDLESS);
-    let rows = [("nominal", nominal), (GUARANTEED, guaranteed)];
-    let shown = if reason.is_some() { 1 } else { 2 };
+    let margin = certain.unwrap_or(Margin::ENDLESS);
+    let rows = [("nominal", nominal), (GUARANTEED, margin)];
+    let shown = certain.map(|margin| guaranteed(about, margin, 12));
+    let shown = [rows[0]].into_iter().chain(shown);
     let name = |(name, _): &MarginRow| (*name).to_owned();
     let why = reason.clone();
     let columns = Columns::default()
@@ -68,11 +60,11 @@ pub fn margins(
     about
         .answer_to(&format!("; disturbance {bound}"))
         .with("nominal", nominal)
-        .with(GUARANTEED, Document::default().and(&guaranteed).with("reason", reason))
+        .with(GUARANTEED, Document::default().and(&margin).with("reason", reason))
         .with("disturbance", disturbance)
         .with("parameters", known)
         .csv(&columns, rows)
-        .table(columns.table(&rows[..shown]).transposed())
+        .table(columns.table(shown).transposed())
         .lines(nothing)
 }
 
@@ -93,19 +85,21 @@ pub fn basin(
         (captured, cycles::known(found))
     };
     let ending = Quantity::pure(10).or("not known");
-    let whole = Columns::default()
-        .number("area", Quantity::pure(10), move |_: &MarginRow| area)
-        .titled("area of the basin");
-    let known = Columns::default()
-        .number("lyapunov_share", Quantity::pure(4), move |_: &MarginRow| share)
-        .titled("Lyapunov's disk (24), a part of the margin");
+    let whole = Columns::default().number("area", Quantity::pure(10), move |_: &MarginRow| area);
+    let known =
+        Columns::default().number("lyapunov_share", Quantity::pure(4), move |_: &MarginRow| share);
     let proved = certified
         .map(|kicks| Columns::default().part("certified", kick_columns(), move |_| Some(kicks)));
-    let columns = count_columns(counts)
+    let heading = "starts of the window, smallest kicks not captured";
+    let columns = Columns::default()
+        .text(heading, |(name, _): &MarginRow| (*name).to_owned())
+        .word("captured", move |_| counts.captured)
+        .word("cycle", move |_| counts.cycle)
+        .word("escaped", move |_| counts.escaped)
+        .word("undecided", move |_| counts.undecided)
         .and(margin_columns(about, 10))
         .and(on_paper.then_some(whole))
         .number("captured_part", ending, move |_| captured)
-        .titled("part of the window that comes to rest")
         .and(on_paper.then_some(known))
         .and(proved);
     let row = ("", found.margin);
@@ -124,22 +118,6 @@ pub fn basin(
         .table(columns.table([row]).transposed())
         .lines(too_large.then_some("Lyapunov's disk is too large, as it ignores D2 and D3"))
         .cost(found.cost, seconds)
-}
-
-/// The columns of where starts end, whatever the row.
-fn count_columns<'a>(counts: Counts) -> Columns<'a, MarginRow> {
-    let ends = [
-        ("captured", "starts that are captured", counts.captured),
-        ("cycle", "starts that end on a stable cycle", counts.cycle),
-        ("escaped", "starts that escape", counts.escaped),
-        ("undecided", "starts that stay undecided", counts.undecided),
-    ];
-    let heading = "starts of the window, smallest kicks not captured";
-    let columns = Columns::default().text(heading, |(name, _): &MarginRow| (*name).to_owned());
-    let one = |all: Columns<'a, MarginRow>, (name, title, count)| {
-        all.word(name, move |_| count).titled(title)
-    };
-    ends.into_iter().fold(columns, one)
 }
 
 /// What becomes of random kicks; `held` is the farthest place of rest on either side. The mean is null in a document if

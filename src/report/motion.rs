@@ -189,7 +189,6 @@ fn columns_of_trade(trade: &Trade) -> Columns<'_, &TradePoint> {
         .number("error", Quantity::pure(2), |row| row.error())
         .word("evaluations", |row| row.cost.evaluations)
         .number("seconds", Quantity::of("s", 2), move |row| known(row).map(|_| row.seconds))
-        .titled("time")
         .file("steps", move |row| known(row).map(|_| row.cost.steps))
         .file("rejected", move |row| known(row).map(|_| row.cost.rejected))
         .field("outcome", |row| row.outcome)

@@ -232,15 +232,10 @@ pub(super) fn kick_columns<'a>() -> Columns<'a, &'a ProvedKicks> {
     const NO_EDGE: &str = "what borders the basin";
     Columns::default()
         .word("edge", |kicks: &&ProvedKicks| kicks.edge.map(Border::from))
-        .titled("border of the basin, proved")
         .bounds("displacement", |kicks| kicks.displacement)
-        .titled("displacement from q = 0, proved")
         .bounds("impulse", |kicks| kicks.impulse)
-        .titled("impulse at q = 0, proved")
         .bounds("from_rest_displacement", |kicks| kicks.rest_displacement)
-        .titled("displacement from any rest position, proved")
         .bounds("from_rest_impulse", |kicks| kicks.rest_impulse)
-        .titled("impulse at any rest position, proved")
         .file("proved", |kicks| kicks.open.is_none() && kicks.edge.is_some())
         .word("open", |kicks| kicks.open.or_else(|| kicks.edge.is_none().then_some(NO_EDGE)))
 }
@@ -264,9 +259,7 @@ pub(super) fn range_pieces<'a>() -> Columns<'a, RangePiece> {
     const END: Quantity = Quantity::pure(10);
     Columns::default()
         .number("lower", END, |piece: &RangePiece| piece.over.lower())
-        .titled("every value from")
         .number("upper", END, |piece| piece.over.upper())
-        .titled("to")
         .word("cycles", |piece| piece.cycles.as_ref().map(Vec::len))
         .field("stable", |piece| piece.cycles.clone())
         .word("proved", |piece| piece.cycles.is_some())
@@ -279,9 +272,7 @@ pub(super) fn range_changes<'a>() -> Columns<'a, CountChange> {
         .file("upper", |change| change.between.upper())
         .text("the number changes at", |change| certain(change.between))
         .word("below", |change| change.below.len())
-        .titled("cycles below")
         .word("above", |change| change.above.len())
-        .titled("above")
 }
 
 /// A range, for documents.

@@ -172,6 +172,5 @@ fn cost_columns<'a>() -> Columns<'a, AskedRow<'a>> {
         .text("evaluations", |row| count(row.sum().0.evaluations))
         .text("steps", |row| count(row.sum().0.steps))
         .number("seconds", Quantity::of("s", 2), |row| row.sum().1)
-        .titled("time")
         .text("", AskedRow::remark)
 }

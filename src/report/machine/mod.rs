@@ -10,7 +10,7 @@ pub use expansion::CubicExpansion;
 use super::answer::PLACES;
 use super::cycle_numbers::{machine_cycles, of_machine};
 use super::cycles::{NO_CYCLE, known};
-use super::margin::{GUARANTEED, margin_columns};
+use super::margin::{guaranteed, margin_columns};
 use super::page::SourceFile;
 use super::{About, Answer, Columns, Quantity};
 use crate::flow::{Fate, Subject, Trajectory};
@@ -70,9 +70,9 @@ pub struct DesignAnswer {
 /// The whole answer about a machine.
 pub fn machine(found: &MachineAnswer) -> Answer {
     let MachineAnswer { about, portrait, expansion, .. } = found;
-    let guaranteed = found.certain.and_then(Result::ok);
+    let certain = found.certain.and_then(Result::ok);
     let margins = [("nominal", portrait.margin)].into_iter();
-    let margins = margins.chain(guaranteed.map(|margin| (GUARANTEED, margin)));
+    let margins = margins.chain(certain.map(|margin| guaranteed(about, margin, PLACES)));
     let kicks = Columns::default()
         .text("smallest kick that is not survived", |(name, _): &(&str, Margin)| (*name).to_owned())
         .and(margin_columns(about, PLACES));
@@ -117,8 +117,8 @@ fn quantity_columns<'a>() -> Columns<'a, QuantityRow> {
     let physical =
         |(_, [_, value], unit): &QuantityRow| Quantity::of(unit, PLACES).or("").text(*value);
     Columns::default()
-        .word("what", |(what, ..): &QuantityRow| what.clone())
-        .titled("")
+        .file("what", |(what, ..): &QuantityRow| what.clone())
+        .text("", |(what, ..)| what.clone())
         .number("dimensionless", Quantity::pure(10), |(_, [own, _], _)| *own)
         .file("physical", |(_, [_, value], _)| *value)
         .text("physical", physical)
