@@ -50,7 +50,7 @@ pub(super) const CHECKS: &[Check] = &[
     always("oscillation", |it| Ok(Linear::new(it.d).first_standstill(-1.0, 0.0).is_some().into())),
     worst("sign of friction", |it| {
         let [end, _] = it.half_swing(at_rest(it.more))?;
-        let gained = (-end).plus(-it.more);
+        let gained = end.times(-1.0).plus(-it.more);
         let fed = 2.0 * it.r;
         Ok(Evidence::equal(fed, gained).corrected(-fed))
     }),
@@ -125,8 +125,7 @@ fn dimensionless(v: f64, joint: f64) -> f64 {
 
 /// A factor times a derivative of the dimensionless acceleration by the velocity, without the joint.
 fn coefficient(order: usize, factor: f64) -> Known {
-    let derivative = derivatives(|v| dimensionless(v, 0.0))[order];
-    Known::new(factor * derivative.value, (factor * derivative.error).abs())
+    derivatives(|v| dimensionless(v, 0.0))[order].times(factor)
 }
 
 /// First, second and third derivative at 0: central differences, extrapolated to step 0.

@@ -4,7 +4,6 @@
 //! holds it, beside the answer to a question whether it is certain. From these follows the [`Certainty`] of a claim.
 
 use std::fmt;
-use std::ops::Neg;
 
 use serde::Serialize;
 
@@ -24,11 +23,8 @@ pub enum Sense {
     Near,
     /// The paper's is a lower bound of the computed one.
     AtMost,
-    /// They approach each other in a limit; a relative difference further from it is known.
-    Tends {
-        /// That difference.
-        before: f64,
-    },
+    /// They approach each other in a limit.
+    Tends,
     /// Something holds in all cases: the paper's number is how many cases there are, the computed one in
     /// how many of them it holds.
     Always,
@@ -62,6 +58,12 @@ impl Known {
         Known { value: self.value + shift, bounds, ..self }
     }
 
+    /// A multiple of it.
+    pub fn times(self, factor: f64) -> Self {
+        let bounds = self.bounds.map(|it| it * factor);
+        Known { value: factor * self.value, error: (factor * self.error).abs(), bounds }
+    }
+
     /// Whether it is larger than a number.
     pub fn exceeds(&self, limit: f64) -> Certain<bool> {
         let value = self.value > limit;
@@ -84,14 +86,6 @@ impl Known {
     /// Two answers to one question: the first, with their difference as its error.
     pub fn twice(value: f64, again: f64) -> Self {
         Known::new(value, (value - again).abs() + 4.0 * f64::EPSILON * value.abs())
-    }
-}
-
-impl Neg for Known {
-    type Output = Known;
-
-    fn neg(self) -> Known {
-        Known { value: -self.value, bounds: self.bounds.map(|it| -it), ..self }
     }
 }
 
@@ -172,7 +166,7 @@ impl Certainty {
                 let miss = miss(formula, bounds);
                 decided(miss.upper() <= POOR, miss.lower() > POOR)
             }
-            Sense::Tends { .. } | Sense::Always => None,
+            Sense::Tends | Sense::Always => None,
         }
     }
 
@@ -224,6 +218,8 @@ pub struct Evidence {
     pub corrected: Option<f64>,
     /// The same thing computed without the formula.
     pub computed: Known,
+    /// Of a limit, the relative difference further from it.
+    before: f64,
     /// How many cases this one, the worst, was chosen from.
     pub cases: usize,
     /// In how many of these it holds as printed.
@@ -262,8 +258,17 @@ impl Evidence {
     fn new(sense: Sense, paper: f64, computed: Known) -> Self {
         let mark = Certainty::of(sense, paper, &computed);
         let (place, paper, corrected) = (String::new(), Some(paper), None);
-        let evidence =
-            Evidence { sense, place, paper, corrected, computed, cases: 1, held: 0, mark };
+        let evidence = Evidence {
+            sense,
+            place,
+            paper,
+            corrected,
+            computed,
+            before: 0.0,
+            cases: 1,
+            held: 0,
+            mark,
+        };
         Evidence { held: usize::from(paper.is_some_and(|value| evidence.holds(value))), ..evidence }
     }
 
@@ -281,7 +286,7 @@ impl Evidence {
     pub fn tends(far: (f64, Known), near: (f64, Known)) -> Self {
         let before = Self::near(far.0, far.1).miss();
         let mark = Certainty::of_limit((far.0, &far.1), (near.0, &near.1));
-        Evidence { mark, ..Self::new(Sense::Tends { before }, near.0, near.1) }
+        Evidence { before, mark, ..Self::new(Sense::Tends, near.0, near.1) }
     }
 
     /// What should hold in each of these cases; the place becomes the first in which it does not. Fails with the
@@ -385,7 +390,7 @@ impl Evidence {
         match self.sense {
             Sense::Equal | Sense::AtMost => known,
             Sense::Near => known + POOR * self.scale(),
-            Sense::Tends { before } => before * self.scale(),
+            Sense::Tends => self.before * self.scale(),
             Sense::Always => 0.0,
         }
     }
@@ -407,7 +412,7 @@ impl Evidence {
     /// corrected formula passes the same comparison in all cases; a statement about cases or an approximation holds
     /// in part if it holds in any.
     pub fn verdict(&self) -> Verdict {
-        let approximate = matches!(self.sense, Sense::Near | Sense::Tends { .. });
+        let approximate = matches!(self.sense, Sense::Near | Sense::Tends);
         let counts = matches!(self.sense, Sense::Near | Sense::Always);
         match self.corrected {
             _ if self.held == self.cases => {

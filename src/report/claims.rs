@@ -2,18 +2,8 @@
 
 use super::{Answer, Columns, Document, Quantity};
 use crate::numerics::Interval;
-use crate::paper::{Certainty, ClaimResult, Evidence, Sense, Verdict};
+use crate::paper::{Certainty, ClaimResult, Evidence, Verdict};
 use crate::words::claim;
-
-fn sense(sense: Sense) -> &'static str {
-    match sense {
-        Sense::Equal => "equal",
-        Sense::Near => "near",
-        Sense::AtMost => "at-most",
-        Sense::Tends { .. } => "tends",
-        Sense::Always => "always",
-    }
-}
 
 /// Something of what was found; `None` if nothing could be computed.
 fn found<T>(examined: &ClaimResult, part: impl Fn(&Evidence) -> T) -> Option<T> {
@@ -28,12 +18,11 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
     };
     Columns::default()
         .word("equation", |it: &ClaimResult| it.claim.equation)
-        .titled("where")
         .file("section", |it| it.claim.section)
         .file("claim", |it| it.claim.statement)
         .file("at", move |it| found(it, place).flatten())
         .word("basis", |it| it.claim.basis)
-        .file("sense", |it| found(it, |it| sense(it.sense)))
+        .file("sense", |it| found(it, |it| it.sense))
         .text("sense", |it| found(it, |it| claim::sense(it.sense)).unwrap_or("-".to_owned()))
         .text("verdict", claim::verdict)
         .text("proof", |it| proof(it).unwrap_or("-").to_owned())

@@ -38,7 +38,7 @@ pub fn sense(sense: Sense) -> String {
         Sense::Equal => "equal".to_owned(),
         Sense::Near => format!("within {} %", significant(100.0 * POOR, 2)),
         Sense::AtMost => "at most".to_owned(),
-        Sense::Tends { .. } => "approaches".to_owned(),
+        Sense::Tends => "approaches".to_owned(),
         Sense::Always => "in all cases".to_owned(),
     }
 }
