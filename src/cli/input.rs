@@ -12,6 +12,7 @@ use crate::model::unit::{Dimension, WithTolerance, measured};
 use crate::model::{Group, Knob};
 use crate::portrait::{Kick, RandomKick, StartWindow};
 use crate::scan::sweep::{Spacing, Sweep};
+use crate::words::one_of;
 
 /// The numbers by which options are read whose values depend on what a command is about.
 pub struct Numbers {
@@ -204,10 +205,7 @@ pub fn size(text: &str) -> Result<(u16, u16), String> {
 }
 
 pub fn method(name: &str) -> Result<Method, String> {
-    Method::named(name).ok_or_else(|| {
-        let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();
-        format!("there is no method {name:?}; there are {}", names.join(", "))
-    })
+    one_of("method", name, METHODS.iter().map(|row| (row.name, row.method)))
 }
 
 /// The file of a figure, and the form given by its extension.

@@ -12,10 +12,10 @@ use super::input::pair;
 #[group(id = "part", multiple = false)]
 pub struct RowChoice {
     /// Computes only part K of N (1 <= K <= N); the parts in order make up the whole scan
-    #[arg(long, value_name = "K/N", value_parser = shard)]
+    #[arg(long, value_name = "K/N", value_parser = |text: &str| shard(text, 1))]
     shard: Option<Shard>,
     /// The same, with parts counted from 0 (0 <= K < N)
-    #[arg(long, value_name = "K/N", value_parser = shard_index0)]
+    #[arg(long, value_name = "K/N", value_parser = |text: &str| shard(text, 0))]
     shard_index0: Option<Shard>,
     /// Computes only these rows, counted from 1
     #[arg(long, value_name = "FIRST:LAST", value_parser = rows)]
@@ -32,18 +32,13 @@ pub struct Shard {
 /// Maximum number of shards.
 pub const MOST: usize = 1_000_000;
 
-fn shard(text: &str) -> Result<Shard, String> {
+/// Part K of N, where the first part has this number.
+fn shard(text: &str, first: usize) -> Result<Shard, String> {
+    let allowed = ["0 <= K < N", "1 <= K <= N"][first];
     pair(text, '/')
-        .filter(|(number, of)| (1..=*of).contains(number) && *of <= MOST)
-        .map(|(number, of)| Shard { number, of })
-        .ok_or_else(|| format!("{text:?} is not a part; expected K/N with 1 <= K <= N <= {MOST}"))
-}
-
-fn shard_index0(text: &str) -> Result<Shard, String> {
-    pair(text, '/')
-        .filter(|(index, of)| index < of && *of <= MOST)
-        .map(|(index, of)| Shard { number: index + 1, of })
-        .ok_or_else(|| format!("{text:?} is not a part; expected K/N with 0 <= K < N <= {MOST}"))
+        .filter(|(number, of)| *of <= MOST && (first..of + first).contains(number))
+        .map(|(number, of)| Shard { number: number + 1 - first, of })
+        .ok_or_else(|| format!("{text:?} is not a part; expected K/N with {allowed} <= {MOST}"))
 }
 
 /// The points of rows `FIRST` to `LAST`, both included, counted from 1.
@@ -115,14 +110,14 @@ mod tests {
 
     #[test]
     fn parts_that_do_not_exist_are_refused() {
-        assert_eq!(shard("2/3"), Ok(Shard { number: 2, of: 3 }));
-        assert_eq!(shard_index0("1/3"), shard("2/3"));
+        assert_eq!(shard("2/3", 1), Ok(Shard { number: 2, of: 3 }));
+        assert_eq!(shard("1/3", 0), shard("2/3", 1));
         assert_eq!(rows("4:4"), Ok(3..4));
         for text in ["0/3", "4/3", "1", "1/0", "a/b", "-1/2", "1/2/3", "1/1000001"] {
-            assert!(shard(text).unwrap_err().contains("1 <= K <= N"), "{text}");
+            assert!(shard(text, 1).unwrap_err().contains("1 <= K <= N"), "{text}");
         }
         for text in ["3/3", "0/0", "-1/3", "0/1000001"] {
-            assert!(shard_index0(text).unwrap_err().contains("0 <= K < N"), "{text}");
+            assert!(shard(text, 0).unwrap_err().contains("0 <= K < N"), "{text}");
         }
         for text in ["0:3", "4:3", "1", "1:", "a:b"] {
             assert!(rows(text).unwrap_err().contains("FIRST:LAST"), "{text}");
