@@ -139,10 +139,10 @@ fn asymptotes(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob, height
         _ => ["asymptote A1", "asymptote A2"],
     };
     let asymptotes = [small_asymptote as fn(&Parameters) -> Option<f64>, large_asymptote];
+    let own = shown.problem.parameters;
     for (name, asymptote) in names.into_iter().zip(asymptotes) {
-        let shown = shown.clone();
         picture.graph(LineStyle::from(name).of(&shown.variant), move |value| {
-            let parameters = shown.problem.parameters.with(abscissa, value);
+            let parameters = own.with(abscissa, value);
             let amplitude = asymptote(&parameters)?;
             Some(height.scaled(value, size(mean(parameters.d2, amplitude), amplitude)))
         });
@@ -164,22 +164,20 @@ fn harmonic(
     const SAMPLES: u16 = 1000;
     let Some(size) = height.ordinate.spec().harmonic else { return };
     let line = LineStyle::from("first harmonic").of(&shown.variant);
-    let Parameters { d2, d3, r, .. } = shown.problem.parameters;
+    let own @ Parameters { d2, d3, r, .. } = shown.problem.parameters;
     if abscissa == Knob::D {
         let points = (1..=SAMPLES).map(|sample| {
             let amplitude = largest * f64::from(sample) / f64::from(SAMPLES);
             let x = damping_at(d3, r, amplitude).unwrap_or(f64::NAN);
-            Point { x, y: height.scaled(x, size(mean(d2, amplitude), amplitude)) }
+            [x, height.scaled(x, size(mean(d2, amplitude), amplitude))]
         });
-        picture.curve(line, points);
-        return;
+        return picture.curve(line, points);
     }
     for stable in [false, true] {
-        let shown = shown.clone();
         picture.graph(line.clone(), move |value| {
-            let found = amplitudes(&shown.problem.parameters.with(abscissa, value)).into_iter();
-            let mut found = found.filter(|answer| answer.stable == stable);
-            found.next().map(|answer| height.scaled(value, size(answer.mean, answer.amplitude)))
+            let mut found = amplitudes(&own.with(abscissa, value)).into_iter();
+            let found = found.find(|answer| answer.stable == stable);
+            found.map(|answer| height.scaled(value, size(answer.mean, answer.amplitude)))
         });
     }
 }
@@ -318,13 +316,12 @@ fn rest_in(
     if !has_band {
         return picture.level(line, 0.0);
     }
-    let of = shown.clone();
+    let own = shown.problem.parameters;
     let edge = move |value: f64| {
-        let r = of.problem.parameters.with(abscissa, value).r;
+        let r = own.with(abscissa, value).r;
         let unit = if height.is_ratio() { r } else { 1.0 };
         (r >= 0.0 && unit > 0.0).then_some(r / unit)
     };
-    let (upper, lower) = (edge, edge);
     let band = edge(picture.window.x.from()).filter(|_| abscissa != Knob::R);
     if abscissa == Knob::R {
         let fill = Fill { role: Role::Sticking, name };
@@ -332,9 +329,9 @@ fn rest_in(
             move |place: Point| edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill);
         picture.items.push(Item::Texture(Box::new(within)));
     }
-    picture.graph(line.clone(), upper);
+    picture.graph(line.clone(), edge);
     if picture.window.y.from() < 0.0 {
-        picture.graph(line.clone(), move |value| lower(value).map(|edge| -edge));
+        picture.graph(line.clone(), move |value| edge(value).map(|edge| -edge));
     }
     if let Some(edge) = band {
         picture.items.push(Item::Rows(line, -edge, edge));
@@ -351,10 +348,10 @@ fn is_stable(parameters: &Parameters) -> Option<bool> {
 
 /// The equilibrium at 0 without friction.
 fn rest_without_friction(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob) {
+    let own = shown.problem.parameters;
     for (stable, name) in [(true, "rest (stable)"), (false, "rest (unstable)")] {
-        let of = shown.clone();
         picture.graph(LineStyle::from(name).of(&shown.variant), move |value| {
-            (is_stable(&of.problem.parameters.with(abscissa, value)) == Some(stable)).then_some(0.0)
+            (is_stable(&own.with(abscissa, value)) == Some(stable)).then_some(0.0)
         });
     }
 }

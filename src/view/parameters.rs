@@ -1,7 +1,5 @@
 //! The parameter pane: what the model is, in numbers that the keys change, and what follows from them.
 
-use std::fmt::Write as _;
-
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
@@ -130,9 +128,8 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
     let step = step.filter(|_| !recorded).unwrap_or_default();
     let room = usize::from(width).saturating_sub(VALUES);
     let fits = |text: &String| text.chars().count() + 2 <= room;
-    let physical = physical(session, row).map(|(name, value)| format!("{name} {value}"));
     // Of a fitted number its error says more than what the step is.
-    let physical = physical.or_else(|| {
+    let physical = physical(session, row).or_else(|| {
         let told = fitted(session, row, look);
         told.iter().find(|text| fits(text)).or(told.last()).cloned()
     });
@@ -149,7 +146,7 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
 }
 
 /// What a row means on the machine: the quantity and its value.
-fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
+fn physical(session: &Session, row: Row) -> Option<String> {
     let (name, value, unit) = match (row, session.units(), session.running()) {
         (Row::Number(Knob::Disturbance), Some(units), _) if units.force.is_finite() => {
             ("w", session.doubt.disturbance * units.force, "N")
@@ -158,7 +155,7 @@ fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
             ("t", session.problem.until * units.time, "s")
         }
         (Row::BELT, _, Some(_)) if session.is_on_the_belt() == Some(false) => {
-            return Some(("v0", "off the belt".to_owned()));
+            return Some("v0 off the belt".to_owned());
         }
         (Row::Number(knob), _, Some(running)) => {
             let (value, of_machine) = (session.value(knob), row.is_of_machine());
@@ -169,7 +166,7 @@ fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
         _ => return None,
     };
     // A pure number stands in its row as it is.
-    (!unit.is_empty()).then(|| (name, with_unit(value, 4, unit)))
+    (!unit.is_empty()).then(|| format!("{name} {}", with_unit(value, 4, unit)))
 }
 
 fn value(session: &Session, setup: &Setup, row: Row, width: usize, sign: &str) -> String {
@@ -262,22 +259,19 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
     };
     let columns: Vec<_> =
         COLUMNS[usize::from(units.is_some())].iter().take_while(fits).copied().collect();
-    let aligned = |cells: &[String]| -> String {
-        let mut line = String::new();
-        for (cell, (_, width)) in cells.iter().zip(&columns) {
-            let _ = write!(line, "{cell:>width$}");
-        }
-        line
+    let aligned = |cells: [String; 5]| -> String {
+        let cells = cells.iter().zip(&columns);
+        cells.map(|(cell, (_, width))| format!("{cell:>width$}")).collect()
     };
     let title = " cycles";
-    let headings: Vec<String> = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
-    let headings = aligned(&headings).split_at(title.len() - SYMBOL).1.to_owned();
+    let headings = columns.iter().map(|(name, width)| format!("{name:>width$}"));
+    let headings = headings.collect::<String>().split_off(title.len() - SYMBOL);
     let mut lines: Vec<Vec<Span>> =
         vec![vec![look.span(title, Role::Title), look.span(headings, Role::Quiet)]];
     lines.extend(found.cycles.iter().map(|cycle| {
         let mark = look.symbols().mark(cycle_style(cycle.stable).1);
         let symbol = look.span(format!(" {mark} "), cycle_role(cycle.stable));
-        vec![symbol, Span::raw(aligned(&cells(cycle, units)))]
+        vec![symbol, Span::raw(aligned(cells(cycle, units)))]
     }));
     let words = basin(session, found, width, look).into_iter().chain(balance(session, width));
     let words = words.map(|text| (text, Role::Quiet));
