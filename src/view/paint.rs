@@ -2,7 +2,7 @@
 
 use super::{Look, Surface, look::Symbols, pane::Framed, plot::Canvas, scan_map};
 use crate::picture::{Caption, Dash, Item, Mark, Marks, Picture, Role};
-use crate::scene::{Point, Window};
+use crate::scene::Window;
 
 /// Plots at least this wide have the long form of captions.
 const WIDE: u16 = 36;
@@ -41,19 +41,16 @@ pub fn paint(framed: &Framed, screen: &mut Surface) {
     }
     let labelled = plot.inner.width >= LABELLED;
     let named = |name: &&Caption| labelled || !name.long.is_empty();
-    let curves: Vec<&[Point]> = items.iter().filter_map(followed).collect();
-    plot.names(&names.into_iter().filter(named).collect::<Vec<_>>(), &curves);
-    plot.finish(screen);
-}
-
-/// The points of a curve that a name beside it could be taken for.
-fn followed<'a>(item: &'a Item) -> Option<&'a [Point]> {
-    match item {
+    // Curves that a name beside them could be taken for the name of.
+    let curves = items.iter().filter_map(|item| match item {
         Item::Curve(line, points) if matches!(line.dash, Dash::Solid | Dash::Dashed) => {
-            Some(points)
+            Some(&points[..])
         }
         _ => None,
-    }
+    });
+    let names: Vec<&Caption> = names.into_iter().filter(named).collect();
+    plot.names(&names, &curves.collect::<Vec<_>>());
+    plot.finish(screen);
 }
 
 fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {

@@ -48,17 +48,20 @@ pub struct Divider {
     cut: Vec<u8>,
 }
 
-/// What the first bytes of some input are, and their number.
+/// What the first bytes of some input are.
 enum First {
-    Whole(usize),
+    Whole,
     /// Two bytes: Alt with the second one.
     Alt,
     PasteBegin,
     /// Nothing that has a meaning.
-    Noise(usize),
-    /// The beginning of a sequence, as far as it has arrived.
-    Unfinished,
+    Noise,
 }
+
+/// What some input begins with, and how many bytes of it; `None` for the beginning of a sequence, as far as it has arrived.
+type Begin = Option<(First, usize)>;
+
+const ALT: Begin = Some((First::Alt, 2));
 
 impl Divider {
     /// How long to wait for the rest of what has arrived; `None` if nothing is unfinished.
@@ -122,22 +125,13 @@ impl Divider {
                 rest = self.pasted(rest, send);
                 continue;
             }
-            let length = match first(rest) {
-                First::Unfinished => break,
-                First::Noise(length) => length,
-                First::Whole(length) => {
-                    send(Sequence::Whole(rest[..length].to_vec()));
-                    length
-                }
-                First::Alt => {
-                    send(Sequence::Alt(rest[1]));
-                    2
-                }
-                First::PasteBegin => {
-                    self.paste = Some(Vec::new());
-                    PASTE_BEGIN.len()
-                }
-            };
+            let Some((kind, length)) = first(rest) else { break };
+            match kind {
+                First::Noise => {}
+                First::Whole => send(Sequence::Whole(rest[..length].to_vec())),
+                First::Alt => send(Sequence::Alt(rest[1])),
+                First::PasteBegin => self.paste = Some(Vec::new()),
+            }
             rest = &rest[length..];
         }
         self.open = rest.to_vec();
@@ -159,7 +153,9 @@ impl Divider {
 
 /// Whether these bytes are more than one key.
 fn is_several(bytes: &[u8]) -> bool {
-    matches!(first(bytes), First::Whole(length) | First::Noise(length) if length < bytes.len())
+    first(bytes).is_some_and(|(kind, length)| {
+        matches!(kind, First::Whole | First::Noise) && length < bytes.len()
+    })
 }
 
 /// Whether an unfinished sequence can be what a person has pressed: it has no parameters.
@@ -198,81 +194,80 @@ fn reply(bytes: &[u8]) -> Option<bool> {
 }
 
 /// What some input begins with.
-fn first(bytes: &[u8]) -> First {
+fn first(bytes: &[u8]) -> Begin {
     match bytes {
-        [ESCAPE] | [ESCAPE, b'O' | b'[' | b']' | b'P'] => First::Unfinished,
+        [ESCAPE] | [ESCAPE, b'O' | b'[' | b']' | b'P'] => None,
         // The first one is the key. The second one may begin a sequence, such as a report that arrives while
         // the key is pressed.
-        [ESCAPE, ESCAPE, ..] => First::Whole(1),
-        [ESCAPE, b'O', b'@'..=b'~', ..] => First::Whole(3),
-        [ESCAPE, b'O', ..] => First::Alt,
+        [ESCAPE, ESCAPE, ..] => Some((First::Whole, 1)),
+        [ESCAPE, b'O', b'@'..=b'~', ..] => Some((First::Whole, 3)),
+        [ESCAPE, b'O', ..] => ALT,
         [ESCAPE, b'[', rest @ ..] => control(rest),
         [ESCAPE, b']' | b'P', ..] => string(bytes),
-        [ESCAPE, rest @ ..] => match character(rest) {
-            First::Whole(length) => First::Whole(1 + length),
-            First::Unfinished => First::Unfinished,
-            _ => First::Whole(1),
+        [ESCAPE, rest @ ..] => match character(rest)? {
+            (First::Whole, length) => Some((First::Whole, 1 + length)),
+            _ => Some((First::Whole, 1)),
         },
         _ => character(bytes),
     }
 }
 
 /// A control sequence without its `ESC[`.
-fn control(rest: &[u8]) -> First {
+fn control(rest: &[u8]) -> Begin {
     match rest {
         // The function keys of the Linux console.
-        [b'['] => return First::Unfinished,
-        [b'[', b'A'..=b'E', ..] => return First::Whole(4),
+        [b'['] => return None,
+        [b'[', b'A'..=b'E', ..] => return Some((First::Whole, 4)),
         // A report of the mouse, as terminals send it that know no decimal coordinates.
         [b'M', places @ ..] if places.iter().take(3).all(|place| *place >= b' ') => {
-            return if places.len() < 3 { First::Unfinished } else { First::Whole(6) };
+            return if places.len() < 3 { None } else { Some((First::Whole, 6)) };
         }
         _ => {}
     }
     let parameters = rest.iter().take_while(|byte| (b' '..=b'?').contains(byte)).count();
     let length = 2 + parameters + 1;
     match (rest.first(), rest.get(parameters)) {
-        (_, None) => First::Unfinished,
-        (_, Some(b'~')) if rest[..parameters] == *b"200" => First::PasteBegin,
+        (_, None) => None,
+        (_, Some(b'~')) if rest[..parameters] == *b"200" => Some((First::PasteBegin, length)),
         (
             Some(b'0'..=b'9' | b'<' | b'>' | b'?' | b'@'..=b'Z' | b'\\'..=b'~'),
             Some(b'@'..=b'~'),
-        ) => First::Whole(length),
-        (Some(_), Some(b'@'..=b'~')) if parameters > 0 => First::Noise(length),
-        (Some(_), Some(_)) if parameters > 0 => First::Noise(length - 1),
-        _ => First::Alt,
+        ) => Some((First::Whole, length)),
+        (Some(_), Some(b'@'..=b'~')) if parameters > 0 => Some((First::Noise, length)),
+        (Some(_), Some(_)) if parameters > 0 => Some((First::Noise, length - 1)),
+        _ => ALT,
     }
 }
 
 /// A control string: an operating system command or a device control string.
-fn string(bytes: &[u8]) -> First {
+fn string(bytes: &[u8]) -> Begin {
     let is_command = bytes[1] == b']';
     if is_command && !bytes[2].is_ascii_digit() {
-        return First::Alt;
+        return ALT;
     }
     let text = bytes.iter().skip(2).take_while(|byte| **byte >= b' ').count();
     match &bytes[2 + text..] {
-        [] | [ESCAPE] => First::Unfinished,
-        [BELL, ..] if is_command => First::Whole(2 + text + 1),
-        [ESCAPE, b'\\', ..] => First::Whole(2 + text + 2),
-        _ if is_command => First::Noise(2 + text),
-        _ => First::Alt,
+        [] | [ESCAPE] => None,
+        [BELL, ..] if is_command => Some((First::Whole, 2 + text + 1)),
+        [ESCAPE, b'\\', ..] => Some((First::Whole, 2 + text + 2)),
+        _ if is_command => Some((First::Noise, 2 + text)),
+        _ => ALT,
     }
 }
 
 /// A character in UTF-8.
-fn character(bytes: &[u8]) -> First {
+fn character(bytes: &[u8]) -> Begin {
     let length = match bytes[0] {
         0x00..=0x7f => 1,
         0xc2..=0xdf => 2,
         0xe0..=0xef => 3,
         0xf0..=0xf4 => 4,
-        _ => return First::Noise(1),
+        _ => return Some((First::Noise, 1)),
     };
     let end = bytes.len().min(length);
     match bytes[1..end].iter().position(|byte| !(0x80..0xc0).contains(byte)) {
-        Some(broken) => First::Noise(1 + broken),
-        None if end < length => First::Unfinished,
-        None => First::Whole(length),
+        Some(broken) => Some((First::Noise, 1 + broken)),
+        None if end < length => None,
+        None => Some((First::Whole, length)),
     }
 }
