@@ -20,26 +20,30 @@ use crate::words::{claim, duration, significant};
 /// Columns of keys in the help.
 const KEYS: usize = 16;
 
+/// Adds the rows of a list, and what is said of the selected one.
+type FillList = fn(&mut ListContent, &Session, &List, &Look);
+
 /// Draws the open list, if there is one, into the middle of the screen.
 pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let Some(Overlay::List(listed, list)) = &session.overlay else { return };
-    let content = match listed {
-        Listed::Scenes => scenes(session, list, look),
-        Listed::Layers => layers(session, list, look),
-        Listed::Views => views(session, list, look),
-        Listed::Cost => costs(session, list, look),
-        Listed::Paper => paper(session, list, look),
-        Listed::Palette => palette(session, list, look),
-        Listed::Interrupted => interrupted(session, list, look),
+    let (title, below, fill): (_, _, FillList) = match listed {
+        Listed::Scenes => ("scenes", TEXT, scenes),
+        Listed::Layers => ("layers", 0, layers),
+        Listed::Views => ("show", 0, views),
+        Listed::Cost => ("what the picture costs", 0, costs),
+        Listed::Paper => ("the paper against computation", TEXT, paper),
+        Listed::Palette => ("everything", 2, palette),
+        Listed::Interrupted => ("interrupted sessions", 0, interrupted),
     };
+    let mut content = ListContent { title, below, ..ListContent::default() };
+    fill(&mut content, session, list, look);
     content.draw(area, list, screen);
 }
 
 /// Everything that has a name: with headings where nothing is searched, the best first where something is.
-fn palette(session: &Session, list: &List, look: &Look) -> ListContent {
+fn palette(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     let found = session.palette_rows(list);
-    let mut content = ListContent { below: 2, ..ListContent::new("everything") };
     for row in &found {
         let heading = if list.search.is_empty() { session.heading(*row) } else { "" };
         let keys = keys_of(session, *row, look);
@@ -59,7 +63,6 @@ fn palette(session: &Session, list: &List, look: &Look) -> ListContent {
         let meaning = Line::styled(row.meaning(), look.style(Role::Quiet));
         content.about = vec![Line::from(vec![name, kind]), meaning];
     }
-    content
 }
 
 /// The keys of a row where it is run; the colon of a command that takes words.
@@ -78,9 +81,8 @@ fn keys_of(session: &Session, row: PaletteRow, look: &Look) -> Vec<String> {
 }
 
 /// The scenes in their groups, and what there is to see and to do in the selected one.
-fn scenes(session: &Session, list: &List, look: &Look) -> ListContent {
+fn scenes(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     let found = session.scene_rows(list);
-    let mut content = ListContent { below: TEXT, ..ListContent::new("scenes") };
     for scene in &found {
         let heading = if list.search.is_empty() { SceneGroup::of(scene).title() } else { "" };
         let figure = scene.also.as_deref().unwrap_or_default();
@@ -98,12 +100,10 @@ fn scenes(session: &Session, list: &List, look: &Look) -> ListContent {
         };
         content.about = vec![text(&scene.watch), Line::default(), text(&scene.press)];
     }
-    content
 }
 
 /// The layers, and which of them are on; those of the plot in use with the letter that switches them.
-fn layers(session: &Session, list: &List, look: &Look) -> ListContent {
-    let mut content = ListContent::new("layers");
+fn layers(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     let letters: Vec<(char, Layer)> = letters(session.view_in_use()).collect();
     for spec in session.layer_rows(list) {
         let letter = letters.iter().find(|(_, layer)| *layer == spec.layer);
@@ -113,12 +113,10 @@ fn layers(session: &Session, list: &List, look: &Look) -> ListContent {
         let name = look.span(format!("{letter} {on} {:<16}", spec.name), Role::Key);
         content.row(spec.view.spec().title, [name, look.span(meaning, Role::Text)]);
     }
-    content
 }
 
 /// The views, with those on show marked.
-fn views(session: &Session, list: &List, look: &Look) -> ListContent {
-    let mut content = ListContent::new("show");
+fn views(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     for spec in session.view_rows(list) {
         let shown = session.plots.iter().any(|plot| plot.view == spec.view);
         let on = if shown { "[x]" } else { "[ ]" };
@@ -131,23 +129,19 @@ fn views(session: &Session, list: &List, look: &Look) -> ListContent {
         };
         content.row("", [look.span(title, Role::Key), look.span(text, role)]);
     }
-    content
 }
 
-fn interrupted(session: &Session, list: &List, look: &Look) -> ListContent {
-    let mut content = ListContent::new("interrupted sessions");
+fn interrupted(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     for (_, kept) in session.interrupted_rows(list) {
         let when = format!("{:<12} ", kept.when);
         content.row("", [look.span(when, Role::Key), look.span(kept.what.clone(), Role::Text)]);
     }
-    content
 }
 
 /// What each question of the picture took, and what a step of each number asks again.
-fn costs(session: &Session, list: &List, look: &Look) -> ListContent {
+fn costs(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     /// Columns of what a row is about.
     const NAME: usize = 14;
-    let mut content = ListContent::new("what the picture costs");
     for row in session.cost_rows(list) {
         let heading = if matches!(row, CostRow::Step(..)) { "a step of" } else { "" };
         let (name, text) = match row {
@@ -160,7 +154,6 @@ fn costs(session: &Session, list: &List, look: &Look) -> ListContent {
         let name = format!("{name:<NAME$}");
         content.row(heading, [look.span(name, Role::Key), look.span(text, Role::Text)]);
     }
-    content
 }
 
 fn names(layers: &[Layer]) -> String {
@@ -195,10 +188,8 @@ fn consequence(reused: &[Topic], anew: &[Topic]) -> String {
 }
 
 /// The claims of the paper, section by section, with their verdicts.
-fn paper(session: &Session, list: &List, look: &Look) -> ListContent {
+fn paper(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     let found = session.claim_rows(list);
-    let mut content =
-        ListContent { below: TEXT, ..ListContent::new("the paper against computation") };
     for (claim, examined) in &found {
         let (verdict, role) = match examined {
             Some(examined) => (claim::verdict(examined), role_of(examined)),
@@ -218,7 +209,6 @@ fn paper(session: &Session, list: &List, look: &Look) -> ListContent {
         let summary = claim::summary(session.examined());
         content.about.push(Line::styled(summary, look.style(Role::Quiet)));
     }
-    content
 }
 
 /// What stands above the claims of a section.
@@ -288,11 +278,6 @@ struct ListContent {
 }
 
 impl ListContent {
-    /// An empty list.
-    fn new(title: &'static str) -> Self {
-        ListContent { title, ..ListContent::default() }
-    }
-
     fn row<const N: usize>(&mut self, heading: &'static str, cells: [Span<'static>; N]) {
         self.rows.push((heading, cells.into()));
     }

@@ -18,10 +18,10 @@ const PLACES: usize = 4;
 const EVERY: &str = "every kick is survived";
 
 /// A shift and an impulse; `None` where every one of them is survived.
-pub type Kick = [Option<f64>; 2];
+type Kick = [Option<f64>; 2];
 
 /// The smallest kicks from the worst rest position.
-pub fn from_rest(margin: &Margin) -> Kick {
+fn from_rest(margin: &Margin) -> Kick {
     [margin.from_rest.displacement, margin.from_rest.impulse]
 }
 

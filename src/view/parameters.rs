@@ -334,7 +334,8 @@ fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<St
     let above =
         |share: &String| margin::status(session, screen).is_some_and(|it| it.contains(share));
     lines.extend(share.filter(|it| low || (session.shows(Layer::Lyapunov) && !above(it))));
-    lines.extend(area(found).filter(|_| !physical));
+    let area = rests.and_then(|picture| picture.area).filter(|_| !physical);
+    lines.extend(area.map(|area| format!("area {}", significant(area, 5))));
     lines
 }
 
@@ -375,9 +376,4 @@ fn balance(session: &Session, width: usize) -> Vec<String> {
         [] => vec![format!("{lead}no cycle")],
         balanced => balanced.iter().map(line).collect(),
     }
-}
-
-fn area(found: &Cycles) -> Option<String> {
-    let picture = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
-    picture?.area.map(|area| format!("area {}", significant(area, 5)))
 }
