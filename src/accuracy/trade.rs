@@ -55,15 +55,6 @@ pub struct Trade {
     pub rows: Vec<TradePoint>,
 }
 
-/// The problem by a method at an accuracy.
-fn rung(problem: &Problem, method: Method, number: f64) -> Problem {
-    let rung = Problem { method, ..*problem }.with_setting(number);
-    match method.dial() {
-        Knob::Epsilon => Problem { tolerance: INTEGRATION * number, ..rung },
-        _ => rung,
-    }
-}
-
 /// The accuracies at which a method is tried, from coarse to fine, the problem's own among them.
 fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
     let closed = method == Method::Auto && problem.parameters.is_piecewise_linear();
@@ -74,8 +65,12 @@ fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
         Some(_) if !closed => &TOLERANCES,
         _ => &[problem.tolerance],
     };
-    let mut rungs: Vec<Problem> =
-        numbers.iter().map(|number| rung(problem, method, *number)).collect();
+    let rung = |number: &f64| {
+        let rung = Problem { method, ..*problem }.with_setting(*number);
+        let smoothed = method.dial() == Knob::Epsilon;
+        if smoothed { Problem { tolerance: INTEGRATION * number, ..rung } } else { rung }
+    };
+    let mut rungs: Vec<Problem> = numbers.iter().map(rung).collect();
     if method == problem.method && rungs.iter().all(|rung| rung.setting() != problem.setting()) {
         rungs.push(*problem);
         rungs.sort_by(|one, other| other.setting().total_cmp(&one.setting()));

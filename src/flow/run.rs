@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::Vector3;
 
+use super::comparison::SmoothField;
 use super::limits::Limits;
 use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
@@ -200,15 +201,17 @@ impl MotionRun<'_> {
     /// Takes steps that ignore `v = 0`, as the methods do that are included for comparison, and counts sign changes
     /// of the velocity as crossings.
     ///
-    /// `sticks` says whether a motion that this method brings to `v = 0` inside the sticking set stays there.
-    /// Positions at crossings assume a velocity that is linear within the step.
-    pub fn walk<F: PlaneField, S: Stepper<F>>(
+    /// `sticks` says whether a motion that this method, a stepper of the field with friction over `epsilon`, brings to
+    /// `v = 0` inside the sticking set stays there. Positions at crossings assume a velocity that is linear within the step.
+    pub fn walk<S: Stepper<SmoothField>>(
         mut self,
-        stepper: &mut S,
-        field: &F,
+        epsilon: Option<f64>,
         sticks: bool,
+        stepper: impl FnOnce(SmoothField) -> S,
     ) -> Trajectory {
         let Problem { parameters, initial, until, .. } = self.found.problem;
+        let field = SmoothField::new(&parameters, epsilon);
+        let mut stepper = stepper(field);
         let (mut crossings, mut path) = (Vec::new(), 0.0);
         let start = StepPoint { x: initial.q, v: initial.v };
         let mut from = start;
@@ -240,7 +243,8 @@ impl MotionRun<'_> {
             Ok(Outcome::Moving { tau: until, q: start.x, v: start.v })
         } else {
             let bound = (until, false);
-            let piece = self.piece(stepper, field, (Side::Upper, 0.0), (start, 0), bound, see);
+            let side = (Side::Upper, 0.0);
+            let piece = self.piece(&mut stepper, &field, side, (start, 0), bound, see);
             piece.0.and_then(|point| ended.unwrap_or_else(|| self.stopped(point)))
         };
         (self.found.crossings, self.path) = (crossings, path);

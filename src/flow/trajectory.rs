@@ -1,7 +1,7 @@
 //! Computes a motion until it is captured, escapes, reaches its end time or is given up.
 
 use super::auto::Auto;
-use super::comparison::{SmoothField, TimeStepping};
+use super::comparison::TimeStepping;
 use super::exact::Exact;
 use super::explicit::Explicit;
 use super::limits::Limits;
@@ -23,7 +23,6 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
     let Problem { parameters, tolerance, step, epsilon, .. } = *problem;
     let linear = parameters.is_piecewise_linear();
     let field = HalfPlane::new(&parameters, Side::Upper);
-    let regular = |epsilon| SmoothField::new(&parameters, epsilon);
     let run = |method| MotionRun::new(problem, method, detail, limits);
     let asked = run(problem.method);
     match problem.method {
@@ -43,20 +42,10 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
         Method::Dopri5 => asked.go(&mut Explicit::new(&dopri5::SCHEME, field, tolerance)),
         Method::Rk4 => asked.go(&mut Explicit::new(&CLASSICAL, field, step)),
         Method::Stiff => asked.go(&mut Stiff::new(field, tolerance)),
-        Method::Smoothed => {
-            let field = regular(Some(epsilon));
-            let mut stepper = Explicit::new(&dop853::SCHEME, field, tolerance);
-            asked.walk(&mut stepper, &field, false)
-        }
-        Method::SignRk4 => {
-            let field = regular(None);
-            let mut stepper = Explicit::new(&CLASSICAL, field, step);
-            asked.walk(&mut stepper, &field, false)
-        }
-        Method::TimeStepping => {
-            let field = regular(None);
-            asked.walk(&mut TimeStepping::new(field, step), &field, true)
-        }
+        Method::Smoothed => asked
+            .walk(Some(epsilon), false, |field| Explicit::new(&dop853::SCHEME, field, tolerance)),
+        Method::SignRk4 => asked.walk(None, false, |field| Explicit::new(&CLASSICAL, field, step)),
+        Method::TimeStepping => asked.walk(None, true, |field| TimeStepping::new(field, step)),
     }
 }
 

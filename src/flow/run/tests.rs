@@ -1,6 +1,5 @@
 //! The methods that ignore `v = 0`, which are included for comparison.
 
-use super::super::comparison::SmoothField;
 use super::super::explicit::Dop853;
 use super::super::stiff::Stiff;
 use super::super::tableau::dop853;
@@ -50,10 +49,11 @@ fn smoothed_friction_creeps_and_costs_as_the_inverse_of_its_width() {
 #[test]
 fn an_implicit_method_creeps_to_the_same_place() {
     let problem = Problem { epsilon: 1e-4, ..from(0.4) };
-    let field = SmoothField::new(&problem.parameters, Some(problem.epsilon));
     let start = || MotionRun::new(&problem, Method::Smoothed, Detail::default(), &Limits::PATIENT);
-    let explicit = start().walk(&mut Dop853::new(&dop853::SCHEME, field, 1e-8), &field, false);
-    let implicit = start().walk(&mut Stiff::new(field, 1e-8), &field, false);
+    let epsilon = Some(problem.epsilon);
+    let stepper = |field| Dop853::new(&dop853::SCHEME, field, 1e-8);
+    let explicit = start().walk(epsilon, false, stepper);
+    let implicit = start().walk(epsilon, false, |field| Stiff::new(field, 1e-8));
     assert!((end(&explicit) - end(&implicit)).abs() < 1e-8);
     assert!(100 * implicit.cost.evaluations < explicit.cost.evaluations);
 }
