@@ -69,7 +69,8 @@ pub struct Auto {
     series_steps: u64,
     /// How often implicit steps were not worthwhile since they last were.
     in_vain: u32,
-    implicit_steps: u64,
+    /// Number of implicit steps.
+    pub(super) implicit_steps: u64,
 }
 
 /// One step of a motion, kept for later evaluation.
@@ -96,11 +97,6 @@ impl Auto {
             in_vain: 0,
             implicit_steps: 0,
         }
-    }
-
-    /// Number of implicit steps.
-    pub fn implicit_steps(&self) -> u64 {
-        self.implicit_steps
     }
 
     /// The implicit method, if it took the last step.
@@ -204,7 +200,7 @@ impl Stepper for Auto {
             (self.implicit, self.worthwhile, self.stalled) = (true, false, 0);
             let (field, tolerance) = (self.field, self.tolerance);
             let stiff = self.stiff.get_or_insert_with(|| Box::new(Stiff::new(field, tolerance)));
-            stiff.expect_length(FIRST * step.duration);
+            stiff.next = FIRST * step.duration;
         }
         Ok(step)
     }

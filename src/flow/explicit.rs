@@ -45,12 +45,6 @@ pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
     within: Cell<u64>,
 }
 
-/// The pair of order 8.
-pub type Dop853<F = HalfPlane> = Explicit<12, 16, F>;
-
-/// The pair of order 5.
-pub type Dopri5<F = HalfPlane> = Explicit<7, 8, F>;
-
 impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     /// A stepper whose estimated relative error of each step stays below `accuracy`; without an error estimate, one
     /// with steps of this length.

@@ -61,7 +61,7 @@ pub struct Stiff<F: Field = HalfPlane> {
     /// The requested tolerance, that of the solution.
     asked: f64,
     /// Length to try next; 0 before the first step.
-    next: f64,
+    pub(super) next: f64,
     start: StepPoint,
     /// Slope of v at the start.
     slope: f64,
@@ -94,11 +94,6 @@ impl<F: Field> Stiff<F> {
             dense: [[0.0; MOST + 1]; 2],
             cost: Cost::default(),
         }
-    }
-
-    /// Sets the length to try for the next step.
-    pub fn expect_length(&mut self, length: f64) {
-        self.next = length;
     }
 
     fn start_at(&mut self, from: StepPoint) {

@@ -283,22 +283,6 @@ impl<N: Scalar> Taylor<N> {
             self.inner = Inner::empty();
         }
     }
-
-    /// The point at a time in units of the coefficients.
-    fn point(&self, t: N) -> StepPoint<N> {
-        let order = self.order;
-        StepPoint { x: value(&self.x[..=order], t), v: value(&self.v[..=order], t) }
-    }
-
-    fn accept(&mut self, duration: N, end: StepPoint<N>) -> Step<N> {
-        self.duration = duration.value();
-        // Keep the unit of time near the step length, so that coefficients neither overflow nor underflow.
-        let drift = exponent(self.duration);
-        if (drift - self.time_exponent).abs() > 20 {
-            self.next_time_exponent = drift;
-        }
-        Step { duration, end, crossed: false }
-    }
 }
 
 impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
@@ -335,7 +319,13 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
                 let x = value(&self.x[..=order], scaled);
                 // Above v = 0 the position grows; if it did not, the step passed two crossings.
                 if !arrives || x >= from.x {
-                    return Ok(self.accept(duration, StepPoint { x, v }));
+                    self.duration = duration.value();
+                    // Keep the unit of time near the step length, so that coefficients neither overflow nor underflow.
+                    let drift = exponent(self.duration);
+                    if (drift - self.time_exponent).abs() > 20 {
+                        self.next_time_exponent = drift;
+                    }
+                    return Ok(Step { duration, end: StepPoint { x, v }, crossed: false });
                 }
             }
             self.cost.rejected += 1;
@@ -344,7 +334,9 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
     }
 
     fn at(&self, time: f64) -> StepPoint {
-        self.point(N::of(times_power(time, -self.time_exponent))).rounded()
+        let (order, t) = (self.order, N::of(times_power(time, -self.time_exponent)));
+        let point = StepPoint { x: value(&self.x[..=order], t), v: value(&self.v[..=order], t) };
+        point.rounded()
     }
 
     fn powers(&self) -> Powers {

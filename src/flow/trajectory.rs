@@ -31,7 +31,7 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
         Method::Auto => {
             let mut stepper = Auto::new(tolerance);
             let mut found = run(Method::Taylor).go(&mut stepper);
-            found.implicit_steps = stepper.implicit_steps();
+            found.implicit_steps = stepper.implicit_steps;
             if 2 * found.implicit_steps > found.cost.steps {
                 found.method = Method::Stiff;
             }

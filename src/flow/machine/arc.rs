@@ -151,7 +151,11 @@ impl<'a> Flow<'a> {
     ) -> Result<PhaseStep, Reason> {
         let model = self.model;
         let (side, (least, most)) = (model.side(phase), model.range(phase));
-        let rising = rising.unwrap_or_else(|| self.rises(phase, (x, y), forward, known));
+        let rising = rising.unwrap_or_else(|| {
+            let rate = forward * known.unwrap_or_else(|| model.force(phase, y).0 - x);
+            // Without acceleration the speed has its maximum here.
+            if rate == 0.0 { phase == Phase::Below } else { rate > 0.0 }
+        });
         let piece = side.piece(y, rising).ok_or(self.outside(y))?;
         self.series.expand((side, piece), (x, y), forward, known);
         self.steps += 1;
@@ -202,13 +206,6 @@ impl<'a> Flow<'a> {
         }
         let escapes = size.is_nan() || size > ESCAPED * started;
         if escapes { Err(Reason::Escapes) } else { Ok(()) }
-    }
-
-    /// Whether the velocity rises, along the direction of integration.
-    fn rises(&self, phase: Phase, (x, y): (f64, f64), forward: f64, known: Option<f64>) -> bool {
-        let rate = forward * known.unwrap_or_else(|| self.model.force(phase, y).0 - x);
-        // Without acceleration the speed has its maximum here.
-        if rate == 0.0 { phase == Phase::Below } else { rate > 0.0 }
     }
 
     fn outside(&self, y: f64) -> Reason {

@@ -4,7 +4,7 @@
 use super::curve::MachineStep;
 use super::levels::{PhaseStep, crossing};
 use crate::flow::Method;
-use crate::flow::explicit::{Dop853, Dopri5};
+use crate::flow::explicit::Explicit;
 use crate::flow::step::{Field, StepPoint, Stepper};
 use crate::flow::tableau::{dop853, dopri5};
 use crate::model::{ContactState, Model, Phase, Reason};
@@ -40,8 +40,8 @@ pub(crate) type PhaseStepper<'a> = Box<dyn Stepper<PhaseField<'a>> + 'a>;
 pub(crate) fn stepper(model: &Model, method: Method) -> Option<PhaseStepper<'_>> {
     let field = PhaseField { model, phase: Phase::Between };
     match method {
-        Method::Dop853 => Some(Box::new(Dop853::new(&dop853::SCHEME, field, model.tolerance))),
-        Method::Dopri5 => Some(Box::new(Dopri5::new(&dopri5::SCHEME, field, model.tolerance))),
+        Method::Dop853 => Some(Box::new(Explicit::new(&dop853::SCHEME, field, model.tolerance))),
+        Method::Dopri5 => Some(Box::new(Explicit::new(&dopri5::SCHEME, field, model.tolerance))),
         _ => None,
     }
 }
