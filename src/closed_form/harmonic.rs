@@ -152,7 +152,8 @@ fn supercritical(d: f64, d3: f64, r: f64) -> Vec<(f64, bool)> {
     }
     let sine = ratio.sqrt();
     let third = atan2(sine, gap.sqrt()) / 3.0;
-    let small = small_root(d, r) * triple_ratio(sin(third), sine);
+    // Below this argument the ratio is 1 to rounding, and its parts may be subnormal.
+    let small = small_root(d, r) * if sine < 1e-9 { 1.0 } else { 3.0 * sin(third) / sine };
     let large = large_root(d, d3) * (SCALE * cos(FRAC_PI_6 + third));
     if gap > 0.0 { vec![(small, false), (large, true)] } else { vec![(small, false)] }
 }
@@ -179,12 +180,6 @@ fn subcritical(d: f64, d3: f64, r: f64) -> f64 {
 
 /// `2/sqrt(3)`, which makes the large root tend to `A_2`.
 const SCALE: f64 = 1.154_700_538_379_251_5;
-
-/// `3 part/whole`, where `part` is a function of a third of the argument of `whole`; 1 in the limit.
-fn triple_ratio(part: f64, whole: f64) -> f64 {
-    // Below this argument the ratio is 1 to rounding, and its parts may be subnormal.
-    if whole < 1e-9 { 1.0 } else { 3.0 * part / whole }
-}
 
 /// `R` and `1 - R`, the latter with full relative precision.
 fn distance_from_fold(d: f64, d3: f64, r: f64) -> (f64, f64) {

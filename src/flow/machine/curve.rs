@@ -44,16 +44,10 @@ impl MachineStep {
 
     /// A step of one velocity, whose displacement begins here and changes at this rate.
     pub(super) fn even(place: ContactState, [x, rate]: [f64; 2], y: f64) -> Self {
-        let mut step = MachineStep {
-            place,
-            duration: 0.0,
-            peak: Some(0.0),
-            offset: 0.0,
-            x: [0.0; TERMS],
-            y: [0.0; TERMS],
-        };
-        (step.x[0], step.x[1], step.y[0]) = (x, rate, y);
-        step
+        let [mut places, mut velocities] = [[0.0; TERMS]; 2];
+        (places[0], places[1], velocities[0]) = (x, rate, y);
+        let (duration, peak, offset) = (0.0, Some(0.0), 0.0);
+        MachineStep { place, duration, peak, offset, x: places, y: velocities }
     }
 
     /// Displacement and velocity (divided by the natural frequency) at a time from the start of the step.
