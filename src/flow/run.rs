@@ -223,11 +223,15 @@ impl MotionRun<'_> {
             if start.v != 0.0 && start.v.signum() * end.v <= 0.0 {
                 let part = start.v / (start.v - end.v);
                 turn = start.x + 0.5 * part * step.duration * start.v;
-                crossings.push(Crossing { tau: at + part * step.duration, q: turn });
+                if turn.is_finite() {
+                    crossings.push(Crossing { tau: at + part * step.duration, q: turn });
+                }
             }
             // The path within the step, out and back where the velocity changes sign.
             path += (turn - start.x).abs() + (end.x - turn).abs();
-            ended = if tau == at {
+            ended = if !turn.is_finite() {
+                Some(Err(Reason::OutOfRange))
+            } else if tau == at {
                 Some(Err(Reason::StepTooSmall { step: step.duration }))
             } else if crossings.len() >= MOST_CROSSINGS {
                 Some(Err(Reason::HalfSwings { most: MOST_CROSSINGS }))

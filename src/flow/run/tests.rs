@@ -72,3 +72,22 @@ fn time_stepping_sticks_and_nears_the_right_place_with_its_step() {
     let rests = run(&Problem { method: Method::TimeStepping, ..from(0.5) });
     assert_eq!(rests.outcome, Outcome::Captured { tau: 0.0, q: 0.5 });
 }
+
+/// From there the linear oscillator turns beyond the largest number, whether or not a method locates the turn.
+#[test]
+fn no_crossing_lies_beyond_the_largest_number() {
+    for row in super::super::METHODS {
+        let problem = Problem {
+            parameters: Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 },
+            initial: State { q: f64::MAX, v: f64::MAX },
+            method: row.method,
+            step: 1e-2,
+            ..from(0.0)
+        };
+        let detail = Detail { crossings: true, ..Detail::default() };
+        let motion =
+            trajectory(&problem, detail, &Limits { evaluations: 20_000, ..Limits::PATIENT });
+        assert!(motion.crossings.is_empty(), "{}: {:?}", row.name, motion.crossings);
+        assert!(!matches!(motion.outcome, Outcome::Captured { .. }), "{}", row.name);
+    }
+}
