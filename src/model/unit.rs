@@ -103,17 +103,18 @@ const UNITS: [(&str, f64, Dimension, bool); 9] = [
     ("h", 3600.0, Dimension::TIME, false),
 ];
 
-/// Prefixes of units.
-const PREFIXES: [(char, f64); 9] = [
-    ('G', 1e9),
-    ('M', 1e6),
-    ('k', 1e3),
-    ('d', 1e-1),
-    ('c', 1e-2),
-    ('m', 1e-3),
-    ('u', 1e-6),
-    ('\u{b5}', 1e-6),
-    ('n', 1e-9),
+/// Prefixes of units, none first.
+const PREFIXES: [(&str, f64); 10] = [
+    ("", 1.0),
+    ("G", 1e9),
+    ("M", 1e6),
+    ("k", 1e3),
+    ("d", 1e-1),
+    ("c", 1e-2),
+    ("m", 1e-3),
+    ("u", 1e-6),
+    ("\u{b5}", 1e-6),
+    ("n", 1e-9),
 ];
 
 /// Largest exponent allowed in a unit.
@@ -279,17 +280,13 @@ impl UnitReader<'_> {
     fn name(&mut self) -> Result<(f64, Dimension), String> {
         let end = self.rest.find(|char: char| !char.is_alphabetic()).unwrap_or(self.rest.len());
         let name = &self.rest[..end];
-        let plain = UNITS.iter().find(|(unit, ..)| *unit == name);
-        let found = plain.map(|(_, value, dimension, _)| (*value, *dimension)).or_else(|| {
-            let mut letters = name.chars();
-            let first = letters.next()?;
-            let (_, scale) = PREFIXES.iter().find(|(prefix, _)| *prefix == first)?;
-            let base = letters.as_str();
-            let (_, value, dimension, _) =
-                UNITS.iter().find(|(unit, _, _, prefixed)| *prefixed && *unit == base)?;
+        let split = |(prefix, scale): &(&str, f64)| {
+            let base = name.strip_prefix(prefix)?;
+            let takes = |row: &&(_, _, _, bool)| prefix.is_empty() || row.3;
+            let (_, value, dimension, _) = UNITS.iter().filter(takes).find(|row| row.0 == base)?;
             Some((scale * value, *dimension))
-        });
-        let found = found.ok_or_else(|| self.wrong())?;
+        };
+        let found = PREFIXES.iter().find_map(split).ok_or_else(|| self.wrong())?;
         self.rest = self.rest[end..].trim_start();
         Ok(found)
     }

@@ -70,6 +70,8 @@ pub struct ViewSpec {
     pub title: &'static str,
     /// Heading above the keys of this view.
     pub heading: &'static str,
+    /// The names of its coordinates, to the right and upwards, where its axes are no choice.
+    pub coordinates: (&'static str, &'static str),
     /// The window where no other is asked for.
     pub window: Window,
     /// Explanation in a few words.
@@ -86,12 +88,13 @@ pub static VIEWS: LazyLock<Vec<ViewSpec>> = LazyLock::new(|| {
 
 /// The view that a line of the file describes; `None` for a comment. A test reads every line.
 fn described(line: &'static str) -> Option<ViewSpec> {
-    let [name, title, heading, needs, window, meaning, nothing] = cells(line)?;
+    let [name, title, heading, needs, coordinates, window, meaning, nothing] = cells(line)?;
+    let coordinates = coordinates.split_once(' ')?;
     let ends: Vec<f64> = window.split(' ').filter_map(|end| end.parse().ok()).collect();
     let [left, right, low, high] = ends[..] else { return None };
     let window = Window { x: Span::known(left, right), y: Span::known(low, high) };
     let (view, needs) = (named(name)?, named(needs)?);
-    Some(ViewSpec { view, name, title, heading, window, meaning, needs, nothing })
+    Some(ViewSpec { view, name, title, heading, coordinates, window, meaning, needs, nothing })
 }
 
 /// What has this name in files.

@@ -77,16 +77,10 @@ fn point(session: &Session) -> Vec<NamedNumber> {
             .collect();
     }
     let Some(at) = plot.cursor else { return Vec::new() };
-    let [x, y] = match plot.view {
-        View::Phase => ["q", "v"],
-        View::Diagram => [abscissa.spec().name, ordinate.spec().name],
-        View::Regimes => [abscissa.spec().name, against.spec().name],
-        View::TimeSeries => ["tau", "value"],
-        View::ReturnMap => ["q", "next"],
-        View::EnergyRate => ["v", "rate"],
-        View::Eigenvalues => ["Re", "Im"],
-        View::Speeds => ["v0", "x_max"],
-        _ => ["x", "y"],
+    let (x, y) = match plot.view {
+        View::Diagram => (abscissa.spec().name, ordinate.spec().name),
+        View::Regimes => (abscissa.spec().name, against.spec().name),
+        view => view.spec().coordinates,
     };
     vec![named(x, at.x), named(y, at.y)]
 }

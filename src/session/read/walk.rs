@@ -92,11 +92,9 @@ impl BranchPath {
 
     /// All stops with their positions.
     fn stops(&self) -> impl Iterator<Item = (Position, &BranchStop)> {
-        let numbered = |(index, piece): (usize, &'_ Vec<BranchStop>)| {
-            (0..piece.len()).map(move |place| (index, place)).collect::<Vec<_>>()
-        };
-        let places = self.pieces.iter().enumerate().flat_map(numbered);
-        places.map(|place| (place, &self.pieces[place.0][place.1]))
+        self.pieces.iter().enumerate().flat_map(|(piece, stops)| {
+            stops.iter().enumerate().map(move |(place, stop)| ((piece, place), stop))
+        })
     }
 
     /// The stop for which `measure` is smallest.

@@ -64,25 +64,12 @@ pub enum CommandAction {
     Line(Candidates, fn(&mut Session, &str) -> Done),
 }
 
-/// Other names of commands and the names that they stand for: short ones from other programs, and former ones.
-///
-/// Quitting keeps the session, so `wq` has nothing else to write.
-const OTHER_NAMES: [(&str, &str); 10] = [
-    ("q", "quit"),
-    ("q!", "quit"),
-    ("wq", "quit"),
-    ("x", "quit"),
-    ("w", "write"),
-    ("w!", "write!"),
-    ("e", "open"),
-    ("scan-form", "scan"),
-    ("toggle-borders", "toggle-boundaries"),
-    ("toggle-harmonic-border", "toggle-harmonic-fold"),
-];
-
-/// The name of the command that a word stands for; the word itself unless it is an alternative name.
+/// The name of the command that a word stands for; the word itself unless it is another name of a command.
 pub fn full_name(word: &str) -> &str {
-    OTHER_NAMES.iter().find(|(other, _)| *other == word).map_or(word, |(_, name)| name)
+    let lines = include_str!("../../../assets/commands.txt").lines();
+    let mut others = lines.filter_map(|line| line.strip_prefix("= ")?.split_once(": "));
+    let found = others.find(|(_, words)| words.split(' ').any(|other| other == word));
+    found.map_or(word, |(name, _)| name)
 }
 
 /// Candidates for the last of the words after the name of a command.
