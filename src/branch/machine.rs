@@ -14,35 +14,13 @@ use crate::portrait::basin::between;
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::{Border, Cycle, Node, Portrait};
 
-/// What a machine does at a value of the number that varies.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MachineBranchPoint {
-    /// The value, in SI units.
-    pub value: f64,
-    /// The cycles, ordered by amplitude, or why there is no answer.
-    pub cycles: Result<Vec<Cycle>, Reason>,
-    /// Largest displacement to the right from which the mass comes to rest, in m; `None` unless the motion that
-    /// touches the belt's line is the border of the basin.
-    pub touching: Option<f64>,
-    /// Whether small motions come to rest.
-    pub rests: bool,
-}
+/// Values of a number, in SI units, and what a machine does at each, or why there is no answer.
+pub type Portraits = Vec<(f64, Result<Portrait, Reason>)>;
 
-impl From<(f64, Result<Portrait, Reason>)> for MachineBranchPoint {
-    fn from((value, found): (f64, Result<Portrait, Reason>)) -> Self {
-        let rests = found.as_ref().is_ok_and(|found| found.border != Border::NoBasin);
-        let touching = found.as_ref().ok().and_then(|found| {
-            let touches = matches!(found.border, Border::Grazing | Border::Capture);
-            found.reach.filter(|_| touches).map(|reach| reach.displacement.0)
-        });
-        MachineBranchPoint { value, cycles: found.map(|found| found.cycles), touching, rests }
-    }
-}
-
-/// The cycles along a number.
+/// What a machine does along a number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MachineBranch {
-    pub points: Vec<MachineBranchPoint>,
+    pub points: Portraits,
     /// Where the portrait changes, in the order of the points.
     pub special: Vec<Special>,
     /// Cost of the points; locating the changes between them is not counted.
@@ -65,8 +43,8 @@ impl MachineBranch {
     ) -> Result<Self, String> {
         let family = Family { source, varied, limits };
         let even = (0..count).map(|index| between(range, index, count)).collect();
-        let mut portraits = family.portraits(even)?;
-        let changes = beside.map_or_else(Vec::new, |_| family.all_changes(&portraits));
+        let mut points = family.portraits(even)?;
+        let changes = beside.map_or_else(Vec::new, |_| family.all_changes(&points));
         let special = changes.iter().map(|change| change.special).collect();
         if let Some(beside) = beside.filter(|parts| !parts.is_empty()) {
             let step = (range.1 - range.0) / real(count - 1);
@@ -76,23 +54,19 @@ impl MachineBranch {
             };
             let within = |value: &f64| (range.0..=range.1).contains(value);
             let further = changes.iter().flat_map(around).filter(within).collect();
-            portraits.extend(family.portraits(further)?);
+            points.extend(family.portraits(further)?);
             // Nearer are those by which the changes were told.
             let outer = |change: Change| change.beside.into_iter().step_by(ASIDE.len() - 1);
             let known = changes.into_iter().flat_map(outer).filter(|(value, _)| within(value));
-            portraits.extend(known.filter_map(|(value, found)| Some((value, Ok(found?)))));
-            portraits.sort_by(|one, other| one.0.total_cmp(&other.0));
+            points.extend(known.filter_map(|(value, found)| Some((value, Ok(found?)))));
+            points.sort_by(|one, other| one.0.total_cmp(&other.0));
         }
         let mut cost = Cost::default();
-        let known = portraits.iter().filter_map(|(_, found)| found.as_ref().ok());
+        let known = points.iter().filter_map(|(_, found)| found.as_ref().ok());
         known.for_each(|found| cost += found.cost);
-        let points = portraits.into_iter().map(MachineBranchPoint::from).collect();
         Ok(MachineBranch { points, special, cost })
     }
 }
-
-/// Values of a number, and the portrait at each.
-type Portraits = Vec<(f64, Result<Portrait, Reason>)>;
 
 /// A machine while one of its numbers varies.
 struct Family<'a> {

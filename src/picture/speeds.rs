@@ -3,9 +3,8 @@
 //! stable state ends, the jump to the one that is left.
 
 use super::Picture;
-use crate::branch::machine::MachineBranchPoint;
 use crate::branch::{Jump, Special};
-use crate::portrait::Cycle;
+use crate::portrait::{Border, Cycle, Portrait};
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 use crate::words::with_unit;
@@ -39,7 +38,8 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         && let Some(found) = session.speeds(index)
     {
         // A speed without an answer is left out.
-        let points: Vec<_> = found.points.iter().filter(|at| at.cycles.is_ok()).collect();
+        let known = found.points.iter().filter_map(|(at, found)| Some((*at, found.as_ref().ok()?)));
+        let points: Vec<_> = known.collect();
         KINDS.into_iter().for_each(|kind| cycles(picture, &points, kind));
         rest(picture, &points);
         for special in &found.special {
@@ -49,24 +49,31 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
 }
 
 /// The cycles of a kind: the smallest of it at all speeds are one curve, the next ones another.
-fn cycles(picture: &mut Picture, points: &[&MachineBranchPoint], kind: &'static str) {
+fn cycles(picture: &mut Picture, points: &[(f64, &Portrait)], kind: &'static str) {
     let is = |cycle: &&Cycle| self::kind(cycle) == kind;
-    let most = points.iter().map(|at| at.cycles.iter().flatten().filter(is).count()).max();
+    let most = points.iter().map(|(_, found)| found.cycles.iter().filter(is).count()).max();
     for rank in 0..most.unwrap_or(0) {
-        let place = |at: &&MachineBranchPoint| {
-            let cycle = at.cycles.iter().flatten().filter(is).nth(rank);
-            [at.value, cycle.map_or(f64::NAN, |cycle| cycle.q_max)]
+        let place = |(at, found): &(f64, &Portrait)| {
+            let cycle = found.cycles.iter().filter(is).nth(rank);
+            [*at, cycle.map_or(f64::NAN, |cycle| cycle.q_max)]
         };
         picture.curve(kind, points.iter().map(place));
     }
 }
 
 /// Rest, where it is stable, and how far its basin goes where the motion that touches the belt borders it.
-fn rest(picture: &mut Picture, points: &[&MachineBranchPoint]) {
-    let place =
-        |at: &MachineBranchPoint, height: Option<f64>| [at.value, height.unwrap_or(f64::NAN)];
-    picture.curve("rest", points.iter().map(|at| place(at, at.rests.then_some(0.0))));
-    picture.curve("touches the belt", points.iter().map(|at| place(at, at.touching)));
+fn rest(picture: &mut Picture, points: &[(f64, &Portrait)]) {
+    let rests = |found: &Portrait| (found.border != Border::NoBasin).then_some(0.0);
+    let touching = |found: &Portrait| match found.border {
+        Border::Grazing | Border::Capture => found.reach.map(|reach| reach.displacement.0),
+        _ => None,
+    };
+    let heights: [(_, &dyn Fn(&Portrait) -> _); 2] =
+        [("rest", &rests), ("touches the belt", &touching)];
+    for (name, height) in heights {
+        let place = |(at, found): &(f64, &Portrait)| [*at, height(found).unwrap_or(f64::NAN)];
+        picture.curve(name, points.iter().map(place));
+    }
 }
 
 /// A change, by its letter, and the jumps from the stable states that end there.

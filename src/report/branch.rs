@@ -150,9 +150,9 @@ pub fn of_machine(about: &About, varied: Knob, found: &MachineBranch, seconds: f
     let rows: Vec<_> = found
         .points
         .iter()
-        .flat_map(|point| match &point.cycles {
-            Ok(cycles) => cycles.iter().map(|cycle| (point.value, Some(*cycle), None)).collect(),
-            Err(why) => vec![(point.value, None, Some(why.to_string()))],
+        .flat_map(|(at, found)| match found {
+            Ok(found) => found.cycles.iter().map(|cycle| (*at, Some(*cycle), None)).collect(),
+            Err(why) => vec![(*at, None, Some(why.to_string()))],
         })
         .collect();
     let cost = Cost { steps: found.cost.steps, ..Cost::default() };

@@ -9,7 +9,9 @@ mod settling;
 mod table;
 
 pub use row::ScanRow;
-pub use table::{Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, Value, computed};
+pub use table::{Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, Value};
+
+use std::collections::BTreeSet;
 
 use crate::flow::{Limits, Reason, Subject};
 use row::Cells;
@@ -22,7 +24,8 @@ pub fn measure(
     conditions: &Conditions,
     limits: &Limits,
 ) -> Result<ScanRow, Reason> {
-    let mut wanted = computed(measures);
+    // Those with which each of them is computed.
+    let mut wanted: BTreeSet<_> = measures.iter().map(|measure| measure.with()).collect();
     // Of a machine cycles and margin are one computation, on which repeated kicks rest.
     if subject.paper().is_none()
         && (wanted.remove(&Measure::Margin) || wanted.contains(&Measure::Repeated))

@@ -110,7 +110,7 @@ impl Cells<'_> {
         };
         // It has to be followed as far as the window or the kicks reach only if these matter.
         let reach = |measure, reach| if self.asks(measure) { reach } else { 0.0 };
-        let reach = reach(Measure::Stability, conditions.reach())
+        let reach = reach(Measure::Stability, conditions.window.reach())
             .max(reach(Measure::Lost, conditions.kicks.reach()));
         let portrait = Portrait::around(parameters, inner.as_slice(), reach, self.limits)?;
         self.cost += portrait.cost;

@@ -1,6 +1,5 @@
 //! The table of measures, the computations that they need, and the cells that they fill.
 
-use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use crate::model::{Knob, Model};
@@ -145,11 +144,6 @@ impl Measure {
     }
 }
 
-/// What is computed for these measures: those with which each of them is.
-pub fn computed(measures: &[Measure]) -> BTreeSet<Measure> {
-    measures.iter().map(|measure| measure.with()).collect()
-}
-
 /// A cell of a row: never a number that does not exist.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
@@ -214,15 +208,12 @@ impl Conditions {
         let StartWindow { q: (from, to), v } = self.window;
         StartWindow { q: (from - steady, to - steady), v }
     }
-
-    /// How far the edge of the basin matters.
-    pub fn reach(&self) -> f64 {
-        self.window.reach()
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
 
     #[test]

@@ -93,8 +93,9 @@ pub(crate) fn awaited(session: &Session, plot: usize) -> Option<Request> {
 /// The window of the speeds: the same speeds, and all cycles at these.
 fn speeds(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
-    let points = session.speeds(plot)?.points.iter().filter(|point| x.contains(point.value));
-    let sizes = points.flat_map(|point| point.cycles.iter().flatten().map(|cycle| cycle.q_max));
+    let points = session.speeds(plot)?.points.iter().filter(|(at, _)| x.contains(*at));
+    let cycles = points.flat_map(|(_, found)| found.iter().flat_map(|found| &found.cycles));
+    let sizes = cycles.map(|cycle| cycle.q_max);
     let y = Span::covering(sizes.chain([0.0]))?;
     Some(Window { x, y: y.scaled(0.0, ROOM) })
 }
