@@ -15,7 +15,7 @@ use crate::flow::{
 use crate::model::unit::WithTolerance;
 use crate::model::{Knob, Source, Tolerances};
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::{Kick, Portrait, StartWindow, friction_of_guide};
+use crate::portrait::{Kick, Portrait, StartWindow, friction_for};
 use crate::report::About;
 use crate::report::machine::{
     CubicExpansion, DesignAnswer, MachineAnswer, RestShare, machine, page,
@@ -164,7 +164,7 @@ impl BeltCommand {
         known: &Tolerances,
     ) -> Result<Option<DesignAnswer>, Reason> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
-        let needed = friction_of_guide(subject, known, kick, wanted)?;
+        let (needed, _) = friction_for(subject, known, kick, wanted, &Limits::PATIENT)?;
         Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed }))
     }
 }

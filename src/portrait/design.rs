@@ -3,12 +3,13 @@
 //! More friction turns the field inwards everywhere but on `v = 0`: the fields of growing r are a rotated
 //! family in Duff's sense. So the basin of the sticking set grows with r, and both its margins increase;
 //! where an unstable and a stable cycle meet (the fold) they jump to infinity. Every margin therefore has
-//! a smallest r from which on it is kept, and a bracket around it only needs halving.
+//! a smallest r from which on it is kept, and a bracket around it only needs halving. So does more friction of the guide
+//! of a machine, wherever the mass moves.
 
 use serde::Serialize;
 
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Parameters, Source, Tolerances};
+use crate::model::{Body, Parameters, Source, Tolerances};
 use crate::numerics::{PlaceTolerance, exp, illinois, ln};
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Margin, Portrait};
@@ -85,31 +86,57 @@ const BLUR: f64 = 1e-9;
 /// Steps that enclose r, and that narrow it; bisection of the whole range of doubles needs some 2100.
 const STEPS: usize = 2200;
 
-/// The least r at which the margin of `kick` is `wanted` or more, and what it cost; the r in `parameters` does not
-/// matter.
+/// The least friction of the guide, in N, of the paper's oscillator its r, at which the margin, of a belt with tolerances
+/// the guaranteed margin, is `wanted` (m or N s) or more, and what the search cost for the paper's oscillator; `None`
+/// where no bracket of it was found. The friction that the source has does not matter.
 ///
 /// # Errors
 /// The [`Reason`] why a basin could not be computed, [`Reason::NotApplicable`] unless `wanted` is positive
 /// and finite.
 pub fn friction_for(
-    parameters: &Parameters,
+    source: &Source,
+    known: &Tolerances,
     kick: Kick,
     wanted: f64,
     limits: &Limits,
-) -> Result<(FrictionNeeded, Cost), Reason> {
+) -> Result<(Option<FrictionNeeded>, Cost), Reason> {
     if !(wanted > 0.0 && wanted.is_finite()) {
         return Err(Reason::NotApplicable { needs: "a positive margin" });
     }
+    let model = source.model()?;
+    let uncertain = source.of_belt().is_some() && !known.is_none();
     let mut cost = Cost::default();
-    let mut margin = |r: f64| -> Result<Margin, Reason> {
-        let found = Portrait::of_oscillator(&Parameters { r, ..*parameters }, wanted, limits)?;
-        cost += found.cost;
-        Ok(found.margin)
+    let mut margin = |friction: f64| -> Result<Margin, Reason> {
+        let with = source.with_friction(friction);
+        Ok(match &with.body {
+            Body::Belt(belt) if uncertain => {
+                guaranteed(belt, known)?.map_or(Margin::ZERO, |(_, margin)| margin)
+            }
+            Body::Paper(parameters) => {
+                let found = Portrait::of_oscillator(parameters, wanted, limits)?;
+                cost += found.cost;
+                found.margin
+            }
+            _ => with.portrait()?.margin,
+        })
     };
-    let any = hardly_any(parameters, wanted);
-    let needed = least_friction((kick, wanted), (wanted, any), &mut margin)?;
-    let lost = Reason::NoConvergence { sought: "the friction for a margin", change: f64::NAN };
-    Ok((needed.ok_or(lost)?, cost))
+    // The friction that holds at rest as much as is wanted.
+    let holds = match kick {
+        Kick::Displacement => wanted * model.stiffness,
+        Kick::Impulse => wanted * model.omega_0,
+    };
+    if uncertain {
+        // As much friction holds a displacement by itself; where even that guarantees nothing, no friction does.
+        let half = known.half_widths.get("R").copied().unwrap_or(0.0);
+        if kick.margin(&margin(8.0 * (holds + known.disturbance + half))?) < wanted {
+            return Ok((None, cost));
+        }
+    }
+    let any = match &source.body {
+        Body::Paper(parameters) => hardly_any(parameters, wanted),
+        _ => (model.damping > 0.0 && !uncertain).then_some(0.0),
+    };
+    Ok((least_friction((kick, wanted), (holds, any), &mut margin)?, cost))
 }
 
 /// The friction at which a margin of this size is the one without friction; `None` where that is none,
@@ -183,55 +210,25 @@ fn least_friction(
     }))
 }
 
-// How much friction of the guide a margin needs, by the whole model.
-//
-// As for the oscillator of the paper, more friction of the guide turns the field
-// inwards wherever the mass moves, so that the basin of rest grows with it.
-
-/// The least friction R of the guide, in N, at which the margin, or with tolerances the guaranteed margin, is
-/// `wanted` (m or N s) or more; `None` where no bracket of it was found. Fails with [`Reason`] where a machine on
-/// the way has no portrait.
-pub fn friction_of_guide(
-    subject: &Source,
-    known: &Tolerances,
-    kick: Kick,
-    wanted: f64,
-) -> Result<Option<FrictionNeeded>, Reason> {
-    let model = subject.model()?;
-    // The friction that holds at rest as much as is wanted.
-    let holds = match kick {
-        Kick::Displacement => wanted * model.stiffness,
-        Kick::Impulse => wanted * model.omega_0,
-    };
-    let mut margin = |friction: f64| -> Result<Margin, Reason> {
-        let machine = subject.with_friction(friction);
-        if known.is_none() {
-            return Ok(machine.portrait()?.margin);
-        }
-        // Only belts have tolerances.
-        let Some(belt) = machine.of_belt() else { return Ok(Margin::ZERO) };
-        Ok(guaranteed(belt, known)?.map_or(Margin::ZERO, |(_, margin)| margin))
-    };
-    if !known.is_none() {
-        // As much friction holds a displacement by itself; where even that guarantees nothing, no friction does.
-        let half = known.half_widths.get("R").copied().unwrap_or(0.0);
-        if kick.margin(&margin(8.0 * (holds + known.disturbance + half))?) < wanted {
-            return Ok(None);
-        }
-    }
-    let without = (model.damping > 0.0 && known.is_none()).then_some(0.0);
-    least_friction((kick, wanted), (holds, without), &mut margin)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::branch::fold::fold;
     use crate::closed_form::piecewise_linear::LinearCycle;
 
+    fn found(
+        parameters: Parameters,
+        kick: Kick,
+        wanted: f64,
+    ) -> Result<Option<FrictionNeeded>, Reason> {
+        let exact = Tolerances::default();
+        let paper = Body::Paper(parameters).into();
+        Ok(friction_for(&paper, &exact, kick, wanted, &Limits::PATIENT)?.0)
+    }
+
     fn needed(d: f64, d2: f64, d3: f64, kick: Kick, wanted: f64) -> FrictionNeeded {
         let parameters = Parameters { d, d2, d3, r: 7.0 };
-        friction_for(&parameters, kick, wanted, &Limits::PATIENT).unwrap().0
+        found(parameters, kick, wanted).unwrap().unwrap()
     }
 
     fn margin(d: f64, d2: f64, d3: f64, r: f64) -> Margin {
@@ -335,7 +332,7 @@ mod tests {
     fn a_margin_that_is_none_is_refused() {
         for wanted in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let parameters = Parameters::default();
-            let refused = friction_for(&parameters, Kick::Impulse, wanted, &Limits::PATIENT);
+            let refused = found(parameters, Kick::Impulse, wanted);
             assert!(matches!(refused, Err(Reason::NotApplicable { .. })));
         }
     }

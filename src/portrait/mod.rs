@@ -62,7 +62,7 @@ pub use closing::return_map::{Return, ReturnMap};
 pub(crate) use closing::search::Node;
 pub(crate) use closing::weak::weak_closing;
 pub use cycle::{Cycle, CycleErrors, Ride};
-pub(crate) use design::{FrictionNeeded, Kick, friction_for, friction_of_guide};
+pub(crate) use design::{FrictionNeeded, Kick, friction_for};
 pub(crate) use kicks::RandomKick;
 pub(crate) use kicks::repeated::Repeated;
 pub use margin::{Kicks, Margin, Reach, RestMargin};

@@ -11,7 +11,7 @@ use crate::portrait::guarantee::certain::guaranteed;
 use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::proved;
 use crate::portrait::{
-    Equation, Portrait, STEP, cycles_and_closings, first_closings, friction_for, friction_of_guide,
+    Equation, Portrait, STEP, cycles_and_closings, first_closings, friction_for,
 };
 
 impl Cells<'_> {
@@ -43,15 +43,10 @@ impl Cells<'_> {
                 }
                 self.margin(Measure::Guaranteed, margin);
             }
-            (Measure::Design, paper) => {
+            (Measure::Design, _) => {
                 let Some((kick, wanted)) = conditions.wanted else { return Ok(()) };
-                let needed = match paper {
-                    Some(parameters) => {
-                        self.cost.spend(friction_for(&parameters, kick, wanted, limits)?)
-                    }
-                    None => friction_of_guide(source, tolerances, kick, wanted)?
-                        .ok_or("no friction was found to suffice")?,
-                };
+                let found = friction_for(source, tolerances, kick, wanted, limits)?;
+                let needed = self.cost.spend(found).ok_or("no friction was found to suffice")?;
                 self.fill(Measure::Design, || [needed.least().unwrap_or(0.0)]);
             }
             (Measure::Repeated, paper) => {
