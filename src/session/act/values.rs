@@ -141,7 +141,7 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
 
 /// Shows random kicks over the basin.
 pub fn kicks(session: &mut Session, rest: &str) -> Done {
-    let kicks: RandomKick = rest.parse()?;
+    let kicks = RandomKick::read(rest, ["", ""])?;
     if session.draws_whole() {
         return Err(
             "kicks are counted by the cubic expansion alone: switch the layer whole off".to_owned()
