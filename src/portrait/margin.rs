@@ -55,19 +55,6 @@ impl<T> Kicks<T> {
     }
 }
 
-impl RestMargin {
-    /// From the sizes of both kicks, infinite where every one is survived.
-    #[must_use]
-    pub fn of(displacement: f64, impulse: f64) -> Self {
-        RestMargin { displacement: finite(displacement), impulse: finite(impulse) }
-    }
-}
-
-/// A kick that is not survived; `None` of an infinite one.
-fn finite(kick: f64) -> Option<f64> {
-    Some(kick).filter(|kick| kick.is_finite())
-}
-
 impl Margin {
     /// Every kick is survived.
     pub const ENDLESS: Margin = Margin::same(None);
@@ -78,6 +65,16 @@ impl Margin {
     const fn same(size: Option<f64>) -> Self {
         let from_rest = RestMargin { displacement: size, impulse: size };
         Margin { displacement: size, impulse: size, from_rest }
+    }
+
+    /// From the sizes of displacement and impulse, and of both from rest; infinite where every kick is survived.
+    #[must_use]
+    pub fn of_sizes(kicks: (f64, f64), from_rest: (f64, f64)) -> Self {
+        let finite = |kick: f64| Some(kick).filter(|kick| kick.is_finite());
+        let (displacement, impulse) = (finite(kicks.0), finite(kicks.1));
+        let (shift, push) = (finite(from_rest.0), finite(from_rest.1));
+        let from_rest = RestMargin { displacement: shift, impulse: push };
+        Margin { displacement, impulse, from_rest }
     }
 
     /// The margin with functions of its displacements and of its impulses in their place: in other units, or
@@ -95,16 +92,4 @@ pub struct Reach {
     pub displacement: (f64, f64),
     /// Velocities upwards and downwards; on a belt, with it and against it.
     pub velocity: (f64, f64),
-}
-
-impl Reach {
-    /// The margin of this mass, with what it is from rest.
-    #[must_use]
-    pub fn margin(&self, mass: f64, from_rest: RestMargin) -> Margin {
-        Margin {
-            displacement: finite(self.displacement.0.min(self.displacement.1)),
-            impulse: finite(mass * self.velocity.0.min(self.velocity.1)),
-            from_rest,
-        }
-    }
 }

@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::{Border, Cycle, Edge, Margin, Reach, RestMargin};
+use super::{Border, Cycle, Edge, Margin, Reach};
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
 use crate::model::{ContactState, Model, Phase};
@@ -138,7 +138,8 @@ impl Portrait {
         };
         let lowest = one.0.min(one.1).min(other.0).min(other.1);
         let impulse = if gap > 0.0 { mass * lowest } else { 0.0 };
-        reach.margin(mass, RestMargin::of(gap, impulse))
+        let Reach { displacement: (right, left), velocity: (up, down) } = reach;
+        Margin::of_sizes((right.min(left), mass * up.min(down)), (gap, impulse))
     }
 
     /// Radius of the disk that Lyapunov's method proves to be captured (equation 24), as a fraction of the true margin:
@@ -156,26 +157,21 @@ impl Portrait {
     pub(super) fn covered(&self, from: f64) -> Reach {
         /// Halvings down to rounding.
         const HALVINGS: u32 = 60;
-        let model = &self.model;
-        let most = |far: f64, start: &dyn Fn(f64) -> (f64, f64)| {
-            let lost = |kick: f64| {
-                let (x, y) = start(kick);
-                self.fate(x, y * model.omega_0) != Ok(Fate::Rest)
-            };
+        let Model { omega_0, .. } = self.model;
+        let most = |far: f64, (right, up): (f64, f64)| {
+            let fate = |kick: f64| self.fate(from + kick * right, kick * up * omega_0);
+            let lost = |kick: f64| fate(kick) != Ok(Fate::Rest);
             if lost(far) { bisect(0.0, far, HALVINGS, lost).0 } else { far }
         };
-        let (x, y) = if model.law_ends() {
-            (4.0 * self.known, 4.0 * self.known.max(-model.least_velocity()))
+        let known = self.known;
+        let (x, y) = if self.model.law_ends() {
+            (4.0 * known, 4.0 * known.max(-self.model.least_velocity()))
         } else {
-            (self.known, self.known)
+            (known, known)
         };
-        let speed = |y: f64| y * model.omega_0;
         Reach {
-            displacement: (
-                most(self.known, &|kick| (from + kick, 0.0)),
-                most(x, &|kick| (from - kick, 0.0)),
-            ),
-            velocity: (speed(most(y, &|kick| (from, kick))), speed(most(y, &|kick| (from, -kick)))),
+            displacement: (most(known, (1.0, 0.0)), most(x, (-1.0, 0.0))),
+            velocity: (omega_0 * most(y, (0.0, 1.0)), omega_0 * most(y, (0.0, -1.0))),
         }
     }
 
@@ -202,23 +198,25 @@ impl Portrait {
             }
             return Ok(self.fates[self.regions_at(x)(y)]);
         }
+        match self.followed_fate(x, y) {
+            Err(Reason::Settles) => Ok(Fate::Rest),
+            Err(Reason::Escapes) => Ok(Fate::Escapes),
+            fate => fate,
+        }
+    }
+
+    /// The fate of a start by its next right turning point. Fails with the [`Reason`] why it has none, of one that settles
+    /// or escapes, too.
+    fn followed_fate(&self, x: f64, y: f64) -> Result<Fate, Reason> {
         let mut flow = Flow::new(&self.model);
-        let turn = match flow.to_the_right(x, y) {
-            Ok(turn) => turn,
-            Err(Reason::Settles) => return Ok(Fate::Rest),
-            Err(Reason::Escapes) => return Ok(Fate::Escapes),
-            Err(stop) => return Err(stop),
-        };
-        let Some(mut x) = turn else { return Ok(Fate::Rest) };
+        let Some(mut x) = flow.to_the_right(x, y)? else { return Ok(Fate::Rest) };
         // Far out, every swing is checked: it may leave the known range.
         while x > self.known {
-            match flow.returned(x) {
-                Ok(Some(image)) if image.x < x => x = image.x,
-                Ok(Some(_)) => break,
-                Ok(None) => return Ok(Fate::Rest),
-                Err(Reason::Escapes) => return Ok(Fate::Escapes),
-                Err(stop) => return Err(stop),
+            let Some(image) = flow.returned(x)? else { return Ok(Fate::Rest) };
+            if image.x >= x {
+                break;
             }
+            x = image.x;
         }
         Ok(self.fate_of_turn(x))
     }
