@@ -7,9 +7,9 @@
 
 use divan::Bencher;
 use divan::black_box;
-use hopfscope::flow::follow_by_series;
+use hopfscope::flow::{Detail, Limits, Method, Problem};
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Belt, Model};
+use hopfscope::model::{Belt, Model, State};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::portrait::Portrait;
 
@@ -65,7 +65,12 @@ fn share_of_a_window(bencher: Bencher) {
 #[divan::bench]
 fn motion_of_a_hundred_time_units(bencher: Bencher) {
     let model = portrait().model;
-    bencher.bench_local(|| follow_by_series(&model, (black_box(1.4), black_box(0.0)), 100.0).end());
+    let (method, tolerance) = (Method::Taylor, model.tolerance);
+    let initial = State { q: 1.4, v: 0.0 };
+    let problem = Problem { initial, until: 100.0, method, tolerance, ..Problem::default() };
+    let detail = Detail { energy: true, ..Detail::default() };
+    let follow = || black_box(problem).followed(Some(&model), detail, &Limits::PATIENT);
+    bencher.bench_local(|| follow().end());
 }
 
 /// The same motion by the classical Runge-Kutta method with a fixed step of 1e-3.

@@ -8,10 +8,7 @@ use super::figure::completed;
 use super::input::{self, MACHINE, page_file, tolerance};
 use super::{CommandCase, Failure, Output, second, timed, troubled, write};
 use crate::figure::panels;
-use crate::flow::{
-    Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, Subject, follow,
-    follow_by_series,
-};
+use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Reason, Subject};
 use crate::model::unit::WithTolerance;
 use crate::model::{Knob, Source, Tolerances};
 use crate::portrait::guarantee::machine::guaranteed;
@@ -118,7 +115,7 @@ impl BeltCommand {
         about: &'a About,
         second: Option<Method>,
     ) -> Result<MachineAnswer<'a>, Reason> {
-        let Subject { source, tolerances, motion: Problem { until, .. } } = subject;
+        let Subject { source, tolerances, .. } = subject;
         let (limits, belt, (x, v)) = (&Limits::PATIENT, source.of_belt(), subject.start());
         let expansion = belt.map(|belt| CubicExpansion::new(belt, limits)).transpose()?;
         let uncertain = belt.filter(|_| !tolerances.is_none());
@@ -129,11 +126,14 @@ impl BeltCommand {
         let rests = (fate == Fate::Rest)
             .then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v), limits));
         let rest = rests.transpose()?;
-        let motion = follow_by_series(model, (x, v), *until);
+        let (problem, _) = subject.problem()?;
+        let follow = |problem: Problem, energy| {
+            problem.followed(Some(model), Detail { energy, ..Detail::default() }, limits)
+        };
+        let motion = follow(problem, true);
         let second = second.map(|method| {
             let tolerance = self.tol.unwrap_or(Knob::Tolerance.usual());
-            let problem = Problem { method, tolerance, ..motion.problem };
-            follow(model, &problem, MotionUnits::physical(model), Detail::default())
+            follow(Problem { method, tolerance, ..problem }, false)
         });
         Ok(MachineAnswer {
             about,

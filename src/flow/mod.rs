@@ -45,7 +45,7 @@ pub mod trajectory;
 pub use crate::model::Reason;
 pub use limits::{Fate, Limits};
 pub use machine::arc::Flow;
-pub use machine::motion::{MotionUnits, follow, follow_by_series};
+pub use machine::motion::{MotionUnits, follow};
 pub use method::{METHODS, Method, MethodSpec};
 pub use motion::{Cost, Crossing, Detail, Leg, Outcome, Problem, Sample, Trajectory};
 pub use quality::{QUALITIES, Quality};

@@ -1,7 +1,7 @@
 //! The commands that take `--machine`: a machine by its own numbers, in the words of the oscillator of the paper.
 
-use hopfscope::flow::{Fate, Outcome, follow_by_series};
-use hopfscope::model::Model;
+use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Problem, Trajectory};
+use hopfscope::model::{Model, State};
 use hopfscope::numerics::elementary::ln;
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::Portrait;
@@ -10,6 +10,14 @@ use serde_json::Value;
 
 use super::program::{json, number, run};
 use super::{about, belt, scan};
+
+/// A motion from displacement and velocity (m, m/s), followed for `until` seconds by Taylor series, with its ledger.
+fn follow_by_series(model: &Model, (q, v): (f64, f64), until: f64) -> Trajectory {
+    let (method, tolerance) = (Method::Taylor, model.tolerance);
+    let problem =
+        Problem { initial: State { q, v }, until, method, tolerance, ..Problem::default() };
+    problem.followed(Some(model), Detail { energy: true, ..Detail::default() }, &Limits::PATIENT)
+}
 
 /// Whether two numbers agree to a part.
 fn agree(found: &Value, expected: f64, part: f64) {

@@ -10,15 +10,23 @@ use std::f64::consts::PI;
 
 use hopfscope::branch::SpecialKind;
 use hopfscope::branch::machine::MachineBranch;
-use hopfscope::flow::{Fate, Flow, Limits, Outcome, Reason, follow_by_series};
+use hopfscope::flow::{Detail, Fate, Flow, Limits, Method, Outcome, Problem, Reason, Trajectory};
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Belt, ContactState, Group, Knob, Model, Source};
+use hopfscope::model::{Belt, ContactState, Group, Knob, Model, Source, State};
 use hopfscope::numerics::elementary::{
     asin, atan, atan2, cos, exp, exp_m1, hypot, ln, powi, sin, tanh,
 };
 use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::{Border, Portrait};
 use serde_json::{Value, json};
+
+/// A motion from displacement and velocity (m, m/s), followed for `until` seconds by Taylor series, with its ledger.
+fn follow_by_series(model: &Model, (q, v): (f64, f64), until: f64) -> Trajectory {
+    let (method, tolerance) = (Method::Taylor, model.tolerance);
+    let problem =
+        Problem { initial: State { q, v }, until, method, tolerance, ..Problem::default() };
+    problem.followed(Some(model), Detail { energy: true, ..Detail::default() }, &Limits::PATIENT)
+}
 
 fn data() -> Value {
     serde_json::from_str(include_str!("../data/belts.json")).unwrap()

@@ -1,7 +1,7 @@
 //! The whole model against an independent integration in twice the working precision: fixed Taylor steps, and
 //! switching lines located by a dense scan of every step.
 
-use hopfscope::flow::follow_by_series;
+use super::follow_by_series;
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, ContactState, Model, Phase};
 use hopfscope::numerics::twofold::Twofold;

@@ -80,16 +80,6 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
     found
 }
 
-/// Follows a motion from displacement and velocity (m, m/s) for `until` seconds by Taylor series, with its ledger.
-#[must_use]
-pub fn follow_by_series(model: &Model, (q, v): (f64, f64), until: f64) -> Trajectory {
-    let (method, tolerance) = (Method::Taylor, model.tolerance);
-    let initial = State { q, v };
-    let problem = Problem { initial, until, method, tolerance, ..Problem::default() };
-    let detail = Detail { energy: true, ..Detail::default() };
-    follow(model, &problem, MotionUnits::physical(model), detail)
-}
-
 /// Maximum number of steps that are followed of a motion by Taylor series.
 const MOST_STEPS: u64 = 200_000;
 
