@@ -192,8 +192,8 @@ impl Portrait {
             return Ok(Fate::Rest);
         }
         if self.orders_starts() {
-            let open = |edge: &Edge| matches!(edge, Edge::Orbit(orbit) if !orbit.closed);
-            if x.abs() > self.followed && self.borders.iter().any(open) {
+            let beyond = |edge: &Edge| matches!(edge, Edge::Orbit(orbit) if !orbit.reaches(x));
+            if self.borders.iter().any(beyond) {
                 return Err(Reason::OutOfRange);
             }
             return Ok(self.fates[self.regions_at(x)(y)]);

@@ -38,13 +38,13 @@ struct ArcStep {
 #[derive(Clone, Debug)]
 pub struct Arc {
     side: Side,
-    r: f64,
+    pub(super) r: f64,
     /// That in which the arc was computed.
     field: HalfPlane,
     /// As a curve the arc is the same in both. Computed backward, positions are those of `y = -x`.
     direction: Direction,
     /// Of the swing (forward), or of the next one (backward).
-    clearance: Length,
+    pub(super) clearance: Length,
     /// At which the computation began.
     length: Length,
     pieces: Vec<ArcStep>,
