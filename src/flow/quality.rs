@@ -4,7 +4,6 @@
 //! friction is smoothed. [`Problem::setting`] returns it for any method.
 
 use super::motion::Problem;
-use crate::model::Knob;
 
 /// A named setting of the dial.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,18 +41,6 @@ pub const QUALITIES: [Quality; 4] = [
 /// The coarsest setting, computed first where the desired quality takes long.
 pub const DRAFT: Quality = QUALITIES[0];
 
-impl Quality {
-    /// The value of this setting on a dial.
-    #[must_use]
-    pub fn setting(&self, dial: Knob) -> f64 {
-        match dial {
-            Knob::Step => self.step,
-            Knob::Epsilon => self.epsilon,
-            _ => self.tolerance,
-        }
-    }
-}
-
 impl Problem {
     /// The number that sets the accuracy of the method. For the closed form it is the tolerance, which has no effect.
     #[must_use]
@@ -78,18 +65,17 @@ impl Problem {
     /// The current named setting, if the dial is at one.
     #[must_use]
     pub fn quality(&self) -> Option<&'static Quality> {
-        let dial = self.method.dial();
-        QUALITIES.iter().find(|quality| quality.setting(dial) == self.setting())
+        QUALITIES.iter().find(|quality| self.at(quality).setting() == self.setting())
     }
 
     /// The next named setting on the finer or the coarser side; `None` beyond the last.
     #[must_use]
     pub fn next_quality(&self, finer: bool) -> Option<&'static Quality> {
-        let (dial, here) = (self.method.dial(), self.setting());
+        let (at, here) = (|quality: &&Quality| self.at(quality).setting(), self.setting());
         if finer {
-            QUALITIES.iter().find(|quality| quality.setting(dial) < here)
+            QUALITIES.iter().find(|quality| at(quality) < here)
         } else {
-            QUALITIES.iter().rev().find(|quality| quality.setting(dial) > here)
+            QUALITIES.iter().rev().find(|quality| at(quality) > here)
         }
     }
 }
@@ -98,11 +84,12 @@ impl Problem {
 mod tests {
     use super::super::Method;
     use super::*;
+    use crate::model::Knob;
 
     #[test]
     fn the_stops_go_from_coarse_to_fine_within_every_range() {
         for dial in [Knob::Tolerance, Knob::Step, Knob::Epsilon] {
-            let numbers = QUALITIES.map(|quality| quality.setting(dial));
+            let numbers = QUALITIES.map(|quality| Problem::default().at(&quality).get(dial));
             assert!(numbers.windows(2).all(|pair| pair[0] > pair[1]), "{numbers:?}");
             assert!(numbers.iter().all(|number| dial.check(*number).is_ok()), "{numbers:?}");
         }
