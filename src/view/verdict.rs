@@ -97,9 +97,7 @@ fn verdict(end: End, among: Option<&Cycles>, motion: &Trajectory, writing: Writi
             let way = if grows { "grows" } else { "falls" };
             format!("{way} onto the stable cycle, {}", writing.amplitude(q_max, 4))
         }
-        (End::Grows, Outcome::Escaped { tau }) => {
-            format!("escapes at {}{}", writing.time(tau, 4), swings(motion))
-        }
+        (End::Grows, Outcome::Escaped { .. }) => sentence(motion, writing),
         (End::Grows, _) => "grows without bound".to_owned(),
         (End::Decays, _) => "decays towards the equilibrium".to_owned(),
     };
