@@ -8,7 +8,7 @@ use ratatui::style::{Color, Modifier};
 /// The attributes of cells that are drawn, each with the codes that switch it on and off.
 ///
 /// One code switches off both bold and dim; `difference` then switches the other on again.
-const ATTRIBUTES: [(Modifier, u8, u8); 6] = [
+const ATTRIBUTES: [(Modifier, u16, u16); 6] = [
     (Modifier::BOLD, 1, 22),
     (Modifier::DIM, 2, 22),
     (Modifier::ITALIC, 3, 23),
@@ -74,19 +74,14 @@ impl Pen {
         let mut present = self.attributes;
         for (attribute, _, off) in ATTRIBUTES {
             if present.contains(attribute) && !to.attributes.contains(attribute) {
-                parameters.push(u16::from(off));
-                for (other, _, same) in ATTRIBUTES {
-                    if same == off {
-                        present.remove(other);
-                    }
-                }
+                parameters.push(off);
+                let alike = ATTRIBUTES.iter().filter(|(.., same)| *same == off);
+                alike.for_each(|(other, ..)| present.remove(*other));
             }
         }
-        for (attribute, on, _) in ATTRIBUTES {
-            if to.attributes.contains(attribute) && !present.contains(attribute) {
-                parameters.push(u16::from(on));
-            }
-        }
+        let added = to.attributes.difference(present);
+        let added = ATTRIBUTES.iter().filter(|(attribute, ..)| added.contains(*attribute));
+        parameters.extend(added.map(|(_, on, _)| on));
         if self.foreground != to.foreground {
             push_colour(&mut parameters, to.foreground, 30);
         }
