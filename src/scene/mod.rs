@@ -4,7 +4,6 @@ pub mod file;
 pub mod library;
 pub mod machine;
 pub mod misread;
-mod opened;
 pub mod ordinate;
 pub mod plot_setup;
 pub mod said;

@@ -14,7 +14,6 @@
 pub(crate) mod act;
 pub mod commands;
 pub mod config;
-pub mod effect;
 pub mod key;
 pub mod message;
 pub mod read;
@@ -26,9 +25,8 @@ pub(crate) mod tests;
 pub mod update;
 
 pub use commands::commands;
-pub use effect::{Done, Effect};
 pub use key::{Code, Key};
-pub use message::{Gesture, Msg, Notice, Pointed, PointerTarget, Purpose};
+pub use message::{Done, Effect, Gesture, Msg, Notice, Pointed, PointerTarget, Purpose};
 pub use read::answers::NoErrorReason;
 pub use read::contexts::Hint;
 pub use read::lists::PaletteRow;

@@ -9,7 +9,7 @@ use crate::numerics::similar::most_similar;
 use crate::question::NoAnswer;
 use crate::scene::{Answered, Request};
 use crate::session::act::screen_setup::focus_on;
-use crate::session::act::{answers, files, general, history, parameters, plots, prompt, walk};
+use crate::session::act::{answers, files, general, history, plots, prompt, values, walk};
 use crate::session::read::completion::names;
 use crate::session::read::contexts;
 use crate::session::read::contexts::{elsewhere, place};
@@ -291,7 +291,7 @@ fn run(session: &mut Session, command: &Command, key: Key) {
             Ok(Some(NextCommand::Command(command))) => run_where_it_belongs(session, command, key),
             Ok(Some(NextCommand::Line(text))) => typed(session, |it| run_line(it, &text)),
             Ok(Some(NextCommand::Value(row, text))) => {
-                typed(session, |it| parameters::accept(it, row, &text));
+                typed(session, |it| values::set_row(it, row.name(), &text));
             }
             Ok(None) => {}
             Err(why) => session.refuse(why),

@@ -7,7 +7,5 @@ pub mod table;
 pub mod unlikely;
 
 mod description;
-mod setting;
 
-pub use description::{Description, Machine, NO_BELT, ScaledMachine};
-pub use setting::Setting;
+pub use description::{Description, Machine, NO_BELT, ScaledMachine, Setting};

@@ -229,14 +229,6 @@ pub fn begin(session: &mut Session, key: Key) {
     session.overlay = Some(Overlay::Prompt(Prompt::of_row(session.selected, text)));
 }
 
-/// Gives a row the typed value. Fails with one line that says what is allowed.
-pub(crate) fn accept(session: &mut Session, row: Row, text: &str) -> Done {
-    let setup = read(session, &session.setup(), row, text)?;
-    put(session, setup);
-    session.warn_of_units();
-    Ok(())
-}
-
 /// The setup with the typed value in a row. Fails with one line that says what is allowed.
 pub(crate) fn read(
     session: &Session,
