@@ -4,7 +4,6 @@ pub mod file;
 pub mod library;
 pub mod machine;
 pub mod misread;
-pub mod ordinate;
 pub mod plot_setup;
 pub mod said;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
@@ -16,8 +15,9 @@ pub use crate::question::{Answered, Finding, Fit, Recording, Request, TOPICS, To
 pub use library::{find, library, plain};
 pub use machine::{Machine, ScaledMachine, Setting};
 pub use misread::Misread;
-pub use ordinate::{Height, ORDINATES, Ordinate, Unit};
-pub use plot_setup::{Arrangement, Axes, MOST_PLOTS, PlotSetup};
+pub use plot_setup::{
+    Arrangement, Axes, Height, MOST_PLOTS, ORDINATES, Ordinate, PlotSetup, Unit, usual_values,
+};
 pub use scene::{Scene, Variant};
 pub use views::{LAYERS, Layer, LayerSpec, Needs, VIEWS, View, ViewSpec, letters};
 pub use window::{Point, Span, Window, rectangle};

@@ -2,7 +2,7 @@
 //!
 //! The oscillator of the paper knows a friction characteristic only by its value and its first three
 //! derivatives at the belt speed (equation 3); how well these represent it is measured against the law
-//! itself ([`super::taylor`]).
+//! itself ([`Belt::taylor_error`]).
 
 use serde::{Deserialize, Serialize};
 

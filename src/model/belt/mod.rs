@@ -12,12 +12,9 @@
 
 pub mod friction;
 pub mod reduce;
-pub mod taylor;
 
-pub use friction::Belt;
-pub use friction::{Derivatives, FrictionLaw};
-pub use reduce::{ReducedBelt, Units};
-pub use taylor::TaylorError;
+pub use friction::{Belt, Derivatives, FrictionLaw};
+pub use reduce::{ReducedBelt, TaylorError, Units};
 
 #[cfg(test)]
 mod tests;

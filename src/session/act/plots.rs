@@ -4,8 +4,7 @@
 use crate::flow::Problem;
 use crate::model::{Knob, State};
 use crate::numerics::decimal::{StepSize, shortest};
-use crate::scene::ordinate::usual_values;
-use crate::scene::{Axes, ORDINATES, PlotSetup, Point, Span, Unit, View, Window};
+use crate::scene::{Axes, ORDINATES, PlotSetup, Point, Span, Unit, View, Window, usual_values};
 use crate::session::act::general::flip;
 use crate::session::act::motions::start;
 use crate::session::act::parameters::{change, put};
@@ -235,21 +234,27 @@ pub fn next_parameter(session: &mut Session, upwards: bool) {
     session.inform(format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
 }
 
-/// Gives the diagram in focus these axes.
+/// Gives the diagram in focus these axes: in the scene's window if they are the scene's, otherwise in one that is fitted to the
+/// branch.
 pub fn set_axes(session: &mut Session, axes: Axes) {
     let Some(plot) = session.focused() else { return };
     let symbol = axes.abscissa;
-    if symbol == plot.axes.abscissa {
-        let x = plot.window.x;
-        reframe(session, axes, x);
-        return;
+    let of_scene = session.plot_of_scene(session.plot, View::Diagram);
+    let opened = of_scene.filter(|it| it.axes.abscissa == symbol).map(|it| it.opening().x);
+    let x = if symbol == plot.axes.abscissa {
+        plot.window.x
+    } else {
+        let usual = usual_values(symbol);
+        let ends = [usual.from(), usual.to(), ROOM * session.value(symbol)];
+        opened.or_else(|| Span::covering(ends)).unwrap_or(usual)
+    };
+    let Some(plot) = session.focused_mut() else { return };
+    if let Some(same) = of_scene.filter(|it| it.axes == axes && it.opening().x == x) {
+        *plot = Plot::opened(&same);
+    } else {
+        plot.axes = axes;
+        plot.fit_from(Window { x, y: plot.window.y });
     }
-    let usual = usual_values(symbol);
-    let reach = ROOM * session.value(symbol);
-    let around = Span::covering([usual.from(), usual.to(), reach]).unwrap_or(usual);
-    let of_scene = of_scene(session).filter(|plot_setup| plot_setup.axes.abscissa == symbol);
-    let x = of_scene.map_or(around, |plot_setup| plot_setup.opening().x);
-    reframe(session, axes, x);
 }
 
 /// Shows the next property of the cycles, cycling; the branch stays.
@@ -274,23 +279,6 @@ pub fn next_unit(session: &mut Session) -> Done {
     let units = if unit == Unit::One { "" } else { ", in units of r" };
     session.inform(format!("{}: {}{units}", axes.label(), spec.meaning));
     Ok(())
-}
-
-/// The scene's setup for the diagram in focus.
-fn of_scene(session: &Session) -> Option<PlotSetup> {
-    session.plot_of_scene(session.plot, View::Diagram)
-}
-
-/// Applies the scene's window if the axes are the scene's, otherwise fits the window to the branch.
-fn reframe(session: &mut Session, axes: Axes, x: Span) {
-    let of_scene = of_scene(session).filter(|plot_setup| plot_setup.axes == axes);
-    let Some(plot) = session.focused_mut() else { return };
-    if let Some(plot_setup) = of_scene.filter(|plot_setup| plot_setup.opening().x == x) {
-        *plot = Plot::opened(&plot_setup);
-    } else {
-        plot.axes = axes;
-        plot.fit_from(Window { x, y: plot.window.y });
-    }
 }
 
 /// Number of rows by which a notch of the wheel moves a list.

@@ -7,8 +7,7 @@ use crate::flow::{Outcome, Trajectory};
 use crate::model::parameters::energy;
 use crate::model::{Knob, State};
 use crate::numerics::{hypot, real, truncated};
-use crate::scene::ordinate::usual_values;
-use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window};
+use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window, usual_values};
 use crate::session::{Framing, ScanOnShow, Session};
 
 /// Width of a fitted window, relative to its content.
