@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::lattice::UNTIL;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Limits, Method, Outcome, Problem, Trajectory};
+use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Trajectory};
 use crate::model::parameters::energy;
 use crate::model::{Parameters, State};
 use crate::numerics::scaling::times_power;
@@ -151,20 +151,12 @@ fn scaled_and_mirrored(method: Method, limits: &Limits) -> NamedExtreme {
 
 /// Whether a motion is `sign * 2^k` times another one, to the last bit.
 fn is_image(motion: &Trajectory, of: &Trajectory, sign: f64, k: i32) -> bool {
-    let image = |q: f64| (sign * times_power(q, k)).to_bits();
-    let same_end = match (motion.outcome, of.outcome) {
-        (Outcome::Captured { tau, q }, Outcome::Captured { tau: at, q: place }) => {
-            tau == at && q.to_bits() == image(place)
-        }
-        (Outcome::Moving { q, v, .. }, Outcome::Moving { q: place, v: speed, .. }) => {
-            q.to_bits() == image(place) && v.to_bits() == image(speed)
-        }
-        _ => false,
-    };
-    let pairs = motion.crossings.iter().zip(&of.crossings);
-    same_end
-        && motion.crossings.len() == of.crossings.len()
-        && pairs
-            .into_iter()
-            .all(|(one, other)| one.tau == other.tau && one.q.to_bits() == image(other.q))
+    let image = |q: f64| sign * times_power(q, k);
+    let turns = of.crossings.iter().map(|turn| Crossing { q: image(turn.q), ..*turn });
+    let end = of.outcome.state().map(|(q, v)| (image(q), image(v)));
+    motion.outcome.word() == of.outcome.word()
+        && motion.outcome.tau() == of.outcome.tau()
+        && motion.outcome.state() == end
+        && end.is_some()
+        && motion.crossings.iter().copied().eq(turns)
 }

@@ -73,12 +73,8 @@ impl PhaseSeries {
         }
         (self.step.x[0], self.step.y[0]) = (x, y);
         for k in 0..ORDER {
-            let mut rate = force - self.step.x[k];
-            if k == 0
-                && let Some(acceleration) = acceleration
-            {
-                rate = acceleration;
-            }
+            let known = acceleration.filter(|_| k == 0);
+            let rate = known.unwrap_or(force - self.step.x[k]);
             let factor = forward * INVERSE[k + 1];
             self.step.x[k + 1] = factor * self.step.y[k];
             self.step.y[k + 1] = factor * rate;
@@ -91,11 +87,8 @@ impl PhaseSeries {
 
     /// Coefficient k of the polynomial part of h, k > 0.
     fn polynomial(&mut self, k: usize, degree: usize) -> f64 {
-        if degree == 0 {
-            return 0.0;
-        }
-        if degree == 1 {
-            return self.local[1] * self.step.y[k];
+        if degree < 2 {
+            return self.local.get(1).map_or(0.0, |slope| slope * self.step.y[k]);
         }
         // Row r holds `c_(r+1) + d (c_(r+2) + d (..))` with d = y - y(0); the last of all is a constant.
         for row in 0..degree - 1 {
