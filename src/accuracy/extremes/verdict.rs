@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::lattice::{Case, UNTIL};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Method, Outcome, Problem, Trajectory};
-use crate::model::Parameters;
+use crate::model::{Parameters, State};
 use crate::numerics::elementary::log10;
 
 /// Tolerance of the motions where none is given.
@@ -124,23 +124,21 @@ fn reference(case: &Case, tolerance: f64, limits: &Limits) -> Option<Trajectory>
 /// Relative distance of two answers: of places as a fraction of the largest displacement of the last swing, of
 /// times relative to themselves. Infinite where they contradict each other, `None` where one gave up.
 fn distance(one: &Trajectory, other: &Trajectory) -> Option<f64> {
-    let relative = |a: f64, b: f64, scale: f64| if a == b { 0.0 } else { (a - b).abs() / scale };
-    let last_turn = |motion: &Trajectory| {
-        let count = motion.crossings.len();
-        let turn = count.checked_sub(2).map(|index| motion.crossings[index].q);
-        turn.unwrap_or(motion.problem.initial.q).abs()
-    };
-    match (one.outcome, other.outcome) {
-        (Outcome::GaveUp { .. }, _) | (_, Outcome::GaveUp { .. }) => None,
-        (Outcome::Captured { tau, q }, Outcome::Captured { tau: at, q: place }) => {
-            let size = last_turn(other).max(place.abs()).max(other.problem.initial.v.abs());
-            Some(relative(tau, at, at).max(relative(q, place, size)))
-        }
-        (Outcome::Moving { q, v, .. }, Outcome::Moving { q: place, v: speed, .. }) => {
-            let size = place.abs().max(speed.abs());
-            Some(relative(q, place, size).max(relative(v, speed, size)))
-        }
-        (Outcome::Escaped { tau }, Outcome::Escaped { tau: at }) => Some(relative(tau, at, at)),
-        _ => Some(f64::INFINITY),
+    one.outcome.answered().and(other.outcome.answered()).ok()?;
+    if one.outcome.word() != other.outcome.word() {
+        return Some(f64::INFINITY);
     }
+    let relative = |a: f64, b: f64, scale: f64| if a == b { 0.0 } else { (a - b).abs() / scale };
+    let at = other.outcome.tau();
+    let time = relative(one.outcome.tau(), at, at);
+    let ends = one.outcome.state().zip(other.outcome.state());
+    let Some(((q, v), (place, speed))) = ends else { return Some(time) };
+    let mut size = place.abs().max(speed.abs());
+    if let Outcome::Captured { .. } = other.outcome {
+        let before = other.crossings.len().checked_sub(2);
+        let State { q, v } = other.problem.initial;
+        let last_turn = before.map_or(q, |index| other.crossings[index].q);
+        size = size.max(last_turn.abs()).max(v.abs());
+    }
+    Some(time.max(relative(q, place, size)).max(relative(v, speed, size)))
 }
