@@ -122,12 +122,12 @@ impl Chain {
                 comes.then(|| flow.rest_of(q, model.scaled_velocity(v), limits).ok()).flatten();
             Ok((place, flow.cost()))
         };
-        let of = |column: &StartColumn| {
-            let rests = rows.iter().map(|&(v, share)| Ok((rest(column.q, v)?, share)));
+        let of = |(q, _): &StartColumn| {
+            let rests = rows.iter().map(|&(v, share)| Ok((rest(*q, v)?, share)));
             rests.collect::<Result<Vec<_>, Reason>>()
         };
         let found: Vec<_> = columns.par_iter().map(of).collect::<Result<_, _>>()?;
-        for (column, rests) in columns.iter().zip(found) {
+        for ((_, weights), rests) in columns.iter().zip(found) {
             for ((rest, more), share) in rests {
                 cost += more;
                 let Some(rest) = rest else { continue };
@@ -135,17 +135,18 @@ impl Chain {
                 let place = ((rest + r) / width - 0.5).clamp(0.0, real(cells - 1));
                 let left = (truncated(place)).min(cells - 2);
                 let part = place - real(left);
-                for &(from, weight) in &column.weights {
+                for &(from, weight) in weights {
                     steps[(from, left)] += weight * share * (1.0 - part);
                     steps[(from, left + 1)] += weight * share * part;
                 }
             }
         }
-        let lost = centres.iter().map(|&centre| {
+        let lost = |centre: &f64| {
             let from = RandomKick { q: (kicks.q.0 + centre, kicks.q.1), ..*kicks };
             Ok(from.lost(portrait)?.part)
-        });
-        let lost = DVector::from_vec(lost.collect::<Result<_, Reason>>()?);
+        };
+        let lost = centres.iter().map(lost).collect::<Result<Vec<_>, Reason>>()?;
+        let lost = DVector::from_vec(lost);
         for (row, lost) in lost.iter().enumerate() {
             let sum: f64 = steps.row(row).sum();
             let scale = if sum > 0.0 { (1.0 - lost) / sum } else { 0.0 };
@@ -195,31 +196,23 @@ impl Chain {
     }
 }
 
-/// A column of starts, and with which weight kicks from each cell lead to it.
-struct StartColumn {
-    q: f64,
-    weights: Vec<(usize, f64)>,
-}
+/// The displacement of a column of starts, and with which weight kicks from each cell lead to it.
+type StartColumn = (f64, Vec<(usize, f64)>);
 
 fn columns(kicks: &RandomKick, centres: &[f64], fineness: f64) -> Vec<StartColumn> {
     let (mean, spread) = kicks.q;
     if spread == 0.0 {
-        let column = |(cell, centre): (usize, &f64)| StartColumn {
-            q: centre + mean,
-            weights: vec![(cell, 1.0)],
-        };
-        return centres.iter().enumerate().map(column).collect();
+        let places = centres.iter().enumerate();
+        return places.map(|(cell, centre)| (centre + mean, vec![(cell, 1.0)])).collect();
     }
     let far = kicks.law.reach().min(FAR) * spread;
     let half = far + centres.last().copied().unwrap_or_default();
-    let step = (spread / fineness).max(2.0 * half / COLUMNS);
-    steps(mean, half, step)
-        .map(|q| {
-            let weight = |centre: &f64| kicks.law.density(q - mean - centre, spread);
-            let weights = centres.iter().map(weight).enumerate();
-            StartColumn { q, weights: weights.filter(|(_, weight)| *weight > 0.0).collect() }
-        })
-        .collect()
+    let column = |q: f64| {
+        let weight = |centre: &f64| kicks.law.density(q - mean - centre, spread);
+        let weights = centres.iter().map(weight).enumerate();
+        (q, weights.filter(|(_, weight)| *weight > 0.0).collect())
+    };
+    steps(mean, half, (spread / fineness).max(2.0 * half / COLUMNS)).map(column).collect()
 }
 
 /// Velocities of starts with their weights.
