@@ -9,7 +9,6 @@ pub mod answer;
 pub mod fit;
 pub mod record;
 pub mod request;
-pub mod whole;
 pub mod zones;
 
 pub use answer::{Answered, Finding, NoAnswer};

@@ -78,17 +78,17 @@ pub fn machine(found: &MachineAnswer) -> Answer {
         .and(margin_columns(about, PLACES));
     let (statement, holds) = text::statement(found);
     let allowance = text::allowance(found).unwrap_or_default();
-    let numbers = expansion.iter().flat_map(|expansion| of_belt(expansion, &portrait.margin));
+    let (own, rows) = (of_belt(found), rows(found));
     about
         .answer()
         .and(&document::document(found))
-        .csv(&quantity_columns(), rows(found))
+        .csv(&quantity_columns(), own.iter().chain(&rows))
         .statement(statement, holds)
         .lines(known(portrait))
         .heading("Margins")
         .table(kicks.table(margins).transposed().captioned(allowance))
         .heading("Machine")
-        .table(quantity_columns().table(numbers))
+        .table(quantity_columns().table(&own))
         .lines(expansion.as_ref().map(text::friction))
         .heading("Cycles")
         .table(machine_cycles(|cycle: &Cycle| Some(*cycle)).table(&portrait.cycles))
@@ -125,9 +125,10 @@ fn quantity_columns<'a>() -> Columns<'a, QuantityRow> {
         .file("unit", |(.., unit)| *unit)
 }
 
-/// The single numbers that describe a mass on a belt.
-fn of_belt(expansion: &CubicExpansion, margin: &Margin) -> Vec<QuantityRow> {
-    let CubicExpansion { belt, reduced, .. } = expansion;
+/// The single numbers that describe a mass on a belt; none of a mode.
+fn of_belt(answer: &MachineAnswer) -> Vec<QuantityRow> {
+    let Some(expansion) = &answer.expansion else { return Vec::new() };
+    let (CubicExpansion { belt, reduced, .. }, margin) = (expansion, &answer.portrait.margin);
     let (parameters, units) = (&reduced.parameters, &reduced.units);
     let (length, impulse) = ((units.displacement, "m"), (units.impulse, "N s"));
     let velocity = margin.impulse.map(|impulse| impulse / belt.mass);
@@ -154,11 +155,9 @@ fn of_belt(expansion: &CubicExpansion, margin: &Margin) -> Vec<QuantityRow> {
     numbers.into_iter().map(row).collect()
 }
 
-/// One row for each number, in SI units.
+/// One row for each further number, in SI units.
 fn rows(answer: &MachineAnswer) -> Vec<QuantityRow> {
-    let MachineAnswer { portrait, expansion, .. } = answer;
-    let numbers = expansion.iter().flat_map(|expansion| of_belt(expansion, &portrait.margin));
-    let mut rows: Vec<QuantityRow> = numbers.collect();
+    let mut rows = Vec::new();
     let physical = |what: &str, value, unit| (what.to_owned(), [None, value], unit);
     if let Some(certain) = answer.certain {
         let Margin { displacement, impulse, from_rest } = certain.unwrap_or(Margin::ENDLESS);
@@ -169,7 +168,7 @@ fn rows(answer: &MachineAnswer) -> Vec<QuantityRow> {
             physical("guaranteed: impulse", impulse, "N s"),
         ]);
     }
-    for (index, cycle) in portrait.cycles.iter().enumerate() {
+    for (index, cycle) in answer.portrait.cycles.iter().enumerate() {
         let lead = format!("{} {} cycle {index}", stability(cycle.stable), cycle.kind());
         rows.extend(of_machine().map(|number| {
             let what = format!("{lead}: {}", number.physical_name());
