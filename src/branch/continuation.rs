@@ -71,21 +71,18 @@ impl<'a> CycleCurve<'a> {
         tolerance: f64,
         limits: &'a Limits<'a>,
     ) -> Self {
-        let (parameters, cost) = (*parameters, Cost::default());
-        let (strides, budget) = (1.0, u64::MAX);
-        let (probe, slope_in_p) = (PROBES.1, None);
         CycleCurve {
-            parameters,
+            parameters: *parameters,
             symbol,
             side,
             scale,
             tolerance,
-            strides,
-            budget,
+            strides: 1.0,
+            budget: u64::MAX,
             limits,
-            probe,
-            slope_in_p,
-            cost,
+            probe: PROBES.1,
+            slope_in_p: None,
+            cost: Cost::default(),
         }
     }
 

@@ -43,17 +43,13 @@ pub struct FoldGuess {
 pub type Slopes = [[f64; 2]; 2];
 
 impl FoldGuess {
-    /// A place known otherwise.
-    pub fn at(parameters: &Parameters, u: f64) -> Self {
-        FoldGuess { parameters: *parameters, u, slopes: None }
-    }
-
     /// The fold in D at these values of D2, D3 and r; `None` where there is none, or D2 bends the cycle too much.
     pub fn in_damping(parameters: &Parameters) -> Option<Self> {
         /// Largest product of D2 and the amplitude at which the estimate is any good.
         const BENT: f64 = 3.5;
         let FoldEstimate { d, u, bend } = FoldEstimate::of(parameters)?;
-        (bend <= BENT).then(|| FoldGuess::at(&Parameters { d, ..*parameters }, u))
+        let parameters = Parameters { d, ..*parameters };
+        (bend <= BENT).then_some(FoldGuess { parameters, u, slopes: None })
     }
 
     /// The same beside a fold that is known: as far from the estimate as this one is.
@@ -177,7 +173,15 @@ impl System<'_> {
             let length = du.max(dz);
             let stands = length <= ROUNDING && length >= 0.5 * last;
             if step == fine && (small || stands) {
-                return Ok(self.accepted(place, change, &here, slopes));
+                let fold = FoldCycle {
+                    parameters: self.parameters_at(place[1] + change[1]),
+                    closing: here.closing,
+                    side: self.side,
+                    u: place[0] + change[0],
+                    along: (self.symbol, slopes),
+                };
+                // The inner one of both cycles is unstable there.
+                return Ok((slopes[1][0] < 0.0).then_some(fold));
             }
             last = if step == fine { length } else { f64::INFINITY };
             if length <= ROUGHLY {
@@ -190,24 +194,6 @@ impl System<'_> {
             here = next;
         }
         Ok(None)
-    }
-
-    /// The fold, if the inner one of both cycles is unstable there.
-    fn accepted(
-        &self,
-        place: [f64; 2],
-        change: [f64; 2],
-        here: &Values,
-        slopes: Slopes,
-    ) -> Option<FoldCycle> {
-        let fold = FoldCycle {
-            parameters: self.parameters_at(place[1] + change[1]),
-            closing: here.closing,
-            side: self.side,
-            u: place[0] + change[0],
-            along: (self.symbol, slopes),
-        };
-        (slopes[1][0] < 0.0).then_some(fold)
     }
 
     /// The derivatives as difference quotients.

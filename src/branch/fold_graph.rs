@@ -23,7 +23,7 @@ pub fn highest_cycle(
     let Some((u, d, stride)) = start(parameters) else { return (Err(LOST), Cost::default()) };
     let side = first_side(parameters);
     let curve = CycleCurve::new(parameters, Knob::D, side, 1.0, tolerance, limits);
-    let mut graph = Graph { curve, parameters: *parameters, d };
+    let mut graph = Graph { curve, d };
     let met =
         graph.meeting(u, stride).map(|CurvePoint { p: d, closing, log_multiplier, .. }| {
             let parameters = graph.curve.parameters_at(d);
@@ -54,7 +54,6 @@ fn start(parameters: &Parameters) -> Option<(f64, f64, f64)> {
 /// All cycles as the graph `D(u)`.
 struct Graph<'a> {
     curve: CycleCurve<'a>,
-    parameters: Parameters,
     /// D of the last cycle found, the guess for the next.
     d: f64,
 }
@@ -89,7 +88,7 @@ impl Graph<'_> {
 
     /// A damping below that of the cycle at `u`: well beyond the harmonic one, and beyond critical.
     fn lowest_damping(&self, u: f64) -> f64 {
-        let Parameters { d2, d3, r, .. } = self.parameters;
+        let Parameters { d2, d3, r, .. } = self.curve.parameters_at(self.d);
         let harmonic = harmonic::damping_at(d3, r, exp(u) + r).unwrap_or(-1.0);
         -1.5 + 2.0 * harmonic - r * d2.abs()
     }

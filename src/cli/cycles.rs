@@ -11,13 +11,16 @@ use crate::check::check;
 use crate::closed_form::harmonics::MOST;
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
-use crate::portrait::basin::cycle::cycles;
+use crate::portrait::basin::cycle::{Cycles, cycles};
 use crate::portrait::proved::proved;
 use crate::proof::certificate::{certificate, text};
 use crate::proof::{ParameterBox, Proof, prove};
 use crate::report::proof::{boxed, certificate_table};
 use crate::report::{About, cycles as report};
 use crate::runtime::{bounded, provenance_file};
+
+/// The harmonic balance with ever more harmonics, if asked for.
+type Rungs = Option<Vec<HarmonicBalance>>;
 
 /// Finds every limit cycle, proves that there are no others, and names the border of the basin
 #[derive(Debug, Args)]
@@ -56,7 +59,7 @@ impl CyclesCommand {
         }
         let problem = self.source.start.scene(None)?.problem;
         let (found, seconds) = timed(self.output.repeat, || self.find(&problem.parameters));
-        let CyclesAnswer { found, proof, rungs } = found?;
+        let (found, proof, rungs) = found?;
         self.certify(&proof)?;
         let about = About::oscillator(&problem.parameters);
         self.output.print(report::cycles(&about, &found, &proof, rungs.as_deref(), seconds))
@@ -86,22 +89,15 @@ impl CyclesCommand {
     }
 
     /// The cycles, their proof, and the harmonic balance if asked for.
-    fn find(&self, parameters: &Parameters) -> Result<CyclesAnswer, Failure> {
+    fn find(&self, parameters: &Parameters) -> Result<(Cycles, Proof, Rungs), Failure> {
         let limits = &Limits::PATIENT;
         let gave_up = |reason: Reason| Failure::Unanswered(format!("the search gave up: {reason}"));
         let found = cycles(parameters, limits).map_err(gave_up)?;
         let proof = proved(&found).map_err(|wrong| Failure::Unanswered(wrong.to_string()))?;
         let compare = |most| convergence(parameters, &found.cycles, most, limits);
         let rungs = self.harmonics.map(compare).transpose().map_err(gave_up)?;
-        Ok(CyclesAnswer { found, proof, rungs })
+        Ok((found, proof, rungs))
     }
-}
-
-/// The answer of the command.
-struct CyclesAnswer {
-    found: crate::portrait::basin::cycle::Cycles,
-    proof: Proof,
-    rungs: Option<Vec<HarmonicBalance>>,
 }
 
 /// Verifies, step by step, a certificate written by `cycles --certificate`

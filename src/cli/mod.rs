@@ -39,7 +39,7 @@ pub(super) use crate::runtime::failure::Failure;
 pub(super) use input::{given, number, read};
 pub(super) use machine::{CommandCase, second, troubled};
 pub(super) use output::{Certify, Output, in_turn, print, timed, write};
-pub(super) use source::{Portrayed, SourceOptions, StartOptions};
+pub(super) use source::{SourceOptions, StartOptions};
 
 use crate::words::usage;
 

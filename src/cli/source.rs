@@ -26,13 +26,6 @@ pub struct SourceOptions {
     machine: Option<String>,
 }
 
-/// All motions of what a command is about, and the median time to find them.
-pub struct Portrayed {
-    pub about: About,
-    pub portrait: Portrait,
-    pub seconds: f64,
-}
-
 impl SourceOptions {
     /// The numbers by which the other options are read.
     pub fn numbers(&self) -> &'static Numbers {
@@ -56,13 +49,13 @@ impl SourceOptions {
         Ok(Some(case.checked()?))
     }
 
-    /// All motions of the machine, or of the oscillator of the paper, where a border that is not closed is followed as far
-    /// as a function of r says.
+    /// What is asked about, all of its motions, and the median time to find them; of the oscillator of the paper a border
+    /// that is not closed is followed as far as a function of r says.
     pub fn portrait(
         &self,
         output: &Output,
         reach: impl Fn(f64) -> f64,
-    ) -> Result<Portrayed, Failure> {
+    ) -> Result<(About, Portrait, f64), Failure> {
         let (about, (portrait, seconds)) = if let Some(case) = self.portrayed()? {
             (case.about(), case.portrait(output)?)
         } else {
@@ -71,7 +64,7 @@ impl SourceOptions {
             let ask = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
             (About::oscillator(&parameters), output.timed("the basin could not be found", ask)?)
         };
-        Ok(Portrayed { about, portrait, seconds })
+        Ok((about, portrait, seconds))
     }
 
     /// The motion of the scene with this name, or what the options name, with the values set on the command line.

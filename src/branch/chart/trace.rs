@@ -117,16 +117,14 @@ impl Tracer<'_> {
             let (from, to) = self.plane.range(knob);
             to - from
         });
-        let bent = [|line: &ChartLine| line.fold, |line: &ChartLine| line.escape].into_iter().any(
-            |boundary| {
-                let [Some(from), Some(middle), Some(to)] = [before, &middle, after].map(boundary)
-                else {
-                    return false;
-                };
+        let boundary = |line: &ChartLine| line.fold.or(line.escape);
+        let bent = match [before, &middle, after].map(boundary) {
+            [Some(from), Some(middle), Some(to)] => {
                 let slope = (to - from) / width / ((after.at - before.at) / height);
                 (middle - f64::midpoint(from, to)).abs() / width > chord * hypot(1.0, slope)
-            },
-        );
+            }
+            _ => false,
+        };
         if bent || !before.alike(after) {
             self.between(before, &middle, halvings - 1)?;
             self.lines.push(middle.clone());
