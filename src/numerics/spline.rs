@@ -36,13 +36,16 @@ type Quintic = [f64; 6];
 
 /// A smooth curve near given points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "ScatteredPoints", into = "ScatteredPoints")]
+#[serde(try_from = "ScatteredPoints")]
 pub struct SmoothingSpline {
-    /// The data of the curve, for serialization.
+    /// The data of the curve: all that is written of it.
+    #[serde(flatten)]
     given: ScatteredPoints,
     /// The curve on each interval, in powers of the distance from its left end.
+    #[serde(skip)]
     pieces: Vec<Quintic>,
     /// Root mean square distance from the points.
+    #[serde(skip)]
     missed: f64,
 }
 
@@ -51,12 +54,6 @@ impl TryFrom<ScatteredPoints> for SmoothingSpline {
 
     fn try_from(given: ScatteredPoints) -> Result<Self, String> {
         SmoothingSpline::new(&given.points, given.scatter)
-    }
-}
-
-impl From<SmoothingSpline> for ScatteredPoints {
-    fn from(spline: SmoothingSpline) -> Self {
-        spline.given
     }
 }
 

@@ -13,7 +13,7 @@ use super::field::FieldBox;
 use super::funnel::Funnel;
 use super::map::{Bound, MapDirection, ProvedMap};
 use super::swing::swing_below;
-use crate::numerics::{Interval, pow};
+use crate::numerics::{Interval, pow, times_power};
 
 /// Relative width below which a gap is not halved any more.
 const NARROWEST: f64 = 1e-13;
@@ -224,15 +224,12 @@ fn inner_end(map: &mut ProvedMap) -> SearchEnd {
             return Err(Count::default());
         }
     }
-    let mut clearance = gap.lower();
-    for _ in 0..HALVINGS {
-        if map.image(MapDirection::Forward, Interval::point(clearance)).upper() == f64::NEG_INFINITY
-        {
-            return Ok((clearance, Sign::Below));
-        }
-        clearance *= 0.5;
-    }
-    Err(Count::beyond(0.0))
+    let mut trials = (0..HALVINGS).map(|halvings| times_power(gap.lower(), -halvings));
+    let rests = trials.find(|&at| {
+        let image = map.image(MapDirection::Forward, Interval::point(at));
+        image.upper() == f64::NEG_INFINITY
+    });
+    rests.map(|at| (at, Sign::Below)).ok_or_else(|| Count::beyond(0.0))
 }
 
 /// Lower bound of the ends of swings that start next to the centre, for `a <= -2`. The centre is then a
@@ -261,8 +258,10 @@ fn least_end(field: &FieldBox, funnel: Option<&Funnel>) -> f64 {
 
 /// The outer end of the search; `inner` is the clearance at the inner one.
 fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
+    /// How often a clearance is quadrupled in search of an escape.
+    const QUADRUPLINGS: i32 = 200;
     let [first, second] = [0, 1].map(|index| {
-        let greatest = map.greatest(index, MapDirection::Forward);
+        let greatest = map.greatest(index, MapDirection::Forward, f64::INFINITY);
         if greatest < f64::INFINITY {
             (Interval::point(greatest) - map.gap).upper()
         } else {
@@ -288,29 +287,20 @@ fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
         return sign.map(|sign| (bound, sign)).ok_or_else(|| Count::beyond(inner));
     }
     // The same for the inverse, all of whose images are below its greatest one.
-    let back = map.greatest(1, MapDirection::Backward);
-    let whole = map.greatest(0, MapDirection::Backward);
+    let back = map.greatest(1, MapDirection::Backward, f64::INFINITY);
+    let whole = map.greatest(0, MapDirection::Backward, f64::INFINITY);
     let through = map.half(0, MapDirection::Backward, Interval::point(back)).upper();
     let bound = through.min(whole);
     if bound < f64::INFINITY && bound > inner {
         return Ok((bound, Sign::Above));
     }
-    escape(map, inner)
-}
-
-/// A clearance from which no motion turns twice.
-fn escape(map: &mut ProvedMap, inner: f64) -> SearchEnd {
-    let mut clearance = inner.max(map.gap.upper());
-    for _ in 0..200 {
-        clearance *= 4.0;
-        if !clearance.is_finite() {
-            break;
-        }
-        if map.image(MapDirection::Forward, Interval::point(clearance)).lower() == f64::INFINITY {
-            return Ok((clearance, Sign::Above));
-        }
-    }
-    Err(Count::beyond(inner))
+    // Or a clearance from which no motion turns twice.
+    let size = inner.max(map.gap.upper());
+    let trials = (1..=QUADRUPLINGS).map(|times| times_power(size, 2 * times));
+    let escapes = trials
+        .take_while(|at| at.is_finite())
+        .find(|&at| map.image(MapDirection::Forward, Interval::point(at)).lower() == f64::INFINITY);
+    escapes.map(|at| (at, Sign::Above)).ok_or_else(|| Count::beyond(inner))
 }
 
 /// The side of the diagonal on which the map certainly lies at a clearance.

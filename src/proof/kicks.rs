@@ -143,9 +143,9 @@ fn is_bounded(map: &mut ProvedMap, proof: &Proof) -> bool {
     let ParameterBox { d2, d3, .. } = proof.parameters;
     // Every motion loses energy, the first integral of lemma 13 for D2 = 0.
     let energy = proof.theorem == Some(Theorem::OneWay) && d2 == Interval::point(0.0);
-    let barred = [0, 1]
-        .iter()
-        .all(|&half| d3.lower() > 0.0 && map.greatest(half, MapDirection::Forward) < f64::INFINITY);
+    let barred = [0, 1].iter().all(|&half| {
+        d3.lower() > 0.0 && map.greatest(half, MapDirection::Forward, f64::INFINITY) < f64::INFINITY
+    });
     energy || barred
 }
 

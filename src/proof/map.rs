@@ -131,13 +131,8 @@ impl ProvedMap {
         funnel
     }
 
-    /// Upper bound of the ends of all swings of a half, however far out they start.
-    pub fn greatest(&mut self, index: usize, direction: MapDirection) -> f64 {
-        self.greatest_from(index, direction, f64::INFINITY)
-    }
-
-    /// Upper bound of the ends of swings that start up to this far out.
-    fn greatest_from(&mut self, index: usize, direction: MapDirection, from: f64) -> f64 {
+    /// Upper bound of the ends of the swings of a half that start up to this far out.
+    pub fn greatest(&mut self, index: usize, direction: MapDirection, from: f64) -> f64 {
         let funnel = self.funnel(index, direction);
         funnel.filter(|it| from <= it.reach).map_or(f64::INFINITY, |it| it.greatest())
     }
@@ -177,7 +172,7 @@ impl ProvedMap {
                 return swing.end.upper();
             }
         }
-        self.greatest_from(index, direction, start)
+        self.greatest(index, direction, start)
     }
 
     /// One half of the map: from the clearances before a swing to those after it.

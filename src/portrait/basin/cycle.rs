@@ -156,6 +156,7 @@ impl Closing {
             Side::Lower => ([turning[1], turning[0]], [fastest[1], fastest[0]]),
         };
         let unshared = turning.map(|(clearance, error)| error * (1.0 - share(clearance, 2.0 * r)));
+        let terms: f64 = self.log_terms(parameters).iter().map(|term| term.abs()).sum();
         let dampings = 2.0 * d.abs() * duration + 3.0 * (d3.abs() * square);
         Cycle {
             stable: log_multiplier < 0.0,
@@ -176,10 +177,7 @@ impl Closing {
             v_min: down.1,
             v_max: up.1,
             period: duration,
-            log_multiplier: unshared[0]
-                + unshared[1]
-                + dampings
-                + f64::EPSILON * self.log_terms(parameters),
+            log_multiplier: unshared[0] + unshared[1] + dampings + f64::EPSILON * terms,
             log_clearance: right.1,
         })
     }

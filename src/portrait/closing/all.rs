@@ -59,7 +59,7 @@ pub fn closings(
     /// A search takes some tens of thousands of evaluations; where it takes this many on one half map,
     /// the flow is too stiff for it.
     const BUDGET: u64 = 40_000_000;
-    equation.limits.evaluations = equation.limits.evaluations.min(BUDGET);
+    equation.limits = equation.limits.up_to(BUDGET);
     let Parameters { d, .. } = equation.parameters;
     // No swing of an overdamped linear motion comes back.
     let never_back = equation.parameters.is_piecewise_linear() && d <= -1.0;

@@ -280,9 +280,9 @@ impl<'a> Equation<'a> {
     fn reach(&mut self, start: Length) -> Result<HalfSwing, Reason> {
         /// Evaluations that this is worth.
         const LITTLE: u64 = 1_000;
-        let (map, limits) = (&mut self.maps[0][0], self.limits);
-        let evaluations = limits.evaluations.min(map.cost().evaluations + map.swings + LITTLE);
-        match map.swing(start, &Limits { evaluations, interrupted: limits.interrupted }) {
+        let map = &mut self.maps[0][0];
+        let limits = self.limits.up_to(map.cost().evaluations + map.swings + LITTLE);
+        match map.swing(start, &limits) {
             Ok(swing) if swing.arrives() => Ok(swing),
             Err(Reason::Interrupted) => Err(Reason::Interrupted),
             _ => Ok(HalfSwing::between(start, Length { log: f64::MAX, ..Length::INFINITE })),

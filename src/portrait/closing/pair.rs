@@ -101,23 +101,19 @@ impl Closing {
     }
 
     /// Logarithm of the Floquet multiplier if this closing is a cycle.
+    pub fn log_multiplier(&self, parameters: &Parameters) -> f64 {
+        self.log_terms(parameters).iter().sum()
+    }
+
+    /// The terms of which it is the sum.
     ///
     /// `mu = c0/(c0 + 2 r) c1/(c1 + 2 r) exp(-integral of (2 D + 3 D3 v^2))`: the divergence with the
     /// turning points built in. The D2 part of the integral vanishes on a closed curve.
-    pub fn log_multiplier(&self, parameters: &Parameters) -> f64 {
-        let gap = 2.0 * parameters.r;
-        let past_friction: f64 =
-            [self.first, self.second].iter().map(|&clearance| log_share(clearance, gap)).sum();
-        // Three times a damping can be too large a number; times the square, which is then small, it is not.
-        let cubic = 3.0 * (parameters.d3 * self.square);
-        past_friction - 2.0 * parameters.d * self.duration - cubic
-    }
-
-    /// Sum of the magnitudes of the terms of [`Closing::log_multiplier`].
-    pub fn log_terms(&self, parameters: &Parameters) -> f64 {
+    pub fn log_terms(&self, parameters: &Parameters) -> [f64; 4] {
         let Parameters { d, d3, r, .. } = *parameters;
-        let shares = [self.first, self.second].map(|it| log_share(it, 2.0 * r).abs());
-        shares[0] + shares[1] + 2.0 * d.abs() * self.duration + 3.0 * (d3.abs() * self.square)
+        let [first, second] = [self.first, self.second].map(|it| log_share(it, 2.0 * r));
+        // Three times a damping can be too large a number; times the square, which is then small, it is not.
+        [first, second, -2.0 * d * self.duration, -3.0 * (d3 * self.square)]
     }
 }
 

@@ -205,16 +205,14 @@ fn beyond_the_end(nodes: &[Node]) -> Route {
 /// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
 /// use forward: backward it contracts.
 fn closest(equation: &mut Equation, u: f64) -> Result<Closing, Reason> {
-    let mut best: Option<Closing> = None;
-    for route in [Route::Mixed, Route::Backward, Route::Forward] {
+    let worst =
+        |it: &Closing| if it.node.value().is_finite() { it.uncertainty } else { f64::INFINITY };
+    let mut best = equation.at(Route::Mixed, u)?;
+    for route in [Route::Backward, Route::Forward] {
         let closing = equation.at(route, u)?;
-        let worst =
-            |it: &Closing| if it.node.value().is_finite() { it.uncertainty } else { f64::INFINITY };
-        if best.as_ref().is_none_or(|best| worst(&closing) < worst(best)) {
-            best = Some(closing);
-        }
+        best = if worst(&closing) < worst(&best) { closing } else { best };
     }
-    best.ok_or(Reason::NoConvergence { sought: "a limit cycle", change: f64::INFINITY })
+    Ok(best)
 }
 
 /// The same closing in twice the working precision; `None` where that is not possible either.

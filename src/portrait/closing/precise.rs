@@ -36,28 +36,31 @@ impl Equation<'_> {
         use Direction::{Backward, Forward};
         let gap = Twofold::of(2.0 * self.parameters.r);
         let positive = |length: Twofold| Some(length).filter(|it| it.high > 0.0).ok_or(None);
-        let (second, times, difference, unit) = match route {
+        let mut duration = Twofold::default();
+        let mut swing = |index, direction, start| -> Result<Twofold, Option<Reason>> {
+            let (end, time) = self.precise_swing(index, direction, start)?;
+            duration = duration + time;
+            Ok(end)
+        };
+        let (second, difference, unit) = match route {
             Route::Forward => {
-                let (end, time) = self.precise_swing(0, Forward, start)?;
-                let second = positive(end - gap)?;
-                let (end, other) = self.precise_swing(1, Forward, second)?;
-                let end = positive(end - gap)?;
-                (second, [time, other], end - start, start)
+                let second = positive(swing(0, Forward, start)? - gap)?;
+                let end = positive(swing(1, Forward, second)? - gap)?;
+                (second, end - start, start)
             }
             Route::Mixed => {
-                let (second, time) = self.precise_swing(1, Backward, start + gap)?;
-                let (end, other) = self.precise_swing(0, Forward, start)?;
+                let second = swing(1, Backward, start + gap)?;
                 let target = second + gap;
-                (second, [time, other], end - target, target)
+                (second, swing(0, Forward, start)? - target, target)
             }
             Route::Backward => {
-                let (second, time) = self.precise_swing(1, Backward, start + gap)?;
-                let (end, other) = self.precise_swing(0, Backward, second + gap)?;
-                (second, [time, other], start - end, end)
+                let second = swing(1, Backward, start + gap)?;
+                let end = swing(0, Backward, second + gap)?;
+                (second, start - end, end)
             }
         };
         let residual = ln_1p(difference.over(unit).value());
-        let (second, duration) = (second.value(), (times[0] + times[1]).value());
+        let (second, duration) = (second.value(), duration.value());
         let sound = residual.is_finite() && second > 0.0;
         sound.then_some(PreciseClosing { residual, second, duration }).ok_or(None)
     }
