@@ -45,6 +45,14 @@ impl Bracket {
     pub fn narrow(&mut self, place: f64, value: f64) {
         *(if (value > 0.0) == self.rising { &mut self.high } else { &mut self.low }) = place;
     }
+
+    /// The same, with the place inside to which Newton's method goes from there; `None` from a zero, and where no double
+    /// lies between the ends.
+    pub fn step(&mut self, place: f64, value: f64, slope: f64) -> Option<f64> {
+        self.narrow(place, value);
+        let next = self.inside(place - value / slope);
+        (value != 0.0 && next > self.low && next < self.high).then_some(next)
+    }
 }
 
 /// The change of the place at which a search ends.
@@ -105,16 +113,12 @@ pub fn try_newton<E>(
     let mut at = start;
     for _ in 0..EVALUATIONS {
         let (value, slope) = function(at)?;
-        bracket.narrow(at, value);
+        let next = bracket.step(at, value, slope);
         let newton = at - value / slope;
         if (newton - at).abs() <= settled.at(at) {
             return Ok(Root { at: newton.clamp(bracket.low, bracket.high), bracket });
         }
-        let next = bracket.inside(newton);
-        // No double lies between the ends.
-        if value == 0.0 || next <= bracket.low || next >= bracket.high {
-            break;
-        }
+        let Some(next) = next else { break };
         at = next;
     }
     Ok(Root { at, bracket })

@@ -86,14 +86,15 @@ impl ProvedMap {
 
     /// Runs one field from rest.
     pub fn run(&mut self, field: &FieldBox, start: Interval) -> Passage {
-        self.run_below(field, start, f64::INFINITY)
+        self.run_below(field, start, None)
     }
 
-    /// As [`Self::run`], but stops as soon as every motion is faster than the ceiling.
-    fn run_below(&mut self, field: &FieldBox, start: Interval, ceiling: f64) -> Passage {
+    /// As [`Self::run`], but stops as soon as every motion is faster than the ceiling of a funnel.
+    fn run_below(&mut self, field: &FieldBox, start: Interval, funnel: Option<&Funnel>) -> Passage {
         if self.steps > MOST_WORK {
             return Passage::Unknown;
         }
+        let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
         let passage = swing_below(field, &StartBox::at_rest(start), ceiling, false);
         self.swings += 1;
         self.steps += match passage {
@@ -143,7 +144,6 @@ impl ProvedMap {
         /// Times that a start is quartered in search of one that is not stiff.
         const SHORTENINGS: i32 = 6;
         let funnel = self.funnel(index, direction);
-        let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
         let field = self.field(index, direction).strongest();
         if let Some(far) = funnel
             && far.climb_from(&field, Interval::point(start)).is_some()
@@ -152,7 +152,7 @@ impl ProvedMap {
         }
         let mut from = start;
         for _ in 0..SHORTENINGS {
-            match self.run_below(&field, Interval::point(from), ceiling) {
+            match self.run_below(&field, Interval::point(from), funnel.as_ref()) {
                 Passage::Unknown => from *= 0.25,
                 known => return Funnel::least_after(funnel.as_ref(), &field, &known),
             }
@@ -166,8 +166,7 @@ impl ProvedMap {
         let field = self.field(index, direction).weakest();
         let far = funnel.and_then(|it| it.climb_from(&field, Interval::point(start)));
         if start < f64::INFINITY && far.is_none() {
-            let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
-            let passage = self.run_below(&field, Interval::point(start), ceiling);
+            let passage = self.run_below(&field, Interval::point(start), funnel.as_ref());
             if let Passage::Arrives(swing) = passage {
                 return swing.end.upper();
             }
@@ -287,15 +286,15 @@ impl ProvedMap {
         let funnel = self.funnel(index, direction);
         let stiff = |climb| funnel.and_then(|it| it.contraction(&field, start, climb));
         let far = funnel.and_then(|it| it.climb_from(&field, start)).and_then(stiff);
-        if far.is_some_and(|(_, slope)| slope.upper() < SUPERSTABLE) {
+        let settled = |it: &(Interval, Interval)| it.1.upper() < SUPERSTABLE;
+        if far.as_ref().is_some_and(settled) {
             return far;
         }
-        let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
-        let whole = match self.run_below(&field, start, ceiling) {
+        let whole = match self.run_below(&field, start, funnel.as_ref()) {
             Passage::Arrives(swing) => swing,
             Passage::Exceeds(swing) => {
                 let near = funnel.and_then(|it| it.climb_of(&field, &swing)).and_then(stiff);
-                if near.is_some_and(|(_, slope)| slope.upper() < SUPERSTABLE) {
+                if near.as_ref().is_some_and(settled) {
                     return near;
                 }
                 match self.run(&field, start) {

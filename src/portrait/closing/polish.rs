@@ -8,10 +8,10 @@ use super::balance::{Weighed, weighed_closing};
 use super::equation::{Equation, Route};
 use super::half_map::Length;
 use super::pair::Closing;
-use super::precise::{FINER, PreciseClosing};
+use super::precise::FINER;
 use super::search::{Bracket, Node, places};
 use crate::flow::Reason;
-use crate::numerics::{PlaceTolerance, Twofold, exp_m1, try_newton};
+use crate::numerics::{Twofold, exp_m1};
 
 /// Slope of the residual below which it is weighed as energy.
 const FLAT: f64 = 0.3;
@@ -82,83 +82,64 @@ fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<Clo
     /// How far off coarse steps may put a cliff of the residual, such as the edge of an escape, and its slope.
     const SLACK: f64 = 1e-6;
     const STEEP: f64 = 1e3;
-    /// No change ends the method by itself: what ends it depends on noise.
-    const NEVER: f64 = -1.0;
+    /// The method takes about five evaluations, and halving to rounding about sixty.
+    const EVALUATIONS: usize = 200;
     let mut ends = places(&bracket);
     if (bracket.1.value() - bracket.0.value()).abs() > STEEP * (ends.high - ends.low) {
         (ends.low, ends.high) = (ends.low - SLACK, ends.high + SLACK);
     }
-    let mut steps = Steps {
-        equation,
-        route: beyond_the_end(&[bracket.0, bracket.1]),
-        weigh: start.1,
-        change: f64::INFINITY,
-        stalls: 0,
-        settled: None,
-    };
-    let found = try_newton(ends, start.0, PlaceTolerance::Absolute(NEVER), |u| steps.at(u));
-    let Steps { settled, change, .. } = steps;
-    let lost = Reason::NoConvergence { sought: "a limit cycle", change };
-    match found {
-        Err(Some(reason)) => Err(reason),
-        Err(None) => settled.ok_or(lost),
-        Ok(root) => {
-            let width = root.bracket.high - root.bracket.low;
-            let narrow = width <= 2.0 * f64::EPSILON * root.at.abs();
-            if narrow { closest(equation, root.at) } else { Err(lost) }
-        }
-    }
-}
-
-/// The evaluations of Newton's method, and what they tell about where it ends.
-struct Steps<'a, 'l> {
-    equation: &'a mut Equation<'l>,
-    route: Route,
-    /// Whether the residual is to be weighed as energy next time.
-    weigh: bool,
-    /// Newton's last change of the unknown.
-    change: f64,
-    stalls: u8,
-    /// The closing at which the method ends.
-    settled: Option<Closing>,
-}
-
-impl Steps<'_, '_> {
-    /// The residual and its slope at `u`; an error without a reason once the closing there is settled.
-    fn at(&mut self, u: f64) -> Result<(f64, f64), Option<Reason>> {
-        let (mut closing, mut energy) = self.closing(u).map_err(Some)?;
-        let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;
-        self.weigh = flat && closing.duration.is_finite();
-        if self.weigh && energy.is_none() {
-            let weighed = weighed_closing(self.equation, u).map_err(Some)?;
-            energy = weighed.map(|(_, energy)| energy);
-        }
-        // The closing keeps the plain residual.
-        let mut node = closing.node;
-        if self.weigh
-            && let Some((weighed, noise)) = energy
-        {
-            node.difference = weighed;
-            closing.uncertainty = (weighed.abs() + noise) / node.slope.abs();
-        }
-        let (value, slope) = (node.value(), node.slope);
-        let newton = u - value / slope;
-        let last = std::mem::replace(&mut self.change, (newton - u).abs());
-        let change = self.change;
+    let route = beyond_the_end(&[bracket.0, bracket.1]);
+    let mut steps = Steps { equation, route, weigh: start.1 };
+    let (mut u, mut change, mut stalls) = (start.0, f64::INFINITY, 0);
+    for _ in 0..EVALUATIONS {
+        let (closing, value, flat) = steps.at(u)?;
+        let slope = closing.node.slope;
+        let last = std::mem::replace(&mut change, (u - value / slope - u).abs());
         // Rounding moves the root by an ulp, divided by the slope where the residual is a plain
         // difference. A weighed one does better: it continues while it does.
         let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
         let blurred = change.is_finite() && change <= rounding / slope.abs().min(1.0);
         // Where rounding of the swings is larger than that, Newton's method stops making progress.
         let idle = change >= 0.5 * last;
-        self.stalls += u8::from(idle && change <= closing.noise / slope.abs());
-        let stalled = (idle && change <= 16.0 * rounding) || self.stalls >= STALLS;
+        stalls += u8::from(idle && change <= closing.noise / slope.abs());
+        let stalled = (idle && change <= 16.0 * rounding) || stalls >= STALLS;
         let settled = change <= rounding || stalled || (blurred && (!flat || idle));
         if settled && value.is_finite() {
-            self.settled = Some(closing);
-            return Err(None);
+            return Ok(closing);
         }
-        Ok((value, slope))
+        let Some(next) = ends.step(u, value, slope) else { break };
+        u = next;
+    }
+    if ends.high - ends.low > 2.0 * f64::EPSILON * u.abs() {
+        return Err(Reason::NoConvergence { sought: "a limit cycle", change });
+    }
+    closest(equation, u)
+}
+
+/// How Newton's method computes closings.
+struct Steps<'a, 'l> {
+    equation: &'a mut Equation<'l>,
+    route: Route,
+    /// Whether the residual is to be weighed as energy next time.
+    weigh: bool,
+}
+
+impl Steps<'_, '_> {
+    /// The closing at `u`, its residual as well as it is known, and whether that is flat there.
+    fn at(&mut self, u: f64) -> Result<(Closing, f64, bool), Reason> {
+        let (mut closing, mut energy) = self.closing(u)?;
+        let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;
+        self.weigh = flat && closing.duration.is_finite();
+        if self.weigh && energy.is_none() {
+            energy = weighed_closing(self.equation, u)?.map(|(_, energy)| energy);
+        }
+        // The closing keeps the plain residual.
+        let Some((weighed, noise)) = energy.filter(|_| self.weigh) else {
+            let value = closing.node.value();
+            return Ok((closing, value, flat));
+        };
+        closing.uncertainty = (weighed.abs() + noise) / closing.node.slope.abs();
+        Ok((closing, weighed, flat))
     }
 
     /// The closing at `u` along the route that contracts, and what it is weighed as.
@@ -235,30 +216,30 @@ fn sharpen(
     let mut ends = places(&bracket);
     ends.low = (ends.low - rough.node.at).min(-slack);
     ends.high = (ends.high - rough.node.at).max(slack);
-    let mut seen: Vec<(f64, Twofold, PreciseClosing)> = Vec::new();
-    let found = try_newton(ends, 0.0, PlaceTolerance::Absolute(SETTLED), |s| {
-        if seen.len() == STEPS {
-            return Err(None);
+    let (mut s, mut last) = (0.0, None);
+    for _ in 0..STEPS {
+        let first = start + start.times(exp_m1(s));
+        let found = match equation.precisely_at(route, first) {
+            Err(Some(Reason::Interrupted)) => return Err(Reason::Interrupted),
+            Err(_) => break,
+            Ok(found) => found,
+        };
+        if let Some((before, residual)) = last.replace((s, found.residual)) {
+            slope = (found.residual - residual) / (s - before);
         }
-        let here = start + start.times(exp_m1(s));
-        let closing = equation.precisely_at(route, here)?;
-        if let Some((before, _, last)) = seen.last() {
-            slope = (closing.residual - last.residual) / (s - before);
+        let change = found.residual / slope;
+        let settled = (s - change - s).abs() <= SETTLED;
+        if let Some(next) = ends.step(s, found.residual, slope).filter(|_| !settled) {
+            s = next;
+            continue;
         }
-        seen.push((s, here, closing));
-        Ok((closing.residual, slope))
-    });
-    let interrupted = matches!(found, Err(Some(Reason::Interrupted)));
-    if interrupted {
-        return Err(Reason::Interrupted);
+        let closing = equation.from(route, Length::new(first.value()))?;
+        let uncertainty = change.abs() + FINER * closing.noise / slope.abs();
+        let passed = FINER * closing.errors[1][0].length;
+        let numbers = (first.value(), found.second, found.duration);
+        return Ok(Some(closing.sharpened(numbers, [uncertainty, passed])));
     }
-    let Some((_, first, found)) = seen.pop().filter(|_| found.is_ok()) else { return Ok(None) };
-    let change = (found.residual / slope).abs();
-    let closing = equation.from(route, Length::new(first.value()))?;
-    let uncertainty = change + FINER * closing.noise / slope.abs();
-    let passed = FINER * closing.errors[1][0].length;
-    let numbers = (first.value(), found.second, found.duration);
-    Ok(Some(closing.sharpened(numbers, [uncertainty, passed])))
+    Ok(None)
 }
 
 /// A place near the root in a bracket, by Newton's method with integration steps that are coarser than those of the
