@@ -259,13 +259,13 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
     };
     let columns: Vec<_> =
         COLUMNS[usize::from(units.is_some())].iter().take_while(fits).copied().collect();
-    let aligned = |cells: [String; 5]| -> String {
-        let cells = cells.iter().zip(&columns);
-        cells.map(|(cell, (_, width))| format!("{cell:>width$}")).collect()
+    let aligned = |cells: [String; 5]| {
+        let cells = cells.into_iter().zip(&columns);
+        cells.map(|(cell, (_, width))| format!("{cell:>width$}")).collect::<Vec<_>>().concat()
     };
     let title = " cycles";
     let headings = columns.iter().map(|(name, width)| format!("{name:>width$}"));
-    let headings = headings.collect::<String>().split_off(title.len() - SYMBOL);
+    let headings = headings.collect::<Vec<_>>().concat().split_off(title.len() - SYMBOL);
     let mut lines: Vec<Vec<Span>> =
         vec![vec![look.span(title, Role::Title), look.span(headings, Role::Quiet)]];
     lines.extend(found.cycles.iter().map(|cycle| {
