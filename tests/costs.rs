@@ -236,7 +236,7 @@ fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
         session.problem = session.problem.at(&DRAFT);
         for (symbol, value) in numbers {
             let problem = &mut session.problem;
-            symbol.set(&mut problem.parameters, &mut problem.initial, *value);
+            problem.set(*symbol, *value);
         }
         let plots = 0..session.plots.len();
         let asked = plots.flat_map(|plot| kinds().map(move |topic| (topic, plot)));

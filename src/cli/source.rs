@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::input::{self, MACHINE, Numbers, OSCILLATOR};
 use super::{CommandCase, Failure, Output, read, second};
-use crate::flow::{Limits, METHODS, Method, Problem};
+use crate::flow::{Limits, METHODS, Method};
 use crate::model::unit::WithTolerance;
 use crate::model::{Knob, ParameterBox};
 use crate::portrait::Portrait;
@@ -150,9 +150,8 @@ impl StartOptions {
             return Ok(scene);
         }
         let changed = Arc::make_mut(&mut scene);
-        let Problem { parameters, initial, .. } = &mut changed.problem;
         for (symbol, value) in self.assigned(&OSCILLATOR)? {
-            symbol.set(parameters, initial, value.middle.value);
+            changed.problem.set(symbol, value.middle.value);
             if symbol.is_parameter() {
                 changed.terms.insert(symbol);
             }

@@ -35,29 +35,29 @@ impl Problem {
         Problem { parameters, initial, until, method: Method::Auto, tolerance, step, epsilon }
     }
 
-    /// A number of the motion, or of how it is computed, that is not one of the oscillator.
+    /// A number of the motion, or of how it is computed; `None` if it is one of a machine.
     fn own(&mut self, knob: Knob) -> Option<&mut f64> {
-        match knob {
-            Knob::Until => Some(&mut self.until),
-            Knob::Tolerance => Some(&mut self.tolerance),
-            Knob::Step => Some(&mut self.step),
-            Knob::Epsilon => Some(&mut self.epsilon),
-            _ => None,
-        }
+        Some(match knob {
+            Knob::Q0 => &mut self.initial.q,
+            Knob::V0 => &mut self.initial.v,
+            Knob::Until => &mut self.until,
+            Knob::Tolerance => &mut self.tolerance,
+            Knob::Step => &mut self.step,
+            Knob::Epsilon => &mut self.epsilon,
+            _ => return self.parameters.part(knob),
+        })
     }
 
     /// Reads a number of the motion, or of how it is computed; not a number if it is one of a machine.
     #[must_use]
     pub fn get(mut self, knob: Knob) -> f64 {
-        let own = self.own(knob).copied();
-        own.unwrap_or_else(|| knob.get(&self.parameters, &self.initial))
+        self.own(knob).map_or(f64::NAN, |own| *own)
     }
 
     /// Writes a number of the motion, or of how it is computed; one of a machine changes nothing.
     pub fn set(&mut self, knob: Knob, value: f64) {
-        match self.own(knob) {
-            Some(own) => *own = value,
-            None => knob.set(&mut self.parameters, &mut self.initial, value),
+        if let Some(own) = self.own(knob) {
+            *own = value;
         }
     }
 }
@@ -356,7 +356,19 @@ impl Trajectory {
 mod tests {
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits, Problem};
-    use crate::model::{Parameters, State};
+    use crate::model::{Knob, Parameters, State};
+
+    #[test]
+    fn what_is_set_is_read_back() {
+        let mut problem = Problem::default();
+        let all = Knob::MOTION.into_iter().chain([Knob::Until, Knob::Tolerance, Knob::Step]);
+        for (knob, value) in all.clone().zip([0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5]) {
+            problem.set(knob, value);
+            assert_eq!(problem.get(knob), value);
+        }
+        assert!(all.zip(0..).all(|(knob, place)| problem.get(knob) == 0.5 + f64::from(place)));
+        assert!(problem.get(Knob::Mass).is_nan());
+    }
 
     #[test]
     fn between_samples_a_motion_is_where_it_is_computed_to_be() {

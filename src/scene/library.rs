@@ -140,12 +140,12 @@ mod tests {
                 }
             }
             assert!(scene.title.chars().count() <= 52, "{name}: the title is one short line");
-            let (parameters, initial) = (scene.problem.parameters, scene.problem.initial);
+            let initial = scene.problem.initial;
             for plot in &scene.plots {
                 let Window { x, y } = plot.opening();
                 match plot.view {
                     View::Diagram => {
-                        assert!(x.contains(plot.axes.abscissa.get(&parameters, &initial)));
+                        assert!(x.contains(scene.problem.get(plot.axes.abscissa)));
                     }
                     View::Belt => assert!(x.contains(initial.q)),
                     View::Phase => {
@@ -158,7 +158,7 @@ mod tests {
                     }
                     View::TimeSeries => assert!(x.contains(0.0)),
                     View::Regimes => {
-                        let value = |symbol: Knob| symbol.get(&parameters, &initial);
+                        let value = |symbol: Knob| scene.problem.get(symbol);
                         let Axes { abscissa, against, .. } = plot.axes;
                         assert!(x.contains(value(abscissa)) && y.contains(value(against)));
                     }

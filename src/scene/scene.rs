@@ -102,7 +102,7 @@ impl Variant {
     /// A motion in which these values replace its own.
     pub fn of(&self, mut problem: Problem) -> Problem {
         for (symbol, value) in &self.held {
-            symbol.set(&mut problem.parameters, &mut problem.initial, *value);
+            problem.set(*symbol, *value);
         }
         problem
     }

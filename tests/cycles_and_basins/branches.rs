@@ -5,7 +5,7 @@ use hopfscope::branch::along::{Points, branch};
 use hopfscope::branch::fold::fold;
 use hopfscope::branch::{Branch, BranchPoint, SpecialKind};
 use hopfscope::flow::Limits;
-use hopfscope::model::{Knob, Parameters, State};
+use hopfscope::model::{Knob, Parameters};
 use hopfscope::numerics::elementary::pow;
 use hopfscope::portrait::basin::cycle::cycles;
 use proptest::prelude::*;
@@ -24,9 +24,7 @@ struct Path {
 }
 
 fn set(parameters: &Parameters, symbol: Knob, value: f64) -> Parameters {
-    let mut there = *parameters;
-    symbol.set(&mut there, &mut State { q: 0.0, v: 0.0 }, value);
-    there
+    parameters.with(symbol, value)
 }
 
 /// Numbers over several powers of ten, 0 and both signs among them.

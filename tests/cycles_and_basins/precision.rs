@@ -7,7 +7,7 @@ use hopfscope::branch::escape::escape_point;
 use hopfscope::branch::fold::{border, fold};
 use hopfscope::branch::{Branch, SpecialKind};
 use hopfscope::flow::Limits;
-use hopfscope::model::{Knob, Parameters, State};
+use hopfscope::model::{Knob, Parameters};
 use hopfscope::portrait::Cycle;
 use hopfscope::portrait::basin::cycle::cycles;
 use rayon::prelude::*;
@@ -159,8 +159,7 @@ fn assert_cycles(base: [f64; 4], found: &Branch) {
     let points: Vec<_> = found.pieces.iter().flatten().collect();
     assert!(!points.is_empty());
     points.par_iter().for_each(|point| {
-        let mut there = set(base);
-        found.parameter.set(&mut there, &mut State { q: 0.0, v: 0.0 }, point.value);
+        let there = set(base).with(found.parameter, point.value);
         let all = cycles(&there, &LIMITS).unwrap().cycles;
         let cycle = all.iter().find(|it| it.stable == point.cycle.stable);
         let cycle = cycle.unwrap_or_else(|| panic!("{base:?}: none like {point:?}"));

@@ -3,7 +3,6 @@
 use super::*;
 use crate::branch::fold::fold;
 use crate::branch::regime::regime;
-use crate::model::State;
 use crate::numerics::elementary::{hypot, powi};
 
 /// Few lines, and none between them.
@@ -31,12 +30,8 @@ fn bands_are_right(parameters: &Parameters, chart: &Chart) {
             if band.to - band.from < 1e-9 {
                 continue;
             }
-            let mut here = *parameters;
-            let mut set = |symbol: Knob, value: f64| {
-                symbol.set(&mut here, &mut State { q: 0.0, v: 0.0 }, value);
-            };
-            set(across, line.at);
-            set(chart.plane.along(), 0.5 * (band.from + band.to));
+            let middle = 0.5 * (band.from + band.to);
+            let here = parameters.with(across, line.at).with(chart.plane.along(), middle);
             let expected = regime(&here, &Limits::PATIENT).unwrap();
             assert_eq!(band.regime, Some(expected), "{here:?}");
             checked += 1;

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::friction::{Belt, Derivatives};
 use crate::model::Reason;
 use crate::model::knob::Knob;
-use crate::model::parameters::{Parameters, State};
+use crate::model::parameters::Parameters;
 use crate::numerics::root::maximum;
 
 /// The units of the dimensionless oscillator: what 1 of each stands for.
@@ -78,7 +78,7 @@ impl Belt {
             r: self.friction / (mass * omega_0 * omega_0 * x0),
         };
         for knob in Knob::PARAMETERS {
-            knob.check(knob.get(&parameters, &State::default())).map_err(Reason::Refused)?;
+            knob.check(parameters.value(knob)).map_err(Reason::Refused)?;
         }
         let velocity = omega_0 * x0;
         Ok(ReducedBelt {

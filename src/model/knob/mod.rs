@@ -60,7 +60,8 @@ impl Parameters {
     /// One of the parameters; not a number if the knob is none of them.
     #[must_use]
     pub fn value(&self, knob: Knob) -> f64 {
-        knob.get(self, &State { q: 0.0, v: 0.0 })
+        let mut own = *self;
+        own.part(knob).map_or(f64::NAN, |part| *part)
     }
 }
 
@@ -185,22 +186,6 @@ impl Knob {
     #[must_use]
     pub fn usual(self) -> f64 {
         self.spec().default.unwrap_or(0.0)
-    }
-
-    /// Reads a number of a motion; not a number if it is one of a machine.
-    #[must_use]
-    pub fn get(self, parameters: &Parameters, initial: &State) -> f64 {
-        let both = (*parameters, *initial);
-        self.spec().motion.and_then(|(get, _)| get(&both)).unwrap_or(f64::NAN)
-    }
-
-    /// Writes a number of a motion; one of a machine changes nothing.
-    pub fn set(self, parameters: &mut Parameters, initial: &mut State, value: f64) {
-        let mut both = (*parameters, *initial);
-        if let Some(place) = self.spec().motion.and_then(|(_, place)| place(&mut both)) {
-            *place = value;
-        }
-        (*parameters, *initial) = both;
     }
 
     /// Reads a number of a mass on a belt; `None` if it has none. Static friction that is not given is that of the law

@@ -7,7 +7,6 @@
 use crate::model::belt::friction::Belt;
 use crate::model::belt::friction::FrictionLaw;
 use crate::model::modal::Modal;
-use crate::model::parameters::{Parameters, State};
 
 /// What a number belongs to. Names are different within a group, and within [`Group::SOURCE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +69,6 @@ pub struct KnobSpec {
     pub step: f64,
     /// First range of a diagram over it: wide enough for what happens at friction and damping of everyday size.
     pub drawn: (f64, f64),
-    pub(crate) motion: Option<Access<(Parameters, State)>>,
     pub(crate) belt: Option<Access<Belt>>,
     pub(crate) mode: Option<Access<Modal>>,
 }
@@ -92,7 +90,6 @@ impl KnobSpec {
             default: None,
             step: 0.05,
             drawn: (-1.0, 1.0),
-            motion: None,
             belt: None,
             mode: None,
         }
@@ -112,10 +109,6 @@ impl KnobSpec {
 
     const fn shown(self, symbol: &'static str) -> Self {
         KnobSpec { symbol, ..self }
-    }
-
-    const fn motion(self, at: Access<(Parameters, State)>) -> Self {
-        KnobSpec { motion: Some(at), ..self }
     }
 
     const fn belt(self, at: Access<Belt>) -> Self {
@@ -236,12 +229,12 @@ const MODE_HELD: Access<Modal> = (
 
 knobs! {
     [Motion]
-    D "D" "linear damping" "" (-1e6, 1e6) .or(-0.1).step(0.01).drawn(-0.9, 0.1).motion(at!(0.d));
-    D2 "D2" "asymmetric damping" "" WIDE .or(0.0).motion(at!(0.d2));
-    D3 "D3" "cubic damping" "" WIDE .or(0.0).motion(at!(0.d3));
-    R "r" "dry friction" "" (0.0, FAR) .or(0.1).step(0.01).drawn(0.0, 0.5).motion(at!(0.r));
-    Q0 "q0" "initial displacement" "" WIDE .or(1.0).motion(at!(1.q));
-    V0 "v0" "initial velocity" "" WIDE .or(0.0).motion(at!(1.v));
+    D "D" "linear damping" "" (-1e6, 1e6) .or(-0.1).step(0.01).drawn(-0.9, 0.1);
+    D2 "D2" "asymmetric damping" "" WIDE .or(0.0);
+    D3 "D3" "cubic damping" "" WIDE .or(0.0);
+    R "r" "dry friction" "" (0.0, FAR) .or(0.1).step(0.01).drawn(0.0, 0.5);
+    Q0 "q0" "initial displacement" "" WIDE .or(1.0);
+    V0 "v0" "initial velocity" "" WIDE .or(0.0);
 
     [Machine]
     Mass "m" "mass" "kg" POSITIVE .belt(at!(mass));

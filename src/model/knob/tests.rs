@@ -41,14 +41,13 @@ fn every_number_is_found_under_its_name_and_takes_its_default() {
 
 #[test]
 fn what_is_set_is_read_back() {
-    let (mut parameters, mut initial) = (Parameters::default(), State::default());
+    let mut parameters = Parameters::default();
     let value = |place: usize| 0.5 + f64::from(u8::try_from(place).unwrap());
-    for (place, knob) in Knob::MOTION.into_iter().enumerate() {
-        knob.set(&mut parameters, &mut initial, value(place));
+    for (place, knob) in Knob::PARAMETERS.into_iter().enumerate() {
+        parameters = parameters.with(knob, value(place));
     }
-    let read = Knob::MOTION.map(|knob| knob.get(&parameters, &initial));
-    assert_eq!(read, std::array::from_fn(value));
-    assert!(Knob::Mass.get(&parameters, &initial).is_nan());
+    assert_eq!(Knob::PARAMETERS.map(|knob| parameters.value(knob)), std::array::from_fn(value));
+    assert!(parameters.value(Knob::Mass).is_nan());
 
     let stribeck = FrictionLaw::Stribeck {
         rest: 0.5,

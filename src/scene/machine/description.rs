@@ -327,7 +327,7 @@ mod tests {
                 (Knob::Q0, machine.displacement),
                 (Knob::V0, machine.velocity),
             ] {
-                let value = symbol.get(&problem.parameters, &problem.initial);
+                let value = problem.get(symbol);
                 let (name, found) = scaled.meaning(symbol, value).unwrap();
                 let size = match symbol {
                     Knob::D => machine.belt.normal_force * scaled.reduced.mu.first,
@@ -378,7 +378,7 @@ mod tests {
             let moved = own.brought_to(&running, Problem { initial, ..own.problem() });
             for (symbol, value) in [(Knob::Q0, 0.7), (Knob::V0, -0.3)] {
                 let before = own.meaning(symbol, value).unwrap().1;
-                let after = symbol.get(&moved.parameters, &moved.initial);
+                let after = moved.get(symbol);
                 let after = running.meaning(symbol, after).unwrap().1;
                 assert!((after / before - 1.0).abs() < 1e-15, "{}", machine.name);
             }

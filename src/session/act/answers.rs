@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::fit::Unfit;
-use crate::flow::{Problem, Reason};
+use crate::flow::Reason;
 use crate::model::Knob;
 use crate::question::{NoAnswer, Rows};
 use crate::scene::{Answered, Finding, Fit, Topic};
@@ -105,14 +105,11 @@ pub(crate) fn follow_fit(session: &mut Session) {
     if session.scene.recording.is_none() {
         return;
     }
-    let Some(Problem { parameters, initial, .. }) =
-        session.followed().map(|fitted| fitted.problem(session.problem))
-    else {
+    let Some(fitted) = session.followed().map(|fitted| fitted.problem(session.problem)) else {
         return;
     };
-    let Problem { parameters: own, initial: start, .. } = &mut session.problem;
     for knob in Knob::MOTION.into_iter().filter(|knob| !session.doubt.holds(*knob)) {
-        knob.set(own, start, knob.get(&parameters, &initial));
+        session.problem.set(knob, fitted.get(knob));
     }
 }
 

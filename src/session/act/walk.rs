@@ -78,7 +78,7 @@ pub fn take(session: &mut Session) -> Done {
     let shown = session.shown(session.plot);
     let Some(shown) = shown.get(held.variant) else { return Ok(()) };
     let mut problem = shown.problem;
-    abscissa.set(&mut problem.parameters, &mut problem.initial, value);
+    problem.set(abscissa, value);
     // A cycle at infinity has no start on it: the present start stays.
     if let Some(cycle) = held.cycle {
         problem.initial = State { q: cycle.q_max, v: 0.0 };

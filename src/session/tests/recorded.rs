@@ -7,7 +7,7 @@ use strum::VariantArray;
 
 use super::Trial;
 use super::strange::any_key;
-use crate::flow::{METHODS, Problem};
+use crate::flow::METHODS;
 use crate::model::Knob;
 use crate::numerics::elementary::powi;
 use crate::scene::machine::library::machines;
@@ -73,8 +73,7 @@ fn with_numbers(scene: &Arc<Scene>, change: impl FnOnce(&mut Scene)) -> Arc<Scen
 
 /// Sets a number like `--set`.
 fn set(scene: &mut Scene, symbol: Knob, value: f64) {
-    let Problem { parameters, initial, .. } = &mut scene.problem;
-    symbol.set(parameters, initial, value);
+    scene.problem.set(symbol, value);
     if !matches!(symbol, Knob::Q0 | Knob::V0) {
         scene.terms.insert(symbol);
     }
