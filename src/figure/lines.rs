@@ -21,38 +21,29 @@ const CHORD: f64 = 1e-4;
 /// The graph of a function over the window. A point that is not a number stands where it has no value.
 pub(super) fn graph(value: &dyn Fn(f64) -> Option<f64>, window: Window) -> Vec<Point> {
     let at = |x: f64| Point { x, y: value(x).filter(|y| y.is_finite()).unwrap_or(f64::NAN) };
+    let within = |point: Point| point.y.clamp(window.y.at(-0.5), window.y.at(1.5));
+    let is_close = |from: Point, middle: Point, to: Point| {
+        let chord = f64::midpoint(within(from), within(to));
+        (within(middle) - chord).abs() <= CHORD * window.y.width()
+    };
     let mut points = vec![at(window.x.from())];
     for interval in 1..=INTERVALS {
-        let from = points[points.len() - 1];
-        let to = at(window.x.at(f64::from(interval) / f64::from(INTERVALS)));
-        halve(&at, from, to, window, HALVINGS, &mut points);
+        let end = at(window.x.at(f64::from(interval) / f64::from(INTERVALS)));
+        // The points to be reached, the next one last, each with the halvings that are left on the way to it.
+        let mut ahead = vec![(end, HALVINGS)];
+        while let Some((to, halvings)) = ahead.pop() {
+            let from = points[points.len() - 1];
+            let halves = halvings > 0 && !(from.y.is_nan() && to.y.is_nan());
+            let middle = halves.then(|| at(f64::midpoint(from.x, to.x)));
+            match middle.filter(|middle| !is_close(from, *middle, to)) {
+                Some(middle) => ahead.extend([(to, halvings - 1), (middle, halvings - 1)]),
+                None => points.push(to),
+            }
+        }
     }
     // Runs without a value keep one point, which interrupts the curve.
     points.dedup_by(|next, last| next.y.is_nan() && last.y.is_nan());
     points
-}
-
-/// Adds the points after `from` up to `to`.
-fn halve(
-    at: &dyn Fn(f64) -> Point,
-    from: Point,
-    to: Point,
-    window: Window,
-    halvings: u32,
-    points: &mut Vec<Point>,
-) {
-    if halvings > 0 && !(from.y.is_nan() && to.y.is_nan()) {
-        let middle = at(f64::midpoint(from.x, to.x));
-        let within = |y: f64| y.clamp(window.y.at(-0.5), window.y.at(1.5));
-        let chord = f64::midpoint(within(from.y), within(to.y));
-        let close = (within(middle.y) - chord).abs() <= CHORD * window.y.width();
-        if !close {
-            halve(at, from, middle, window, halvings - 1, points);
-            halve(at, middle, to, window, halvings - 1, points);
-            return;
-        }
-    }
-    points.push(to);
 }
 
 pub(super) fn lattice(window: Window) -> impl Iterator<Item = Point> {

@@ -5,14 +5,10 @@ use crate::session::settings::Glyphs;
 use crate::session::{Code, Key, Keymap};
 
 pub fn name(key: Key, look: &Look) -> String {
-    let arrow = match key.code {
-        Code::Left => Some('←'),
-        Code::Right => Some('→'),
-        Code::Up => Some('↑'),
-        Code::Down => Some('↓'),
-        _ => None,
-    };
-    if let (Some(arrow), false) = (arrow, look.glyphs == Glyphs::Ascii) {
+    const ARROWS: [(Code, char); 4] =
+        [(Code::Left, '←'), (Code::Right, '→'), (Code::Up, '↑'), (Code::Down, '↓')];
+    let arrow = ARROWS.iter().find(|(code, _)| *code == key.code);
+    if let (Some((_, arrow)), false) = (arrow, look.glyphs == Glyphs::Ascii) {
         let modifier = [(key.control, "C-"), (key.alt, "A-"), (key.shift, "S-")];
         let held: String =
             modifier.into_iter().filter_map(|(on, text)| on.then_some(text)).collect();
