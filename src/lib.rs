@@ -14,6 +14,7 @@
 //!   [`flow::step::Stepper`] takes one step of the smooth field, [`flow::swing`] runs it to the next
 //!   `v = 0`, [`flow::trajectory`] glues. No step ever crosses the discontinuity. [`flow::machine`] follows a mass on
 //!   its belt: friction by its own law, two switching lines, riding on the belt and overtaking it.
+//!   A [`flow::Subject`] is what a question is about, the oscillator of the paper or a machine.
 //! - [`numerics`] is the ground floor: roots in brackets, quadrature, cubics, splines, sums, numbers of twice the
 //!   precision, intervals with outward rounding. [`proof`] encloses half swings in intervals, and proves how many
 //!   limit cycles there are and where; [`check`] verifies what it writes down.

@@ -3,6 +3,8 @@
 //! A line begins with all inputs of its row, so that lines can be checked, sorted, and combined with those of
 //! other scans, whichever file they come from.
 
+use std::ops::Range;
+
 use super::Format;
 use super::columns::lines;
 use crate::scan::grid::{Scan, ScanRow};
@@ -15,7 +17,19 @@ const WIDTH: usize = 14;
 /// Digits of a number in the table.
 const DIGITS: usize = 8;
 
-/// The rows of a scan: as JSON, an object on each line.
+/// The rows of a scan that stand in one file: as JSON, an object on each line.
+#[derive(Clone, Debug)]
+pub struct ScanPart {
+    /// The whole scan.
+    pub scan: Scan,
+    /// The form of its rows.
+    pub form: Format,
+    /// The points of these rows.
+    pub points: Range<usize>,
+    /// Whether they are preceded by a line of column names.
+    pub headed: bool,
+}
+
 impl Format {
     /// The form for a file: JSON if its extension is `json` or `jsonl`, else CSV.
     pub fn of_file(path: &std::path::Path) -> Self {
@@ -23,12 +37,15 @@ impl Format {
         let json = ending.is_some_and(|ending| ending == "json" || ending == "jsonl");
         if json { Format::Json } else { Format::Csv }
     }
+}
 
-    /// The line before the rows; empty if the form has none.
-    pub fn heading(self, scan: &Scan) -> String {
-        let inputs = self.inputs(scan, 0).into_iter().map(|(name, _)| name);
-        let names = inputs.chain(scan.measured().into_iter().map(str::to_owned));
-        match self {
+impl ScanPart {
+    /// The line before the rows; empty if there is none.
+    pub fn heading(&self) -> String {
+        let inputs = self.inputs(0).into_iter().map(|(name, _)| name);
+        let names = inputs.chain(self.scan.measured().into_iter().map(str::to_owned));
+        match self.form {
+            _ if !self.headed => String::new(),
             Format::Csv => names.map(|name| name + ",").collect::<String>() + "reason\n",
             Format::Json => String::new(),
             Format::Table => {
@@ -38,20 +55,20 @@ impl Format {
     }
 
     /// The beginning of the row of point `index`, which does not depend on what is measured there.
-    pub fn beginning(self, scan: &Scan, index: usize) -> String {
-        let inputs = self.inputs(scan, index).into_iter();
+    pub fn beginning(&self, index: usize) -> String {
+        let inputs = self.inputs(index).into_iter();
         let cells = inputs.map(|(name, value)| self.cell(&name, value));
-        let open = if self == Format::Json { "{" } else { "" };
+        let open = if self.form == Format::Json { "{" } else { "" };
         std::iter::once(open.to_owned()).chain(cells).collect()
     }
 
     /// The row of point `index`.
-    pub fn line(self, scan: &Scan, index: usize, row: &ScanRow) -> String {
-        let mut line = self.beginning(scan, index);
-        let values = scan.measured().into_iter().zip(&row.values);
+    pub fn line(&self, index: usize, row: &ScanRow) -> String {
+        let mut line = self.beginning(index);
+        let values = self.scan.measured().into_iter().zip(&row.values);
         line.extend(values.map(|(name, value)| self.cell(name, *value)));
         let reason = row.reason.clone();
-        match self {
+        match self.form {
             // After another cell, as an empty one alone would be quoted.
             Format::Csv => {
                 line + &lines([vec![String::new(), reason.unwrap_or_default()]]).split_off(1)
@@ -67,16 +84,16 @@ impl Format {
     }
 
     /// The inputs at a point, of which the table shows those that vary.
-    fn inputs(self, scan: &Scan, index: usize) -> Vec<(String, Value)> {
-        let varies = |name: &str| scan.over().iter().any(|it| it.symbol.spec().name == name);
-        let mut inputs = scan.inputs(index);
-        inputs.retain(|(name, _)| self != Format::Table || varies(name));
+    fn inputs(&self, index: usize) -> Vec<(String, Value)> {
+        let varies = |name: &str| self.scan.over().iter().any(|it| it.symbol.spec().name == name);
+        let mut inputs = self.scan.inputs(index);
+        inputs.retain(|(name, _)| self.form != Format::Table || varies(name));
         inputs
     }
 
     /// A value with its separator.
-    fn cell(self, name: &str, value: Value) -> String {
-        match (self, value) {
+    fn cell(&self, name: &str, value: Value) -> String {
+        match (self.form, value) {
             (Format::Table, _) => column(&measurement(value, Some(DIGITS))),
             (Format::Csv, _) => measurement(value, None) + ",",
             (Format::Json, Value::Nothing) => format!("\"{name}\":null,"),

@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 
 use super::bounded;
 use super::new_file::beside;
-use super::scan_part::ScanPart;
 use crate::report::Format;
+use crate::report::scan::ScanPart;
 use crate::words::provenance::Checksum;
 
 /// Appended to the name of the file of rows.
@@ -40,7 +40,8 @@ impl Journal {
     pub fn new(path: Option<&Path>, part: &ScanPart) -> Self {
         let path = path.map(|path| beside(path, ENDING));
         // The form, and the columns as comma-separated values.
-        let heading = format!("{:?},{}", part.form, Format::Csv.heading(&part.scan));
+        let columns = ScanPart { form: Format::Csv, headed: true, ..part.clone() };
+        let heading = format!("{:?},{}", part.form, columns.heading());
         let journal = Journal { rows: BTreeMap::new(), path, file: None, heading, bytes: 0 };
         journal.remove();
         journal

@@ -16,10 +16,11 @@ use super::failure::Failure;
 use super::journal::Journal;
 use super::new_file::{self, Readers};
 use super::provenance_file::{self, RunningChecksum};
-use super::scan_part::{FileRow, RowReader, ScanPart};
+use super::scan_part::{FileRow, RowReader};
 use super::standard;
 use crate::flow::Limits;
 use crate::report::Format;
+use crate::report::scan::ScanPart;
 use crate::scan::grid::{Scan, ScanRow};
 use crate::words::provenance::{Checksum, Provenance};
 

@@ -1,5 +1,5 @@
-//! Some of the rows of a scan as lines of text, such lines read back from a file, and the files of several parts merged
-//! row by row: these are read side by side in the order of their points, so that only one row per open part is held.
+//! The rows of a scan read back from a file, and the files of several parts merged row by row: these are read side by
+//! side in the order of their points, so that only one row per open part is held.
 //!
 //! Nothing in a file is trusted: every row is recognized by its beginning, which names everything that it depends on,
 //! and compared with the checksum of the rows up to it where one is known.
@@ -12,39 +12,8 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use crate::flow::{Limits, Reason};
-use crate::report::Format;
-use crate::scan::grid::{Scan, ScanRow};
+use crate::report::scan::ScanPart;
 use crate::words::provenance::Checksum;
-
-/// The rows of a scan that stand in one file.
-#[derive(Clone, Debug)]
-pub struct ScanPart {
-    /// The whole scan.
-    pub scan: Scan,
-    /// The form of its rows.
-    pub form: Format,
-    /// The points of these rows.
-    pub points: Range<usize>,
-    /// Whether they are preceded by a line of column names.
-    pub headed: bool,
-}
-
-impl ScanPart {
-    /// The line before the rows; empty if there is none.
-    pub fn heading(&self) -> String {
-        if self.headed { self.form.heading(&self.scan) } else { String::new() }
-    }
-
-    /// The row of a point.
-    pub fn line(&self, index: usize, row: &ScanRow) -> String {
-        self.form.line(&self.scan, index, row)
-    }
-
-    /// The beginning of the row of a point.
-    pub fn beginning(&self, index: usize) -> String {
-        self.form.beginning(&self.scan, index)
-    }
-}
 
 /// A row as it stands in a file.
 #[derive(Clone, Debug)]
