@@ -15,17 +15,16 @@
 
 use std::sync::LazyLock;
 
-mod algebra;
 mod arrival;
-
-use algebra::{differences, interpolated};
 
 use super::motion::Cost;
 use super::step::{
     Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length,
     powers_of_stages, stopping_time,
 };
-use super::tableau::radau::{Collocation, FIVE, MOST, SEVEN, StageMatrix, Stages, THREE};
+use super::tableau::radau::{
+    Collocation, Differences, FIVE, MOST, SEVEN, StageMatrix, Stages, THREE,
+};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
 
@@ -71,7 +70,7 @@ pub struct Stiff<F: Field = HalfPlane> {
     velocity: Stages,
     acceleration: Stages,
     /// Divided differences of x and v over the start and the nodes.
-    dense: [[f64; MOST + 1]; 2],
+    dense: [Differences; 2],
     cost: Cost,
 }
 
@@ -128,7 +127,7 @@ impl<F: Field> Stiff<F> {
         self.stages(|_, node| {
             if self.duration > 0.0 && h <= FORESEEN * self.duration {
                 let after = 1.0 + node * h / self.duration;
-                interpolated(&self.scheme.nodes, &self.dense[1], after)
+                self.scheme.interpolated(&self.dense[1], after)
             } else {
                 // One linearly implicit Euler step.
                 let t = node * h;
@@ -281,7 +280,7 @@ impl<F: Field> Stiff<F> {
         (self.duration, self.end) = (duration, end);
         let way = self.scheme.integrals * self.velocity;
         let position = way.map(|way| self.start.x + duration * way);
-        let through = |first, values| differences(&self.scheme.nodes, first, values);
+        let through = |first, values| self.scheme.differences(first, values);
         self.dense = [through(self.start.x, &position), through(self.start.v, &self.velocity)];
     }
 
@@ -338,7 +337,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
 
     fn at(&self, time: f64) -> StepPoint {
         let part = time / self.duration;
-        let value = |dense| interpolated(&self.scheme.nodes, dense, part);
+        let value = |dense| self.scheme.interpolated(dense, part);
         StepPoint { x: value(&self.dense[0]), v: value(&self.dense[1]) }
     }
 

@@ -1,9 +1,7 @@
 //! The last step of a half swing: shortened until it ends at `v = 0`.
 
 use super::Stiff;
-use super::algebra::interpolated;
 use crate::flow::step::{Field, Step, StepPoint};
-use crate::flow::tableau::radau::Collocation;
 use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
 
 /// Relative change of the length of the last step below which it counts as settled; this takes about four attempts.
@@ -12,9 +10,8 @@ const SETTLED: f64 = 1e-9;
 impl<F: Field> Stiff<F> {
     /// Shortens the step just kept until it ends at the first `v = 0`; `None` where that fails.
     pub(super) fn arrive(&mut self) -> Option<Step> {
-        let Collocation { nodes, .. } = self.scheme;
-        let (whole, polynomial) = (self.duration, self.dense[1]);
-        let at = |length: f64| interpolated(nodes, &polynomial, length / whole);
+        let (scheme, whole, polynomial) = (self.scheme, self.duration, self.dense[1]);
+        let at = |length: f64| scheme.interpolated(&polynomial, length / whole);
         // The polynomial of the whole step locates the arrival roughly; steps that end there locate it exactly.
         let (low, high) = self.bracket(whole);
         let (low, high) = bisect(low, high, 10, |length| at(length) <= 0.0);

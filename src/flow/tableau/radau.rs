@@ -20,6 +20,9 @@ pub type Stages = SVector<f64, MOST>;
 /// A number for each pair of stages; 0 beyond those of the scheme.
 pub type StageMatrix = SMatrix<f64, MOST, MOST>;
 
+/// Divided differences over the start and the nodes.
+pub type Differences = [f64; MOST + 1];
+
 /// A collocation scheme.
 #[derive(Debug)]
 pub struct Collocation {
@@ -39,8 +42,8 @@ pub struct Collocation {
 }
 
 impl Collocation {
-    /// The scheme with these nodes, each the double next to it and what that leaves out. The difference from the embedded solution vanishes for polynomials of degree below
-    /// S.
+    /// The scheme with these nodes, each the double next to it and what that leaves out. The difference from the embedded
+    /// solution vanishes for polynomials of degree below S.
     fn new(nodes: &[(f64, f64)], start: f64, stiff: f64) -> Self {
         let nodes: Vec<_> = nodes.iter().map(|&(high, low)| Twofold { high, low }).collect();
         let polynomials: Vec<_> = (0..nodes.len()).map(|own| lagrange(&nodes, own)).collect();
@@ -68,6 +71,29 @@ impl Collocation {
         let growth = damping_times / (damping_times + self.stiff);
         let stages = real(self.nodes.len());
         self.nodes[1..].iter().fold(stages, |part, _| part * growth)
+    }
+
+    /// Newton's divided differences over 0 and the nodes.
+    pub fn differences(&self, first: f64, values: &Stages) -> Differences {
+        let place = |index: usize| if index == 0 { 0.0 } else { self.nodes[index - 1] };
+        let mut table = [first; MOST + 1];
+        table[1..].copy_from_slice(values.as_slice());
+        for level in 1..=self.nodes.len() {
+            for index in (level..=self.nodes.len()).rev() {
+                table[index] =
+                    (table[index] - table[index - 1]) / (place(index) - place(index - level));
+            }
+        }
+        table
+    }
+
+    /// The polynomial with these divided differences.
+    pub fn interpolated(&self, differences: &Differences, at: f64) -> f64 {
+        let inner = (1..=self.nodes.len()).rev().fold(0.0, |sum, index| {
+            let before = if index == 1 { 0.0 } else { self.nodes[index - 2] };
+            (sum + differences[index]) * (at - before)
+        });
+        differences[0] + inner
     }
 }
 
