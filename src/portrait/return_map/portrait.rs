@@ -41,25 +41,21 @@ impl Portrait {
         }
         let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
         let divide = last.checked_sub(1).and_then(|last| marks.get(last));
-        let landmarks = self.landmarks.as_ref();
         if last == 0 {
             self.border = Border::NoBasin;
             self.reach = Some(Reach::default());
         } else if let Some((x, mark)) = divide.filter(|_| last < self.gaps.len()) {
             flow.follows = true;
             let (curve, left) = match mark {
-                Divide::Cycle(image) => {
-                    self.border = Border::Cycle;
-                    flow.around(*x, image.slips())?
-                }
-                Divide::Jump | Divide::Capture => {
-                    flow.border(*x, matches!(mark, Divide::Jump), landmarks)?
-                }
+                Divide::Cycle(image) => flow.around(*x, image.slips())?,
+                _ => flow.border(*x, matches!(mark, Divide::Jump), self.landmarks.as_ref())?,
             };
-            if !matches!(mark, Divide::Cycle(_)) {
-                let touches = curve.steps.iter().any(|step| step.place == ContactState::Sticks);
-                self.border = if touches { Border::Grazing } else { Border::Capture };
-            }
+            let touches = curve.steps.iter().any(|step| step.place == ContactState::Sticks);
+            self.border = match mark {
+                Divide::Cycle(_) => Border::Cycle,
+                _ if touches => Border::Grazing,
+                _ => Border::Capture,
+            };
             let edge = Edge::Curve(curve);
             let velocity = self.kept_within(&edge, 0.0);
             self.reach = Some(Reach { displacement: (*x, -left), velocity });
