@@ -132,23 +132,15 @@ pub fn friction_for(
             return Ok((None, cost));
         }
     }
-    let any = match &source.body {
-        Body::Paper(parameters) => hardly_any(parameters, wanted),
+    // The friction at which a margin of this size is the one without friction; none where the steady state repels by
+    // itself.
+    let any = match source.body {
+        // Undamped motions come to rest by friction alone, in the end by any.
+        Body::Paper(Parameters { d: 0.0, d3: 0.0, .. }) => Some(wanted * f64::EPSILON),
+        Body::Paper(Parameters { d, d3, .. }) => (d > 0.0 || (d == 0.0 && d3 > 0.0)).then_some(0.0),
         _ => (model.damping > 0.0 && !uncertain).then_some(0.0),
     };
     Ok((least_friction((kick, wanted), (holds, any), &mut margin)?, cost))
-}
-
-/// The friction at which a margin of this size is the one without friction; `None` where that is none,
-/// because the steady state repels by itself.
-fn hardly_any(parameters: &Parameters, wanted: f64) -> Option<f64> {
-    let Parameters { d, d3, .. } = *parameters;
-    if d > 0.0 || (d == 0.0 && d3 > 0.0) {
-        Some(0.0)
-    } else {
-        // Undamped motions come to rest by friction alone, in the end by any.
-        (d == 0.0 && d3 == 0.0).then_some(wanted * f64::EPSILON)
-    }
 }
 
 /// The least friction at which the margin of a kick, a function of friction that increases and may jump, is as `wanted`:
