@@ -192,8 +192,9 @@ impl ScanCommand {
         if self.certify && !measures.contains(&Measure::Proved) {
             measures.push(Measure::Proved);
         }
+        let groups = self.source.numbers().set;
         let over = self.over.iter();
-        let over = over.map(|text| read("--over", text, |text| Sweep::read(text, base.groups())));
+        let over = over.map(|text| read("--over", text, |text| Sweep::read(text, groups)));
         let over = over.collect::<Result<_, _>>()?;
         let scan = Scan::new(base, over, measures, conditions).map_err(Failure::Usage)?;
         let points = self.part.points(scan.points())?;

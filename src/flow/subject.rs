@@ -42,12 +42,6 @@ impl Subject {
         (self.motion.initial.q, self.motion.initial.v)
     }
 
-    /// What can be set and scanned over.
-    #[must_use]
-    pub fn groups(&self) -> &'static [Group] {
-        if self.paper().is_some() { &[Group::Motion] } else { Subject::GROUPS }
-    }
-
     /// The motion of the oscillator of the paper; `None` of a machine or a mode.
     #[must_use]
     pub fn paper(&self) -> Option<Problem> {
