@@ -1,8 +1,8 @@
 //! `hopfscope fit`: the parameters of the oscillator from a recorded motion.
 
+use std::cell::RefCell;
 use std::io::{self, IsTerminal};
-use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
@@ -10,13 +10,12 @@ use super::progress::{Outlet, StatusLine};
 use super::{Failure, Output, input, timed, write};
 use crate::figure::{self, Figure, FileForm};
 use crate::fit::{
-    D, DRAWS, Fitted, Inertia, MarginQuestion, NameSpec, Record, Unfit, assigned, estimate,
-    length_in_metres, margins,
+    D, DRAWS, Fitted, Inertia, MarginQuestion, NameSpec, Record, Unfit, assigned, length_in_metres,
 };
 use crate::flow::Limits;
 use crate::model::Knob;
 use crate::model::unit::{Dimension, Measured, measured};
-use crate::question::record::RecordOptions;
+use crate::question::{Opened, record::RecordOptions};
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file};
 use crate::words::fit::signed;
@@ -100,42 +99,29 @@ impl FitCommand {
     fn fitted(&self, bytes: &[u8]) -> Result<Fitted, Failure> {
         let name = self.file.display().to_string();
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
-        let record = self.record.read(bytes).map_err(|error| bad(&error))?;
-        let asked = self.margin_question(&record).map_err(|problem| bad(&problem))?;
-        self.record.unambiguous().map_err(Failure::Usage)?;
-        let question = self.record.question();
+        let opened = self.record.opened(&self.file, bytes).map_err(|problem| bad(&problem))?;
+        let asked = self.margin_question(&opened).map_err(|problem| bad(&problem))?;
         let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
-        let counted = Mutex::new((0_u64, StatusLine::new(place)));
-        let interrupted = || {
-            if let Ok((motions, line)) = counted.lock().as_deref_mut() {
-                *motions += 1;
-                line.renew(|_| format!("fitting: {motions} motions"));
-            }
-            false
-        };
-        let (found, seconds) = timed(self.output.repeat, || {
-            let estimate = estimate(&record, &question, &interrupted)?;
-            let margins =
-                margins(&estimate, &asked, &Limits::PATIENT).map_err(|_| Unfit::Interrupted)?;
-            Ok::<_, Unfit>((estimate, margins))
-        });
-        if let Ok((_, line)) = counted.into_inner() {
-            line.end();
-        }
+        let line = RefCell::new(StatusLine::new(place));
+        let report = |motions| line.borrow_mut().renew(|_| format!("fitting: {motions} motions"));
+        let (found, seconds) =
+            timed(self.output.repeat, || opened.estimated(&asked, &Limits::PATIENT, &report));
+        line.borrow().end();
         let (estimate, margins) = found.map_err(|reason| match reason {
             Unfit::TooFew { .. } | Unfit::NotAlternating { .. } => bad(&reason),
             _ => Failure::Unanswered(format!("{name}: {reason}")),
         })?;
-        let name = short_name(&self.file);
+        let Opened { name, record, .. } = opened;
         Ok(Fitted { seconds, ..Fitted::new(name, record, estimate, margins) })
     }
 
-    fn margin_question(&self, record: &Record) -> Result<MarginQuestion, String> {
-        let inertia = self.record.inertia(record)?;
+    fn margin_question(&self, opened: &Opened) -> Result<MarginQuestion, String> {
+        let inertia = opened.metric();
         let mut half_widths = [0.0; 4];
         for (row, half) in &self.half_width {
             half_widths[row.place - D] = *half;
         }
+        let record = &opened.record;
         let disturbance =
             self.disturbance.map_or(Ok(0.0), |it| disturbance(it, inertia, record))?;
         let FitCommand { draws, confidence, .. } = *self;
@@ -162,8 +148,4 @@ fn disturbance(
             "in N takes --mass or --stiffness; without them it is the force over the stiffness, a length".to_owned(),
         )),
     }
-}
-
-fn short_name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::fit::{
-    D, D2, D3, Estimate, Fitted, Inertia, MarginQuestion, Question, R, Record, Runs, Unfit,
-    estimate, held, length_in_metres, margins,
+    D, D2, D3, Estimate, Fitted, Inertia, MarginQuestion, Margins, Question, R, Record, Runs,
+    Unfit, estimate, held, length_in_metres, margins,
 };
 use crate::flow::{Limits, Reason};
 
@@ -77,9 +77,33 @@ impl From<Unfit> for Fit {
     }
 }
 
-impl From<Fitted> for Fit {
-    fn from(fitted: Fitted) -> Self {
-        Fit(Arc::new(Ok(fitted)))
+impl Opened {
+    /// Mass or stiffness, and the record's unit of length in metres.
+    pub fn metric(&self) -> Option<(Inertia, f64)> {
+        self.inertia.zip(length_in_metres(self.record.unit.as_deref()?))
+    }
+
+    /// Fits the record and asks about its margin; reports the number of motions computed so far.
+    ///
+    /// # Errors
+    /// [`Unfit`] says why there is no estimate.
+    pub fn estimated(
+        &self,
+        asked: &MarginQuestion,
+        limits: &Limits,
+        report: &dyn Fn(u64),
+    ) -> Result<(Estimate, Margins), Unfit> {
+        let motions = Cell::new(0);
+        let interrupted = || {
+            motions.set(motions.get() + 1);
+            report(motions.get());
+            (limits.interrupted)()
+        };
+        let mut question = self.question.clone();
+        question.peaks |= self.record.t.is_empty();
+        let estimate = estimate(&self.record, &question, &interrupted)?;
+        let margins = margins(&estimate, asked, limits).map_err(|_| Unfit::Interrupted)?;
+        Ok((estimate, margins))
     }
 }
 
@@ -90,24 +114,19 @@ impl Fit {
         limits: &Limits,
         report: &dyn Fn(u64),
     ) -> Result<Self, Reason> {
-        let motions = Cell::new(0);
-        let interrupted = || {
-            motions.set(motions.get() + 1);
-            report(motions.get());
-            (limits.interrupted)()
-        };
-        let mut question = recording.question.clone();
-        question.peaks |= recording.record.t.is_empty();
-        let estimate = match estimate(&recording.record, &question, &interrupted) {
-            Ok(estimate) => estimate,
-            Err(Unfit::Interrupted) => return Err(Reason::Interrupted),
-            Err(unfit) => return Ok(unfit.into()),
-        };
-        let inertia = metric(recording);
+        let inertia = recording.metric();
         let asked = MarginQuestion { draws: DRAWN, inertia, ..MarginQuestion::default() };
-        let margins = margins(&estimate, &asked, limits)?;
         let (name, record) = (recording.name.clone(), recording.record.clone());
-        Ok(Fitted::new(name, record, estimate, margins).into())
+        let found = recording.estimated(&asked, limits, report);
+        Fit::answered(found.map(|(estimate, margins)| Fitted::new(name, record, estimate, margins)))
+    }
+
+    /// The answer, unless it was interrupted.
+    fn answered(found: Result<Fitted, Unfit>) -> Result<Self, Reason> {
+        match found {
+            Err(Unfit::Interrupted) => Err(Reason::Interrupted),
+            found => Ok(Fit(Arc::new(found))),
+        }
     }
 
     /// The fit with those of D, D2, D3 and r held that have a value. Unless its distribution is asked for, that of the
@@ -121,18 +140,14 @@ impl Fit {
         let Ok(fit) = self.found() else { return Ok(self.clone()) };
         let named = [D, D2, D3, R].into_iter().zip(values);
         let numbers: Vec<_> = named.filter_map(|(place, value)| Some((place, value?))).collect();
-        let interrupted = || (limits.interrupted)();
-        let runs = Runs::new(&interrupted);
         // With all numbers free it is known.
-        let estimate = if numbers.is_empty() {
-            Ok(fit.estimate.clone())
-        } else {
-            held(&fit.estimate, &numbers, &runs)
+        let estimate = match numbers[..] {
+            [] => Ok(fit.estimate.clone()),
+            _ => held(&fit.estimate, &numbers, &Runs::new(limits.interrupted)),
         };
         let estimate = match estimate {
             Ok(estimate) => estimate,
-            Err(Unfit::Interrupted) => return Err(Reason::Interrupted),
-            Err(unfit) => return Ok(unfit.into()),
+            Err(unfit) => return Fit::answered(Err(unfit)),
         };
         let cost = |of: &Estimate| of.kept_residuals().map(|it| it * it).sum::<f64>();
         let deviation = fit.estimate.covariance.deviation;
@@ -142,16 +157,11 @@ impl Fit {
             None => fit.margins.clone(),
         };
         let found = Fitted::new(fit.name.clone(), fit.record.clone(), estimate, margins);
-        Ok(Fitted { rise, drawn: asked.is_some(), ..found }.into())
+        Fit::answered(Ok(Fitted { rise, drawn: asked.is_some(), ..found }))
     }
 
     /// The fit. Fails with the [`Unfit`] of the record.
     pub fn found(&self) -> Result<&Fitted, &Unfit> {
         self.0.as_ref().as_ref()
     }
-}
-
-/// Mass or stiffness, and the record's unit of length in metres.
-fn metric(recording: &Recording) -> Option<(Inertia, f64)> {
-    recording.inertia.zip(length_in_metres(recording.record.unit.as_deref()?))
 }

@@ -1,11 +1,14 @@
 //! What a user says about a record beside its file: how it is read, and what is estimated from it. The command line and
 //! the explorer take the same options.
 
+use std::path::Path;
+
 use clap::{Arg, Args, Command};
 
+use super::Opened;
 use crate::fit::{
-    BadRecord, Choice, Inertia, LENGTHS, LossName, NAMES, NameSpec, Question, Reading, Record,
-    Signal, assigned, length_in_metres, listed, named, parse, quantity,
+    Choice, Inertia, LENGTHS, LossName, NAMES, NameSpec, Question, Reading, Record, Signal,
+    assigned, length_in_metres, listed, named, parse, quantity,
 };
 use crate::model::Knob;
 use crate::words::usage;
@@ -144,30 +147,26 @@ impl RecordOptions {
     /// Reads the file.
     ///
     /// # Errors
-    /// [`BadRecord`] says what is wrong with it, and where.
-    pub fn read(&self, bytes: &[u8]) -> Result<Record, BadRecord> {
+    /// One line that says what is wrong with it or with the options, where, and what is allowed.
+    pub fn opened(&self, path: &Path, bytes: &[u8]) -> Result<Opened, String> {
         let (time, displacement) = self.columns.clone().unwrap_or_default();
         let (peaks, signal, unit) = (self.peaks, self.signal, self.unit.clone());
-        parse(bytes, &Reading { time, displacement, peaks, signal, unit })
+        let reading = Reading { time, displacement, peaks, signal, unit };
+        let record = parse(bytes, &reading).map_err(|error| error.to_string())?;
+        let inertia = self.inertia(&record)?;
+        let (free, held) = (self.free.clone(), self.set.clone());
+        if let Some((row, _)) =
+            held.iter().find(|(row, _)| free.iter().flatten().any(|it| it == row))
+        {
+            return Err(format!("{} is both --free and --set; it can be one of them", row.name));
+        }
+        let question = Question { choice: Choice { free, held }, loss: self.loss, peaks };
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        Ok(Opened { name, record, inertia, question })
     }
 
-    /// What is estimated; a number that is also held is not.
-    pub fn question(&self) -> Question {
-        let choice = Choice { free: self.free.clone(), held: self.set.clone() };
-        Question { choice, loss: self.loss, peaks: self.peaks }
-    }
-
-    /// Fails with one line if a number is to be both estimated and held.
-    pub fn unambiguous(&self) -> Result<(), String> {
-        let Choice { free, held } = self.question().choice;
-        let both = held.iter().find(|(row, _)| free.iter().flatten().any(|free| free == row));
-        both.map_or(Ok(()), |(row, _)| {
-            Err(format!("{} is both --free and --set; it can be one of them", row.name))
-        })
-    }
-
-    /// The mass or stiffness, if given, and the record's unit of length in metres. Fails with one line if that is not known.
-    pub fn inertia(&self, record: &Record) -> Result<Option<(Inertia, f64)>, String> {
+    /// The mass or stiffness, if given. Fails with one line if the record's unit of length is not known.
+    fn inertia(&self, record: &Record) -> Result<Option<Inertia>, String> {
         let mass = self.mass.map(Inertia::Mass);
         let Some(inertia) = mass.or(self.stiffness.map(Inertia::Stiffness)) else {
             return Ok(None);
@@ -181,9 +180,9 @@ impl RecordOptions {
         let unit = record.unit.as_deref();
         let unit =
             unit.ok_or_else(|| format!("the file names no unit of length; --unit one of {known}"))?;
-        let metres = length_in_metres(unit).ok_or_else(|| {
-            format!("{unit:?} is not a known unit of length; --unit one of {known}")
-        })?;
-        Ok(Some((inertia, metres)))
+        if length_in_metres(unit).is_none() {
+            return Err(format!("{unit:?} is not a known unit of length; --unit one of {known}"));
+        }
+        Ok(Some(inertia))
     }
 }

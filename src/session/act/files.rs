@@ -221,9 +221,5 @@ pub fn fit(session: &mut Session, rest: &str) -> Done {
 
 /// Reads the record. Fails with one line that says what is wrong, where, and what is allowed.
 pub(crate) fn opened(path: &Path, words: &str, text: &str) -> Result<Opened, String> {
-    let options = RecordOptions::of_words(words)?;
-    let record = options.read(text.as_bytes()).map_err(|error| error.to_string())?;
-    let inertia = options.inertia(&record)?.map(|(inertia, _)| inertia);
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    Ok(Opened { name, record, inertia, question: options.question() })
+    RecordOptions::of_words(words)?.opened(path, text.as_bytes())
 }
