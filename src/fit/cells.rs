@@ -1,7 +1,8 @@
 //! The cells of a file: lines, separators, and the values of cells: numbers, dates and times of day as instruments write
 //! them; and the header above the numbers, with names of columns and their units.
 
-use super::{Signal, quantity, value_of, with_latin_micro};
+use super::{Signal, quantity};
+use crate::model::unit::{Dimension, in_si};
 
 /// What instruments write for a missing number, in lower case.
 const MISSING: [&str; 14] = [
@@ -162,17 +163,6 @@ fn days(date: &str) -> Option<i64> {
     Some(365 * year + leap + (153 * month + 2) / 5 + day)
 }
 
-/// Units of time and their values in seconds.
-pub const TIME_UNITS: [(&str, f64); 7] = [
-    ("s", 1.0),
-    ("ms", 1e-3),
-    ("us", 1e-6),
-    ("ns", 1e-9),
-    ("min", 60.0),
-    ("h", 3600.0),
-    ("sec", 1.0),
-];
-
 /// Parts of the names of time columns, in lower case.
 const TIMES: [&str; 5] = ["time", "zeit", "temps", "tiempo", "seconds"];
 
@@ -201,7 +191,7 @@ struct ColumnHeader {
 
 /// The value of a unit of time in seconds; `None` if it is unknown.
 pub fn seconds_in(unit: &str) -> Option<f64> {
-    value_of(&with_latin_micro(&unit.to_lowercase()), &TIME_UNITS)
+    in_si(&unit.to_lowercase(), Dimension::TIME)
 }
 
 impl ColumnHeader {

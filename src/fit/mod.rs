@@ -82,7 +82,7 @@ pub use {
 
 // What other rings use of it, and its files of each other.
 pub(crate) use {
-    cells::{Header, TIME_UNITS, cells, clock_seconds, lines, read, seconds_in, separator},
+    cells::{Header, cells, clock_seconds, lines, read, seconds_in, separator},
     conditions::repeated,
     curves::{Curves, PlotPoint, memory},
     drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
@@ -104,7 +104,7 @@ pub(crate) use {
     },
     samples::{peaks, samples},
     search::released_before,
-    signal::{SignalUnit, measure, quantity, value_of, with_latin_micro},
+    signal::{SignalUnit, measure, quantity},
     task::{
         FitVerdict, HIDDEN, LinearResiduals, Optimum, RUN, interrupted, longest_run, mean_square,
     },

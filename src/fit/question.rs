@@ -75,38 +75,29 @@ pub struct NameSpec {
     pub name: &'static str,
     /// Its place among the unknowns.
     pub place: usize,
-    /// Power of the unit of length in its unit.
-    pub length: i32,
-    /// Power of the second in its unit.
-    pub time: i32,
+    /// Its unit, in which `L` stands for the unit of length.
+    unit: &'static str,
 }
 
 impl NameSpec {
-    /// Its unit: powers of the record's unit of length and of the second.
+    /// Its unit, with the record's unit of length.
     pub fn unit(&self, length: &str) -> String {
-        let length = if length.is_empty() { "unit" } else { length };
-        let power = |name: &str, power: i32| match power {
-            0 => String::new(),
-            1 => name.to_owned(),
-            -1 => format!("1/{name}"),
-            _ => format!("1/{name}^{}", -power),
-        };
-        power(length, self.length) + &power("s", self.time)
+        self.unit.replace('L', if length.is_empty() { "unit" } else { length })
     }
 }
 
-const fn row(knob: Knob, place: usize, length: i32, time: i32) -> NameSpec {
-    NameSpec { knob, name: KNOBS[knob as usize].name, place, length, time }
+const fn row(knob: Knob, place: usize, unit: &'static str) -> NameSpec {
+    NameSpec { knob, name: KNOBS[knob as usize].name, place, unit }
 }
 
 /// The numbers that are estimated from a record, except those of its start.
 pub const NAMES: [NameSpec; 6] = [
-    row(Knob::Omega0, OMEGA0, 0, -1),
-    row(Knob::Offset, OFFSET, 1, 0),
-    row(Knob::D, D, 0, 0),
-    row(Knob::D2, D2, -1, 0),
-    row(Knob::D3, D3, -2, 0),
-    row(Knob::R, R, 1, 0),
+    row(Knob::Omega0, OMEGA0, "1/s"),
+    row(Knob::Offset, OFFSET, "L"),
+    row(Knob::D, D, ""),
+    row(Knob::D2, D2, "1/L"),
+    row(Knob::D3, D3, "1/L^2"),
+    row(Knob::R, R, "L"),
 ];
 
 /// The row with this name.

@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::unit::{Dimension, in_si};
+
 /// A measured quantity: the displacement, differentiated so many times by the time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "explorer", derive(clap::ValueEnum))]
@@ -81,32 +83,13 @@ impl Signal {
     }
 }
 
-/// Units of length and their values in metres.
-pub const LENGTHS: [(&str, f64); 8] = [
-    ("m", 1.0),
-    ("mm", 1e-3),
-    ("um", 1e-6),
-    ("cm", 1e-2),
-    ("nm", 1e-9),
-    ("in", 0.0254),
-    ("inch", 0.0254),
-    ("km", 1e3),
-];
+/// The usual units of length.
+pub const LENGTHS: [&str; 7] = ["m", "mm", "um", "cm", "nm", "in", "km"];
 
-/// The value of a unit of length in metres; `None` if it is unknown.
+/// The value of a unit of length in metres; `None` if it is none.
 #[must_use]
 pub fn length_in_metres(unit: &str) -> Option<f64> {
-    value_of(&with_latin_micro(unit), &LENGTHS)
-}
-
-/// The unit with the letter u in place of the sign for micro.
-pub fn with_latin_micro(unit: &str) -> String {
-    unit.replace(['\u{b5}', '\u{3bc}'], "u")
-}
-
-/// The value that a table of units has for this one.
-pub fn value_of(unit: &str, units: &[(&str, f64)]) -> Option<f64> {
-    units.iter().find(|(name, _)| *name == unit).map(|(_, value)| *value)
+    in_si(unit, Dimension::LENGTH)
 }
 
 /// What the column of a record holds.
@@ -123,7 +106,7 @@ pub struct SignalUnit {
 /// The signal that a unit belongs to, or else the name of its quantity; `None` for unknown units.
 #[must_use]
 pub fn quantity(unit: &str) -> Option<Result<SignalUnit, &'static str>> {
-    let plain = with_latin_micro(unit).replace(' ', "");
+    let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u").replace(' ', "");
     let of = |signal, length: &str, scale| {
         Some(Ok(SignalUnit { signal, length: Some(length.to_owned()), scale }))
     };

@@ -1,7 +1,7 @@
 //! Numbers with units, as engineers write them: `2 kg`, `800 N/m`, `15 mm`, `40 N s^3/m^3`.
 //!
 //! A unit is a product and quotient of grams, metres, seconds, newtons and hertz with the usual prefixes, and of
-//! minutes, hours and kilograms-force. It may contain `^` and parentheses; a blank, `*` or `·` means a product. `N/m s`, which can be
+//! inches, minutes, hours and kilograms-force. It may contain `^` and parentheses; a blank, `*` or `·` means a product. `N/m s`, which can be
 //! read in two ways, is refused. A number without a unit is in SI units.
 
 use crate::numerics::{Interval, powi};
@@ -89,8 +89,14 @@ pub fn quantity(text: &str, unit: &str) -> Result<f64, String> {
     measured(text)?.in_unit(unit).map_err(|refused| format!("{text:?} {refused}"))
 }
 
+/// The value of a unit in SI units; `None` if it is not one of this dimension.
+#[must_use]
+pub fn in_si(unit: &str, dimension: Dimension) -> Option<f64> {
+    read_unit(unit).ok().filter(|(_, found)| *found == dimension).map(|(value, _)| value)
+}
+
 /// Units without prefixes: name, value in SI units, dimension, and whether the unit takes prefixes.
-const UNITS: [(&str, f64, Dimension, bool); 9] = [
+const UNITS: [(&str, f64, Dimension, bool); 12] = [
     ("g", 1e-3, Dimension::new(1, 0, 0), true),
     ("m", 1.0, Dimension::LENGTH, true),
     ("s", 1.0, Dimension::TIME, true),
@@ -99,12 +105,15 @@ const UNITS: [(&str, f64, Dimension, bool); 9] = [
     ("Hz", 1.0, Dimension::new(0, 0, -1), true),
     // The weight of a kilogram under standard gravity.
     ("kgf", 9.806_65, Dimension::FORCE, false),
+    ("in", 0.0254, Dimension::LENGTH, false),
+    ("inch", 0.0254, Dimension::LENGTH, false),
+    ("sec", 1.0, Dimension::TIME, false),
     ("min", 60.0, Dimension::TIME, false),
     ("h", 3600.0, Dimension::TIME, false),
 ];
 
 /// Prefixes of units, none first.
-const PREFIXES: [(&str, f64); 10] = [
+const PREFIXES: [(&str, f64); 11] = [
     ("", 1.0),
     ("G", 1e9),
     ("M", 1e6),
@@ -114,6 +123,7 @@ const PREFIXES: [(&str, f64); 10] = [
     ("m", 1e-3),
     ("u", 1e-6),
     ("\u{b5}", 1e-6),
+    ("\u{3bc}", 1e-6),
     ("n", 1e-9),
 ];
 
@@ -222,7 +232,7 @@ struct UnitReader<'a> {
 impl UnitReader<'_> {
     fn wrong(&self) -> String {
         format!(
-            "{:?} is not a unit; units are made of g, m, s, N, Hz with prefixes, and of min, h, kgf, such as N s/m",
+            "{:?} is not a unit; units are made of g, m, s, N, Hz with prefixes, and of in, min, h, kgf, such as N s/m",
             self.text
         )
     }

@@ -72,7 +72,7 @@ fn columns(text: &str) -> Result<(Option<String>, Option<String>), String> {
 
 fn unit(text: &str) -> Result<String, String> {
     let known = || {
-        let lengths = LENGTHS.map(|it| it.0).join(", ");
+        let lengths = LENGTHS.join(", ");
         format!(
             "{text:?} is not a unit of length; there are {lengths}, each also with /s or /s^2, and g"
         )
@@ -176,7 +176,7 @@ impl RecordOptions {
                 "without times there is no frequency: leave out --mass and --stiffness".to_owned()
             );
         }
-        let known = LENGTHS.map(|it| record.signal.unit(it.0)).join(", ");
+        let known = LENGTHS.map(|it| record.signal.unit(it)).join(", ");
         let unit = record.unit.as_deref();
         let unit =
             unit.ok_or_else(|| format!("the file names no unit of length; --unit one of {known}"))?;
