@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     Dropped, Estimate, FEWEST, FittedDrift, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R,
-    RUN, Record, Rival, Runs, Unfit, Unknowns, interrupted, longest_run, peaks, samples,
+    RUN, Record, Rival, Runs, Unfit, Unknowns, longest_run, peaks, samples,
 };
 use crate::numerics::{Random, real};
 
@@ -136,8 +136,9 @@ fn zero(estimate: &Estimate) -> Condition {
 pub fn repeated(estimate: &Estimate, question: &Question, runs: &Runs) -> Result<f64, Unfit> {
     let record = simulated(estimate);
     let fit = if question.peaks { peaks } else { samples };
-    let again = interrupted(fit(&record, question, runs))?;
-    Ok(again.map_or(f64::INFINITY, |again| furthest(estimate, &again.p)))
+    let again = fit(&record, question, runs).ok();
+    let off = again.map_or(f64::INFINITY, |again| furthest(estimate, &again.p));
+    runs.ended().map_or(Ok(off), Err)
 }
 
 /// The largest distance of another point from an estimate, in standard errors by the intervals.

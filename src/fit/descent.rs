@@ -9,8 +9,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::task::{LinearResiduals, Optimum, Task, interrupted};
-use super::{Bound, R, Seen, UNKNOWNS, Unfit, Unknowns, UnknownsMatrix, direction};
+use super::task::{LinearResiduals, Optimum, Task};
+use super::{Bound, R, Seen, UNKNOWNS, Unknowns, UnknownsMatrix, direction};
 use crate::numerics::powi;
 
 /// Maximum number of iterations.
@@ -50,29 +50,24 @@ impl Task<'_> {
         Some(p)
     }
 
-    /// Iterates from a first guess.
-    ///
-    /// # Errors
-    /// [`Unfit`] if even the guess cannot be compared with the record.
-    pub fn solve(&self, guess: Unknowns) -> Result<Optimum, Unfit> {
+    /// Iterates from a first guess; `None` if even that cannot be compared with the record, or if the computation has
+    /// ended.
+    pub fn solve(&self, guess: Unknowns) -> Option<Optimum> {
         self.solve_within(SETTLED, MOST, guess)
     }
 
     /// The same to a fraction of a standard error, which suffices for a start or for the profile of the loss.
-    ///
-    /// # Errors
-    /// As [`Task::solve`].
-    pub fn solve_roughly(&self, guess: Unknowns) -> Result<Optimum, Unfit> {
+    pub fn solve_roughly(&self, guess: Unknowns) -> Option<Optimum> {
         self.solve_within(self.unit(0.01), FEW, guess)
     }
 
-    fn solve_within(&self, enough: f64, most: usize, guess: Unknowns) -> Result<Optimum, Unfit> {
+    fn solve_within(&self, enough: f64, most: usize, guess: Unknowns) -> Option<Optimum> {
         // A descent may not leave its region.
         let permits = |seen: &Seen| self.within.is_none_or(|region| region == seen.region);
         let mut p = guess;
         let mut seen = self.evaluated(&p, true)?;
         if !permits(&seen) {
-            return Err(Unfit::NoMotion);
+            return None;
         }
         let mut cost = self.cost(&seen);
         let mut model = LinearModel::of(self, &seen);
@@ -85,7 +80,7 @@ impl Task<'_> {
                     break None;
                 };
                 let trial = p + step;
-                let found = interrupted(self.evaluated(&trial, false))?;
+                let found = self.evaluated(&trial, false);
                 let found = found.filter(permits).map(|seen| self.cost(&seen));
                 let gain = found.map_or(-1.0, |found| (cost - found) / predicted);
                 if let Some(found) = found.filter(|found| *found < cost) {
@@ -109,7 +104,8 @@ impl Task<'_> {
             }
             model.renew(self.factor(&seen));
         }
-        Ok(Optimum { start: self.start, p, cost, seen })
+        let found = Optimum { start: self.start, p, cost, seen };
+        Some(found).filter(|_| !self.runs.has_ended())
     }
 }
 

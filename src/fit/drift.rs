@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::{
     BEND, Beginning, Covariance, Extreme, LinearResiduals, NAMES, Optimum, SLOPE, Task, UNKNOWNS,
-    Unfit, Unknowns, autocorrelations, drift, interrupted, middle_of, robust,
+    Unknowns, autocorrelations, drift, middle_of, robust,
 };
 use crate::numerics::{powi, real};
 
@@ -112,12 +112,12 @@ impl Task<'_> {
     /// guesses with a drift.
     ///
     /// Asked are records that may show a drift or are not explained without one. With it they must be explained, and
-    /// chi-squared must fall by more than chance allows. Fails with [`Unfit::Interrupted`].
+    /// chi-squared must fall by more than chance allows.
     pub(crate) fn drifting(
         &self,
         found: &[Optimum],
         guessed: impl FnOnce() -> Vec<Beginning>,
-    ) -> Result<Option<Drifting>, Unfit> {
+    ) -> Option<Drifting> {
         /// Fall of chi-squared below which a line does as well as a parabola.
         const NOTHING: f64 = 4.0;
         /// Evidence by the linear model, which chance exceeds once in ten records, from which a drift is tried: motions
@@ -130,10 +130,10 @@ impl Task<'_> {
         const MUCH: f64 = 4.0;
         let best = &found[0];
         let Some((drift, step)) = LeftDrift::with_step(&self.starting(best.start), best) else {
-            return Ok(None);
+            return None;
         };
         if drift.evidence < ASKED && self.explains(best) {
-            return Ok(None);
+            return None;
         }
         let mut beginnings = guessed();
         let guesses = vec![best.p + step, best.p];
@@ -144,21 +144,19 @@ impl Task<'_> {
         let mut wider = self.with_drift();
         // Only where a first descent comes much closer, or explains the record, is it worth the search.
         let mut helps = false;
-        for (start, guess, _) in wider.ranked(&beginnings)? {
-            let tried = interrupted(wider.starting(start).solve(guess))?;
+        for (start, guess, _) in wider.ranked(&beginnings) {
+            let tried = wider.starting(start).solve(guess);
             helps |= tried.is_some_and(|it| MUCH * it.cost < best.cost || wider.explains(&it));
         }
         if !helps {
-            return Ok(None);
+            return None;
         }
-        let Some(mut drifting) = interrupted(wider.search(&beginnings))? else {
-            return Ok(None);
-        };
+        let mut drifting = wider.search(&beginnings)?;
         let least = &drifting[0];
         let values = wider.values(&least.seen);
         let unit = least.cost / real(values.len()) / independent(&values);
         if best.cost - least.cost <= FITTED * unit || !wider.explains(least) {
-            return Ok(None);
+            return None;
         }
         let bend = Covariance::white(&wider, least).map_or(0.0, |it| it.of(BEND, BEND));
         if powi(least.p[BEND], 2) <= NOTHING * bend / independent(&values) {
@@ -168,6 +166,6 @@ impl Task<'_> {
             }
             wider.polish(&mut drifting)?;
         }
-        Ok(Some((drifting, wider.free)))
+        Some((drifting, wider.free))
     }
 }

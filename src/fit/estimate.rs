@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{
     BEND, Choice, Covariance, Dropped, Extreme, FittedDrift, HIDDEN, LeftDrift, NAMES, NameSpec,
     Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, Signal, StartKind,
-    Task, UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, interrupted, left_over, whiteness,
+    Task, UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, left_over, whiteness,
 };
 use crate::model::State;
 use crate::numerics::{cos, sin};
@@ -130,26 +130,27 @@ impl Estimate {
 /// Assesses a minimum: noise, covariance, intervals, rivals.
 ///
 /// # Errors
-/// [`Unfit::Blind`] if an unknown has no influence; [`Unfit::Interrupted`].
+/// [`Unfit::Blind`] if an unknown has no influence; why the computation has ended, if it has.
 pub fn judged(task: &Task, found: &[Optimum]) -> Result<Estimate, Unfit> {
     /// Number of times that a profile may come upon a lower minimum.
     const LOWER: usize = 4;
     let task = task.starting(found[0].start);
     let mut found = found.to_vec();
+    let mut judged = assessed(&task, &found);
     for _ in 0..LOWER {
-        match assessed(&task, &found)? {
-            (estimate, None) => return Ok(estimate),
-            (_, Some(lower)) => {
-                found.insert(0, lower);
-                found = task.valleys(found)?;
-            }
-        }
+        let Some((_, Some(lower))) = judged.as_mut() else { break };
+        found.insert(0, lower.clone());
+        found = task.valleys(found);
+        judged = assessed(&task, &found);
     }
-    Ok(assessed(&task, &found)?.0)
+    match task.runs.ended() {
+        Some(end) => Err(end),
+        None => judged.map(|(estimate, _)| estimate).ok_or(Unfit::Blind),
+    }
 }
 
 /// The estimate, and a lower minimum if a profile comes upon one; its interval is then open.
-fn assessed(task: &Task, found: &[Optimum]) -> Result<(Estimate, Option<Optimum>), Unfit> {
+fn assessed(task: &Task, found: &[Optimum]) -> Option<(Estimate, Option<Optimum>)> {
     let (data, best) = (task.data, &found[0]);
     let p = best.p;
     let kept = task.values(&best.seen);
@@ -170,7 +171,7 @@ fn assessed(task: &Task, found: &[Optimum]) -> Result<(Estimate, Option<Optimum>
     } else {
         // Noise cannot have this correlation.
         (whiteness.systematic, whiteness.autocorrelation) = (true, Vec::new());
-        let covariance = covariance(&whiteness).ok_or(Unfit::Blind)?;
+        let covariance = covariance(&whiteness)?;
         (whiteness, covariance)
     };
     whiteness.systematic |= task.noise > 0.0 && covariance.deviation > HIDDEN * task.noise;
@@ -182,7 +183,7 @@ fn assessed(task: &Task, found: &[Optimum]) -> Result<(Estimate, Option<Optimum>
         delta_chi2: (other.cost - best.cost) / unit,
         p: other.p,
     };
-    let (intervals, lower) = intervals(task, found, covariance.variance, &whiteness)?;
+    let (intervals, lower) = intervals(task, found, covariance.variance, &whiteness);
     let left_drift = LeftDrift::of(task, best, &covariance);
     let estimate = Estimate {
         choice: Choice::default(),
@@ -206,7 +207,7 @@ fn assessed(task: &Task, found: &[Optimum]) -> Result<(Estimate, Option<Optimum>
         left_drift,
         repeated: None,
     };
-    Ok((estimate, lower))
+    Some((estimate, lower))
 }
 
 /// The intervals of all unknowns, the union of those of all regions; and a lower minimum if a profile comes upon one.
@@ -215,7 +216,7 @@ fn intervals(
     found: &[Optimum],
     variance: f64,
     whiteness: &Whiteness,
-) -> Result<([ProfileInterval; UNKNOWNS], Option<Optimum>), Unfit> {
+) -> ([ProfileInterval; UNKNOWNS], Option<Optimum>) {
     /// How much of the rise of chi-squared to the minimum of another region counts. The lowest of several minima is lower by
     /// chance than any one of them: so they count up to a chi-squared of 9, not of 3.84.
     const CHOSEN: f64 = 0.43;
@@ -238,7 +239,7 @@ fn intervals(
             let one = if whiteness.systematic {
                 Some(profile.straight(place)).filter(|_| number == 0)
             } else {
-                profile.interval(place)?
+                profile.interval(place)
             };
             lower = profile.lower.take().or(lower);
             let interval = &mut intervals[place];
@@ -249,7 +250,7 @@ fn intervals(
             };
         }
     }
-    Ok((intervals, lower))
+    (intervals, lower)
 }
 
 /// Samples that do not count, with at most one between two of them that does.
@@ -301,13 +302,10 @@ impl Estimate {
 
     /// The loss that corresponds to one unit of chi-squared. It is larger for correlated noise, with which larger
     /// differences occur by chance.
-    ///
-    /// # Errors
-    /// [`Unfit`] when interrupted.
-    pub fn unit(&self, runs: &Runs) -> Result<f64, Unfit> {
+    pub fn unit(&self, runs: &Runs) -> Option<f64> {
         let task = self.task(&[], runs);
         let cost = task.cost(&task.evaluated(&self.p, false)?);
-        Ok(cost / self.covariance.freedom * self.covariance.inflation(R))
+        Some(cost / self.covariance.freedom * self.covariance.inflation(R))
     }
 }
 
@@ -318,7 +316,8 @@ impl Estimate {
 pub fn held(estimate: &Estimate, numbers: &[(usize, f64)], runs: &Runs) -> Result<Estimate, Unfit> {
     let places: Vec<usize> = numbers.iter().map(|(place, _)| *place).collect();
     let task = estimate.task(&places, runs);
-    let optimum = task.solve_roughly(following(estimate, numbers))?;
+    let optimum = task.solve_roughly(following(estimate, numbers));
+    let optimum = optimum.ok_or_else(|| runs.ended().unwrap_or(Unfit::NoMotion))?;
     let autocorrelation = &estimate.whiteness.autocorrelation;
     let covariance = Covariance::at(&task, &optimum, autocorrelation).ok_or(Unfit::Blind)?;
     let half_swings = optimum.seen.turns.len();
@@ -352,19 +351,19 @@ pub fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
 pub const RISES: [f64; 2] = [2.3, 6.0];
 
 /// The contour around the estimate along which chi-squared has risen by `rise`, in the plane of two free unknowns.
-/// It is cut off at r = 0. Fails with [`Unfit::Interrupted`].
+/// It is cut off at r = 0.
 pub fn contour(
     estimate: &Estimate,
     places: [usize; 2],
     rise: f64,
     runs: &Runs,
-) -> Result<Vec<[f64; 2]>, Unfit> {
+) -> Option<Vec<[f64; 2]>> {
     /// Number of directions in which the contour is located.
     const DIRECTIONS: u32 = 24;
     let of = |one: usize, other: usize| estimate.covariance.of(one, other);
     let [one, other] = places;
     let plane = Matrix2::new(of(one, one), of(one, other), of(other, one), of(other, other));
-    let Some(root) = plane.cholesky() else { return Ok(Vec::new()) };
+    let root = plane.cholesky()?;
     let task = estimate.task(&places, runs);
     let cost = task.cost(&task.evaluated(&estimate.p, false)?);
     let unit = estimate.unit(runs)?;
@@ -374,22 +373,17 @@ pub fn contour(
         let step = rise.sqrt() * root.l() * Vector2::new(cos(angle), sin(angle));
         // The linear model predicts the other unknowns.
         let along = estimate.covariance.following(&[(one, step[0]), (other, step[1])]);
-        if let Some(at) = risen(&task, &estimate.p, along, (cost, rise * unit))? {
+        if let Some(at) = risen(&task, &estimate.p, along, (cost, rise * unit)) {
             points.push([estimate.p[one] + at * step[0], estimate.p[other] + at * step[1]]);
         }
     }
     points.extend(points.first().copied());
-    Ok(points)
+    Some(points)
 }
 
 /// The distance from a point along a direction at which the loss, `cost` at the point, has risen by `rise`; `None` if
 /// the motion escapes before.
-fn risen(
-    task: &Task,
-    p: &Unknowns,
-    along: Unknowns,
-    (cost, rise): (f64, f64),
-) -> Result<Option<f64>, Unfit> {
+fn risen(task: &Task, p: &Unknowns, along: Unknowns, (cost, rise): (f64, f64)) -> Option<f64> {
     /// Number of refits. Each corrects the distance by the rise found before, as for a quadratic loss; if
     /// the loss is quadratic, the first distance is right.
     const ROUNDS: usize = 3;
@@ -398,15 +392,14 @@ fn risen(
     for _ in 0..ROUNDS {
         let mut guess = p + at * along;
         guess[R] = guess[R].max(0.0);
-        let found = interrupted(task.solve_roughly(guess))?;
-        let Some(found) = found else { return Ok(None) };
+        let found = task.solve_roughly(guess)?;
         let part = ((found.cost - cost).max(0.0) / rise).sqrt();
         if (part - 1.0).abs() < 0.03 || part < 1.0 && at >= farthest {
             break;
         }
         at = (at / part.clamp(0.4, 2.5)).min(farthest);
     }
-    Ok(Some(at))
+    Some(at)
 }
 
 #[cfg(test)]

@@ -105,9 +105,7 @@ pub(crate) use {
     samples::{peaks, samples},
     search::released_before,
     signal::{SignalUnit, measure, quantity},
-    task::{
-        FitVerdict, HIDDEN, LinearResiduals, Optimum, RUN, interrupted, longest_run, mean_square,
-    },
+    task::{FitVerdict, HIDDEN, LinearResiduals, Optimum, RUN, longest_run, mean_square},
     turning_points::{
         Extreme, amplitudes, averaged, dominant_frequency, middle_of, regressions, robust,
         smoothed, turning_points, without_jumps,

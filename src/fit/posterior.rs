@@ -9,8 +9,7 @@
 use rayon::prelude::*;
 
 use super::{
-    D, D2, D3, Estimate, R, Runs, Seen, Task, Unfit, Unknowns, UnknownsMatrix, chi_squared,
-    normal_at,
+    D, D2, D3, Estimate, R, Runs, Seen, Task, Unknowns, UnknownsMatrix, chi_squared, normal_at,
 };
 use crate::flow::{Limits, Reason};
 use crate::numerics::{exp, ln, pow, real};
@@ -38,7 +37,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     let is_bent = |place: usize| estimate.free[place] && !estimate.intervals[place].quadratic;
     let quadratic = ![D, D2, D3, R].into_iter().any(is_bent);
     let interrupted = || Err(Reason::Interrupted);
-    let Ok(frame) = PosteriorFrame::of(estimate, &Runs::new(limits.interrupted)) else {
+    let Some(frame) = PosteriorFrame::of(estimate, &Runs::new(limits.interrupted)) else {
         return interrupted();
     };
     if quadratic || estimate.whiteness.systematic {
@@ -122,7 +121,7 @@ struct PosteriorFrame<'a> {
 }
 
 impl<'a> PosteriorFrame<'a> {
-    fn of(estimate: &'a Estimate, runs: &Runs) -> Result<Self, Unfit> {
+    fn of(estimate: &'a Estimate, runs: &Runs) -> Option<Self> {
         let task = estimate.task(&[], runs);
         let seen = task.evaluated(&estimate.p, true)?;
         let (upper, along) = (task.factor(&seen).upper, task.directions(&seen));
@@ -133,7 +132,7 @@ impl<'a> PosteriorFrame<'a> {
         let root = root.unwrap_or_else(|| unit.sqrt() * UnknownsMatrix::identity());
         let (center, _) = seen_along(&task, &along, &seen);
         let places = task.columns().collect();
-        Ok(PosteriorFrame { estimate, places, along, upper, root, center, unit })
+        Some(PosteriorFrame { estimate, places, along, upper, root, center, unit })
     }
 
     /// Errors along the directions, the `index`th of evenly spread ones.
@@ -191,7 +190,7 @@ impl<'a> PosteriorFrame<'a> {
                 return None;
             }
             at[R] = at[R].max(0.0);
-            let seen = task.evaluated(&at, true).ok();
+            let seen = task.evaluated(&at, true);
             let state = seen.map(|seen| {
                 let (values, by) = seen_along(task, &self.along, &seen);
                 ((values - errors).norm_squared() / self.unit, values, by, task.cost(&seen))

@@ -4,7 +4,7 @@
 //! explains. If the loss is quadratic, the ends lie at a multiple of the standard error from the minimum, which is
 //! checked by one motion on each side. Otherwise the ends are found by refitting all other unknowns.
 
-use super::{Covariance, Optimum, R, Task, Unfit, deviation_of_95_percent, interrupted};
+use super::{Covariance, Optimum, R, Task, deviation_of_95_percent};
 
 /// A 95 % interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -67,14 +67,14 @@ struct ProfilePoint {
 
 impl Profile<'_> {
     /// The interval of an unknown, open where a lower minimum was found; `None` if the loss is too high everywhere in this
-    /// region. Fails with [`Unfit::Interrupted`].
-    pub fn interval(&mut self, unknown: usize) -> Result<Option<ProfileInterval>, Unfit> {
+    /// region.
+    pub fn interval(&mut self, unknown: usize) -> Option<ProfileInterval> {
         let z = self.deviations(unknown);
         let white = self.covariance.inflation(unknown);
         let rise = z * z * white * self.variance;
         let left = 1.0 - (self.optimum.cost - self.least) / rise;
-        if left <= 0.0 {
-            return Ok(None);
+        if left <= 0.0 || self.task.runs.has_ended() {
+            return None;
         }
         // The error in this region if the noise is that of the lowest minimum.
         let part = (self.variance / self.covariance.variance).sqrt();
@@ -83,17 +83,17 @@ impl Profile<'_> {
         let mut ends = [None; 2];
         let mut quadratic = true;
         for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
-            if self.rises_by(unknown, sign * reach, left * rise)? {
+            if self.rises_by(unknown, sign * reach, left * rise) {
                 *end = Some(self.optimum.p[unknown] + sign * reach);
                 continue;
             }
             quadratic = false;
-            *end = self.sought(unknown, sign, reach, rise)?;
+            *end = self.sought(unknown, sign, reach, rise);
             if self.lower.is_some() {
-                return Ok(Some(ProfileInterval::default()));
+                return Some(ProfileInterval::default());
             }
         }
-        Ok(Some(ProfileInterval { lower: ends[0], upper: ends[1], quadratic }))
+        Some(ProfileInterval { lower: ends[0], upper: ends[1], quadratic })
     }
 
     /// Half the width of a 95 % interval in standard errors.
@@ -111,30 +111,24 @@ impl Profile<'_> {
     }
 
     /// Whether the loss rises as a quadratic one would, if the unknown is moved and all others follow freely.
-    fn rises_by(&self, unknown: usize, by: f64, rise: f64) -> Result<bool, Unfit> {
+    fn rises_by(&self, unknown: usize, by: f64, rise: f64) -> bool {
         let along = self.covariance.following(&[(unknown, 1.0)]);
         let p = self.optimum.p + by * along;
         // Friction cannot be negative: r ends at 0, and unknowns that depend on r have a kink there.
         if p[R] < 0.0 && self.task.free[R] {
-            return Ok(false);
+            return false;
         }
-        let seen = interrupted(self.task.evaluated(&p, false))?;
-        Ok(seen.is_some_and(|seen| {
+        let seen = self.task.evaluated(&p, false);
+        seen.is_some_and(|seen| {
             let risen = self.task.cost(&seen) - self.optimum.cost;
             let same = seen.region == self.optimum.seen.region;
             same && (risen / rise - 1.0).abs() <= QUADRATIC
-        }))
+        })
     }
 
     /// The end on one side, by refits that start from each other: further out until the loss has risen enough,
     /// then between the two closest points. `None` if the end is not found.
-    fn sought(
-        &mut self,
-        unknown: usize,
-        sign: f64,
-        reach: f64,
-        rise: f64,
-    ) -> Result<Option<f64>, Unfit> {
+    fn sought(&mut self, unknown: usize, sign: f64, reach: f64, rise: f64) -> Option<f64> {
         /// Accuracy of the rise at an end, and the smallest at which an end may be taken.
         const EXACT: f64 = 0.03;
         const NEARLY: f64 = 0.8;
@@ -142,23 +136,23 @@ impl Profile<'_> {
         let is_least = unknown == R && sign < 0.0;
         let farthest = if is_least { center } else { FARTHEST * reach };
         if farthest <= 0.0 {
-            return Ok(Some(center));
+            return Some(center);
         }
         let risen = (self.optimum.cost - self.least) / rise;
         let mut inside = ProfilePoint { step: 0.0, risen, optimum: self.optimum.clone() };
         let mut outside: Option<(f64, f64)> = None;
         let mut step = reach.min(farthest);
         for _ in 0..REFITS {
-            let found = self.refitted(unknown, center + sign * step, &inside, rise)?;
-            if self.lower.is_some() {
-                return Ok(None);
+            let found = self.refitted(unknown, center + sign * step, &inside, rise);
+            if self.lower.is_some() || self.task.runs.has_ended() {
+                return None;
             }
             let risen = found.as_ref().map_or(f64::INFINITY, |found| found.risen);
             if (risen - 1.0).abs() <= EXACT {
-                return Ok(Some(center + sign * step));
+                return Some(center + sign * step);
             }
             match found.filter(|found| found.risen < 1.0) {
-                Some(_) if step >= farthest => return Ok(is_least.then_some(0.0)),
+                Some(_) if step >= farthest => return is_least.then_some(0.0),
                 Some(found) => inside = ProfilePoint { step, ..found },
                 None => outside = Some((step, risen)),
             }
@@ -175,7 +169,7 @@ impl Profile<'_> {
         // Friction is at least zero in any case.
         let open = is_least.then_some(0.0);
         let near = outside.filter(|(_, high)| high.is_finite() && inside.risen > NEARLY);
-        Ok(near.map_or(open, |(far, _)| Some(center + sign * far)))
+        near.map_or(open, |(far, _)| Some(center + sign * far))
     }
 
     /// The best point with the unknown at a value; `None` if no descent from a known point leads there.
@@ -185,19 +179,18 @@ impl Profile<'_> {
         value: f64,
         from: &ProfilePoint,
         rise: f64,
-    ) -> Result<Option<ProfilePoint>, Unfit> {
+    ) -> Option<ProfilePoint> {
         /// Fall of the loss, as a fraction of the rise at the end, that shows that the minimum was none.
         const LOWER: f64 = 0.02;
         let by = value - from.optimum.p[unknown];
-        let Some(guess) = self.task.followed(&from.optimum, unknown, by) else { return Ok(None) };
-        let found = interrupted(self.task.holding(unknown).solve_roughly(guess))?;
-        let Some(optimum) = found else { return Ok(None) };
+        let guess = self.task.followed(&from.optimum, unknown, by)?;
+        let optimum = self.task.holding(unknown).solve_roughly(guess)?;
         if optimum.cost < self.optimum.cost - LOWER * rise {
             self.lower = Some(optimum);
-            return Ok(None);
+            return None;
         }
         let risen = (optimum.cost - self.least).max(0.0) / rise;
-        Ok(Some(ProfilePoint { step: 0.0, risen, optimum }))
+        Some(ProfilePoint { step: 0.0, risen, optimum })
     }
 }
 

@@ -72,16 +72,17 @@ pub fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Esti
     let data = Record { t: t.clone(), x: x.clone(), ..record.clone() };
     let task = Task::new(&data, beginnings[0].start, free, reach, runs);
     let mut task = Task { loss, noise: noise.deviation, ..task };
-    let mut found = task.search(&beginnings)?;
+    let lost = || runs.ended().unwrap_or(Unfit::NoMotion);
+    let mut found = task.search(&beginnings).ok_or_else(lost)?;
     let swings = drift_of_swings(&t, &extremes).map(|drift| drift / factor);
     let drifting = || guessed(swings).map(|guess| guess.beginnings).unwrap_or_default();
-    if let Some((minima, free)) = task.drifting(&found, drifting)? {
+    if let Some((minima, free)) = task.drifting(&found, drifting) {
         (found, task.free) = (minima, free);
         let p = &found[0].p;
         extremes = guessed([p[SLOPE], p[BEND]]).map_or(extremes, |guess| guess.extremes);
     }
     if beginnings[0].start == StartKind::Release && !task.explains(&found[0]) {
-        let other = released_before(&task, &held, &noise, &extremes)?;
+        let other = released_before(&task, &held, &noise, &extremes);
         found = other.filter(|other| other[0].cost < found[0].cost).unwrap_or(found);
     }
     if let Some(range) = struck.filter(|_| !signal.is_displacement())
@@ -90,13 +91,13 @@ pub fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Esti
     {
         return Ok(found);
     }
-    let mut dropped = without_jumps_of_signal(&task, &mut found)?;
+    let mut dropped = without_jumps_of_signal(&task, &mut found).ok_or_else(lost)?;
     if question.loss == LossName::Auto {
         task.loss = Loss::LINEAR;
-        drop_outliers(&task, &mut dropped, loss.is_robust(), &mut found)?;
+        drop_outliers(&task, &mut dropped, loss.is_robust(), &mut found).ok_or_else(lost)?;
         // If no motion fits, it is not known where the mass rests.
         if (Task { dropped: &dropped, ..task }).comes_near(&found[0]) {
-            drop_alike_at_rest(&task, &noise, &mut dropped, &mut found)?;
+            drop_alike_at_rest(&task, &noise, &mut dropped, &mut found).ok_or_else(lost)?;
         }
     }
     let estimate = judged(&Task { dropped: &dropped, ..task }, &found)?;
@@ -131,11 +132,8 @@ fn loss_of(name: LossName, noise: &Noise) -> Loss {
 }
 
 /// The samples without those next to jumps of the signal, which only an acceleration has. The minima are then sought
-/// again with these samples. Fails with [`Unfit`] when interrupted, or if the motion is lost.
-fn without_jumps_of_signal(
-    task: &Task,
-    found: &mut Vec<Optimum>,
-) -> Result<Vec<Option<Dropped>>, Unfit> {
+/// again with these samples. `None` if the computation has ended, or if the motion is lost.
+fn without_jumps_of_signal(task: &Task, found: &mut Vec<Optimum>) -> Option<Vec<Option<Dropped>>> {
     /// The jumps move as the fit improves.
     const ROUNDS: usize = 2;
     let mut dropped = vec![None; task.data.residuals()];
@@ -146,7 +144,7 @@ fn without_jumps_of_signal(
             Task { dropped: &dropped, ..*task }.renew(found)?;
         }
     }
-    Ok(dropped)
+    Some(dropped)
 }
 
 /// The times of the jumps of a motion.
@@ -176,7 +174,7 @@ fn drop_alike_at_rest(
     noise: &Noise,
     dropped: &mut Vec<Option<Dropped>>,
     found: &mut Vec<Optimum>,
-) -> Result<(), Unfit> {
+) -> Option<()> {
     /// Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
     const ROUNDS: usize = 2;
     let before = dropped.clone();
@@ -196,7 +194,7 @@ fn drop_alike_at_rest(
         *dropped = before.iter().zip(&alike).map(why).collect();
         Task { dropped, ..*task }.renew(found)?;
     }
-    Ok(())
+    Some(())
 }
 
 /// Selects the samples held and those at rest except for `enough` (at least two) of each, evenly spread.
@@ -228,7 +226,7 @@ fn drop_outliers(
     dropped: &mut Vec<Option<Dropped>>,
     robust: bool,
     found: &mut [Optimum],
-) -> Result<(), Unfit> {
+) -> Option<()> {
     /// A model that leaves out more than this fraction of the record does not describe it.
     const MOST: f64 = 0.15;
     const ROUNDS: usize = 4;
@@ -252,7 +250,7 @@ fn drop_outliers(
         (*dropped, settled) = (now, true);
         Task { dropped, ..*task }.polish(found)?;
     }
-    Ok(())
+    Some(())
 }
 
 /// The size beyond which a residual does not belong to the motion: a multiple of the standard deviation of the
@@ -312,8 +310,9 @@ pub fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estima
     let of = |ratio: f64| Record { peaks: Some(ratio), ..record.clone() };
     let reach = reach(x);
     let mut data = of(ratio);
+    let lost = || runs.ended().unwrap_or(Unfit::NoMotion);
     let plain = Task::new(record, StartKind::Release, free, reach, runs);
-    let mut found = Task { data: &data, ..plain }.search(&starts)?;
+    let mut found = Task { data: &data, ..plain }.search(&starts).ok_or_else(lost)?;
     for _ in 0..ROUNDS {
         let task = Task { data: &data, ..plain };
         let next = ratio * ratio_of_kinds(&task, &found[0], x.len());
@@ -322,7 +321,7 @@ pub fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estima
         }
         ratio = next;
         data = of(ratio);
-        Task { data: &data, ..plain }.polish(&mut found)?;
+        Task { data: &data, ..plain }.polish(&mut found).ok_or_else(lost)?;
     }
     let dropped = vec![None; data.residuals()];
     let mut estimate = judged(&Task { data: &data, dropped: &dropped, ..plain }, &found)?;

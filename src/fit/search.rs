@@ -2,8 +2,8 @@
 
 use super::{
     Beginning, D2, D3, Extreme, Guess, LAST, Loss, LossName, Noise, OFFSET, OMEGA0, Optimum, Q0, R,
-    Record, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE, Way, by_cost, follow, guess,
-    interrupted, parameters, placed, through_the_valley,
+    Record, StartKind, Task, UNKNOWNS, Unknowns, WIDE, Way, by_cost, follow, guess, parameters,
+    placed, through_the_valley,
 };
 use crate::model::State;
 use crate::numerics::{pow, real};
@@ -21,14 +21,14 @@ const FEWEST: usize = 4;
 impl Task<'_> {
     /// Descends from the closest guess of each way of beginning, trying one way of descent after the other,
     /// until a minimum explains the record; otherwise the best minimum found is taken. The minima of all regions
-    /// follow, the lowest first. Fails with [`Unfit`] if no descent succeeds.
-    pub(crate) fn search(&self, guesses: &[Beginning]) -> Result<Vec<Optimum>, Unfit> {
+    /// follow, the lowest first. `None` if no descent succeeds, or if the computation has ended.
+    pub(crate) fn search(&self, guesses: &[Beginning]) -> Option<Vec<Optimum>> {
         let mut best: Option<Optimum> = None;
-        let mut starts = self.ranked(guesses)?;
+        let mut starts = self.ranked(guesses);
         for (round, way) in WAYS.into_iter().enumerate() {
             let mut costs = Vec::new();
             for &(start, guess, certain) in &starts {
-                let found = interrupted(way(&self.starting(start), guess))?;
+                let found = way(&self.starting(start), guess);
                 costs.push(found.as_ref().map_or(f64::INFINITY, |found| found.cost));
                 let Some(found) = found else { continue };
                 let closest = &self.runs.closest;
@@ -50,77 +50,77 @@ impl Task<'_> {
             ranked.sort_by(|one, other| one.0.total_cmp(&other.0));
             starts = ranked.into_iter().map(|(_, start)| start).collect();
         }
-        let mut optimum = best.ok_or(Unfit::NoMotion)?;
+        let mut optimum = best.filter(|_| !self.runs.has_ended())?;
         let task = self.starting(optimum.start);
         if optimum.start == StartKind::Release && !self.explains(&optimum) {
-            optimum = task.released_elsewhere(optimum)?;
+            optimum = task.released_elsewhere(optimum);
         }
         let mut optima = vec![optimum];
         if task.may_be_elsewhere(&optima[0]) {
             let alike = guesses.iter().filter(|beginning| beginning.start == optima[0].start);
             let guesses = alike.flat_map(|beginning| beginning.guesses.iter().copied());
             let guesses = guesses.chain([optima[0].p]).collect();
-            optima.extend(task.by_fewer_terms(guesses)?);
+            optima.extend(task.by_fewer_terms(guesses));
         }
-        task.valleys(optima)
+        Some(task.valleys(optima))
     }
 
     /// The lowest minimum if the same motion was released some periods earlier or later.
-    fn released_elsewhere(&self, mut best: Optimum) -> Result<Optimum, Unfit> {
+    fn released_elsewhere(&self, mut best: Optimum) -> Optimum {
         const ROUNDS: usize = 3;
         for _ in 0..ROUNDS {
             let from = best.clone();
             for guess in [-2, -1, 1, 2].into_iter().filter_map(|it| released_after(&from, it)) {
-                best = best.or_lower(interrupted(self.solve(guess))?);
+                best = best.or_lower(self.solve(guess));
             }
             if best.cost == from.cost || self.explains(&best) {
                 break;
             }
         }
-        Ok(best)
+        best
     }
 
     /// The minima reached from those without D2 and D3, which have fewer valleys if noise leaves room for many.
-    fn by_fewer_terms(&self, guesses: Vec<Unknowns>) -> Result<Vec<Optimum>, Unfit> {
+    fn by_fewer_terms(&self, guesses: Vec<Unknowns>) -> Vec<Optimum> {
         /// Maximum number of minima from which to continue.
         const MOST: usize = 3;
         let fewer = self.holding(D2).holding(D3);
         let guesses = guesses.into_iter().map(|guess| self.without(guess, &[D2, D3])).collect();
         let beginning = Beginning { start: self.start, certain: true, guesses };
         let mut minima = Vec::new();
-        for (_, guess, _) in fewer.ranked(&[beginning])? {
-            if let Some(found) = interrupted(fewer.solve(guess))? {
+        for (_, guess, _) in fewer.ranked(&[beginning]) {
+            if let Some(found) = fewer.solve(guess) {
                 let mut optima = Vec::new();
-                for guess in through_the_valley(&fewer, &found, WIDE, &[])? {
-                    optima.extend(interrupted(fewer.solve(guess))?);
+                for guess in through_the_valley(&fewer, &found, WIDE, &[]) {
+                    optima.extend(fewer.solve(guess));
                 }
                 optima.push(found);
-                minima = fewer.valleys(optima)?;
+                minima = fewer.valleys(optima);
             }
         }
         let mut optima = Vec::new();
         for minimum in minima.into_iter().take(MOST) {
-            optima.extend(interrupted(self.solve(minimum.p))?);
+            optima.extend(self.solve(minimum.p));
         }
-        Ok(optima)
+        optima
     }
 
-    /// Fits every minimum again with the residuals that now count. Fails with [`Unfit`] when interrupted, or if
+    /// Fits every minimum again with the residuals that now count. `None` if the computation has ended, or if
     /// the motion is lost.
-    pub(crate) fn polish(&self, found: &mut [Optimum]) -> Result<(), Unfit> {
+    pub(crate) fn polish(&self, found: &mut [Optimum]) -> Option<()> {
         for minimum in &mut *found {
             *minimum = self.starting(minimum.start).around(&minimum.seen).solve(minimum.p)?;
         }
         found.sort_by(by_cost);
-        Ok(())
+        Some(())
     }
 
     /// Seeks the minima again with the residuals that now count, from the best one. Fails as [`Task::polish`].
-    pub(crate) fn renew(&self, found: &mut Vec<Optimum>) -> Result<(), Unfit> {
+    pub(crate) fn renew(&self, found: &mut Vec<Optimum>) -> Option<()> {
         let task = self.starting(found[0].start);
         let optimum = task.solve(found[0].p)?;
-        *found = task.valleys(vec![optimum])?;
-        Ok(())
+        *found = task.valleys(vec![optimum]);
+        Some(())
     }
 
     /// Whether a minimum is better than the best one so far. A release must be clearly better than a mass in
@@ -134,17 +134,14 @@ impl Task<'_> {
 
     /// For each way of beginning, the guess that is closest to the record before any descent. Guesses without D2 and
     /// D3 are also tried, since with wrong values of these every motion may escape.
-    pub(crate) fn ranked(
-        &self,
-        guesses: &[Beginning],
-    ) -> Result<Vec<(StartKind, Unknowns, bool)>, Unfit> {
+    pub(crate) fn ranked(&self, guesses: &[Beginning]) -> Vec<(StartKind, Unknowns, bool)> {
         let mut starts = Vec::new();
         for Beginning { start, certain, guesses } in guesses {
             let task = self.starting(*start);
             let mut best = (f64::INFINITY, None);
             let plain = guesses.iter().map(|guess| self.without(*guess, &[D2, D3]));
             for guess in guesses.iter().copied().chain(plain) {
-                if let Some(seen) = interrupted(task.evaluated(&guess, false))? {
+                if let Some(seen) = task.evaluated(&guess, false) {
                     let cost = task.cost(&seen);
                     if cost < best.0 {
                         best = (cost, Some(guess));
@@ -153,7 +150,7 @@ impl Task<'_> {
             }
             starts.extend(best.1.map(|guess| (*start, guess, *certain)));
         }
-        Ok(starts)
+        starts
     }
 
     /// A guess with zero for some of the unknowns, as far as they are free.
@@ -165,7 +162,7 @@ impl Task<'_> {
     }
 
     /// Descends on a growing part of the record, with a robust loss that tolerates samples that are still far off.
-    fn growing(&self, guess: Unknowns) -> Result<Optimum, Unfit> {
+    fn growing(&self, guess: Unknowns) -> Option<Optimum> {
         let mut p = guess;
         let t = &self.data.t;
         if self.data.has_peaks() {
@@ -200,7 +197,7 @@ fn released_after(from: &Optimum, periods: i32) -> Option<Unknowns> {
 }
 
 /// A way of descent from a guess to a minimum.
-type Descent = fn(&Task, Unknowns) -> Result<Optimum, Unfit>;
+type Descent = fn(&Task, Unknowns) -> Option<Optimum>;
 
 /// The ways of descent in the order in which they are tried.
 const WAYS: [Descent; 4] = [
@@ -215,13 +212,13 @@ const WAYS: [Descent; 4] = [
 /// hold.
 ///
 /// `extremes` are the hold and the turning points. `None` if there is no such motion, or if the
-/// signal does not show where the mass was held; fails with [`Unfit::Interrupted`].
+/// signal does not show where the mass was held.
 pub fn released_before(
     task: &Task,
     held: &[Option<f64>; UNKNOWNS],
     noise: &Noise,
     extremes: &[Extreme],
-) -> Result<Option<Vec<Optimum>>, Unfit> {
+) -> Option<Vec<Optimum>> {
     /// Number of turning points left out, at most, and the part of all.
     const FIRST: usize = 4;
     const PART: usize = 4;
@@ -229,31 +226,25 @@ pub fn released_before(
     const SWINGS: usize = 60;
     let Record { t, x, signal, .. } = task.data;
     if !signal.is_displacement() {
-        return Ok(None);
+        return None;
     }
     let first = extremes[FIRST.min(extremes.len() / PART)];
     let from = t.partition_point(|&t| t < first.t);
     let (later, times) = (&x[from..], &t[from..]);
-    let Some(Guess { mut beginnings, .. }) = guess(times, later, noise, *signal) else {
-        return Ok(None);
-    };
+    let Guess { mut beginnings, .. } = guess(times, later, noise, *signal)?;
     beginnings.retain(|beginning| beginning.start == StartKind::Moving);
     for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
         *guess = placed(held, *guess);
     }
     let data = Record { t: times.to_vec(), x: later.to_vec(), ..task.data.clone() };
     let part = Task { data: &data, ..*task };
-    let Some(found) = interrupted(part.search(&beginnings))? else { return Ok(None) };
+    let found = part.search(&beginnings)?;
     let optimum = &found[0];
-    let Some(turn) = optimum.seen.turns.first().filter(|_| part.explains(optimum)) else {
-        return Ok(None);
-    };
+    let turn = optimum.seen.turns.first().filter(|_| part.explains(optimum))?;
     let p = &optimum.p;
     let begin = State { q: extremes[0].x - p[OFFSET], v: 0.0 };
     let way = Way { reach: task.reach, turns: SWINGS, ..Way::default() };
-    let Ok(motion) = follow(&parameters(p), begin, &[f64::MAX], way, |_, _| {}) else {
-        return Ok(None);
-    };
+    let motion = follow(&parameters(p), begin, &[f64::MAX], way, |_, _| {}).ok()?;
     let released = |tau: f64| {
         let mut guess: Unknowns = *p;
         (guess[Q0], guess[LAST]) = (begin.q, times[0] + (turn.tau - tau) / p[OMEGA0]);
@@ -263,5 +254,5 @@ pub fn released_before(
     let guesses = same.map(|it| placed(held, released(it.tau))).filter(|it| it[LAST] > t[0]);
     let guesses: Vec<Unknowns> = guesses.collect();
     let beginning = Beginning { start: StartKind::Release, certain: true, guesses };
-    interrupted(task.search(&[beginning]))
+    task.search(&[beginning])
 }

@@ -1,6 +1,6 @@
 //! What is estimated from a record, and how well a motion explains it.
 
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 
 use nalgebra::{DMatrix, SMatrix};
 
@@ -22,6 +22,8 @@ pub struct Runs<'a> {
     pub interrupted: &'a dyn Fn() -> bool,
     /// The smallest root mean square of residuals that a descent has reached.
     pub closest: Cell<f64>,
+    /// Why the computation has ended, if it has: from then on there are no more motions.
+    pub(super) end: OnceCell<Unfit>,
 }
 
 impl<'a> Runs<'a> {
@@ -29,18 +31,31 @@ impl<'a> Runs<'a> {
     pub fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
         let (with_derivatives, plain) = (Cell::default(), Cell::default());
         let (most, closest) = (u64::MAX, Cell::new(f64::INFINITY));
-        Runs { with_derivatives, plain, most, interrupted, closest }
+        Runs { with_derivatives, plain, most, interrupted, closest, end: OnceCell::new() }
     }
-}
 
-/// The result, if there is one. The end of the computation remains an error.
-///
-/// # Errors
-/// [`Unfit::Interrupted`] and [`Unfit::GaveUp`].
-pub fn interrupted<T>(result: Result<T, Unfit>) -> Result<Option<T>, Unfit> {
-    match result {
-        Err(end @ (Unfit::Interrupted | Unfit::GaveUp { .. })) => Err(end),
-        other => Ok(other.ok()),
+    /// Why the computation has ended, if it has.
+    pub fn ended(&self) -> Option<Unfit> {
+        self.end.get().cloned()
+    }
+
+    /// Whether it has.
+    pub fn has_ended(&self) -> bool {
+        self.end.get().is_some()
+    }
+
+    /// Counts a motion, if there may be another one.
+    fn count(&self, with_derivatives: bool) -> Option<()> {
+        let (with, plain) = (&self.with_derivatives, &self.plain);
+        if (self.interrupted)() {
+            self.end.get_or_init(|| Unfit::Interrupted);
+        } else if with.get() + plain.get() >= self.most {
+            let (motions, closest) = (self.most, self.closest.get());
+            self.end.get_or_init(|| Unfit::GaveUp { motions, closest });
+        }
+        let counter = if with_derivatives { with } else { plain };
+        counter.set(counter.get() + 1);
+        (!self.has_ended()).then_some(())
     }
 }
 
@@ -212,22 +227,12 @@ impl<'a> Task<'a> {
         cost / real(self.data.residuals().max(1))
     }
 
-    /// Compares the model with the record, and counts the motion.
-    ///
-    /// # Errors
-    /// [`Unfit`] if the motion of the model escapes, or when interrupted.
-    pub fn evaluated(&self, p: &Unknowns, with_derivatives: bool) -> Result<Seen, Unfit> {
-        let Runs { with_derivatives: with, plain, most, interrupted, closest } = self.runs;
-        if interrupted() {
-            return Err(Unfit::Interrupted);
-        }
-        if with.get() + plain.get() >= *most {
-            return Err(Unfit::GaveUp { motions: *most, closest: closest.get() });
-        }
-        let counter = if with_derivatives { with } else { plain };
-        counter.set(counter.get() + 1);
+    /// Compares the model with the record, and counts the motion; `None` if the motion of the model escapes, or if the
+    /// computation has ended.
+    pub fn evaluated(&self, p: &Unknowns, with_derivatives: bool) -> Option<Seen> {
+        self.runs.count(with_derivatives)?;
         let way = Way { with_derivatives, reach: self.reach, ..Way::default() };
-        self.data.compare(self.start, p, way).map_err(|_| Unfit::NoMotion)
+        self.data.compare(self.start, p, way).ok()
     }
 
     /// The places of the free unknowns.

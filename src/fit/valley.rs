@@ -7,9 +7,7 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::{
-    Bound, Covariance, D2, D3, FitVerdict, Optimum, R, Region, Task, Unfit, Unknowns, interrupted,
-};
+use super::{Bound, Covariance, D2, D3, FitVerdict, Optimum, R, Region, Task, Unknowns};
 
 impl Task<'_> {
     /// Whether the right valley may be far from this minimum because noise hides the number of half swings.
@@ -30,15 +28,15 @@ impl Task<'_> {
     /// Descents start from points around each minimum that noise may have made the lowest: beyond the rims around
     /// its region, and from the closest points to the record along a change of r that the other unknowns follow.
     /// Each descent is confined to the region in which it starts, so that what is best there is found even if
-    /// it lies on a rim. This is repeated until no other minimum is found. Fails with [`Unfit::Interrupted`].
-    pub(crate) fn valleys(&self, optima: Vec<Optimum>) -> Result<Vec<Optimum>, Unfit> {
+    /// it lies on a rim. This is repeated until no other minimum is found.
+    pub(crate) fn valleys(&self, optima: Vec<Optimum>) -> Vec<Optimum> {
         /// Maximum number of minima around which others are searched for.
         const MOST: usize = 8;
         /// Rise of chi-squared up to which a minimum may be the right one.
         const NEAR: f64 = 8.0;
         let mut valleys = Vec::new();
         for optimum in optima {
-            let found = interrupted(self.around(&optimum.seen).solve(optimum.p))?;
+            let found = self.around(&optimum.seen).solve(optimum.p);
             keep(&mut valleys, found.unwrap_or(optimum));
         }
         let mut asked: Vec<Region> = Vec::new();
@@ -55,25 +53,25 @@ impl Task<'_> {
                 continue;
             }
             let verdict = self.verdict(&from);
-            let mut guesses = beyond_the_rim(self, &from, &covariance, verdict)?;
+            let mut guesses = beyond_the_rim(self, &from, &covariance, verdict);
             if from.cost == least && from.seen.rests && !self.data.has_peaks() {
                 guesses.extend(if verdict == FitVerdict::Noise {
-                    along_the_valley(self, &from, &covariance, &valleys)?
+                    along_the_valley(self, &from, &covariance, &valleys)
                 } else {
-                    through_the_valley(self, &from, FINE, &valleys)?
+                    through_the_valley(self, &from, FINE, &valleys)
                 });
             }
             for guess in guesses {
-                let Some(seen) = interrupted(self.evaluated(&guess, false))? else {
+                let Some(seen) = self.evaluated(&guess, false) else {
                     continue;
                 };
-                let found = interrupted(self.around(&seen).solve(guess))?;
+                let found = self.around(&seen).solve(guess);
                 if let Some(found) = found {
                     keep(&mut valleys, found);
                 }
             }
         }
-        Ok(valleys)
+        valleys
     }
 }
 
@@ -100,7 +98,7 @@ fn beyond_the_rim(
     optimum: &Optimum,
     covariance: &Covariance,
     verdict: FitVerdict,
-) -> Result<Vec<Unknowns>, Unfit> {
+) -> Vec<Unknowns> {
     /// How much further to go while a point still lies in the same region.
     const FURTHER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
     /// Distance beyond the rim: this fraction of the way to it, plus this many standard errors.
@@ -125,14 +123,14 @@ fn beyond_the_rim(
             if !is_possible(&p) {
                 break;
             }
-            let Some(seen) = interrupted(task.evaluated(&p, false))? else { break };
+            let Some(seen) = task.evaluated(&p, false) else { break };
             if seen.region != optimum.seen.region {
                 found.push(p);
                 break;
             }
         }
     }
-    Ok(found)
+    found
 }
 
 /// The points along the valley of r that are closest to the record: one for each number of half swings, if it is
@@ -143,7 +141,7 @@ fn along_the_valley(
     optimum: &Optimum,
     covariance: &Covariance,
     known: &[Optimum],
-) -> Result<Vec<Unknowns>, Unfit> {
+) -> Vec<Unknowns> {
     /// Steps on each side: `STEPS` of the fraction `PART` of r, and `ERRORS` of one standard error.
     const PART: f64 = 0.012;
     const STEPS: u32 = 22;
@@ -157,13 +155,13 @@ fn along_the_valley(
     for step in parts.chain(errors).flat_map(|step| [step, -step]) {
         let p = optimum.p + step * along;
         if p[R] > 0.0
-            && let Some(seen) = interrupted(task.evaluated(&p, false))?
+            && let Some(seen) = task.evaluated(&p, false)
         {
             closest.see(seen.turns.len(), task.cost(&seen), p);
         }
     }
     closest.0.retain(|_, (cost, _)| *cost - optimum.cost <= FAR * task.unit(optimum.cost));
-    Ok(closest.beside(known))
+    closest.beside(known)
 }
 
 /// Factors of successive steps of r on each side; a valley may be as narrow as one percent of r.
@@ -173,25 +171,25 @@ const FINE: [f64; 9] = [1.01, 1.01, 1.01, 1.02, 1.02, 1.04, 1.04, 1.04, 1.04];
 pub const WIDE: [f64; 9] = [1.03, 1.04, 1.05, 1.06, 1.08, 1.1, 1.12, 1.15, 1.2];
 
 /// The same with all other unknowns refitted at each step of r: while the residuals are not white, the right
-/// minimum may be too far away for the linear model. Fails with [`Unfit::Interrupted`].
+/// minimum may be too far away for the linear model.
 pub fn through_the_valley(
     task: &Task,
     optimum: &Optimum,
     factors: [f64; 9],
     known: &[Optimum],
-) -> Result<Vec<Unknowns>, Unfit> {
+) -> Vec<Unknowns> {
     let held = task.holding(R);
     let mut closest = Closest::default();
     for up in [true, false] {
         let mut p = optimum.p;
         for factor in factors {
             p[R] *= if up { factor } else { 1.0 / factor };
-            let Some(found) = interrupted(held.solve_roughly(p))? else { break };
+            let Some(found) = held.solve_roughly(p) else { break };
             p = found.p;
             closest.see(found.seen.turns.len(), found.cost, p);
         }
     }
-    Ok(closest.beside(known))
+    closest.beside(known)
 }
 
 /// For each number of half swings, the point that is closest to the record.

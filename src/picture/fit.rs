@@ -176,7 +176,7 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
     let mut picture = Picture::new("D and r together", "D", r, Window::default());
     for (rise, name) in RISES.into_iter().zip(LINES) {
         let contour = contour(estimate, [D, R], rise, &Runs::new(&|| false));
-        if let Some(contour) = contour.ok().filter(|it| !it.is_empty()) {
+        if let Some(contour) = contour.filter(|it| !it.is_empty()) {
             picture.curve(name, contour);
         }
     }
