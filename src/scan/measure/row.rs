@@ -1,6 +1,6 @@
 //! The row of a point while it is computed, and the cells that the oscillator of the paper and machines fill alike.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 
 use super::settling::Settling;
@@ -38,18 +38,46 @@ pub(super) struct Cells<'a> {
     pub portrait: Option<Portrait>,
 }
 
-impl<'a> Cells<'a> {
-    pub fn new(
-        subject: &'a Subject,
-        measures: &'a [Measure],
-        conditions: &'a Conditions,
-        limits: &'a Limits<'a>,
-    ) -> Self {
-        let (filled, reasons, cost) = Default::default();
-        let (known, portrait) = (None, None);
-        Cells { subject, measures, conditions, limits, filled, reasons, cost, known, portrait }
+/// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`],
+/// and [`ScanRow::reason`] says why. Fails with [`Reason::Interrupted`], and no other.
+pub fn measure(
+    subject: &Subject,
+    measures: &[Measure],
+    conditions: &Conditions,
+    limits: &Limits,
+) -> Result<ScanRow, Reason> {
+    // Those with which each of them is computed.
+    let mut wanted: BTreeSet<_> = measures.iter().map(|measure| measure.with()).collect();
+    // Of a machine cycles and margin are one computation, on which repeated kicks rest.
+    if subject.paper().is_none()
+        && (wanted.remove(&Measure::Margin) || wanted.contains(&Measure::Repeated))
+    {
+        wanted.insert(Measure::Cycles);
     }
+    let stops = || if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(()) };
+    let mut cells = Cells {
+        subject,
+        measures,
+        conditions,
+        limits,
+        filled: BTreeMap::new(),
+        reasons: Vec::new(),
+        cost: Cost::default(),
+        known: None,
+        portrait: None,
+    };
+    for measure in wanted {
+        stops()?;
+        let computed = cells.compute(measure);
+        stops()?;
+        if let Err(why) = computed {
+            cells.reasons.push(format!("{}: {why}", measure.spec().name));
+        }
+    }
+    Ok(cells.row())
+}
 
+impl Cells<'_> {
     /// The row; columns that were not filled have no value.
     pub fn row(mut self) -> ScanRow {
         let columns = |measure: &Measure| {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::flow::Problem;
+use crate::flow::{Limits, Problem, Reason, Subject};
 use crate::model::{Parameters, State};
 use crate::portrait::{Kick, StartWindow};
 
