@@ -42,18 +42,11 @@ pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     }
     for proved in &proof.cycles {
         let is_it = |cycle: &&Cycle| matching(proof, cycle) == Some(proved);
-        match found.iter().filter(is_it).count() {
-            1 => {}
-            0 => {
-                let within = proved.within;
-                return contradiction(format!(
-                    "a cycle with a clearance in {within} was not found"
-                ));
-            }
-            more => {
-                return contradiction(format!("{more} of the cycles found are the same one"));
-            }
-        }
+        return contradiction(match found.iter().filter(is_it).count() {
+            1 => continue,
+            0 => format!("a cycle with a clearance in {} was not found", proved.within),
+            more => format!("{more} of the cycles found are the same one"),
+        });
     }
     Ok(())
 }

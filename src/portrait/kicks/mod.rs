@@ -55,12 +55,9 @@ impl RandomKick {
         let form = || {
             format!("{text:?}: expected kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0")
         };
-        let (law, parts) = match text.split_once(':') {
-            None => (Distribution::Normal, text),
-            Some(("normal", parts)) => (Distribution::Normal, parts),
-            Some(("uniform", parts)) => (Distribution::Uniform, parts),
-            Some(_) => return Err(form()),
-        };
+        let (name, parts) = text.split_once(':').unwrap_or(("normal", text));
+        let mut laws = [Distribution::Normal, Distribution::Uniform].into_iter();
+        let law = laws.find(|law| law.name() == name).ok_or_else(form)?;
         let mut kicks = RandomKick { law, q: (0.0, 0.0), v: (0.0, 0.0) };
         for part in parts.split(',') {
             let (name, interval) = part.split_once('=').ok_or_else(form)?;
