@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::output::columns;
 use super::{Failure, SourceOptions, input, print, write};
-use crate::figure::{self as forms, FileForm};
+use crate::figure::{FigureForm, file};
 use crate::flow::Limits;
 use crate::question::Fineness;
 use crate::runtime::print::{complete, figure};
@@ -28,27 +28,14 @@ pub struct FigureCommand {
     source: SourceOptions,
     /// File to write; its extension sets the format: .svg, .png, .csv or .json
     #[arg(long, value_name = "FILE", value_parser = input::figure_file)]
-    output: Option<(PathBuf, FileForm)>,
+    output: Option<(PathBuf, FigureForm)>,
     /// Replaces what FILE holds
     #[arg(long, requires = "output")]
     force: bool,
     /// Format on standard output, without --output
-    #[arg(long, value_enum, default_value_t = PrintForm::Text, value_name = "FORMAT",
+    #[arg(long, value_enum, default_value_t = FigureForm::Text, value_name = "FORMAT",
           conflicts_with = "output")]
-    format: PrintForm,
-}
-
-/// The form of a figure on standard output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum PrintForm {
-    /// Drawn with characters.
-    Text,
-    /// One JSON document, all digits.
-    Json,
-    /// One row per point, all digits.
-    Csv,
-    /// A vector picture.
-    Svg,
+    format: FigureForm,
 }
 
 /// Size of a panel drawn with characters; a narrower terminal reduces the width.
@@ -60,18 +47,18 @@ const NARROWEST: u16 = 40;
 impl FigureCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let (mut session, plots) = completed(self.scene()?)?;
-        let mut drawn =
-            || figure(&mut session, &plots, &Limits::PATIENT).from(provenance_file::of_process());
-        if let Some((path, form)) = &self.output {
-            let content = forms::file(&drawn(), *form).map_err(Failure::Unanswered)?;
-            return write(path, &content, self.force);
+        let (path, form) = self.output.clone().unzip();
+        let form = form.unwrap_or(self.format);
+        if form == FigureForm::Text {
+            return print(&in_letters(&session));
         }
-        print(&match self.format {
-            PrintForm::Text => in_letters(&session),
-            PrintForm::Json => forms::json(&drawn()),
-            PrintForm::Csv => forms::csv(&drawn()),
-            PrintForm::Svg => forms::svg(&drawn()),
-        })
+        let drawn = figure(&mut session, &plots, &Limits::PATIENT);
+        let drawn = drawn.from(provenance_file::of_process());
+        let content = file(&drawn, form).map_err(Failure::Unanswered)?;
+        match path {
+            Some(path) => write(&path, &content, self.force),
+            None => print(&String::from_utf8_lossy(&content)),
+        }
     }
 
     /// The scene to show: that of a machine, or one that is named.

@@ -8,7 +8,7 @@ use clap::{ArgGroup, Args};
 
 use super::progress::{Outlet, StatusLine};
 use super::{Failure, Output, input, timed, write};
-use crate::figure::{self, Figure, FileForm};
+use crate::figure::{self, Figure, FigureForm};
 use crate::fit::{
     D, DRAWS, Fitted, Inertia, MarginQuestion, NameSpec, Record, Unfit, assigned, length_in_metres,
 };
@@ -47,7 +47,7 @@ pub struct FitCommand {
     /// Also writes figures: record and residuals, damping over amplitude, phase plane, margin; the extension sets the
     /// format: .svg, .png, .csv or .json
     #[arg(long = "output", value_name = "FILE", value_parser = input::figure_file)]
-    pictures: Option<(PathBuf, FileForm)>,
+    pictures: Option<(PathBuf, FigureForm)>,
     /// Also writes the answer as a page to print and sign: numbers, what they rest on, figures, SHA-256 of the record
     #[arg(long, value_name = "FILE.html", value_parser = input::page_file)]
     report: Option<PathBuf>,

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use super::Failure;
-use crate::figure::FileForm;
+use crate::figure::FigureForm;
 use crate::flow::{METHODS, Method, Subject};
 use crate::model::unit::{Dimension, WithTolerance, measured};
 use crate::model::{Group, Knob};
@@ -209,9 +209,9 @@ pub fn method(name: &str) -> Result<Method, String> {
 }
 
 /// The file of a figure, and the form given by its extension.
-pub fn figure_file(text: &str) -> Result<(PathBuf, FileForm), String> {
+pub fn figure_file(text: &str) -> Result<(PathBuf, FigureForm), String> {
     let path = PathBuf::from(text);
-    FileForm::of_file(&path).map(|form| (path, form))
+    FigureForm::of_file(&path).map(|form| (path, form))
 }
 
 /// The file of a page.
@@ -279,9 +279,9 @@ mod tests {
 
     #[test]
     fn the_ending_of_a_file_says_in_which_form() {
-        assert_eq!(figure_file("a/fig.SVG").unwrap().1, FileForm::Svg);
-        assert_eq!(figure_file("fig.json").unwrap().1, FileForm::Json);
-        assert_eq!(figure_file("fig.png").unwrap().1, FileForm::Png);
+        assert_eq!(figure_file("a/fig.SVG").unwrap().1, FigureForm::Svg);
+        assert_eq!(figure_file("fig.json").unwrap().1, FigureForm::Json);
+        assert_eq!(figure_file("fig.png").unwrap().1, FigureForm::Png);
         for wrong in ["fig", "fig.pdf", ".svg", ""] {
             assert!(figure_file(wrong).is_err(), "{wrong}");
         }

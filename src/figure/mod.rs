@@ -19,13 +19,15 @@ mod png;
 mod svg;
 
 pub use content::{Axis, Figure, MarkedPoint, Outline, Panel};
-pub use data::{csv, json};
 pub use lines::FAINT;
 pub use svg::{panels, svg};
 
 use std::path::Path;
 
+use clap::ValueEnum;
 use strum::EnumString;
+
+use data::{csv, json};
 
 use crate::fit::{Fitted, OMEGA0, parameters};
 use crate::flow::Problem;
@@ -34,37 +36,44 @@ use crate::picture::fit::pictures;
 use crate::session::{Key, Session};
 use crate::words::provenance::Provenance;
 
-/// How a figure is written: the ending of its file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumString)]
+/// How a figure is written: the ending of its file, or the format on standard output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumString, ValueEnum)]
 #[strum(serialize_all = "lowercase", ascii_case_insensitive)]
-pub enum FileForm {
-    Svg,
-    /// The same picture as dots, 288 to the inch.
-    Png,
-    /// One row per point, all digits.
-    Csv,
+pub enum FigureForm {
+    /// Drawn with characters.
+    #[strum(disabled)]
+    Text,
     /// One JSON document, all digits.
     Json,
+    /// One row per point, all digits.
+    Csv,
+    /// A vector picture.
+    Svg,
+    /// The same picture as dots, 288 to the inch.
+    #[value(skip)]
+    Png,
 }
 
-impl FileForm {
+impl FigureForm {
     /// The form that the ending of a file asks for. Fails with one line with the endings that there are.
-    pub fn of_file(path: &Path) -> Result<FileForm, String> {
+    pub fn of_file(path: &Path) -> Result<FigureForm, String> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         ending.parse().map_err(|_| "a figure ends in .svg, .png, .csv or .json".to_owned())
     }
 }
 
-/// A figure as the content of a file. Fails with one line if the picture cannot be painted; only for [`FileForm::Png`].
-pub fn file(figure: &Figure, form: FileForm) -> Result<Vec<u8>, String> {
+/// A figure as the content of a file. Fails with one line if the picture cannot be painted; only for [`FigureForm::Png`],
+/// and for [`FigureForm::Text`], which is for what is drawn by a screen.
+pub fn file(figure: &Figure, form: FigureForm) -> Result<Vec<u8>, String> {
     match form {
-        FileForm::Svg => Ok(svg(figure).into_bytes()),
-        FileForm::Csv => Ok(csv(figure).into_bytes()),
-        FileForm::Json => Ok(json(figure).into_bytes()),
+        FigureForm::Svg => Ok(svg(figure).into_bytes()),
+        FigureForm::Csv => Ok(csv(figure).into_bytes()),
+        FigureForm::Json => Ok(json(figure).into_bytes()),
         #[cfg(feature = "png")]
-        FileForm::Png => png::png(&svg(figure)),
+        FigureForm::Png => png::png(&svg(figure)),
+        FigureForm::Text => Err("the screen draws it with characters".into()),
         #[cfg(not(feature = "png"))]
-        FileForm::Png => {
+        FigureForm::Png => {
             Err("this program was built without .png; .svg, .csv and .json are there".into())
         }
     }

@@ -17,7 +17,7 @@ use super::launch::launch;
 use super::pump::{Options, Pump};
 use super::workers::{Tell, Work};
 use super::{print, provenance_file, scanning};
-use crate::figure::{self, FileForm};
+use crate::figure::{self, FigureForm};
 use crate::fit::Unfit;
 use crate::flow::{Limits, Reason};
 use crate::question::{self, Fit, Recording};
@@ -58,7 +58,7 @@ impl Application for Explorer {
     }
 
     fn figure(&self, path: &Path, plot: Option<usize>) -> Result<Work, String> {
-        let form = FileForm::of_file(path)?;
+        let form = FigureForm::of_file(path)?;
         let mut session = self.session.clone();
         let provenance = provenance_file::of_process();
         Ok(Box::new(move |limits: &Limits| {

@@ -23,7 +23,7 @@ fn figures_have_no_two_panels_alike_and_no_circles_that_belong_to_nothing() {
 #[test]
 fn legends_name_what_is_drawn_once_and_as_it_is_called() {
     let legend = |scene: &str| -> Vec<String> {
-        let svg = text(&figure(scene, Fineness::SCREEN), FileForm::Svg);
+        let svg = text(&figure(scene, Fineness::SCREEN), FigureForm::Svg);
         let picture = Document::parse(&svg).unwrap();
         let entry = |node: &roxmltree::Node| {
             node.has_tag_name("text") && node.attribute("font-size") == Some("11")
@@ -61,7 +61,7 @@ fn a_plot_that_can_show_nothing_says_in_the_figure_what_it_needs() {
     let drawn = Figure::of(&session, [session.plot]);
     let needs = drawn.panels[0].nothing.clone().unwrap();
     assert!(needs.contains("machine") && !needs.contains('{'), "{needs}");
-    let svg = text(&drawn, FileForm::Svg);
+    let svg = text(&drawn, FigureForm::Svg);
     let picture = Document::parse(&svg).unwrap();
     let texts: Vec<&str> = picture.descendants().filter_map(|node| node.text()).collect();
     assert!(
@@ -73,7 +73,7 @@ fn a_plot_that_can_show_nothing_says_in_the_figure_what_it_needs() {
 #[test]
 fn the_name_of_a_fold_covers_no_branch() {
     let drawn = figure("fig11", Fineness::SCREEN);
-    let svg = text(&drawn, FileForm::Svg);
+    let svg = text(&drawn, FigureForm::Svg);
     let picture = Document::parse(&svg).unwrap();
     let number = |node: &roxmltree::Node, name: &str| -> f64 {
         node.attribute(name).and_then(|text| text.parse().ok()).unwrap()
@@ -126,7 +126,7 @@ fn the_map_of_a_scan_has_its_cells_and_its_scale_in_every_form() {
     update(&mut session, Msg::Key("<enter>".parse().unwrap()));
     complete(&mut session, Fineness::SCREEN, &Limits::PATIENT).unwrap();
     let drawn = Figure::of(&session, [0]);
-    let json: Value = serde_json::from_str(&text(&drawn, FileForm::Json)).unwrap();
+    let json: Value = serde_json::from_str(&text(&drawn, FigureForm::Json)).unwrap();
     let map = &json["panels"][0]["map"];
     assert_eq!(map["name"], "displacement [x0]");
     assert_eq!(map["scale"]["dangerous"], "small");
@@ -138,7 +138,7 @@ fn the_map_of_a_scan_has_its_cells_and_its_scale_in_every_form() {
     assert!((smallest - 0.100_301_996_083).abs() < 1e-11, "{smallest}");
     assert_eq!(cells[69], "every kick survived");
 
-    let csv = text(&drawn, FileForm::Csv);
+    let csv = text(&drawn, FigureForm::Csv);
     let rows: Vec<&str> = csv.lines().filter(|line| line.starts_with("1,map,")).collect();
     assert_eq!(rows.len(), 70);
     assert!(
@@ -153,7 +153,7 @@ fn the_map_of_a_scan_has_its_cells_and_its_scale_in_every_form() {
         csv.lines().nth(8).unwrap()
     );
 
-    let svg = text(&drawn, FileForm::Svg);
+    let svg = text(&drawn, FigureForm::Svg);
     let picture = Document::parse(&svg).unwrap();
     let texts: Vec<&str> = picture.descendants().filter_map(|node| node.text()).collect();
     for words in ["D", "D3", "displacement [x0]", "every kick survived", "0.1003 (dangerous)"] {
@@ -173,6 +173,6 @@ fn the_map_of_a_scan_has_its_cells_and_its_scale_in_every_form() {
     assert!(fills.len() > 10 && fills.iter().all(|fill| *fill >= fills[0]), "{fills:?}");
     assert!(fills.iter().any(|fill| *fill > 2 * fills[0]), "{fills:?}");
 
-    let png = file(&drawn, FileForm::Png).unwrap();
+    let png = file(&drawn, FigureForm::Png).unwrap();
     assert!(png.starts_with(b"\x89PNG") && png.len() > 10_000, "{}", png.len());
 }

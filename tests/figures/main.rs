@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fs;
 
-use hopfscope::figure::{Figure, FileForm, Outline, file};
+use hopfscope::figure::{Figure, FigureForm, Outline, file};
 use hopfscope::flow::Limits;
 use hopfscope::numerics::elementary::{atan2, cbrt, exp, exp_m1, hypot, powi};
 use hopfscope::question::Fineness;
@@ -31,7 +31,7 @@ fn figure(scene: &str, fineness: Fineness) -> Figure {
     Figure::of(&session, plots)
 }
 
-fn text(figure: &Figure, form: FileForm) -> String {
+fn text(figure: &Figure, form: FigureForm) -> String {
     String::from_utf8(file(figure, form).unwrap()).unwrap()
 }
 
@@ -51,13 +51,13 @@ fn curves<'a>(figure: &'a Figure, panel: usize, name: &str) -> Vec<&'a Outline> 
 fn every_scene_is_the_same_figure_in_every_form() {
     for scene in scenes() {
         let drawn = figure(scene, Fineness::PRINT);
-        let json: Value = serde_json::from_str(&text(&drawn, FileForm::Json)).unwrap();
+        let json: Value = serde_json::from_str(&text(&drawn, FigureForm::Json)).unwrap();
         for field in ["figure", "title", "program", "units", "parameters", "method", "tolerance"] {
             assert!(!json[field].is_null(), "{scene}: {field}");
         }
         assert_eq!(json["figure"], scene);
-        same_numbers(scene, &json, &text(&drawn, FileForm::Csv));
-        vector_picture(&drawn, &text(&drawn, FileForm::Svg));
+        same_numbers(scene, &json, &text(&drawn, FigureForm::Csv));
+        vector_picture(&drawn, &text(&drawn, FigureForm::Svg));
     }
 }
 
