@@ -20,7 +20,7 @@ use crate::report::{Answer, Columns, Format, claims};
 use crate::runtime::standard::tell;
 use crate::scene::{Scene, library};
 use crate::session::state::keymap::{ContextSpec, contexts};
-use crate::session::{self, Msg, Row, Session, Size, commands, update};
+use crate::session::{self, Command, Msg, Row, Session, Size, commands, update};
 
 /// Lists the scenes
 #[derive(Debug, Args)]
@@ -53,14 +53,8 @@ pub struct KeysCommand {
     format: Format,
 }
 
-/// A command in a context.
-#[derive(Clone)]
-struct KeyRow {
-    context: &'static str,
-    command: &'static str,
-    keys: Vec<String>,
-    meaning: &'static str,
-}
+/// The name of a context, a command in it, and its keys there.
+type KeyRow = (&'static str, &'static Command, Vec<String>);
 
 impl KeysCommand {
     pub fn run(&self) -> Result<(), Failure> {
@@ -68,20 +62,18 @@ impl KeysCommand {
         let mut rows = Vec::new();
         for ContextSpec { context, name, .. } in contexts() {
             let here = commands().filter(|row| row.keys.iter().any(|(at, _)| *at == context));
-            rows.extend(here.map(|command| KeyRow {
-                context: name,
-                command: command.name,
-                keys: keymap.keys_in(context, command).map(|key| key.to_string()).collect(),
-                meaning: command.doc,
+            rows.extend(here.map(|command| {
+                let keys = keymap.keys_in(context, command).map(|key| key.to_string());
+                (name, command, keys.collect())
             }));
         }
         let columns = Columns::default()
-            .word("context", |row: &KeyRow| row.context)
-            .word("command", |row| row.command)
-            .word("keys", |row| row.keys.join(" "))
+            .word("context", |(context, ..): &KeyRow| *context)
+            .word("command", |(_, command, _)| command.name)
+            .word("keys", |(.., keys)| keys.join(" "))
             // A document lists them.
-            .field("keys", |row| row.keys.clone())
-            .word("meaning", |row| row.meaning);
+            .field("keys", |(.., keys)| keys.clone())
+            .word("meaning", |(_, command, _)| command.doc);
         let list = Answer::list_of(&columns, &rows, output::columns());
         print(&list.told(self.format))?;
         if let (Some(path), Format::Table) = (self.settings.path(), self.format) {

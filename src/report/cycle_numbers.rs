@@ -19,15 +19,6 @@ pub(super) struct CycleNumber {
 }
 
 impl CycleNumber {
-    const fn new(
-        name: &'static str,
-        unit: &'static str,
-        value: fn(&Cycle) -> Option<f64>,
-        bounds: fn(&Enclosure) -> Interval,
-    ) -> Self {
-        CycleNumber { name, unit, value, bounds }
-    }
-
     /// The name beside which `x` is the displacement.
     pub(super) fn physical_name(&self) -> String {
         self.name.replacen("q_", "x_", 1)
@@ -43,27 +34,32 @@ impl CycleNumber {
 }
 
 /// The time per turn on the belt, which only a machine has.
-const STICKING: CycleNumber = CycleNumber::new(
-    "stick_duration",
-    "s",
-    |it| Some(it.stick_duration()),
-    |_| Interval::point(0.0),
-);
+const STICKING: CycleNumber = CycleNumber {
+    name: "stick_duration",
+    unit: "s",
+    value: |it| Some(it.stick_duration()),
+    bounds: |_| Interval::point(0.0),
+};
 
 /// The numbers that describe a cycle of the oscillator of the paper.
 pub(super) const NUMBERS: [CycleNumber; 7] = [
-    CycleNumber::new("q_min", "m", |it| Some(it.q_min), |it| it.q_min),
-    CycleNumber::new("q_max", "m", |it| Some(it.q_max), |it| it.q_max),
-    CycleNumber::new("v_min", "m/s", |it| Some(it.v_min), |it| it.v_min),
-    CycleNumber::new("v_max", "m/s", |it| Some(it.v_max), |it| it.v_max),
-    CycleNumber::new("period", "s", |it| Some(it.period), |it| it.period),
-    CycleNumber::new("multiplier", "", |it| it.multiplier, |it| it.multiplier),
-    CycleNumber::new(
-        "clearance",
-        "m",
-        |it| Some(it.clearance).filter(|it| *it > 0.0),
-        |it| it.clearance,
-    ),
+    CycleNumber { name: "q_min", unit: "m", value: |it| Some(it.q_min), bounds: |it| it.q_min },
+    CycleNumber { name: "q_max", unit: "m", value: |it| Some(it.q_max), bounds: |it| it.q_max },
+    CycleNumber { name: "v_min", unit: "m/s", value: |it| Some(it.v_min), bounds: |it| it.v_min },
+    CycleNumber { name: "v_max", unit: "m/s", value: |it| Some(it.v_max), bounds: |it| it.v_max },
+    CycleNumber { name: "period", unit: "s", value: |it| Some(it.period), bounds: |it| it.period },
+    CycleNumber {
+        name: "multiplier",
+        unit: "",
+        value: |it| it.multiplier,
+        bounds: |it| it.multiplier,
+    },
+    CycleNumber {
+        name: "clearance",
+        unit: "m",
+        value: |it| Some(it.clearance).filter(|it| *it > 0.0),
+        bounds: |it| it.clearance,
+    },
 ];
 
 /// Those that describe a cycle of a machine.

@@ -197,11 +197,9 @@ fn sets_summary(verdicts: &[SetVerdict]) -> Table {
         ("gave up", verdicts.iter().filter(gave_up).count()),
         ("not closed to 1e-11", open),
     ];
-    counts
-        .into_iter()
-        .fold(Columns::default(), |all, (title, count)| {
-            all.text(title, move |()| count.to_string())
-        })
-        .text("evaluations", move |()| format!("<= {}", most.unwrap_or(0)))
-        .table([()])
+    let counts = counts.map(|(title, count)| (title, count.to_string()));
+    let evaluations = ("evaluations", format!("<= {}", most.unwrap_or(0)));
+    let all = counts.into_iter().chain([evaluations]);
+    let (titles, cells) = all.map(|(title, cell)| (title.to_owned(), cell)).unzip();
+    Table::new(titles, vec![cells])
 }

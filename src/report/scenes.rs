@@ -88,13 +88,13 @@ fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
 /// The costs of scenes: in rows one line for each question of each scene, when it opens and after each step; in text
 /// one table for each scene.
 pub fn costs(scenes: &[SceneCost]) -> Answer {
-    let singly = |found| SceneCost::asked(found).flat_map(|asked| AskedRow::singly(found, asked));
+    let each = |found| SceneCost::asked(found).flat_map(move |asked| singly(found, asked));
     let answer = Answer::default()
         .list(scenes.iter().map(document).collect())
-        .csv(&cost_columns(), scenes.iter().flat_map(singly));
+        .csv(&cost_columns(), scenes.iter().flat_map(each));
     scenes.iter().fold(answer, |answer, found| {
-        let opening = AskedRow::singly(found, &found.opening);
-        let all = found.asked().map(|asked| AskedRow { scene: found, asked, question: None });
+        let opening = singly(found, &found.opening);
+        let all = found.asked().map(|asked| (found, asked, None));
         let formulas = format!("by formulas: {}", found.formulas.join(", "));
         answer
             .lines([format!("{}: {}", found.scene.name, found.scene.title)])
@@ -124,53 +124,49 @@ fn document(found: &SceneCost) -> Document {
         .with("steps", found.steps.iter().map(step).collect::<Vec<_>>())
 }
 
-/// A question that a scene asks, or all that it asks at once.
-struct AskedRow<'a> {
+/// What a scene asks at once, and of that a question or, without one, all of it.
+type AskedRow<'a> = (&'a SceneCost, &'a AskedTogether, Option<&'a QuestionCost>);
+
+fn singly<'a>(
     scene: &'a SceneCost,
     asked: &'a AskedTogether,
-    question: Option<&'a QuestionCost>,
+) -> impl Iterator<Item = AskedRow<'a>> {
+    asked.questions.iter().map(move |question| (scene, asked, Some(question)))
 }
 
-impl<'a> AskedRow<'a> {
-    fn singly(scene: &'a SceneCost, asked: &'a AskedTogether) -> impl Iterator<Item = Self> {
-        let row = move |question| AskedRow { scene, asked, question: Some(question) };
-        asked.questions.iter().map(row)
-    }
+fn cost((_, asked, question): &AskedRow) -> (Cost, f64) {
+    sum(question.map_or(&asked.questions, std::slice::from_ref))
+}
 
-    fn sum(&self) -> (Cost, f64) {
-        sum(self.question.map_or(&self.asked.questions, std::slice::from_ref))
+fn what((_, asked, question): &AskedRow) -> String {
+    match (question, asked.after) {
+        (Some(question), _) => question.topic.name().to_owned(),
+        (None, OPENING) => "all of it".to_owned(),
+        (None, number) => format!("a step of {number}"),
     }
+}
 
-    fn what(&self) -> String {
-        match (self.question, self.asked.after) {
-            (Some(question), _) => question.topic.name().to_owned(),
-            (None, OPENING) => "all of it".to_owned(),
-            (None, number) => format!("a step of {number}"),
-        }
+fn remark((_, asked, question): &AskedRow) -> String {
+    let AskedTogether { after, questions, reused } = asked;
+    if let Some(question) = question {
+        return format!("for {}", question.layers.join(", "));
     }
-
-    fn remark(&self) -> String {
-        let AskedTogether { after, questions, reused } = self.asked;
-        if let Some(question) = self.question {
-            return format!("for {}", question.layers.join(", "));
-        }
-        let again: Vec<Topic> = questions.iter().map(|asked| asked.topic).collect();
-        let parts = [("recomputes", again.as_slice()), ("reuses", reused)].into_iter();
-        let parts = parts.filter(|(_, topics)| *after != OPENING && !topics.is_empty());
-        let parts = parts.map(|(verb, topics)| format!("{verb} {}", named(topics, ", ")));
-        parts.collect::<Vec<_>>().join("; ")
-    }
+    let again: Vec<Topic> = questions.iter().map(|asked| asked.topic).collect();
+    let parts = [("recomputes", again.as_slice()), ("reuses", reused)].into_iter();
+    let parts = parts.filter(|(_, topics)| *after != OPENING && !topics.is_empty());
+    let parts = parts.map(|(verb, topics)| format!("{verb} {}", named(topics, ", ")));
+    parts.collect::<Vec<_>>().join("; ")
 }
 
 fn cost_columns<'a>() -> Columns<'a, AskedRow<'a>> {
     Columns::default()
-        .file("scene", |row: &AskedRow| row.scene.scene.name.clone())
-        .file("after", |row| row.asked.after)
-        .file("question", |row| row.question.map(|asked| asked.topic))
-        .text("question", AskedRow::what)
-        .fields(&Cost::default(), |row| Some(row.sum().0))
-        .text("evaluations", |row| count(row.sum().0.evaluations))
-        .text("steps", |row| count(row.sum().0.steps))
-        .number("seconds", Quantity::of("s", 2), |row| row.sum().1)
-        .text("", AskedRow::remark)
+        .file("scene", |(found, ..): &AskedRow| found.scene.name.clone())
+        .file("after", |(_, asked, _)| asked.after)
+        .file("question", |(.., question)| question.map(|asked| asked.topic))
+        .text("question", what)
+        .fields(&Cost::default(), |row| Some(cost(row).0))
+        .text("evaluations", |row| count(cost(row).0.evaluations))
+        .text("steps", |row| count(cost(row).0.steps))
+        .number("seconds", Quantity::of("s", 2), |row| cost(row).1)
+        .text("", remark)
 }
