@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 
 use super::json::{self, Document};
 use super::table::Table;
-use crate::numerics::{Interval, log10, pow, powi};
+use crate::numerics::{Interval, cells, log10, pow, powi};
 use crate::words::{significant, with_unit};
 
 /// What columns are called in text, where that is not their name in files, a line each.
@@ -18,8 +18,8 @@ const TITLES: &str = include_str!("../../assets/titles.txt");
 
 /// The title in text of a column with this name in files.
 fn title(name: &str) -> &str {
-    let named = |line: &'static str| line.split_once(" | ").filter(|(known, _)| *known == name);
-    TITLES.lines().find_map(named).map_or(name, |(_, title)| title)
+    let mut titles = TITLES.lines().filter_map(cells);
+    titles.find(|[known, _]| *known == name).map_or(name, |[_, title]| title)
 }
 
 /// What the numbers of a column measure, and how text shows them; files have all their digits, in SI units.

@@ -75,16 +75,14 @@ pub fn exact(value: f64, width: usize) -> String {
 
 /// Writes a count in at most six columns: `950`, `12.4k`, `3.1M`.
 pub fn count(value: u64) -> String {
-    const UNITS: [(u64, f64, &str); 3] =
-        [(1_000_000_000, 1e9, "G"), (1_000_000, 1e6, "M"), (10_000, 1e3, "k")];
-    match UNITS.iter().find(|(least, ..)| value >= *least) {
-        Some((_, divisor, unit)) => {
-            #[expect(clippy::cast_precision_loss, reason = "three digits are shown")]
-            let value = value as f64;
-            format!("{}{unit}", significant(value / divisor, 3))
-        }
-        None => value.to_string(),
-    }
+    #[expect(clippy::cast_precision_loss, reason = "three digits are shown of a large one")]
+    let number = value as f64;
+    // Up to five columns there is room for all digits.
+    let fits = |(_, scale): &&(&str, f64)| *scale > 1.0 && number >= scale.max(1e4);
+    PREFIXES.iter().find(fits).map_or_else(
+        || value.to_string(),
+        |(prefix, scale)| format!("{}{prefix}", significant(number / scale, 3)),
+    )
 }
 
 /// Writes a duration given in seconds: `0.21 ms`, `35 ms`, `2.4 s`.
