@@ -17,29 +17,18 @@ use crate::words::motion::{Writing, sentence};
 use crate::words::number::{count, exact};
 use crate::words::{counted, duration, significant};
 
-/// A point of a motion: its start, every arrival at `v = 0`, or its end.
-struct MotionRow {
-    what: &'static str,
-    tau: f64,
-    q: Option<f64>,
-    v: Option<f64>,
-    bounds: Option<PointBounds>,
-}
-
-impl MotionRow {
-    fn new(what: &'static str, tau: f64, q: f64, v: f64) -> Self {
-        MotionRow { what, tau, q: Some(q), v: Some(v), bounds: None }
-    }
-}
+/// A point of a motion, its start, an arrival at `v = 0` or its end: what it is, `tau`, `q` and `v` as far as they are
+/// known, and what is proved of them.
+type MotionRow = (&'static str, [Option<f64>; 3], Option<PointBounds>);
 
 /// The columns of points.
 fn columns_of_points<'a>(about: &About, digits: usize) -> Columns<'a, MotionRow> {
     let [time, length, speed] = ["s", "m", "m/s"].map(|unit| about.quantity(unit, digits));
     Columns::default()
-        .word("what", |row: &MotionRow| row.what)
-        .number("tau", time, |row| row.tau)
-        .number("q", length, |row| row.q)
-        .number("v", speed, |row| row.v)
+        .word("what", |(what, ..): &MotionRow| *what)
+        .number("tau", time, |(_, [tau, ..], _)| *tau)
+        .number("q", length, |(_, [_, q, _], _)| *q)
+        .number("v", speed, |(_, [.., v], _)| *v)
 }
 
 /// A motion: its start, every arrival at `v = 0` and its end, with what is proved of each; and where its energy goes.
@@ -51,11 +40,15 @@ pub fn motion(
 ) -> Answer {
     let problem = &motion.problem;
     let machine = about.is_machine();
-    let proved =
-        Columns::default().part("certified", point_columns(), |row: &MotionRow| row.bounds);
+    let proved = Columns::default().part("certified", point_columns(), |row: &MotionRow| row.2);
     let columns = columns_of_points(about, digits(problem.tolerance));
     let energy = motion.ledger.as_ref().map(|ledger| energy(ledger, machine));
     let amounts: Vec<_> = energy.iter().flat_map(Document::numbers).collect();
+    let works = Columns::default().text("energy", |(name, _): &(String, f64)| name.clone()).number(
+        "amount",
+        about.quantity("J", 6),
+        |(_, amount)| *amount,
+    );
     let (steps, rejected) = (motion.cost.steps, motion.cost.rejected);
     let tolerance = exact(problem.tolerance, 24);
     let how = format!(
@@ -82,18 +75,9 @@ pub fn motion(
         .with_any("evaluations", machine.then_some(motion.cost.evaluations))
         .with_any("certified", certified.map(|it| followed(it, problem.until)))
         .rows(&columns.and(certified.map(|_| proved)), &points(motion, certified, machine))
-        .table(energy_columns(about.quantity("J", 6)).table(amounts))
+        .table(works.table(amounts))
         .lines(how)
         .cost(motion.cost, seconds)
-}
-
-/// The columns of an energy ledger.
-fn energy_columns<'a>(amount: Quantity) -> Columns<'a, (String, f64)> {
-    Columns::default().text("energy", |(name, _): &(String, f64)| name.clone()).number(
-        "amount",
-        amount,
-        |(_, amount)| *amount,
-    )
 }
 
 /// The start of a motion, its turning points and its end, with what is proved of each. Of a machine it is also known how
@@ -102,17 +86,17 @@ fn points(motion: &Trajectory, certified: Option<&ProvedMotion>, machine: bool) 
     let State { q, v } = motion.problem.initial;
     let known = |tau, q, v| PointBounds::of(tau, q, Interval::point(v));
     let exactly = certified.map(|_| known(Interval::point(0.0), Interval::point(q), v));
-    let start = MotionRow { bounds: exactly, ..MotionRow::new("start", 0.0, q, v) };
+    let start = ("start", [0.0, q, v].map(Some), exactly);
     let turn = |(index, crossing): (usize, &Crossing)| {
         let enclosed = certified.and_then(|certified| certified.turns.get(index));
         let bounds = enclosed.map(|turn| known(turn.tau, turn.q, 0.0));
-        MotionRow { bounds, ..MotionRow::new("turn", crossing.tau, crossing.q, 0.0) }
+        ("turn", [crossing.tau, crossing.q, 0.0].map(Some), bounds)
     };
     let turns = motion.crossings.iter().enumerate().map(turn);
     let bounds = certified.map(|certified| PointBounds::of_end(certified, motion.problem.until).1);
     let Sample { tau, q, v } = motion.end();
     let (q, v) = motion.outcome.state().or(machine.then_some((q, v))).unzip();
-    let end = MotionRow { what: motion.outcome.word(), tau, q, v, bounds };
+    let end = (motion.outcome.word(), [Some(tau), q, v], bounds);
     std::iter::once(start).chain(turns).chain([end]).collect()
 }
 
