@@ -18,16 +18,6 @@ pub enum Outlet {
     Log,
 }
 
-impl Outlet {
-    /// Minimum time between two messages.
-    fn pause(self) -> Duration {
-        match self {
-            Outlet::Line => Duration::from_millis(250),
-            Outlet::Nowhere | Outlet::Log => Duration::from_secs(10),
-        }
-    }
-}
-
 /// A message that is rewritten from time to time.
 #[derive(Debug)]
 pub struct StatusLine {
@@ -44,8 +34,10 @@ impl StatusLine {
 
     /// Writes the message if it is due; `message` makes it from the seconds since the start.
     pub fn renew(&mut self, message: impl FnOnce(f64) -> String) {
+        // A log has fewer messages than a line that is rewritten.
+        let pause = Duration::from_millis(if self.place == Outlet::Line { 250 } else { 10_000 });
         let now = Instant::now();
-        if now < self.written.unwrap_or(self.started) + self.place.pause() {
+        if now < self.written.unwrap_or(self.started) + pause {
             return;
         }
         let message = message((now - self.started).as_secs_f64());

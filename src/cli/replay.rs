@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use ratatui::buffer::Buffer;
 
 use super::settings::Looks;
 use super::{Failure, StartOptions, input, print};
@@ -56,13 +55,21 @@ impl ReplayCommand {
         let mut session = Session::new(self.start.scene(None)?, Size { width, height });
         // With the user's own settings the same file could show different screens.
         session.display = self.looks.wishes(&Config::default());
-        let theme = session.display.theme;
+        let light = session.display.theme == Theme::Light;
         let played = play(session, anywhere(), script, self.allow_write)
             .map_err(|error| Failure::Unanswered(format!("no thread to compute in: {error}")))?;
         if let Some(directory) = &self.screens {
-            let light = theme == Theme::Light;
+            let unwritten = |error| Failure::unwritten(directory, &error);
+            std::fs::create_dir_all(directory).map_err(unwritten)?;
             let paper = if light { Paper::LIGHT } else { Paper::DARK };
-            write(directory, (self.screen_format, paper), &played.kept)?;
+            for (name, screen) in &played.kept {
+                let (ending, content) = match self.screen_format {
+                    ScreenFormat::Text => ("txt", screen::text(screen)),
+                    ScreenFormat::Svg => ("svg", screen::svg(screen, paper)),
+                };
+                let path = directory.join(format!("{name}.{ending}"));
+                new_file::write(&path, content.as_bytes(), Readers::Usual, None)?;
+            }
         }
         print(&screen::text(&played.screen))?;
         let why = played.unmet.map(|unmet| unmet.to_string()).or(played.unwritten);
@@ -84,22 +91,4 @@ fn anywhere() -> Environment {
 /// A keystroke file, parsed completely before anything runs.
 pub fn script(file: &Path) -> Result<Script, Failure> {
     parse(&bounded::text(file)?).map_err(|error| Failure::file(file, error))
-}
-
-/// Writes each screen that a replay kept to a file with its name.
-fn write(
-    directory: &Path,
-    (format, paper): (ScreenFormat, Paper),
-    screens: &[(String, Buffer)],
-) -> Result<(), Failure> {
-    std::fs::create_dir_all(directory).map_err(|error| Failure::unwritten(directory, &error))?;
-    for (name, screen) in screens {
-        let (ending, content) = match format {
-            ScreenFormat::Text => ("txt", screen::text(screen)),
-            ScreenFormat::Svg => ("svg", screen::svg(screen, paper)),
-        };
-        let path = directory.join(format!("{name}.{ending}"));
-        new_file::write(&path, content.as_bytes(), Readers::Usual, None)?;
-    }
-    Ok(())
 }
