@@ -45,23 +45,14 @@ const OWN: [(&str, bool); 6] = [
     ("--force", false),
 ];
 
-/// A part, and the scan to which it belongs according to its provenance.
-struct PartSource {
-    file: PartFile,
-    shard: Option<Shard>,
-    provenance: Provenance,
-    arguments: Vec<String>,
-}
-
 impl MergeCommand {
     /// Merges; exit code 1 if rows are missing.
     pub fn run(&self) -> Result<(), Failure> {
         let (sources, absent) = self.sources()?;
         let first = &sources[0];
         for other in &sources[1..] {
-            other.must_belong_with(first)?;
+            must_belong_with(other, first)?;
         }
-        let parts: Vec<&PartFile> = sources.iter().map(|source| &source.file).collect();
         let recheck = self.check.then_some(&Limits::PATIENT);
         let mut output = None;
         if let Some(path) = &self.output {
@@ -76,7 +67,7 @@ impl MergeCommand {
             let Some((output, path)) = &mut output else { return Ok(()) };
             output.write_all(line).map_err(|error| Failure::unwritten(path, &error))
         };
-        let missing = merge(&parts, recheck, &mut write)?;
+        let missing = merge(&sources, recheck, &mut write)?;
         if !missing.is_empty() {
             for gap in &missing {
                 report(gap, &missing, &sources);
@@ -93,7 +84,7 @@ impl MergeCommand {
             written
                 .and_then(|file| file.end(self.force))
                 .map_err(|error| Failure::not_replaced(path, &error, how))?;
-            let command = command(without(&first.arguments, &OWN), first.file.part.form, path);
+            let command = command(without(&first.arguments, &OWN), first.part.form, path);
             let provenance = Provenance { command, checksum, ..first.provenance.clone() };
             provenance_file::write(path, &provenance)?;
         }
@@ -101,17 +92,17 @@ impl MergeCommand {
     }
 
     /// The parts that exist, at least one, and the paths that do not.
-    fn sources(&self) -> Result<(Vec<PartSource>, Vec<&Path>), Failure> {
+    fn sources(&self) -> Result<(Vec<PartFile>, Vec<&Path>), Failure> {
         let (mut sources, mut absent) = (Vec::new(), Vec::new());
         for path in &self.parts {
             if path.is_dir() {
                 for file in provenance_file::files_in(path)? {
-                    sources.push(PartSource::read(file)?);
+                    sources.push(part_of(file)?);
                 }
             } else if path.exists() && !path.is_file() {
                 return Err(Failure::Usage(format!("{}: not a file", path.display())));
             } else if path.exists() {
-                sources.push(PartSource::read(path.clone())?);
+                sources.push(part_of(path.clone())?);
             } else {
                 absent.push(path.as_path());
             }
@@ -126,52 +117,50 @@ impl MergeCommand {
     }
 }
 
-impl PartSource {
-    fn read(path: PathBuf) -> Result<Self, Failure> {
-        let beside = provenance_file::beside(&path);
-        let provenance = provenance_file::read(&path).map_err(|error| {
-            let path = path.display();
-            Failure::Usage(format!("{path}: of which scan is it a part? {error}"))
-        })?;
-        let arguments = provenance.arguments().unwrap_or_default();
-        let Some(command) = ScanCommand::of_line(&arguments) else {
-            let (beside, command) = (beside.display(), &provenance.command);
-            return Err(Failure::Usage(format!("{beside}: {command:?} is not a scan")));
-        };
-        let (part, shard) = (command.asked()?, command.shard());
-        if part.form == Format::Table {
-            let line =
-                format!("{}: a table rounds its numbers; merge needs csv or json", path.display());
-            return Err(Failure::Usage(line));
-        }
-        let file = PartFile { path, part, checksum: provenance.checksum };
-        Ok(PartSource { file, shard, provenance, arguments })
+/// A part, with the scan to which it belongs according to its provenance.
+fn part_of(path: PathBuf) -> Result<PartFile, Failure> {
+    let beside = provenance_file::beside(&path);
+    let provenance = provenance_file::read(&path).map_err(|error| {
+        let path = path.display();
+        Failure::Usage(format!("{path}: of which scan is it a part? {error}"))
+    })?;
+    let arguments = provenance.arguments().unwrap_or_default();
+    let Some(command) = ScanCommand::of_line(&arguments) else {
+        let (beside, command) = (beside.display(), &provenance.command);
+        return Err(Failure::Usage(format!("{beside}: {command:?} is not a scan")));
+    };
+    let part = command.asked()?;
+    if part.form == Format::Table {
+        let line =
+            format!("{}: a table rounds its numbers; merge needs csv or json", path.display());
+        return Err(Failure::Usage(line));
     }
+    Ok(PartFile { path, part, provenance, arguments })
+}
 
-    /// Refuses a part of another scan or from another version.
-    fn must_belong_with(&self, first: &Self) -> Result<(), Failure> {
-        let refused = |what: &str, [own, other]: [&str; 2]| {
-            let (path, first) = (self.file.path.display(), first.file.path.display());
-            Err(Failure::Usage(format!("{path} and {first} {what}: {own}, and {other}")))
-        };
-        let builds = [self.provenance.build(), first.provenance.build()];
-        if builds[0] != builds[1] {
-            return refused("are from different versions", [&builds[0], &builds[1]]);
-        }
-        let (own, other) = (&self.file.part, &first.file.part);
-        if own.scan != other.scan || own.form != other.form {
-            let commands = [&self.provenance.command, &first.provenance.command];
-            return refused("are parts of different scans", [commands[0], commands[1]]);
-        }
-        Ok(())
+/// Refuses a part of another scan or from another version.
+fn must_belong_with(own: &PartFile, first: &PartFile) -> Result<(), Failure> {
+    let refused = |what: &str, [here, there]: [&str; 2]| {
+        let (path, first) = (own.path.display(), first.path.display());
+        Err(Failure::Usage(format!("{path} and {first} {what}: {here}, and {there}")))
+    };
+    let builds = [own.provenance.build(), first.provenance.build()];
+    if builds[0] != builds[1] {
+        return refused("are from different versions", [&builds[0], &builds[1]]);
     }
+    if own.part.scan != first.part.scan || own.part.form != first.part.form {
+        let commands = [&own.provenance.command, &first.provenance.command];
+        return refused("are parts of different scans", [commands[0], commands[1]]);
+    }
+    Ok(())
 }
 
 /// Reports the missing rows of a gap, one line for each shard that it overlaps, with the command that computes
 /// them.
-fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) {
-    let all = sources[0].file.part.scan.points();
-    let shard = sources.iter().find_map(|source| source.shard);
+fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartFile]) {
+    let all = sources[0].part.scan.points();
+    let shard = |source: &PartFile| ScanCommand::of_line(&source.arguments)?.shard();
+    let shard = sources.iter().find_map(shard);
     let shards = shard.into_iter().flat_map(Shard::siblings);
     let named = shards.map(|shard| (format!("shard {shard}: "), shard.points(all)));
     let pieces: Vec<_> =
@@ -188,25 +177,25 @@ fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) 
 
 /// The command that computes just these rows: the original one with `--resume` if only the end of its part is
 /// missing, else one with `--rows`.
-fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) -> String {
-    let stopped_here = |source: &&PartSource| {
-        let points = &source.file.part.points;
+fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartFile]) -> String {
+    let stopped_here = |source: &&PartFile| {
+        let points = &source.part.points;
         let earlier = |gap: &Range<usize>| {
             gap.start.max(points.start) < piece.start && gap.end > points.start
         };
         points.end == piece.end && points.start <= piece.start && !missing.iter().any(earlier)
     };
-    let (first, form) = (&sources[0], sources[0].file.part.form);
+    let (first, form) = (&sources[0], sources[0].part.form);
     if let Some(source) = sources.iter().find(stopped_here) {
         let mut arguments = without(&source.arguments, &OWN[3..]);
         arguments.push("--resume".to_owned());
-        return command(arguments, form, &source.file.path);
+        return command(arguments, form, &source.path);
     }
     let (from, to) = (piece.start + 1, piece.end);
     let mut arguments = without(&first.arguments, &OWN);
     arguments.extend(["--rows".to_owned(), format!("{from}:{to}")]);
     let ending = if form == Format::Json { "json" } else { "csv" };
-    let path = first.file.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
+    let path = first.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
     command(arguments, form, &path)
 }
 

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use crate::flow::{Limits, Reason};
 use crate::report::scan::ScanPart;
-use crate::words::provenance::Checksum;
+use crate::words::provenance::{Checksum, Provenance};
 
 /// A row as it stands in a file.
 #[derive(Clone, Debug)]
@@ -152,8 +152,10 @@ impl<'a> RowReader<'a> {
 pub struct PartFile {
     pub path: PathBuf,
     pub part: ScanPart,
-    /// The checksum of its rows, if it is known.
-    pub checksum: Option<Checksum>,
+    /// What wrote it, with the checksum of its rows, if that is known.
+    pub provenance: Provenance,
+    /// The command line that computes it, without the program.
+    pub arguments: Vec<String>,
 }
 
 /// Passes the lines of the merged file to `write` in their order, and returns the points that no part holds;
@@ -162,12 +164,12 @@ pub struct PartFile {
 /// With `recheck`, the first and the last row of each part are computed again within these limits and compared. Fails
 /// if a part cannot be read, holds something other than its rows, or a row that another one holds too.
 pub fn merge(
-    parts: &[&PartFile],
+    parts: &[PartFile],
     recheck: Option<&Limits>,
     write: &mut dyn FnMut(&[u8]) -> Result<(), Failure>,
 ) -> Result<Vec<Range<usize>>, Failure> {
     let whole = ScanPart { headed: true, ..parts[0].part.clone() };
-    let mut parts = parts.to_vec();
+    let mut parts: Vec<&PartFile> = parts.iter().collect();
     parts.sort_by_key(|file| file.part.points.start);
     let mut waiting = parts.into_iter().peekable();
     // Open parts, each by the point of its next row that is not written yet.
@@ -183,7 +185,8 @@ pub fn merge(
         let (rows, row) = if let Some(file) = waiting.next_if(due) {
             let opened = File::open(&file.path);
             let opened = opened.map_err(|error| Failure::file(&file.path, &error))?;
-            let mut rows = RowReader::new(&file.part, &file.path, opened, file.checksum)?;
+            let mut rows =
+                RowReader::new(&file.part, &file.path, opened, file.provenance.checksum)?;
             let Some(row) = rows.row()? else { continue };
             check(&rows, &row)?;
             (rows, row)
