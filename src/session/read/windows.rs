@@ -101,10 +101,9 @@ fn speeds(session: &Session, plot: usize) -> Option<Window> {
 
 /// All rows of the trade.
 fn trade(session: &Session) -> Option<Window> {
-    let places: Vec<_> = session.trade()?.rows.iter().filter_map(TradePoint::place).collect();
-    let x = Span::covering(places.iter().map(|place| place.0))?;
-    let y = Span::covering(places.iter().map(|place| place.1))?;
-    Some(Window { x: roomy(x), y: roomy(y) })
+    let places = session.trade()?.rows.iter().filter_map(TradePoint::place);
+    let (x, y): (Vec<f64>, Vec<f64>) = places.unzip();
+    Some(Window { x: roomy(Span::covering(x)?), y: roomy(Span::covering(y)?) })
 }
 
 /// The motions, the cycles and the sticking sets.

@@ -154,8 +154,7 @@ impl Uncertainty {
         let mut doubt = Uncertainty::default();
         for (symbol, quantity) in ON_A_MACHINE {
             let half = half_widths.get(quantity.spec().name).copied().unwrap_or(0.0);
-            let half = half / scaled.scale(symbol);
-            doubt = doubt.with_half_width(symbol, half).unwrap_or(doubt);
+            doubt.half_widths[symbol.place()] = half / scaled.scale(symbol);
         }
         Uncertainty { disturbance: disturbance / scaled.reduced.units.force, ..doubt }
     }
@@ -184,11 +183,10 @@ impl Uncertainty {
         }
         let mut moved = self;
         for (symbol, _) in ON_A_MACHINE {
-            let half = self.half_width(symbol) * (from.scale(symbol) / to.scale(symbol));
-            moved = moved.with_half_width(symbol, half).unwrap_or(moved);
+            moved.half_widths[symbol.place()] *= from.scale(symbol) / to.scale(symbol);
         }
-        let force = from.reduced.units.force / to.reduced.units.force;
-        Uncertainty { disturbance: self.disturbance * force, ..moved }
+        moved.disturbance *= from.reduced.units.force / to.reduced.units.force;
+        moved
     }
 }
 
