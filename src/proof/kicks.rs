@@ -59,7 +59,8 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 3]) -> ProvedKicks {
         return open(NO_FRICTION);
     }
     let mut map = ProvedMap::new(parameters);
-    if proof.is_complete() && proof.cycles.is_empty() && is_bounded(&mut map, proof) {
+    let none = proof.is_complete() && proof.cycles.is_empty();
+    if none && is_bounded(&mut map, proof) {
         return ProvedKicks { edge: Some(ProvedEdge::None), ..ProvedKicks::default() };
     }
     let r = parameters.r;
@@ -79,7 +80,6 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 3]) -> ProvedKicks {
         if right.upper().min(left.upper()) == f64::INFINITY {
             return open(NO_EDGE);
         }
-        let none = proof.is_complete() && proof.cycles.is_empty();
         (none.then_some(ProvedEdge::Separatrix), [right, left])
     };
     let mut at = |x: Interval, hint| {

@@ -85,8 +85,9 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> P
             return ProvedMotion { turns, fate: ProvedFate::Open { tau, reason } };
         }
     };
-    let mut start =
-        if index == 1 { StartBox { x: q + r, v } } else { StartBox { x: r - q, v: -v } };
+    // The frame of a half plane turns the other one round.
+    let turned = |index, it: Interval| if index == 1 { it } else { -it };
+    let mut start = StartBox { x: turned(index, q) + r, v: turned(index, v) };
     let mut map = ProvedMap::new(parameters);
     let fate = loop {
         let field = map.field(index, MapDirection::Forward);
@@ -94,8 +95,7 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> P
         let state = || {
             let (x, v) =
                 if until < f64::INFINITY { state_at(&field, &start, time)? } else { None? };
-            let (q, v) = if index == 1 { (x - r, v) } else { (r - x, -v) };
-            Some(ProvedFate::Moving { q, v })
+            Some(ProvedFate::Moving { q: turned(index, x - r), v: turned(index, v) })
         };
         let open = |reason| ProvedFate::Open { tau, reason };
         if turns.len() == MOST {
@@ -112,7 +112,7 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> P
                 }
                 let end = end(&mut map, &field, &start, &found);
                 tau = arrived;
-                let q = if index == 1 { end - r } else { r - end };
+                let q = turned(index, end - r);
                 turns.push(ProvedTurn { tau, q });
                 if end.upper() <= map.gap.lower() {
                     break ProvedFate::Captured { tau, q };

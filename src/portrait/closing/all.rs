@@ -150,8 +150,7 @@ fn lower_end(equation: &mut Equation) -> Result<Option<f64>, Reason> {
     let Parameters { d, d2, d3, r } = equation.parameters;
     let smallest = equation.smallest_clearance()?.log;
     let beyond_node = d <= -1.0 && r > 0.0;
-    let rim = if beyond_node { equation.rim()? } else { Some(f64::NEG_INFINITY) };
-    let rim = rim.unwrap_or(f64::INFINITY);
+    let rim = if beyond_node { equation.rim()? } else { f64::NEG_INFINITY };
     if smallest.max(rim) == f64::INFINITY {
         return Ok(None);
     }

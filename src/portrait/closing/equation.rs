@@ -350,14 +350,14 @@ pub struct WayFromRim {
 
 impl Equation<'_> {
     /// Logarithm of the clearance below which no first swing of a cycle starts where the end of the sticking set
-    /// is a node that repels (`D <= -1`); `None` where no swing from there comes back.
+    /// is a node that repels (`D <= -1`); infinite where no swing from there comes back.
     ///
     /// Every second swing, however close to the sticking set it starts, ends beyond the one that creeps out
     /// from its rim, and the next first swing starts there.
-    pub fn rim(&mut self) -> Result<Option<f64>, Reason> {
-        let ends = self.ends_from_rim()?;
-        let comes_back = ends.iter().all(|end| end.is_finite());
-        Ok(comes_back.then(|| ln((ends[1] - 2.0 * self.parameters.r).max(0.0))))
+    pub fn rim(&mut self) -> Result<f64, Reason> {
+        let [first, second] = self.ends_from_rim()?;
+        let beyond = |end: f64| ln((end - 2.0 * self.parameters.r).max(0.0));
+        Ok(if first.is_finite() { beyond(second) } else { f64::INFINITY })
     }
 
     /// Where the first and the second swing end that leave the end of the sticking set.

@@ -95,14 +95,9 @@ fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tenden
         let beyond = if end > low { end } else { 2.0 * low };
         let high = mark.map_or(beyond, |(x, _)| *x);
         let x = low + 0.5 * (high - low);
-        ways.push(match flow.returned(x) {
-            Ok(Some(image)) => {
-                let change = (image.x - x) / x;
-                let stays = change.abs() < NOTHING;
-                Ok(if stays { Ordering::Equal } else { change.total_cmp(&0.0) })
-            }
-            Ok(None) => Ok(Ordering::Less),
-            Err(Reason::Escapes) => Ok(Ordering::Greater),
+        ways.push(match flow.growth(0.0, x) {
+            Ok(there) if there.value().abs() < NOTHING => Ok(Ordering::Equal),
+            Ok(there) => Ok(there.value().total_cmp(&0.0)),
             Err(stop @ Reason::BeyondLaw { .. }) => Err(stop),
             Err(reason) => return Err(reason),
         });
