@@ -286,7 +286,8 @@ impl Evidence {
     pub fn tends(far: (f64, Known), near: (f64, Known)) -> Self {
         let before = Self::near(far.0, far.1).miss();
         let mark = Certainty::of_limit((far.0, &far.1), (near.0, &near.1));
-        Evidence { before, mark, ..Self::new(Sense::Tends, near.0, near.1) }
+        let evidence = Evidence { before, mark, ..Self::new(Sense::Tends, near.0, near.1) };
+        Evidence { held: usize::from(evidence.holds(near.0)), ..evidence }
     }
 
     /// What should hold in each of these cases; the place becomes the first in which it does not. Fails with the
