@@ -256,20 +256,19 @@ impl Evidence {
     }
 
     fn new(sense: Sense, paper: f64, computed: Known) -> Self {
-        let mark = Certainty::of(sense, paper, &computed);
-        let (place, paper, corrected) = (String::new(), Some(paper), None);
-        let evidence = Evidence {
+        let mut evidence = Evidence {
             sense,
-            place,
-            paper,
-            corrected,
+            place: String::new(),
+            paper: Some(paper),
+            corrected: None,
             computed,
             before: 0.0,
             cases: 1,
             held: 0,
-            mark,
+            mark: Certainty::of(sense, paper, &computed),
         };
-        Evidence { held: usize::from(paper.is_some_and(|value| evidence.holds(value))), ..evidence }
+        evidence.held = usize::from(evidence.holds(paper));
+        evidence
     }
 
     /// A formula and what it should approximate.
