@@ -179,14 +179,17 @@ const SIGNALS: [(Signal, [&str; 3]); 2] = [
 /// Names and units of the columns.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Header {
-    columns: Vec<ColumnHeader>,
+    /// One for each column; none if the file has no header.
+    pub columns: Vec<ColumnHeader>,
 }
 
-/// A column.
+/// What stands above a column.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-struct ColumnHeader {
-    name: String,
-    unit: Option<String>,
+pub struct ColumnHeader {
+    /// Its name.
+    pub name: String,
+    /// Its unit, if one is written.
+    pub unit: Option<String>,
 }
 
 /// The value of a unit of time in seconds; `None` if it is unknown.
@@ -202,7 +205,7 @@ impl ColumnHeader {
     }
 
     /// The signal that the name suggests.
-    fn suggested(&self) -> Option<Signal> {
+    pub fn suggested(&self) -> Option<Signal> {
         SIGNALS.iter().find(|(_, parts)| self.name_has(parts)).map(|(signal, _)| *signal)
     }
 
@@ -257,24 +260,9 @@ impl Header {
         header
     }
 
-    /// Whether the file has no header.
-    pub fn is_empty(&self) -> bool {
-        self.columns.is_empty()
-    }
-
-    /// The names of the columns.
-    pub fn names(&self) -> Vec<&str> {
-        self.columns.iter().map(|column| column.name.as_str()).collect()
-    }
-
     /// The column with this name.
     pub fn named(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|column| column.name.eq_ignore_ascii_case(name.trim()))
-    }
-
-    /// The unit of a column.
-    pub fn unit(&self, column: usize) -> Option<&str> {
-        self.columns.get(column)?.unit.as_deref()
     }
 
     /// The first column that fits; `time` is the column of times, which is skipped.
@@ -286,11 +274,6 @@ impl Header {
     pub fn time(&self) -> Option<usize> {
         let is_called = |it: &ColumnHeader| it.name_has(&TIMES);
         self.find(None, is_called).or_else(|| self.find(None, |it| it.name == "t"))
-    }
-
-    /// The signal that the name of a column suggests.
-    pub fn suggested(&self, column: usize) -> Option<Signal> {
-        self.columns.get(column)?.suggested()
     }
 
     /// The first column with a unit of a signal, or else with a name that suggests it.

@@ -263,11 +263,11 @@ pub struct Combination {
 /// record.
 const UNKNOWN: f64 = 0.5;
 
-/// The combinations to report; none if every number is known separately.
-pub fn combinations(estimate: &Estimate) -> Vec<Combination> {
+/// The combination to report; `None` if every number is known separately.
+pub fn combination(estimate: &Estimate) -> Option<Combination> {
     let (low, high) = estimate.amplitudes();
     if !(low > 0.0 && high >= low) {
-        return Vec::new();
+        return None;
     }
     let middle = (low * high).sqrt();
     // The damping due to one unit of each number.
@@ -286,10 +286,7 @@ pub fn combinations(estimate: &Estimate) -> Vec<Combination> {
         .filter_map(|row| Some((row, scale(row.place)?)))
         .filter(|(row, scale)| estimate.covariance.error(row.place) * scale > UNKNOWN * largest)
         .collect();
-    if unknown.len() < 2 {
-        return Vec::new();
-    }
-    best_known(estimate, &unknown).into_iter().collect()
+    if unknown.len() < 2 { None } else { best_known(estimate, &unknown) }
 }
 
 /// The combination with the smallest error: the principal direction of the information that remains when all other

@@ -6,7 +6,7 @@
 //! minimizes the loss; [`search`] finds the right [`valley`] for it. [`mod@samples`]
 //! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for
 //! correlated noise ([`uncertainty`], [`residuals`]); intervals where the loss is not quadratic ([`profile`]); numbers
-//! of which only combinations are known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What
+//! of which only combination are known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What
 //! all of this rests on is tested by the record itself ([`mod@conditions`]).
 //!
 //! Nothing here reads or writes files: text goes in, estimates come out.
@@ -82,12 +82,12 @@ pub use {
 
 // What other rings use of it, and its files of each other.
 pub(crate) use {
-    cells::{Header, cells, clock_seconds, lines, read, seconds_in, separator},
+    cells::{ColumnHeader, Header, cells, clock_seconds, lines, read, seconds_in, separator},
     conditions::repeated,
     curves::{Curves, PlotPoint, memory},
     drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
     estimate::{LeftOut, RISES, contour, held, judged, left_out},
-    fitted::{Combination, combinations, rows},
+    fitted::{Combination, combination, rows},
     guess::{Beginning, Guess, guess, period_of},
     margin::MarginSpread,
     motion::{FittedTurn, MotionLost, follow},

@@ -8,7 +8,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Header, Signal, SignalUnit, cells, clock_seconds, lines, measure, read, seconds_in, separator,
+    ColumnHeader, Header, Signal, SignalUnit, cells, clock_seconds, lines, measure, read,
+    seconds_in, separator,
 };
 
 /// How to read a file.
@@ -107,14 +108,16 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     let in_header = |column: usize, problem: String| bad(table.last_of_header, column + 1, problem);
     let first_time = time.and_then(|time| table.rows[0].1.get(time));
     let stamps = first_time.is_some_and(|cell| clock_seconds(cell).is_some());
-    let unit = time.filter(|_| !stamps).and_then(|time| Some((time, table.header.unit(time)?)));
+    let column = |place: usize| table.header.columns.get(place);
+    let unit_of = |place: usize| column(place)?.unit.as_deref();
+    let unit = time.filter(|_| !stamps).and_then(|time| Some((time, unit_of(time)?)));
     let seconds = unit.map_or(Ok(1.0), |(time, unit)| {
         seconds_in(unit).ok_or_else(|| {
             in_header(time, format!("times in {unit:?}; allowed are s, ms, us, ns, min, h"))
         })
     })?;
-    let written = table.header.unit(displacement);
-    let suggested = table.header.suggested(displacement);
+    let written = unit_of(displacement);
+    let suggested = column(displacement).and_then(ColumnHeader::suggested);
     let SignalUnit { signal, length, scale } =
         measure(written, reading.unit.as_deref(), reading.signal, suggested)
             .map_err(|problem| in_header(displacement, problem))?;
@@ -182,7 +185,7 @@ impl<'a> RecordTable<'a> {
         // Blanks cannot separate names that consist of several words.
         let header = Some(Header::of(&header));
         let width = numbers[0].1.len();
-        let header = header.filter(|it| separator.is_some() || it.names().len() <= width);
+        let header = header.filter(|it| separator.is_some() || it.columns.len() <= width);
         let header = header.unwrap_or_default();
         Ok(RecordTable { header, last_of_header, rows: numbers, comma_is_decimal })
     }
@@ -210,7 +213,8 @@ impl<'a> RecordTable<'a> {
             Ok(number) if (1..=width).contains(&number) => Ok(number - 1),
             Ok(number) => Err(format!("there is no column {number}; there are {width}")),
             Err(_) => header.named(column).ok_or_else(|| {
-                format!("there is no column {column:?}; there are {}", header.names().join(", "))
+                let names: Vec<&str> = header.columns.iter().map(|it| it.name.as_str()).collect();
+                format!("there is no column {column:?}; there are {}", names.join(", "))
             }),
         };
         let mut time = reading.time.as_ref().map(place).transpose()?;
@@ -220,7 +224,7 @@ impl<'a> RecordTable<'a> {
         displacement = displacement
             .or_else(|| other.and_then(|signal| header.measuring(signal, time)))
             .or_else(|| header.displacement(time));
-        let is_open = time.is_none() && (!reading.peaks || header.is_empty());
+        let is_open = time.is_none() && (!reading.peaks || header.columns.is_empty());
         if is_open && width > 1 && displacement != Some(0) {
             if reading.peaks && self.counts_rows() {
                 displacement = displacement.or(Some(1));

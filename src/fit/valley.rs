@@ -5,7 +5,7 @@
 //! their derivatives are not. A single descent is therefore never enough.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use super::{Bound, Covariance, D2, D3, FitVerdict, Optimum, R, Region, Task, Unknowns};
 
@@ -151,17 +151,17 @@ fn along_the_valley(
     let (along, error) = (covariance.following(&[(R, 1.0)]), covariance.error(R));
     let parts = (1..=STEPS).map(|k| PART * f64::from(k) * optimum.p[R]);
     let errors = (1..=ERRORS).map(|k| f64::from(k) * error);
-    let mut closest = Closest::default();
+    let mut points = ValleyPoints::new();
     for step in parts.chain(errors).flat_map(|step| [step, -step]) {
         let p = optimum.p + step * along;
         if p[R] > 0.0
             && let Some(seen) = task.evaluated(&p, false)
         {
-            closest.see(seen.turns.len(), task.cost(&seen), p);
+            points.push((seen.turns.len(), task.cost(&seen), p));
         }
     }
-    closest.0.retain(|_, (cost, _)| *cost - optimum.cost <= FAR * task.unit(optimum.cost));
-    closest.beside(known)
+    points.retain(|(_, cost, _)| *cost - optimum.cost <= FAR * task.unit(optimum.cost));
+    closest(points, known)
 }
 
 /// Factors of successive steps of r on each side; a valley may be as narrow as one percent of r.
@@ -179,41 +179,32 @@ pub fn through_the_valley(
     known: &[Optimum],
 ) -> Vec<Unknowns> {
     let held = task.holding(R);
-    let mut closest = Closest::default();
+    let mut points = ValleyPoints::new();
     for up in [true, false] {
         let mut p = optimum.p;
         for factor in factors {
             p[R] *= if up { factor } else { 1.0 / factor };
             let Some(found) = held.solve_roughly(p) else { break };
             p = found.p;
-            closest.see(found.seen.turns.len(), found.cost, p);
+            points.push((found.seen.turns.len(), found.cost, p));
         }
     }
-    closest.beside(known)
+    closest(points, known)
 }
 
-/// For each number of half swings, the point that is closest to the record.
-#[derive(Default)]
-struct Closest(BTreeMap<usize, (f64, Unknowns)>);
+/// Points with their number of half swings and their loss.
+type ValleyPoints = Vec<(usize, f64, Unknowns)>;
 
-impl Closest {
-    fn see(&mut self, half_swings: usize, cost: f64, p: Unknowns) {
-        let known = self.0.entry(half_swings).or_insert((cost, p));
-        if cost < known.0 {
-            *known = (cost, p);
-        }
-    }
-
-    /// A few of the closest points that are lower than the minimum known for their number of half swings.
-    fn beside(self, known: &[Optimum]) -> Vec<Unknowns> {
-        /// Maximum number of points from which to descend.
-        const MOST: usize = 3;
-        let is_lower = |(half_swings, (cost, _)): &(usize, (f64, Unknowns))| {
-            let same = known.iter().find(|valley| valley.seen.turns.len() == *half_swings);
-            same.is_none_or(|valley| *cost < valley.cost)
-        };
-        let mut points: Vec<_> = self.0.into_iter().filter(is_lower).map(|it| it.1).collect();
-        points.sort_by(|one, other| one.0.total_cmp(&other.0));
-        points.into_iter().take(MOST).map(|(_, p)| p).collect()
-    }
+/// For each number of half swings the point that is closest to the record, if it is lower than the minimum known there:
+/// the lowest few of these.
+fn closest(mut points: ValleyPoints, known: &[Optimum]) -> Vec<Unknowns> {
+    /// Maximum number of points from which to descend.
+    const MOST: usize = 3;
+    points.sort_by(|one, other| one.1.total_cmp(&other.1));
+    let mut met = BTreeSet::new();
+    points.retain(|(half_swings, cost, _)| {
+        let same = known.iter().find(|valley| valley.seen.turns.len() == *half_swings);
+        met.insert(*half_swings) && same.is_none_or(|valley| *cost < valley.cost)
+    });
+    points.into_iter().take(MOST).map(|(.., p)| p).collect()
 }

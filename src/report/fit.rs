@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
     Combination, Condition, Dropped, Fitted, LAST, LeftOut, MarginSpread, Margins, NAMES, NameSpec,
-    OMEGA0, ProfileInterval, Q0, Record, StartKind, combinations, left_out, rows,
+    OMEGA0, ProfileInterval, Q0, Record, StartKind, combination, left_out, rows,
 };
 use crate::portrait::Kicks;
 use crate::words::fit::{left_out as counts, sentences, signed, undetermined};
@@ -77,7 +77,7 @@ fn document(fitted: &Fitted) -> Document {
         .with("samples", estimate.data.x.len())
         .with("half_swings", estimate.half_swings)
         .with("rests", estimate.rests)
-        .with("separable", combinations(estimate).iter().map(separable).collect::<Vec<_>>())
+        .with("separable", combination(estimate).iter().map(separable).collect::<Vec<_>>())
         .with("valleys", &estimate.rivals)
         .with("outliers", estimate.count(Dropped::Outlier))
         .with("saturated", estimate.count(Dropped::Saturated))

@@ -9,7 +9,7 @@ use super::counted;
 use super::number::{in_unit, rounded_down, significant, with_unit};
 use crate::fit::{
     Combination, Condition, D, Dropped, Fitted, MarginQuestion, Margins, NAMES, NameSpec, R, Rival,
-    StartKind, combinations, conditions,
+    StartKind, combination, conditions,
 };
 use crate::numerics::count::real;
 use crate::portrait::Margin;
@@ -29,9 +29,8 @@ const TOLD: [&str; 3] = ["residuals", "zero", "alternatives"];
 
 /// What cannot be determined, or not by a standard error.
 pub fn undetermined(fitted: &Fitted) -> Vec<String> {
-    let combinations = combinations(&fitted.estimate);
-    let inseparable = combinations.iter().map(|one| inseparable(fitted, one));
-    inseparable.chain(bounds(fitted)).collect()
+    let inseparable = combination(&fitted.estimate).map(|one| inseparable(fitted, &one));
+    inseparable.into_iter().chain(bounds(fitted)).collect()
 }
 
 /// `D and r`, `D, D3 and r`.
