@@ -62,11 +62,8 @@ impl Task<'_> {
                 });
             }
             for guess in guesses {
-                let Some(seen) = self.evaluated(&guess, false) else {
-                    continue;
-                };
-                let found = self.around(&seen).solve(guess);
-                if let Some(found) = found {
+                let Some(seen) = self.evaluated(&guess, false) else { continue };
+                if let Some(found) = self.around(&seen).solve(guess) {
                     keep(&mut valleys, found);
                 }
             }
