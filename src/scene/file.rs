@@ -130,7 +130,7 @@ plots = [
         for (from, to, place, words) in [
             ("title", "titel", "1:1", "`also`, `title`, `look`"),
             ("A test\"", "A test", "1:", ""),
-            ("\"D\", \"r\"", "\"D4\"", "4:10", "no number \"D4\"; did you mean D"),
+            ("\"D\", \"r\"", "\"D4\"", "4:9", "no number \"D4\"; did you mean D"),
             ("D = -0.4", "D = \"a\"", "5:28", "expected f64"),
             ("[-3, 3]", "[3, -3]", "9:36", "the second larger"),
             (
@@ -144,6 +144,7 @@ plots = [
             ("\"phase\"", "\"plane\"", "9:12", "unknown variant `plane`"),
             ("view = \"phase\", window", "view = \"phase\", x", "9:21", "unknown field `x`"),
             ("\"trajectory\"", "\"tail\"", "7:11", "expected one of `trajectory`"),
+            ("title", "machine = \"groan 1 m\"\ntitle", "1:11", "\"1 m\" is no speed of its belt"),
             ("title", "machine = \"none\"\ntitle", "1:", "no machine \"none\"; there are textbook"),
         ] {
             let error = parse("test", "test.toml", &GOOD.replacen(from, to, 1)).unwrap_err();

@@ -72,9 +72,12 @@ impl<'de> Visitor<'de> for NamedOrWhole {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<Self::Value, E> {
-        let (name, speed) = text.split_once(' ').unwrap_or((text, ""));
+        let (name, speed) =
+            text.split_once(' ').map_or((text, None), |(name, it)| (name, Some(it)));
         let machine = library::find(name).map_err(E::custom)?;
-        let speed = speed.parse().unwrap_or(machine.belt.belt_speed);
+        let refused = |it| E::custom(format!("\"{it}\" is no speed of its belt: a number of m/s"));
+        let speed = speed.map(|it| it.parse().map_err(|_| refused(it))).transpose()?;
+        let speed = speed.unwrap_or(machine.belt.belt_speed);
         let scaled = ScaledMachine::at(machine, speed).map_err(E::custom)?;
         Ok(Some(Box::new(scaled)))
     }
