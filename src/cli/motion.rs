@@ -110,12 +110,12 @@ impl TradeCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let (asked, output) = (self.asked.asked(self.named.as_deref())?, &self.asked.output);
         let machine = asked.model.as_ref();
-        let unmeasured = |reason| match machine {
-            Some(_) => troubled(reason),
-            None => {
-                let nothing = "there is nothing to measure errors against";
-                Failure::Unanswered(format!("{nothing}: {reason}"))
+        let unmeasured = |reason| {
+            if machine.is_some() {
+                return troubled(reason);
             }
+            let nothing = "there is nothing to measure errors against";
+            Failure::Unanswered(format!("{nothing}: {reason}"))
         };
         let found = Trade::of(machine, &asked.problem, &Limits::PATIENT);
         let mut found = found.map_err(unmeasured)?;

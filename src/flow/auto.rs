@@ -54,8 +54,6 @@ pub struct Auto {
     /// Created when first needed: most motions are never stiff.
     stiff: Option<Box<Stiff>>,
     exact: Exact,
-    /// Whether the field is a linear oscillation, so that steps are those of the closed form.
-    linear: bool,
     /// Whether the last step was implicit, and whether the next one is to be.
     was_implicit: bool,
     implicit: bool,
@@ -86,7 +84,6 @@ impl Auto {
             tolerance,
             stiff: None,
             exact: Exact::new(),
-            linear: false,
             was_implicit: false,
             implicit: false,
             reached: 0.0,
@@ -99,6 +96,11 @@ impl Auto {
         }
     }
 
+    /// Whether the field is a linear oscillation, so that steps are those of the closed form.
+    fn is_closed(&self) -> bool {
+        self.field.is_linear() && self.field.d.abs() < 1.0
+    }
+
     /// The implicit method, if it took the last step.
     fn implicit(&self) -> Option<&Stiff> {
         self.stiff.as_deref().filter(|_| self.was_implicit)
@@ -108,7 +110,7 @@ impl Auto {
     fn taken(&self) -> &dyn Stepper {
         match self.implicit() {
             Some(stiff) => stiff,
-            None if self.linear => &self.exact,
+            None if self.is_closed() => &self.exact,
             None => &self.taylor,
         }
     }
@@ -117,7 +119,7 @@ impl Auto {
     pub fn last_step(&self) -> KeptStep {
         match self.implicit() {
             Some(stiff) => Arc::new(stiff.clone()),
-            None if self.linear => Arc::new(self.exact.clone()),
+            None if self.is_closed() => Arc::new(self.exact.clone()),
             None => Arc::new(self.taylor.clone()),
         }
     }
@@ -154,8 +156,7 @@ impl Auto {
 impl Stepper for Auto {
     fn begin(&mut self, field: &HalfPlane) {
         (self.field, self.series_steps) = (*field, 0);
-        self.linear = field.is_linear() && field.d.abs() < 1.0;
-        if self.linear {
+        if self.is_closed() {
             self.exact.begin(field);
         }
         self.taylor.begin(field);
@@ -167,7 +168,7 @@ impl Stepper for Auto {
     /// Takes a step by the current method, then chooses the method of the next one.
     fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
         self.was_implicit = false;
-        if self.linear {
+        if self.is_closed() {
             return self.exact.advance(from, longest.min(CLOSED), arrives);
         }
         if self.implicit

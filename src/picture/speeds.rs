@@ -40,7 +40,9 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         // A speed without an answer is left out.
         let known = found.points.iter().filter_map(|(at, found)| Some((*at, found.as_ref().ok()?)));
         let points: Vec<_> = known.collect();
-        KINDS.into_iter().for_each(|kind| cycles(picture, &points, kind));
+        for kind in KINDS {
+            cycles(picture, &points, kind);
+        }
         rest(picture, &points);
         for special in &found.special {
             changes(picture, special);
@@ -68,12 +70,12 @@ fn rest(picture: &mut Picture, points: &[(f64, &Portrait)]) {
         Border::Grazing | Border::Capture => found.reach.map(|reach| reach.displacement.0),
         _ => None,
     };
-    let heights: [(_, &dyn Fn(&Portrait) -> _); 2] =
-        [("rest", &rests), ("touches the belt", &touching)];
-    for (name, height) in heights {
+    let mut curve = |name, height: &dyn Fn(&Portrait) -> Option<f64>| {
         let place = |(at, found): &(f64, &Portrait)| [*at, height(found).unwrap_or(f64::NAN)];
         picture.curve(name, points.iter().map(place));
-    }
+    };
+    curve("rest", &rests);
+    curve("touches the belt", &touching);
 }
 
 /// A change, by its letter, and the jumps from the stable states that end there.

@@ -14,6 +14,7 @@ use super::Uncertain;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Fate, Limits, Reason};
 use crate::model::{HalfPlane, Model, ParameterBox, Parameters, Side};
+use crate::numerics::interval::Interval;
 use crate::portrait::basin::orbit::Orbit;
 use crate::portrait::closing::all::{STEP, innermost_bracket};
 use crate::portrait::closing::equation::Equation;
@@ -38,7 +39,7 @@ impl TwoSided {
     /// friction.
     #[must_use]
     pub fn worst(known: &ParameterBox, disturbance: f64) -> Self {
-        let mut upper = known.map(|it| it.lower());
+        let mut upper = known.map(Interval::lower);
         if disturbance > 0.0 {
             upper.r = (upper.r - disturbance).next_down();
         }
@@ -48,7 +49,7 @@ impl TwoSided {
     /// The system that keeps the largest basin.
     #[must_use]
     pub fn best(known: &ParameterBox, disturbance: f64) -> Self {
-        let mut upper = known.map(|it| it.upper());
+        let mut upper = known.map(Interval::upper);
         if disturbance > 0.0 {
             upper.r = (upper.r + disturbance).next_up();
         }

@@ -82,7 +82,7 @@ pub(crate) fn read(
     result: Result<String, String>,
 ) -> Done {
     if let Purpose::Table { path: of, machine } = purpose {
-        return open_machine(session, &of, machine, Some(result));
+        return open_machine(session, &of, machine, Some(&result));
     }
     let text = result?;
     let of_file = |why: String| format!("{}: {why}", path.display());
@@ -121,7 +121,7 @@ fn open_machine(
     session: &mut Session,
     path: &Path,
     text: String,
-    table: Option<Result<String, String>>,
+    table: Option<&Result<String, String>>,
 ) -> Done {
     let file = path.display().to_string();
     let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
@@ -130,7 +130,7 @@ fn open_machine(
     }
     let mut wanted = None;
     let found = file::parse(&title, &file, &text, |name| {
-        table.clone().unwrap_or_else(|| {
+        table.cloned().unwrap_or_else(|| {
             wanted = Some(path.with_file_name(name));
             Err(String::new())
         })
