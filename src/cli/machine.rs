@@ -30,8 +30,12 @@ pub struct CommandCase {
 impl From<Problem> for CommandCase {
     /// The oscillator of the paper, which has no name.
     fn from(problem: Problem) -> Self {
-        let (name, title, watch) = Default::default();
-        let described = Description { name, title, watch, subject: problem.into() };
+        let described = Description {
+            name: String::new(),
+            title: String::new(),
+            watch: String::new(),
+            subject: problem.into(),
+        };
         CommandCase { described, sources: Vec::new() }
     }
 }

@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::input::{self, WINDOW};
+use super::source::Portrayed;
 use super::{
     Certify, CommandCase, Failure, Output, SourceOptions, given, number, read, timed, troubled,
 };
@@ -98,7 +99,8 @@ impl BasinCommand {
         let numbers = self.source.numbers();
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
         let reach = window.unwrap_or(WINDOW).reach();
-        let (about, found, before) = self.source.portrait(&self.output, |_| reach)?;
+        let Portrayed { about, portrait: found, seconds: before } =
+            self.source.portrait(&self.output, |_| reach)?;
         let usual = || if about.is_machine() { found.surroundings() } else { WINDOW };
         let window = window.unwrap_or_else(usual);
         let count = || found.count(&window, self.grid, &Limits::PATIENT);
@@ -136,7 +138,8 @@ pub struct KicksCommand {
 impl KicksCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let law = read("--kicks", &self.law, |text| self.source.numbers().kicks(text))?;
-        let (about, portrait, before) = self.source.portrait(&self.output, |r| law.reach() + r)?;
+        let Portrayed { about, portrait, seconds: before } =
+            self.source.portrait(&self.output, |r| law.reach() + r)?;
         let follow = || repeated(&portrait, &law, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the kicks could not be followed", follow)?;
         let held = portrait.model.guide_static;

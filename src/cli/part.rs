@@ -34,7 +34,7 @@ pub const MOST: usize = 1_000_000;
 
 /// Part K of N, where the first part has this number.
 fn shard(text: &str, first: usize) -> Result<Shard, String> {
-    let allowed = ["0 <= K < N", "1 <= K <= N"][first];
+    let allowed = if first == 0 { "0 <= K < N" } else { "1 <= K <= N" };
     pair(text, '/')
         .filter(|(number, of)| *of <= MOST && (first..of + first).contains(number))
         .map(|(number, of)| Shard { number: number + 1 - first, of })

@@ -15,6 +15,13 @@ use crate::runtime::standard::tell;
 use crate::scene::library::PLAIN;
 use crate::scene::{Scene, find};
 
+/// What is asked about, all of its motions, and the median time to find them.
+pub struct Portrayed {
+    pub about: About,
+    pub portrait: Portrait,
+    pub seconds: f64,
+}
+
 /// What a command is about: the motion of a scene, or a machine.
 #[derive(Clone, Debug, Args)]
 pub struct SourceOptions {
@@ -49,13 +56,13 @@ impl SourceOptions {
         Ok(Some(case.checked()?))
     }
 
-    /// What is asked about, all of its motions, and the median time to find them; of the oscillator of the paper a border
-    /// that is not closed is followed as far as a function of r says.
+    /// All motions of what is asked about; of the oscillator of the paper a border that is not closed is followed as far as
+    /// a function of r says.
     pub fn portrait(
         &self,
         output: &Output,
         reach: impl Fn(f64) -> f64,
-    ) -> Result<(About, Portrait, f64), Failure> {
+    ) -> Result<Portrayed, Failure> {
         let (about, (portrait, seconds)) = if let Some(case) = self.portrayed()? {
             (case.about(), case.portrait(output)?)
         } else {
@@ -64,7 +71,7 @@ impl SourceOptions {
             let ask = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
             (About::oscillator(&parameters), output.timed("the basin could not be found", ask)?)
         };
-        Ok((about, portrait, seconds))
+        Ok(Portrayed { about, portrait, seconds })
     }
 
     /// The motion of the scene with this name, or what the options name, with the values set on the command line.

@@ -1,7 +1,7 @@
 //! Places texts beside their points, where they cover nothing and cannot be mistaken for the name of another
 //! curve.
 
-use super::elements;
+use super::elements::{self, Anchor};
 use super::paper::{Frame, PLOT, Spot, ink};
 use super::{MarkedPoint, Outline, Panel};
 use crate::numerics::{count::real, elementary::hypot};
@@ -204,7 +204,7 @@ pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {
             "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"2.5\"".to_owned(),
             format!("fill=\"{color}\""),
         ] {
-            elements::text(out, spot, "start", &format!("font-size=\"10.5\" {paint}"), text);
+            elements::text(out, spot, Anchor::Start, &format!("font-size=\"10.5\" {paint}"), text);
         }
     }
 }

@@ -23,8 +23,21 @@ pub(super) fn circle(out: &mut String, (x, y): Spot, radius: f64, attributes: &s
     let _ = writeln!(out, "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"{radius}\" {attributes}/>");
 }
 
-/// Writes a text on its base line, of which a spot is the `start`, the `middle` or the `end`.
-pub(super) fn text(out: &mut String, (x, y): Spot, anchor: &str, attributes: &str, text: &str) {
+/// What a spot is of the text that is written there.
+#[derive(Clone, Copy)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// Writes a text on its base line, of which a spot is the start, the middle or the end.
+pub(super) fn text(out: &mut String, (x, y): Spot, anchor: Anchor, attributes: &str, text: &str) {
+    let anchor = match anchor {
+        Anchor::Start => "start",
+        Anchor::Middle => "middle",
+        Anchor::End => "end",
+    };
     let text = xml(text);
     let _ = writeln!(
         out,

@@ -1,6 +1,6 @@
 //! A map and its scale as SVG: cells of one hue, the stronger the more dangerous.
 
-use super::elements::{path, text};
+use super::elements::{Anchor, path, text};
 use super::paper::{Frame, PLOT, Spot, shading};
 use crate::numerics::count::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
@@ -80,7 +80,7 @@ pub(super) fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
 pub(super) fn scale(out: &mut String, map: &ScanMap, (x, y): Spot) {
     let Some(scale) = map.scale else { return };
     let (width, top) = (PLOT.0, y + 20.0);
-    text(out, (x + width / 2.0, y + 14.0), "middle", "font-size=\"11\"", &map.name);
+    text(out, (x + width / 2.0, y + 14.0), Anchor::Middle, "font-size=\"11\"", &map.name);
     out.push_str("<g shape-rendering=\"crispEdges\" stroke=\"none\">\n");
     for step in 0..STEPS {
         let [from, to] = [step, step + 1].map(|edge| x + width * real(edge) / real(STEPS));
@@ -89,7 +89,8 @@ pub(super) fn scale(out: &mut String, map: &ScanMap, (x, y): Spot) {
     }
     out.push_str("</g>\n");
     let [lowest, highest] = scale.ends();
-    let ends = [(0.0, "start", lowest), (0.5, "middle", ""), (1.0, "end", highest)];
+    let ends =
+        [(0.0, Anchor::Start, lowest), (0.5, Anchor::Middle, ""), (1.0, Anchor::End, highest)];
     for (part, anchor, end) in ends {
         let value = significant(scale.at(part), 4);
         let words = if end.is_empty() { value } else { format!("{value} ({end})") };

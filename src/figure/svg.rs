@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::elements::{circle, path, rectangle, text};
+use super::elements::{Anchor, circle, path, rectangle, text};
 use super::paper::{self, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot, ink, shading, stroke};
 use super::{Figure, MarkedPoint, Outline, Panel, areas::loops, captions, data::remarks, map};
 use crate::numerics::{hypot, real, truncated};
@@ -50,7 +50,7 @@ fn picture(figure: &Figure, alone: Option<u32>) -> String {
     );
     if alone.is_none() {
         let spot = (width / 2.0, 22.0);
-        text(&mut out, spot, "middle", "font-size=\"14\"", &figure.title);
+        text(&mut out, spot, Anchor::Middle, "font-size=\"14\"", &figure.title);
     }
     for (number, panel) in (0..).zip(&figure.panels) {
         draw(&mut out, alone.unwrap_or(number), panel, Frame::of(number, panels, panel.window));
@@ -223,17 +223,17 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     for tick in &rightward.ticks {
         let x = left + tick.fraction * width;
         let _ = write!(notches, "M{x:.2} {bottom}v-5M{x:.2} {top}v5");
-        text(out, (x, bottom + 17.0), "middle", "", &tick.label);
+        text(out, (x, bottom + 17.0), Anchor::Middle, "", &tick.label);
     }
     for tick in &upward.ticks {
         let y = top + (1.0 - tick.fraction) * height;
         let _ = write!(notches, "M{left} {y:.2}h5M{right} {y:.2}h-5");
-        text(out, (left - 8.0, y + 4.0), "end", "", &tick.label);
+        text(out, (left - 8.0, y + 4.0), Anchor::End, "", &tick.label);
     }
     path(out, &notches, "stroke=\"#222222\" stroke-width=\"0.8\"");
     let (center, middle) = (left + width / 2.0, top + height / 2.0);
     let mut around = |x: f64, y: f64, attributes: &str, words: &str| {
-        text(out, (x, y), "middle", attributes, words);
+        text(out, (x, y), Anchor::Middle, attributes, words);
     };
     around(center, top - 9.0, "font-size=\"12.5\"", &panel.title);
     let italic = "font-style=\"italic\"";
@@ -280,5 +280,5 @@ fn sample(out: &mut String, LegendEntry { sample, role, text: name }: &LegendEnt
             rectangle(out, (x, y - 5.0), (30.0, 10.0), &shading(*role));
         }
     }
-    text(out, (x + 37.0, y + 4.0), "start", "font-size=\"11\"", name);
+    text(out, (x + 37.0, y + 4.0), Anchor::Start, "font-size=\"11\"", name);
 }

@@ -28,9 +28,8 @@ pub enum Finding {
     Fit(Fit),
     Refit(Fit),
     Trajectory(Trajectory),
-    /// Cycles, and the margins of a machine by its whole model and by its cubic expansion; nothing where the whole model
-    /// has no answer.
-    Cycles(Cycles, Option<[Margin; 2]>),
+    /// Cycles, and the margins of a machine; nothing where the whole model has no answer.
+    Cycles(Cycles, Option<MachineMargins>),
     Zones(CertainZones),
     /// The fraction of the kicks that lead out of the basin of the sticking set, and the cost of the basin.
     Kicks(Share, Cost),
@@ -73,6 +72,13 @@ impl Finding {
             | Finding::Reference(Err(_)) => Cost::default(),
         }
     }
+}
+
+/// The margins of a machine by its whole model and by its cubic expansion, without units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MachineMargins {
+    pub whole: Margin,
+    pub cubic: Margin,
 }
 
 /// An answer with its question and its computing time, as the worker returns it.
@@ -301,20 +307,22 @@ fn motion(
 }
 
 /// The cycles with their curves, `points` on each step, and the border of the basin: of the paper's oscillator, or of a
-/// machine by the `whole` model or by its cubic expansion; beside them its margins by both, without units: every kick is
-/// survived where the expansion has no answer.
+/// machine by the `whole` model or by its cubic expansion; beside them its margins by both: every kick is survived where the
+/// expansion has no answer.
 fn cycles(
     parameters: &Parameters,
     machine: Option<&Belt>,
     whole: bool,
     points: u16,
     limits: &Limits,
-) -> Result<(Cycles, Option<[Margin; 2]>), Reason> {
+) -> Result<(Cycles, Option<MachineMargins>), Reason> {
     let expansion = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
     let Some(belt) = machine else { return Ok((expansion?.drawn(parameters, points)?, None)) };
     let found = Portrait::of_belt(belt);
-    let expanded = expansion.as_ref().map_or(Margin::ENDLESS, |found| found.margin);
-    let margins = found.as_ref().map(|found| [found.in_drawing(&found.margin), expanded]).ok();
+    let cubic = expansion.as_ref().map_or(Margin::ENDLESS, |found| found.margin);
+    let known = found.as_ref().ok();
+    let margins =
+        known.map(|found| MachineMargins { whole: found.in_drawing(&found.margin), cubic });
     let shown = if whole { found } else { expansion };
     Ok((shown?.drawn(parameters, points)?, margins))
 }

@@ -17,20 +17,37 @@ use crate::proof::range::{MOST_STEPS, Range, RangePiece};
 use crate::words::{significant, stability, with_unit};
 
 /// A point with the number of the connected piece to which it belongs.
-type PointRow<'a> = (usize, &'a BranchPoint);
+#[derive(Clone, Copy)]
+struct PointRow<'a> {
+    piece: usize,
+    point: &'a BranchPoint,
+}
 
 /// A point, or a part of the range of which something is proved.
-type BranchRow<'a> = (Option<PointRow<'a>>, Option<&'a RangePiece>);
+enum BranchRow<'a> {
+    Point(PointRow<'a>),
+    Proved(&'a RangePiece),
+}
+
+impl<'a> BranchRow<'a> {
+    fn point(&self) -> Option<PointRow<'a>> {
+        if let BranchRow::Point(point) = self { Some(*point) } else { None }
+    }
+
+    fn proved(&self) -> Option<&'a RangePiece> {
+        if let BranchRow::Proved(piece) = self { Some(piece) } else { None }
+    }
+}
 
 /// The columns of points; `value` names the number that varies.
 fn point_columns<'a>(value: &'static str, digits: usize) -> Columns<'a, PointRow<'a>> {
     let columns = Columns::default()
-        .file("piece", |(piece, _): &PointRow| *piece)
-        .number(value, Quantity::pure(digits), |(_, point)| point.value)
-        .and(cycle_fields(|(_, point): &PointRow| Some(point.cycle)))
-        .text("piece", |(piece, _)| piece.to_string())
-        .text("cycle", |(_, point)| stability(point.cycle.stable).to_owned());
-    number_columns(columns, move |(_, point), number| number.text(&point.cycle, digits))
+        .file("piece", |row: &PointRow| row.piece)
+        .number(value, Quantity::pure(digits), |row| row.point.value)
+        .and(cycle_fields(|row: &PointRow| Some(row.point.cycle)))
+        .text("piece", |row| row.piece.to_string())
+        .text("cycle", |row| stability(row.point.cycle.stable).to_owned());
+    number_columns(columns, move |row, number| number.text(&row.point.cycle, digits))
 }
 
 /// The branch of the oscillator of the paper: one row for each point, and for each part of the range in which the number
@@ -44,18 +61,16 @@ pub fn branch(
 ) -> Answer {
     let points = || {
         let pieces = branch.pieces.iter().enumerate();
-        pieces.flat_map(|(piece, points)| points.iter().map(move |point| (piece, point)))
+        pieces.flat_map(|(piece, points)| points.iter().map(move |point| PointRow { piece, point }))
     };
     let name = branch.parameter.spec().name;
     let shown = digits(tolerance).min(10);
     let proved = certified.map(|range| {
-        Columns::default().part("certified", piece_columns(range, name), |row: &BranchRow| row.1)
+        Columns::default().part("certified", piece_columns(range, name), BranchRow::proved)
     });
-    let columns = Columns::default()
-        .part("point", point_columns(name, shown), |row: &BranchRow| row.0)
-        .and(proved);
+    let columns =
+        Columns::default().part("point", point_columns(name, shown), BranchRow::point).and(proved);
     let parts = certified.into_iter().flat_map(|range| &range.pieces);
-    let parts = parts.map(|piece| (None, Some(piece)));
     let special = Quantity::pure(digits(tolerance));
     let special = Columns::default()
         .text("special point", |it: &Special| it.kind.name(it.cycle.as_ref()).to_owned())
@@ -68,7 +83,7 @@ pub fn branch(
         .with("special", &branch.special)
         .with("vague", &branch.vague)
         .with_any("certified", certified.map(decided))
-        .csv(&columns, points().map(|point| (Some(point), None)).chain(parts))
+        .csv(&columns, points().map(BranchRow::Point).chain(parts.map(BranchRow::Proved)))
         .table(point_columns(name, shown).table(points()))
         .lines(branch.pieces.is_empty().then_some("no limit cycle"))
         .table(special.table(&branch.special))
@@ -91,7 +106,10 @@ fn vague(branch: &Branch) -> Option<String> {
 }
 
 /// The fold and the escape point at one value of the second parameter, and what is proved of them.
-type BorderRow<'a> = (&'a BoundaryPoint, Option<&'a BorderProof>);
+struct BorderRow<'a> {
+    point: &'a BoundaryPoint,
+    proof: Option<&'a BorderProof>,
+}
 
 /// The fold and the escape point of the oscillator of the paper, one row for each value of the second parameter.
 pub fn border<'a>(
@@ -107,19 +125,20 @@ pub fn border<'a>(
     };
     let name = found.second.spec().name;
     let proved =
-        Columns::default().part("certified", border_columns(), |row: &BorderRow<'a>| row.1);
+        Columns::default().part("certified", border_columns(), |row: &BorderRow<'a>| row.proof);
     let columns = Columns::default()
-        .number(name, Quantity::pure(10), |(point, _): &BorderRow<'a>| point.value)
-        .number("D_F", EXACT, |(point, _)| point.fold.map(|fold| fold.d))
-        .text("is a", move |(point, _)| kind(point).to_owned())
-        .number("q_max", SHORT, |(point, _)| point.fold.map(|fold| fold.q_max))
-        .number("period", SHORT, |(point, _)| point.fold.map(|fold| fold.period))
-        .number("D_F_harmonic", SHORT, |(point, _)| point.harmonic_fold)
-        .number("D_c", EXACT, |(point, _)| point.escape)
-        .file("reason", |(point, _)| point.reason.clone())
+        .number(name, Quantity::pure(10), |row: &BorderRow<'a>| row.point.value)
+        .number("D_F", EXACT, |row| row.point.fold.map(|fold| fold.d))
+        .text("is a", move |row| kind(row.point).to_owned())
+        .number("q_max", SHORT, |row| row.point.fold.map(|fold| fold.q_max))
+        .number("period", SHORT, |row| row.point.fold.map(|fold| fold.period))
+        .number("D_F_harmonic", SHORT, |row| row.point.harmonic_fold)
+        .number("D_c", EXACT, |row| row.point.escape)
+        .file("reason", |row| row.point.reason.clone())
         .and(certified.map(|_| proved));
     let proof = move |index| certified.and_then(|all| all.get(index));
-    let rows = found.points.iter().enumerate().map(move |(index, point)| (point, proof(index)));
+    let rows = found.points.iter().enumerate();
+    let rows = rows.map(move |(index, point)| BorderRow { point, proof: proof(index) });
     let given_up = found.points.iter().filter_map(|point| {
         let reason = point.reason.as_ref()?;
         Some(format!("{name} = {}: {reason}", significant(point.value, 10)))
@@ -136,25 +155,29 @@ pub fn border<'a>(
 }
 
 /// A cycle of a machine at a value; a value without an answer has one row, with the reason.
-type MachineBranchRow = (f64, Option<Cycle>, Option<String>);
+struct MachineBranchRow {
+    value: f64,
+    cycle: Option<Cycle>,
+    reason: Option<String>,
+}
 
 /// The branch of a machine: a row for each cycle at each value; below them in text, each change in a sentence.
 pub fn of_machine(about: &About, varied: Knob, found: &MachineBranch, seconds: f64) -> Answer {
     let (name, unit) = (varied.spec().name, varied.spec().unit);
     let columns = |name| {
         Columns::default()
-            .number(name, Quantity::of(unit, PLACES), |row: &MachineBranchRow| row.0)
-            .and(machine_cycles(|(_, cycle, _): &MachineBranchRow| *cycle))
-            .file("reason", |(.., reason)| reason.clone())
+            .number(name, Quantity::of(unit, PLACES), |row: &MachineBranchRow| row.value)
+            .and(machine_cycles(|row: &MachineBranchRow| row.cycle))
+            .file("reason", |row| row.reason.clone())
     };
-    let rows: Vec<_> = found
-        .points
-        .iter()
-        .flat_map(|(at, found)| match found {
-            Ok(found) => found.cycles.iter().map(|cycle| (*at, Some(*cycle), None)).collect(),
-            Err(why) => vec![(*at, None, Some(why.to_string()))],
-        })
-        .collect();
+    let mut rows = Vec::new();
+    for (value, found) in &found.points {
+        let row = |cycle, reason| MachineBranchRow { value: *value, cycle, reason };
+        match found {
+            Ok(found) => rows.extend(found.cycles.iter().map(|cycle| row(Some(*cycle), None))),
+            Err(why) => rows.push(row(None, Some(why.to_string()))),
+        }
+    }
     let cost = Cost { steps: found.cost.steps, ..Cost::default() };
     about
         .answer()

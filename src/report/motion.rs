@@ -19,16 +19,23 @@ use crate::words::{counted, duration, significant};
 
 /// A point of a motion, its start, an arrival at `v = 0` or its end: what it is, `tau`, `q` and `v` as far as they are
 /// known, and what is proved of them.
-type MotionRow = (&'static str, [Option<f64>; 3], Option<PointBounds>);
+#[derive(Clone, Copy)]
+struct MotionRow {
+    what: &'static str,
+    tau: f64,
+    q: Option<f64>,
+    v: Option<f64>,
+    bounds: Option<PointBounds>,
+}
 
 /// The columns of points.
 fn columns_of_points<'a>(about: &About, digits: usize) -> Columns<'a, MotionRow> {
     let [time, length, speed] = ["s", "m", "m/s"].map(|unit| about.quantity(unit, digits));
     Columns::default()
-        .word("what", |(what, ..): &MotionRow| *what)
-        .number("tau", time, |(_, [tau, ..], _)| *tau)
-        .number("q", length, |(_, [_, q, _], _)| *q)
-        .number("v", speed, |(_, [.., v], _)| *v)
+        .word("what", |row: &MotionRow| row.what)
+        .number("tau", time, |row| row.tau)
+        .number("q", length, |row| row.q)
+        .number("v", speed, |row| row.v)
 }
 
 /// A motion: its start, every arrival at `v = 0` and its end, with what is proved of each; and where its energy goes.
@@ -40,7 +47,8 @@ pub fn motion(
 ) -> Answer {
     let problem = &motion.problem;
     let machine = about.is_machine();
-    let proved = Columns::default().part("certified", point_columns(), |row: &MotionRow| row.2);
+    let proved =
+        Columns::default().part("certified", point_columns(), |row: &MotionRow| row.bounds);
     let columns = columns_of_points(about, digits(problem.tolerance));
     let energy = motion.ledger.as_ref().map(|ledger| energy(ledger, machine));
     let amounts: Vec<_> = energy.iter().flat_map(Document::numbers).collect();
@@ -85,18 +93,19 @@ pub fn motion(
 fn points(motion: &Trajectory, certified: Option<&ProvedMotion>, machine: bool) -> Vec<MotionRow> {
     let State { q, v } = motion.problem.initial;
     let known = |tau, q, v| PointBounds::of(tau, q, Interval::point(v));
-    let exactly = certified.map(|_| known(Interval::point(0.0), Interval::point(q), v));
-    let start = ("start", [0.0, q, v].map(Some), exactly);
+    let bounds = certified.map(|_| known(Interval::point(0.0), Interval::point(q), v));
+    let start = MotionRow { what: "start", tau: 0.0, q: Some(q), v: Some(v), bounds };
     let turn = |(index, crossing): (usize, &Crossing)| {
         let enclosed = certified.and_then(|certified| certified.turns.get(index));
         let bounds = enclosed.map(|turn| known(turn.tau, turn.q, 0.0));
-        ("turn", [crossing.tau, crossing.q, 0.0].map(Some), bounds)
+        let (q, v) = (Some(crossing.q), Some(0.0));
+        MotionRow { what: "turn", tau: crossing.tau, q, v, bounds }
     };
     let turns = motion.crossings.iter().enumerate().map(turn);
     let bounds = certified.map(|certified| PointBounds::of_end(certified, motion.problem.until).1);
     let Sample { tau, q, v } = motion.end();
     let (q, v) = motion.outcome.state().or(machine.then_some((q, v))).unzip();
-    let end = (motion.outcome.word(), [Some(tau), q, v], bounds);
+    let end = MotionRow { what: motion.outcome.word(), tau, q, v, bounds };
     std::iter::once(start).chain(turns).chain([end]).collect()
 }
 

@@ -12,8 +12,11 @@ use crate::session::Keymap;
 use crate::session::wants::named;
 use crate::words::number::count;
 
-/// A name of a scene, and the scene.
-type SceneRow<'a> = (&'a str, &'a Scene);
+/// A scene under one of its names.
+struct SceneRow<'a> {
+    name: &'a str,
+    scene: &'a Scene,
+}
 
 fn columns<'a>() -> Columns<'a, SceneRow<'a>> {
     let keymap = Keymap::default();
@@ -21,19 +24,20 @@ fn columns<'a>() -> Columns<'a, SceneRow<'a>> {
         move |scene: &Scene, text: &str| keymap.fill(&said_by(scene, text), |key| key.to_string());
     let press = sentence.clone();
     Columns::default()
-        .word("name", |(name, _): &SceneRow| (*name).to_owned())
-        .word("title", |(_, scene)| scene.title.clone())
-        .field("look", move |(_, scene)| sentence(scene, &scene.watch))
-        .field("press", move |(_, scene)| press(scene, &scene.press))
-        .field("parameters", |(_, scene)| scene.problem.parameters)
-        .field("initial", |(_, scene)| scene.problem.initial)
-        .field("until", |(_, scene)| scene.problem.until)
+        .word("name", |row: &SceneRow| row.name.to_owned())
+        .word("title", |row| row.scene.title.clone())
+        .field("look", move |row| sentence(row.scene, &row.scene.watch))
+        .field("press", move |row| press(row.scene, &row.scene.press))
+        .field("parameters", |row| row.scene.problem.parameters)
+        .field("initial", |row| row.scene.problem.initial)
+        .field("until", |row| row.scene.problem.until)
 }
 
 /// Every scene: one row for each of its names.
 pub fn scenes(scenes: &[Arc<Scene>]) -> Answer {
     let scenes = scenes.iter().map(AsRef::as_ref);
-    let rows = scenes.flat_map(|scene: &Scene| scene.names().map(move |name| (name, scene)));
+    let rows =
+        scenes.flat_map(|scene: &Scene| scene.names().map(move |name| SceneRow { name, scene }));
     Answer::list_of(&columns(), &rows.collect::<Vec<_>>(), None)
 }
 
@@ -94,7 +98,7 @@ pub fn costs(scenes: &[SceneCost]) -> Answer {
         .csv(&cost_columns(), scenes.iter().flat_map(each));
     scenes.iter().fold(answer, |answer, found| {
         let opening = singly(found, &found.opening);
-        let all = found.asked().map(|asked| (found, asked, None));
+        let all = found.asked().map(|asked| AskedRow { found, asked, question: None });
         let formulas = format!("by formulas: {}", found.formulas.join(", "));
         answer
             .lines([format!("{}: {}", found.scene.name, found.scene.title)])
@@ -125,30 +129,40 @@ fn document(found: &SceneCost) -> Document {
 }
 
 /// What a scene asks at once, and of that a question or, without one, all of it.
-type AskedRow<'a> = (&'a SceneCost, &'a AskedTogether, Option<&'a QuestionCost>);
+struct AskedRow<'a> {
+    found: &'a SceneCost,
+    asked: &'a AskedTogether,
+    question: Option<&'a QuestionCost>,
+}
 
 fn singly<'a>(
-    scene: &'a SceneCost,
+    found: &'a SceneCost,
     asked: &'a AskedTogether,
 ) -> impl Iterator<Item = AskedRow<'a>> {
-    asked.questions.iter().map(move |question| (scene, asked, Some(question)))
+    let questions = asked.questions.iter().map(Some);
+    questions.map(move |question| AskedRow { found, asked, question })
 }
 
-fn cost((_, asked, question): &AskedRow) -> (Cost, f64) {
-    sum(question.map_or(&asked.questions, std::slice::from_ref))
+fn cost(row: &AskedRow) -> (Cost, f64) {
+    sum(row.question.map_or(&row.asked.questions, std::slice::from_ref))
 }
 
-fn what((_, asked, question): &AskedRow) -> String {
-    match (question, asked.after) {
+fn counts(row: &AskedRow) -> Cost {
+    let (counts, _) = cost(row);
+    counts
+}
+
+fn what(row: &AskedRow) -> String {
+    match (row.question, row.asked.after) {
         (Some(question), _) => question.topic.name().to_owned(),
         (None, OPENING) => "all of it".to_owned(),
         (None, number) => format!("a step of {number}"),
     }
 }
 
-fn remark((_, asked, question): &AskedRow) -> String {
-    let AskedTogether { after, questions, reused } = asked;
-    if let Some(question) = question {
+fn remark(row: &AskedRow) -> String {
+    let AskedTogether { after, questions, reused } = row.asked;
+    if let Some(question) = row.question {
         return format!("for {}", question.layers.join(", "));
     }
     let again: Vec<Topic> = questions.iter().map(|asked| asked.topic).collect();
@@ -160,13 +174,16 @@ fn remark((_, asked, question): &AskedRow) -> String {
 
 fn cost_columns<'a>() -> Columns<'a, AskedRow<'a>> {
     Columns::default()
-        .file("scene", |(found, ..): &AskedRow| found.scene.name.clone())
-        .file("after", |(_, asked, _)| asked.after)
-        .file("question", |(.., question)| question.map(|asked| asked.topic))
+        .file("scene", |row: &AskedRow| row.found.scene.name.clone())
+        .file("after", |row| row.asked.after)
+        .file("question", |row| row.question.map(|asked| asked.topic))
         .text("question", what)
-        .fields(&Cost::default(), |row| Some(cost(row).0))
-        .text("evaluations", |row| count(cost(row).0.evaluations))
-        .text("steps", |row| count(cost(row).0.steps))
-        .number("seconds", Quantity::of("s", 2), |row| cost(row).1)
+        .fields(&Cost::default(), |row| Some(counts(row)))
+        .text("evaluations", |row| count(counts(row).evaluations))
+        .text("steps", |row| count(counts(row).steps))
+        .number("seconds", Quantity::of("s", 2), |row| {
+            let (_, seconds) = cost(row);
+            seconds
+        })
         .text("", remark)
 }

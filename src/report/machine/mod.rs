@@ -110,19 +110,23 @@ pub fn page(
 }
 
 /// A number of the answer: what it is, its value without units and in its SI unit, and that unit.
-type QuantityRow = (String, [Option<f64>; 2], &'static str);
+struct QuantityRow {
+    what: String,
+    dimensionless: Option<f64>,
+    physical: Option<f64>,
+    unit: &'static str,
+}
 
 /// The columns of these numbers.
 fn quantity_columns<'a>() -> Columns<'a, QuantityRow> {
-    let physical =
-        |(_, [_, value], unit): &QuantityRow| Quantity::of(unit, PLACES).or("").text(*value);
+    let physical = |row: &QuantityRow| Quantity::of(row.unit, PLACES).or("").text(row.physical);
     Columns::default()
-        .file("what", |(what, ..): &QuantityRow| what.clone())
-        .text("", |(what, ..)| what.clone())
-        .number("dimensionless", Quantity::pure(10), |(_, [own, _], _)| *own)
-        .file("physical", |(_, [_, value], _)| *value)
+        .file("what", |row: &QuantityRow| row.what.clone())
+        .text("", |row| row.what.clone())
+        .number("dimensionless", Quantity::pure(10), |row| row.dimensionless)
+        .file("physical", |row| row.physical)
         .text("physical", physical)
-        .file("unit", |(.., unit)| *unit)
+        .file("unit", |row| row.unit)
 }
 
 /// The single numbers that describe a mass on a belt; none of a mode.
@@ -150,7 +154,12 @@ fn of_belt(answer: &MachineAnswer) -> Vec<QuantityRow> {
     ];
     let row = |(what, value, (one, unit)): (&str, Option<f64>, (f64, &'static str))| {
         let physical = value.filter(|_| !unit.is_empty());
-        (what.to_owned(), [value.map(|value| value / one), physical], physical.map_or("", |_| unit))
+        QuantityRow {
+            what: what.to_owned(),
+            dimensionless: value.map(|value| value / one),
+            physical,
+            unit: physical.map_or("", |_| unit),
+        }
     };
     numbers.into_iter().map(row).collect()
 }
@@ -158,7 +167,12 @@ fn of_belt(answer: &MachineAnswer) -> Vec<QuantityRow> {
 /// One row for each further number, in SI units.
 fn rows(answer: &MachineAnswer) -> Vec<QuantityRow> {
     let mut rows = Vec::new();
-    let physical = |what: &str, value, unit| (what.to_owned(), [None, value], unit);
+    let physical = |what: &str, physical, unit| QuantityRow {
+        what: what.to_owned(),
+        dimensionless: None,
+        physical,
+        unit,
+    };
     if let Some(certain) = answer.certain {
         let Margin { displacement, impulse, from_rest } = certain.unwrap_or(Margin::ENDLESS);
         rows.extend([
@@ -175,8 +189,12 @@ fn rows(answer: &MachineAnswer) -> Vec<QuantityRow> {
             physical(&what, (number.value)(cycle), number.unit)
         }));
     }
-    let share = |share| ("rest share of the window".to_owned(), [share, None], "");
-    rows.extend(answer.rest_share.map(share));
+    rows.extend(answer.rest_share.map(|share| QuantityRow {
+        what: "rest share of the window".to_owned(),
+        dimensionless: share,
+        physical: None,
+        unit: "",
+    }));
     let least = |it: DesignAnswer| physical("R for the margin", it.needed.least(), "N");
     rows.extend(answer.design.map(least));
     rows

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::fit::Fitted;
 use crate::flow::Problem;
 use crate::model::{Belt, Body, Knob, Parameters, Source};
-use crate::portrait::Margin;
+use crate::question::answer::MachineMargins;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Finding, Layer, Request, ScaledMachine, Setting, Topic, View};
 use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
@@ -63,8 +63,8 @@ impl Session {
         self.layers.contains(&Layer::Whole) && self.machine().is_some()
     }
 
-    /// The margins of the machine by its whole model and by its cubic expansion; `None` while they are not known.
-    pub fn machine_margins(&self) -> Option<[Margin; 2]> {
+    /// The margins of the machine; `None` while they are not known.
+    pub fn machine_margins(&self) -> Option<MachineMargins> {
         match self.answer(Topic::Cycles, self.plot)? {
             Finding::Cycles(_, margins) => *margins,
             _ => None,
