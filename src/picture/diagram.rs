@@ -7,7 +7,7 @@
 //! the present value of the parameter, and the cycles there are marked. Beside the branch of the present values
 //! those of others are paler, without marks. A point of the branch that is held has a cross.
 
-use super::{Dash, Fill, Item, LineStyle, Picture, Role, Text, cycle_style};
+use super::{Dash, Fill, Item, LineStyle, Picture, Role, Text, cycle_mark, cycle_name};
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
@@ -209,7 +209,7 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
         let (first, last) = (&run[0], &run[run.len() - 1]);
         let next = piece.iter().skip_while(|point| *point != last).nth(1);
         let end = next.map(|next| found.fold_between(last, next).unwrap_or(place(next)));
-        let mut line = LineStyle::from(cycle_style(first.cycle.stable).0);
+        let mut line = LineStyle::from(cycle_name(first.cycle.stable));
         if *present {
             let points: Vec<Point> = run.iter().map(place).collect();
             picture.label_curve(&points, stability(first.cycle.stable), line.role);
@@ -245,7 +245,7 @@ fn here(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch, va
         if (a.value < value) != (b.value < value) {
             let places: Vec<[f64; 2]> = piece.iter().map(|it| found.place(it).into()).collect();
             let y = between(&places, index, value);
-            picture.mark(cycle_style(a.cycle.stable).1, Point { x: value, y }, Role::Current);
+            picture.mark(cycle_mark(a.cycle.stable), Point { x: value, y }, Role::Current);
         }
     }
 }

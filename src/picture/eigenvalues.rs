@@ -1,7 +1,7 @@
 //! The eigenvalues of the rest without friction in the complex plane, and the way that they take as D
 //! moves (9): a circle on which the motion swings, and the real axis on which it does not.
 
-use super::{Item, LineStyle, Picture, Role, cycle_style, ellipse};
+use super::{Item, LineStyle, Picture, Role, cycle_mark, ellipse};
 use crate::model::Knob;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
@@ -44,7 +44,7 @@ fn eigenvalues(d: f64) -> [Point; 2] {
 }
 
 fn pair(picture: &mut Picture, d: f64) {
-    let mark = cycle_style(d > 0.0).1;
+    let mark = cycle_mark(d > 0.0);
     for at in eigenvalues(d) {
         picture.curve("from the origin", [Point { x: 0.0, y: 0.0 }, at]);
         picture.mark(mark, at, Role::Current);

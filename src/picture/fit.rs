@@ -3,7 +3,9 @@
 
 use std::f64::consts::PI;
 
-use super::{Dash, Item, LineStyle, Mark, Marks, Picture, Role, cycle_role, cycle_style};
+use super::{
+    Dash, Item, LineStyle, Mark, Marks, Picture, Role, cycle_mark, cycle_name, cycle_role,
+};
 use crate::fit::{
     D, D3, Dropped, Fitted, PlotPoint, Q0, R, RISES, Runs, Signal, contour, memory as memory_of,
     parameters,
@@ -115,8 +117,10 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
 /// Where the damping is zero there is a cycle: stable where the damping grows through zero.
 fn zero(from: Point, to: Point) -> Marks {
     let x = from.x + from.y / (from.y - to.y) * (to.x - from.x);
-    let ((name, mark), role) = (cycle_style(to.y > from.y), cycle_role(to.y > from.y));
-    Marks { name: name.into(), brief: name, ..Marks::new(mark, role, vec![Point { x, y: 0.0 }]) }
+    let stable = to.y > from.y;
+    let (name, at) = (cycle_name(stable), vec![Point { x, y: 0.0 }]);
+    let marks = Marks::new(cycle_mark(stable), cycle_role(stable), at);
+    Marks { name: name.into(), brief: name, ..marks }
 }
 
 fn phase(fitted: &Fitted) -> Option<Picture<'static>> {

@@ -18,16 +18,30 @@ pub enum Dangerous {
     Large,
 }
 
-/// The lines of `assets/columns.txt`: a column, its unit, which of its values are dangerous, and what it means that there
-/// is none.
-static COLUMNS: LazyLock<Vec<[&str; 4]>> =
-    LazyLock::new(|| include_str!("../../assets/columns.txt").lines().filter_map(cells).collect());
+/// A line of `assets/columns.txt`: a column, its unit, which of its values are dangerous, and what it means that there is
+/// none.
+#[derive(Clone, Copy)]
+struct ColumnSpec {
+    column: &'static str,
+    unit: &'static str,
+    dangerous: &'static str,
+    nothing: &'static str,
+}
+
+static COLUMNS: LazyLock<Vec<ColumnSpec>> = LazyLock::new(|| {
+    let spec = |line| {
+        let [column, unit, dangerous, nothing] = cells(line)?;
+        Some(ColumnSpec { column, unit, dangerous, nothing })
+    };
+    include_str!("../../assets/columns.txt").lines().filter_map(spec).collect()
+});
 
 /// What [`COLUMNS`] says of the column that is plotted.
-fn plotted(scanned: &ScanOnShow) -> [&'static str; 4] {
-    let name = measured(scanned);
-    let row = COLUMNS.iter().find(|[column, ..]| *column == name);
-    row.copied().unwrap_or([name, "-", "-", "none"])
+fn plotted(scanned: &ScanOnShow) -> ColumnSpec {
+    let column = measured(scanned);
+    let row = COLUMNS.iter().find(|row| row.column == column);
+    let unknown = ColumnSpec { column, unit: "-", dangerous: "-", nothing: "none" };
+    row.copied().unwrap_or(unknown)
 }
 
 /// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.
@@ -40,8 +54,8 @@ pub fn measured(scanned: &ScanOnShow) -> &'static str {
 
 /// What is plotted, with the unit of a length, a velocity or a time.
 pub fn with_unit(scanned: &ScanOnShow) -> String {
-    let [name, unit, ..] = plotted(scanned);
-    if unit == "-" { name.to_owned() } else { format!("{name} [{unit}]") }
+    let ColumnSpec { column, unit, .. } = plotted(scanned);
+    if unit == "-" { column.to_owned() } else { format!("{column} [{unit}]") }
 }
 
 /// What it means that there is no number at a point; `None` where there is one.
@@ -50,7 +64,7 @@ pub fn nothing(scanned: &ScanOnShow, index: usize) -> Option<&'static str> {
     match (scanned.height(index), &row.reason) {
         (Some(_), _) => None,
         (None, Some(_)) => Some("gave up"),
-        (None, None) => Some(plotted(scanned)[3]),
+        (None, None) => Some(plotted(scanned).nothing),
     }
 }
 
@@ -69,7 +83,7 @@ impl Danger {
     /// The scale of what is plotted; `None` without a number.
     pub fn of(scanned: &ScanOnShow) -> Option<Self> {
         let (low, high) = scanned.range()?;
-        let dangerous = named(plotted(scanned)[2]);
+        let dangerous = named(plotted(scanned).dangerous);
         let logarithmic = low > 0.0 && high / low >= SPREAD;
         Some(Danger { low, high, logarithmic, dangerous })
     }
@@ -183,10 +197,13 @@ mod tests {
 
     #[test]
     fn what_is_said_of_columns_is_said_of_those_that_are_measured() {
-        assert_eq!(COLUMNS.len(), 33, "every line of the file is read");
-        for [name, _, danger, _] in COLUMNS.iter() {
-            assert!(MEASURES.iter().any(|row| row.columns.contains(name)), "{name}");
-            assert!(*danger == "-" || named::<Dangerous>(danger).is_some(), "{name}: {danger}");
+        let lines = include_str!("../../assets/columns.txt").lines();
+        let told = lines.filter(|line| !(line.is_empty() || line.starts_with('#')));
+        assert_eq!(told.count(), COLUMNS.len(), "every line of the file is read");
+        for ColumnSpec { column, dangerous, .. } in COLUMNS.iter() {
+            assert!(MEASURES.iter().any(|row| row.columns.contains(column)), "{column}");
+            let known = *dangerous == "-" || named::<Dangerous>(dangerous).is_some();
+            assert!(known, "{column}: {dangerous}");
         }
     }
 }

@@ -5,7 +5,7 @@
 //! cursor. Formulas show the present parameters; computed layers show the last answer, and the title
 //! says when that is stale.
 
-use super::{Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_style, ellipse};
+use super::{Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_name, ellipse};
 use crate::closed_form::lyapunov;
 use crate::fit::{Fitted, Signal};
 use crate::flow::{Outcome, Problem, Sample, Trajectory};
@@ -270,7 +270,7 @@ fn curves(found: &Cycles) -> impl Iterator<Item = (&Cycle, &Vec<State>)> {
 
 fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, whole: bool) {
     for (cycle, curve) in curves(found) {
-        let (plain, _) = cycle_style(cycle.stable);
+        let plain = cycle_name(cycle.stable);
         let (name, own) = if whole { kind(cycle) } else { (plain, variant.label.as_str()) };
         let points: Vec<Point> = points(curve);
         let line = LineStyle::from(plain);

@@ -5,7 +5,8 @@
 
 use super::phase_plane::{self, sticking_set};
 use super::{
-    Item, LineStyle, Mark, Marks, Picture, Role, Scale, cycle_role, cycle_style, units::said,
+    Item, LineStyle, Mark, Marks, Picture, Role, Scale, cycle_mark, cycle_name, cycle_role,
+    units::said,
 };
 use crate::flow::{Outcome, Trajectory};
 use crate::scene::{Layer, Point};
@@ -43,8 +44,9 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     if shows(Layer::FixedPoints) {
         let cycles = session.cycles().filter(|_| !session.draws_whole());
         for cycle in cycles.into_iter().flat_map(|found| &found.cycles) {
-            let ((brief, mark), role) = (cycle_style(cycle.stable), cycle_role(cycle.stable));
+            let (mark, role) = (cycle_mark(cycle.stable), cycle_role(cycle.stable));
             let turning = [cycle.q_min, cycle.q_max].map(|q| Point { x: q, y: q });
+            let brief = cycle_name(cycle.stable);
             let marks = Marks { brief, ..Marks::new(mark, role, turning.to_vec()) };
             picture.items.push(Item::Marks(marks));
         }

@@ -132,9 +132,14 @@ impl Mark {
     }
 }
 
-/// What stable and unstable cycles are called in every plot, and how they are marked.
-pub fn cycle_style(stable: bool) -> (&'static str, Mark) {
-    if stable { ("stable cycle", Mark::Stable) } else { ("unstable cycle", Mark::Unstable) }
+/// What stable and unstable cycles are called in every plot.
+pub fn cycle_name(stable: bool) -> &'static str {
+    if stable { "stable cycle" } else { "unstable cycle" }
+}
+
+/// How a stable or an unstable cycle is marked.
+pub fn cycle_mark(stable: bool) -> Mark {
+    if stable { Mark::Stable } else { Mark::Unstable }
 }
 
 /// What stands for a stable or an unstable cycle, as far as its colour goes.

@@ -21,9 +21,11 @@ const KINDS: [&str; 5] = [
 /// The one of [`KINDS`] to which a cycle belongs.
 fn kind(cycle: &Cycle) -> &'static str {
     match (cycle.sticks(), cycle.overtakes, cycle.stable) {
-        (true, ..) => KINDS[2],
-        (_, false, stable) => KINDS[usize::from(!stable)],
-        (_, true, stable) => KINDS[3 + usize::from(!stable)],
+        (true, ..) => "branch of stick-slip cycles",
+        (_, false, true) => "stable slip cycle",
+        (_, false, false) => "unstable slip cycle",
+        (_, true, true) => "stable overtaking cycle",
+        (_, true, false) => "unstable overtaking cycle",
     }
 }
 

@@ -11,7 +11,7 @@ use super::pane::{self, Framed};
 use super::plot::{Canvas, rows};
 use crate::numerics::count::real;
 use crate::picture::energy_ledger::reading;
-use crate::picture::{Dash, Mark, Picture, Role, Tick, Ticks, cycle_role, cycle_style};
+use crate::picture::{Dash, Mark, Picture, Role, Tick, Ticks, cycle_mark, cycle_name, cycle_role};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::ledger::{LedgerLine, Owner};
 use crate::words::significant;
@@ -41,7 +41,7 @@ pub fn draw(mut framed: Framed, lines: &[LedgerLine], screen: &mut Surface) {
         match entry {
             LedgerLine::Title(Owner::Motion(..)) => plot.write(y, &reading(entry), Role::Title),
             LedgerLine::Title(Owner::Cycle(cycle)) => {
-                let (name, mark) = cycle_style(cycle.stable);
+                let (name, mark) = (cycle_name(cycle.stable), cycle_mark(cycle.stable));
                 let short =
                     format!("{} q_max {}", symbols.mark(mark), significant(cycle.q_max, DIGITS));
                 let texts = [format!("{short}, {name}"), short];

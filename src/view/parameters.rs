@@ -10,7 +10,7 @@ use crate::accuracy::harmonic_error::BalanceResult;
 use crate::flow::Problem;
 use crate::model::Knob;
 use crate::model::belt::Units;
-use crate::picture::{Role, cycle_role, cycle_style, units};
+use crate::picture::{Role, cycle_mark, cycle_name, cycle_role, units};
 use crate::portrait::proved::compare;
 use crate::portrait::{Border, Cycle, Cycles};
 use crate::scene::Layer;
@@ -269,7 +269,7 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
     let mut lines: Vec<Vec<Span>> =
         vec![vec![look.span(title, Role::Title), look.span(headings, Role::Quiet)]];
     lines.extend(found.cycles.iter().map(|cycle| {
-        let mark = look.symbols().mark(cycle_style(cycle.stable).1);
+        let mark = look.symbols().mark(cycle_mark(cycle.stable));
         let symbol = look.span(format!(" {mark} "), cycle_role(cycle.stable));
         vec![symbol, Span::raw(aligned(cells(cycle, units)))]
     }));
@@ -346,7 +346,7 @@ fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String
     let sticking = running.reduced.sticking_velocity;
     let fast = |cycle: &&Cycle| !session.draws_whole() && cycle.v_max >= sticking;
     let alarms = found.cycles.iter().filter(fast);
-    let alarms = alarms.map(|cycle| format!("! {} > belt", cycle_style(cycle.stable).0));
+    let alarms = alarms.map(|cycle| format!("! {} > belt", cycle_name(cycle.stable)));
     let units = &running.reduced.units;
     let d = significant(session.value(Knob::D), 3);
     let hertz = with_unit(units.omega_0 / std::f64::consts::TAU, 3, "Hz");

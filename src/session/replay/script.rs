@@ -1,6 +1,7 @@
 //! Keystroke files as data: their steps, the messages that these give to a session, and how they are written and read.
 
 use std::fmt;
+use std::sync::LazyLock;
 
 use thiserror::Error;
 
@@ -200,31 +201,45 @@ fn quoted(text: &str) -> String {
 /// Largest width and height that a file may ask for.
 const LARGEST: u16 = 1000;
 
-/// A directive in angle brackets, as opposed to a key: its first word; what follows that, with an example; and how that
-/// is read, `None` where it is something else.
-type Directive = (&'static str, &'static str, fn(&str) -> Option<Instruction>);
+/// A directive in angle brackets, as opposed to a key.
+struct Directive {
+    /// Its first word.
+    word: &'static str,
+    /// What follows the word, with an example.
+    takes: String,
+    /// How that is read; `None` where it is something else.
+    read: fn(&str) -> Option<Instruction>,
+}
 
 const NOTHING: &str = "nothing";
 const TEXT: &str =
     "text in quotes, which may have \\\" \\\\ \\n \\r \\t, as in <expect \"captured\">";
 const PLACE: &str = "\"N X Y\" on plot N, from 1, or \"row N\", as in <click 1 0.5 -0.25>";
+const NAME: &str = "a name of letters, digits, \"-\", \"_\" and \".\", as in <screen a-1>";
+const NUMBERS: &str = "some of D, D2, D3, r, q0, v0, or nothing, as in <start D3 r>";
+const FILE: &str = "a name and a text, both in quotes, as in <file \"a.toml\" \"..\">";
 
-const DIRECTIVES: [Directive; 14] = [
-    ("wait", NOTHING, |rest| rest.is_empty().then_some(Instruction::Wait)),
-    ("async", NOTHING, |rest| rest.is_empty().then_some(Instruction::Async)),
-    ("elapse", "seconds, 0 .. 3600, as in <elapse 0.25>", elapse),
-    ("resize", "columns and rows from 1 to 1000, as in <resize 80x24>", resize),
-    ("expect", TEXT, |rest| text(rest).map(Instruction::Expect)),
-    ("paste", TEXT, |rest| text(rest).map(|text| Instruction::Give(Msg::Paste(text)))),
-    ("run", TEXT, |rest| text(rest).map(|line| Instruction::Give(Msg::Run(line)))),
-    ("say", TEXT, |rest| text(rest).map(|text| Instruction::Give(Msg::Say(text, None)))),
-    ("screen", "a name of letters, digits, \"-\", \"_\" and \".\", as in <screen a-1>", screen),
-    ("start", "some of D, D2, D3, r, q0, v0, or nothing, as in <start D3 r>", start),
-    ("file", "a name and a text, both in quotes, as in <file \"a.toml\" \"..\">", file),
-    ("click", PLACE, |rest| pointed(Gesture::Click, rest)),
-    ("nearer", PLACE, |rest| pointed(Gesture::Nearer, rest)),
-    ("farther", PLACE, |rest| pointed(Gesture::Farther, rest)),
-];
+static DIRECTIVES: LazyLock<[Directive; 14]> = LazyLock::new(|| {
+    let directive = |word, takes: &str, read| Directive { word, takes: takes.to_owned(), read };
+    let seconds = format!("seconds, 0 .. {LONGEST}, as in <elapse 0.25>");
+    let cells = format!("columns and rows from 1 to {LARGEST}, as in <resize 80x24>");
+    [
+        directive("wait", NOTHING, |rest| rest.is_empty().then_some(Instruction::Wait)),
+        directive("async", NOTHING, |rest| rest.is_empty().then_some(Instruction::Async)),
+        directive("elapse", &seconds, elapse),
+        directive("resize", &cells, resize),
+        directive("expect", TEXT, |rest| text(rest).map(Instruction::Expect)),
+        directive("paste", TEXT, |rest| text(rest).map(|it| Instruction::Give(Msg::Paste(it)))),
+        directive("run", TEXT, |rest| text(rest).map(|it| Instruction::Give(Msg::Run(it)))),
+        directive("say", TEXT, |rest| text(rest).map(|it| Instruction::Give(Msg::Say(it, None)))),
+        directive("screen", NAME, screen),
+        directive("start", NUMBERS, start),
+        directive("file", FILE, file),
+        directive("click", PLACE, |rest| pointed(Gesture::Click, rest)),
+        directive("nearer", PLACE, |rest| pointed(Gesture::Nearer, rest)),
+        directive("farther", PLACE, |rest| pointed(Gesture::Farther, rest)),
+    ]
+});
 
 /// Reads a whole keystroke file. Fails with [`ScriptError`], which has the place of the first mistake.
 pub fn parse(text: &str) -> Result<Script, ScriptError> {
@@ -282,11 +297,14 @@ fn step(token: &str) -> Result<Instruction, String> {
         return Err("\"<\" without \">\" on its line; the character itself is <lt>".to_owned());
     };
     let (word, rest) = name.split_once(' ').unwrap_or((name, ""));
-    let Some((_, takes, read)) = DIRECTIVES.iter().find(|row| row.0 == word) else {
+    let Some(Directive { takes, read, .. }) = DIRECTIVES.iter().find(|row| row.word == word) else {
         return keys(name);
     };
-    let given = || name.chars().take(REPEATED).collect::<String>();
-    read(rest.trim()).ok_or_else(|| format!("<{}>: {word} takes {takes}", given()))
+    let given = || match name.char_indices().nth(REPEATED) {
+        Some((end, _)) => format!("<{} ..", &name[..end]),
+        None => token.to_owned(),
+    };
+    read(rest.trim()).ok_or_else(|| format!("{}: {word} takes {takes}", given()))
 }
 
 /// Seconds that pass: at most an hour.
@@ -316,8 +334,8 @@ fn keys(name: &str) -> Result<Instruction, String> {
 /// A suggestion if a misspelt directive is more likely than a misspelt key.
 fn nearest_directive(name: &str) -> Option<String> {
     let word = name.split(' ').next().unwrap_or(name);
-    let directives = DIRECTIVES.map(|row| row.0);
-    let nearest = most_similar(word, directives.into_iter().chain(key::names()))?;
+    let directives: Vec<_> = DIRECTIVES.iter().map(|row| row.word).collect();
+    let nearest = most_similar(word, directives.iter().copied().chain(key::names()))?;
     let told = || format!("unknown key <{name}>; did you mean <{nearest}>?");
     directives.contains(&nearest).then(told)
 }
@@ -392,6 +410,18 @@ mod tests {
     fn steps(text: &str) -> Vec<Instruction> {
         let script = parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
         script.steps.into_iter().map(|located| located.step).collect()
+    }
+
+    #[test]
+    fn a_refused_directive_is_repeated_as_far_as_it_is_short() {
+        let refused = |text: &str| parse(text).unwrap_err().why;
+        assert!(
+            refused("<elapse 1 h>").starts_with("<elapse 1 h>: elapse takes seconds, 0 .. 3600")
+        );
+        assert!(refused("<resize 1001x24>").contains("rows from 1 to 1000, as in"));
+        let long = format!("<expect {}>", "u".repeat(100));
+        let shown = format!("<expect {} ..: expect takes text", "u".repeat(53));
+        assert!(refused(&long).starts_with(&shown), "{}", refused(&long));
     }
 
     proptest! {
