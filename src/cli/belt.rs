@@ -122,7 +122,7 @@ impl BeltCommand {
         let certain = uncertain.map(|belt| guaranteed(belt, tolerances)).transpose()?;
         let portrait = source.portrait()?;
         let model = &portrait.model;
-        let fate = portrait.told_fate(x, v)?;
+        let fate = portrait.told_fate(x, v, usize::MAX)?;
         let rests = (fate == Fate::Rest)
             .then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v), limits));
         let rest = rests.transpose()?;

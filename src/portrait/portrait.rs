@@ -4,6 +4,8 @@
 //! motions go one way, to the next cycle on that side. One evaluation in each gap therefore settles the fate of
 //! all starts; a start itself is followed only to its next right turning point.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::{Border, Cycle, Edge, Margin, Reach};
@@ -185,20 +187,33 @@ impl Portrait {
     /// The fate of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
     ///
     /// # Errors
-    /// [`Reason`] if it does not reach its next right turning point.
+    /// [`Reason`] if it does not reach its next right turning point, or if a border cannot be traced to where it starts.
     pub fn fate(&self, x: f64, v: f64) -> Result<Fate, Reason> {
+        self.fate_within(x, v, usize::MAX)
+    }
+
+    /// The same for a motion that is told of: unknown where it leaves the law. One that starts beyond [`Self::known`] is
+    /// followed for so many half swings at `most`.
+    ///
+    /// # Errors
+    /// As for [`Self::fate`], for other reasons.
+    pub fn told_fate(&self, x: f64, v: f64, most: usize) -> Result<Fate, Reason> {
+        self.fate_within(x, v, most).or_else(|stop| match stop {
+            Reason::BeyondLaw { .. } => Ok(Fate::Unknown(stop)),
+            stop => Err(stop),
+        })
+    }
+
+    fn fate_within(&self, x: f64, v: f64, most: usize) -> Result<Fate, Reason> {
         let y = self.model.scaled_velocity(v);
         if self.model.place(x, y) == ContactState::Rests {
             return Ok(Fate::Rest);
         }
         if self.orders_starts() {
-            let beyond = |edge: &Edge| matches!(edge, Edge::Orbit(orbit) if !orbit.reaches(x));
-            if self.borders.iter().any(beyond) {
-                return Err(Reason::OutOfRange);
-            }
-            return Ok(self.fates[self.regions_at(x)(y)]);
+            let portrait = self.followed_to(x.abs())?;
+            return Ok(portrait.fates[portrait.regions_at(x)(y)]);
         }
-        match self.followed_fate(x, y) {
+        match self.followed_fate(x, y, most) {
             Err(Reason::Settles) => Ok(Fate::Rest),
             Err(Reason::Escapes) => Ok(Fate::Escapes),
             fate => fate,
@@ -207,11 +222,16 @@ impl Portrait {
 
     /// The fate of a start by its next right turning point. Fails with the [`Reason`] why it has none, of one that settles
     /// or escapes, too.
-    fn followed_fate(&self, x: f64, y: f64) -> Result<Fate, Reason> {
+    fn followed_fate(&self, x: f64, y: f64, most: usize) -> Result<Fate, Reason> {
         let mut flow = Flow::new(&self.model);
+        let mut half_swings = 0;
         let Some(mut x) = flow.to_the_right(x, y)? else { return Ok(Fate::Rest) };
         // Far out, every swing is checked: it may leave the known range.
         while x > self.known {
+            half_swings += 2;
+            if half_swings > most {
+                return Err(Reason::HalfSwings { most });
+            }
             let Some(image) = flow.returned(x)? else { return Ok(Fate::Rest) };
             if image.x >= x {
                 break;
@@ -219,17 +239,6 @@ impl Portrait {
             x = image.x;
         }
         Ok(self.fate_of_turn(x))
-    }
-
-    /// The same for a motion that is told of: unknown where it leaves the law.
-    ///
-    /// # Errors
-    /// As for [`Self::fate`], for other reasons.
-    pub fn told_fate(&self, x: f64, v: f64) -> Result<Fate, Reason> {
-        self.fate(x, v).or_else(|stop| match stop {
-            Reason::BeyondLaw { .. } => Ok(Fate::Unknown(stop)),
-            stop => Err(stop),
-        })
     }
 
     /// The cycle that a motion of this fate tends to, if it does.
@@ -329,29 +338,30 @@ impl Portrait {
     /// Where the starts of a window end, evenly spaced, including both of its ends.
     ///
     /// # Errors
-    /// [`Reason::Interrupted`], asked for at each column.
+    /// [`Reason::Interrupted`], asked for at each column, or why a border cannot be traced through the window.
     pub fn count(
         &self,
         window: &StartWindow,
         (columns, rows): (usize, usize),
         limits: &Limits,
     ) -> Result<Counts, Reason> {
+        let portrait = &*self.followed_to(window.reach())?;
         let velocities: Vec<f64> = (0..rows).map(|row| between(window.v, row, rows)).collect();
         let of_column = |column| {
             if (limits.interrupted)() {
                 return Err(Reason::Interrupted);
             }
             let x = between(window.q, column, columns);
-            let region = self.orders_starts().then(|| self.regions_at(x));
+            let region = portrait.orders_starts().then(|| portrait.regions_at(x));
             let mut counts = Counts::default();
             for v in &velocities {
                 // Without friction the one point that rests counts as what is around it.
                 let rests = *v == 0.0 && self.model.guide > 0.0 && self.model.rests_at(x);
                 let fate = match &region {
                     Some(region) if !rests => {
-                        Ok(self.fates[region(self.model.scaled_velocity(*v))])
+                        Ok(portrait.fates[region(self.model.scaled_velocity(*v))])
                     }
-                    _ => self.fate(x, *v),
+                    _ => portrait.fate(x, *v),
                 };
                 counts.add(fate.unwrap_or_else(Fate::Unknown), 1);
             }
@@ -379,15 +389,24 @@ impl Portrait {
             let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));
             return (self.border == Border::None || all()).then(|| Share::exact(1.0));
         };
-        if window.reach() > self.followed
-            && let Edge::Orbit(orbit) = edge
-            && !orbit.closed
-        {
-            let parameters = self.model.parameters()?;
-            let farther = Orbit::separatrix(&parameters, window.reach(), &Limits::PATIENT).ok()?;
-            return Some(part_within(&Edge::Orbit(Box::new(farther)), &window));
-        }
-        Some(part_within(edge, &window))
+        let portrait = self.followed_to(window.reach()).ok()?;
+        Some(part_within(portrait.edge().unwrap_or(edge), &window))
+    }
+
+    /// The same with a border that is not closed followed at least to this displacement, in m.
+    ///
+    /// # Errors
+    /// [`Reason`] if it cannot be traced there.
+    pub(super) fn followed_to(&self, reach: f64) -> Result<Cow<'_, Self>, Reason> {
+        let open = |edge: &Edge| matches!(edge, Edge::Orbit(orbit) if !orbit.closed);
+        let index = self.borders.iter().position(open).filter(|_| reach > self.followed);
+        let (Some(index), Some(parameters)) = (index, self.model.parameters()) else {
+            return Ok(Cow::Borrowed(self));
+        };
+        let farther = Orbit::separatrix(&parameters, reach, &Limits::PATIENT)?;
+        let mut portrait = Portrait { followed: reach, ..self.clone() };
+        portrait.borders[index] = Edge::Orbit(Box::new(farther));
+        Ok(Cow::Owned(portrait))
     }
 }
 

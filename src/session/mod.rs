@@ -39,8 +39,8 @@ pub use state::keymap::{Candidates, Command, CommandAction, Context, Keymap, Nex
 pub use state::overlay::{Completion, Input, List, Listed, Overlay, Prompt, SessionCaption};
 pub use state::scan::{ScanOnShow, ScanProgress};
 pub use state::session::{
-    BranchStop, Framing, Kept, Letter, Pace, Pane, Pending, Playback, Plot, Price, Recomputation,
-    Session, Size, Waiting,
+    BranchStop, Course, Framing, Kept, Letter, Pace, Pane, Pending, Playback, Plot, Price,
+    Recomputation, Session, Size, ToldFate, Waiting,
 };
 pub use state::setup::{MOST_MOTIONS, Row, Setup, StepSizes, Uncertainty};
 pub use state::{overlay, scan, settings};

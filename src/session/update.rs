@@ -100,6 +100,7 @@ fn take_in(session: &mut Session, message: Msg) {
     let asked = session.asks().into_iter().chain(session.compared().cloned()).collect();
     session.answers.ask(asked);
     answers::resolve(session);
+    session.keep_course();
     walk::keep_hold(session);
     if session.chord > 0 && session.overlay.is_none() && session.pending.is_none() {
         session.asked = std::mem::take(&mut session.chord);

@@ -31,7 +31,8 @@ pub fn outcome(session: &Session) -> (String, Role) {
         None => ("computing the motion".into(), Role::Quiet),
         Some(found) => {
             let writing = Writing(units::shown(session));
-            let whole = session.course().zip(session.running()).filter(|_| session.draws_whole());
+            let whole = session.running().filter(|_| session.draws_whole());
+            let whole = whole.and_then(|running| Some((session.course()?, running)));
             if let Some((tau, q)) = session.contact().filter(|_| whole.is_none()) {
                 // The mass would overtake its belt earlier.
                 let (time, place) = (writing.time(tau, 3), writing.position(q, 3));

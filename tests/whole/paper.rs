@@ -1,10 +1,12 @@
 //! The oscillator of the paper is a machine without a belt: its cycles by the closing equation and by the return map
 //! of machines, which share no code but elementary functions, are the same within the errors that are told.
 
-use hopfscope::flow::{Fate, Limits};
-use hopfscope::model::{Model, Parameters};
+use hopfscope::flow::{Detail, Fate, Limits, MotionUnits, Outcome, Problem, follow};
+use hopfscope::model::{Model, Parameters, State};
 use hopfscope::numerics::random::Random;
+use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::kicks::{Distribution, RandomKick};
 use hopfscope::portrait::{Border, Margin, Portrait};
 
 fn margins(margin: &Margin) -> [Option<f64>; 4] {
@@ -79,4 +81,36 @@ fn a_mass_that_starts_on_a_rest_that_repels_stays_there() {
     assert_eq!(portrait.border, Border::NoBasin);
     assert_eq!(portrait.fate(0.0, 0.0), Ok(Fate::Rest));
     assert_eq!(portrait.fate(1e-9, 0.0), Ok(Fate::Cycle(0)));
+}
+
+/// Where damping grows with the velocity on one side only, motions of a mode come to rest or escape, whatever their size:
+/// the border between them is followed as far as the starts lie that are asked about.
+#[test]
+fn a_border_that_is_not_closed_is_known_at_every_start() {
+    let model = Model::of_mode(754.0, 0.2, &[-0.01, 0.2], 5.0, 5.0).unwrap();
+    let closed = Portrait::of(&model).unwrap();
+    assert_eq!(closed.border, Border::Separatrix);
+    let mut ends = [0; 2];
+    for x in [-3.0, -2.0, -1.0, -0.1, 0.1, 1.0, 2.0, 3.0] {
+        for v in [-900.0, -300.0, -20.0, 1.0, 5.0, 100.0, 700.0] {
+            let fate = closed.fate(x, v);
+            let problem = Problem { initial: State { q: x, v }, until: 10.0, ..Problem::default() };
+            let units = MotionUnits::physical(&model);
+            let end = match follow(&model, &problem, units, Detail::default()).outcome {
+                Outcome::Captured { .. } => Fate::Rest,
+                Outcome::Escaped { .. } => Fate::Escapes,
+                other => panic!("{x} {v}: {other:?}"),
+            };
+            assert_eq!(fate, Ok(end), "{x} {v}");
+            ends[usize::from(fate == Ok(Fate::Rest))] += 1;
+        }
+    }
+    assert!(ends.into_iter().all(|count| count > 5), "{ends:?}");
+    let (q, v) = ((-3.0, 3.0), (-900.0, 900.0));
+    let share = closed.rest_share(q, v).unwrap().part;
+    let counts = closed.count(&StartWindow { q, v }, (400, 400), &Limits::PATIENT).unwrap();
+    assert!((counts.captured_part() - share).abs() < 5e-3, "{counts:?} {share}");
+    let kicks = RandomKick { law: Distribution::Uniform, q: (0.0, 3.0), v: (0.0, 900.0) };
+    let lost = kicks.lost(&closed).unwrap();
+    assert!((lost.part + share - 1.0).abs() < lost.error + 1e-9, "{lost:?} {share}");
 }

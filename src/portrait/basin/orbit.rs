@@ -142,12 +142,6 @@ impl Orbit {
         clearances.map(|clearance| clearance.value).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a displacement is no farther out than it was followed, if it is not closed.
-    pub fn reaches(&self, q: f64) -> bool {
-        let Orbit { upper, lower, closed } = self;
-        *closed || q.abs() - upper.r <= upper.clearance.value.max(lower.clearance.value)
-    }
-
     /// The velocities at displacement `q` between which a start lies inside; `None` where none does.
     pub fn span_at(&self, q: f64) -> Option<(f64, f64)> {
         let lower = self.lower.speed_at(q)?;

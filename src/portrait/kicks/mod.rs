@@ -151,7 +151,7 @@ impl RandomKick {
     }
 
     /// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
-    /// basin is not known.
+    /// basin is not known, or if its border cannot be traced as far as [`RandomKick::reach`].
     pub fn lost(&self, portrait: &Portrait) -> Result<Share, Reason> {
         const NEEDS: Reason = Reason::NotApplicable {
             needs: "a basin of rest that is known, and no family of periodic motions",
@@ -164,10 +164,13 @@ impl RandomKick {
         }
         let rate = portrait.model.omega_0;
         let scaled = RandomKick { v: (self.v.0 / rate, self.v.1 / rate), ..*self };
-        Ok(portrait.edge().map_or(Share::exact(0.0), |edge| scaled.lost_outside(edge)))
+        Ok(portrait
+            .followed_to(self.reach())?
+            .edge()
+            .map_or(Share::exact(0.0), |edge| scaled.lost_outside(edge)))
     }
 
-    /// The fraction of the kicks that leads out of a border, which has to be known as far as [`RandomKick::reach`].
+    /// The fraction of the kicks that leads out of a border.
     /// Quadrature as in `part_within`.
     fn lost_outside(&self, edge: &Edge) -> Share {
         let (law, (mean, spread)) = (self.law, self.q);

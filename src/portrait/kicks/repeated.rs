@@ -52,6 +52,8 @@ pub fn repeated(
     kicks: &RandomKick,
     limits: &Limits,
 ) -> Result<Repeated, Reason> {
+    // Kicks start from all that the guide holds.
+    let portrait = &*portrait.followed_to(kicks.reach() + portrait.model.guide_static)?;
     let first = kicks.lost(portrait)?;
     if portrait.model.guide_static == 0.0 {
         return Err(WITHOUT);

@@ -4,11 +4,12 @@
 use std::ops::RangeBounds;
 
 use crate::flow::{Fate, Outcome, Trajectory};
-use crate::model::Parameters;
+use crate::model::{Parameters, State};
 use crate::portrait::{Border, Cycle, Cycles, Portrait};
+use crate::scene::Topic;
 use crate::scene::said;
 use crate::scene::said::TextCondition;
-use crate::session::{Session, Setup};
+use crate::session::{Course, Session, Setup, ToldFate};
 
 /// The fate of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,27 +38,33 @@ pub enum End {
 /// computed turning point, which carries the error of the motion up to there.
 const NEAR: [f64; 2] = [1e-12, 1e-8];
 
-/// All motions by the model of these cycles, and what becomes of one of them; `None` if it is unknown.
-fn course<'a>(found: &'a Cycles, motion: &Trajectory) -> Option<(&'a Portrait, Fate)> {
+/// What becomes of a start among these cycles; `None` if it is unknown.
+fn told(found: &Cycles, start: State) -> Option<ToldFate> {
+    /// Half swings after which a start far out is given up: a key must not wait for it.
+    const MOST: usize = 100;
     let portrait = &found.picture.as_ref()?.portrait;
-    let (x, v) = portrait.from_drawing(motion.problem.initial);
-    Some((portrait, portrait.told_fate(x, v).ok()?))
+    let (x, v) = portrait.from_drawing(start);
+    let fate = portrait.told_fate(x, v, MOST).ok()?;
+    let cycle = portrait.tends_to(fate);
+    Some(ToldFate { fate, grows: cycle.is_some_and(|cycle| portrait.starts_within(cycle, x, v)) })
 }
 
 /// The fate of a motion among these cycles; `None` if it is unknown.
 pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<End> {
+    end(found, motion, told(found, motion.problem.initial))
+}
+
+fn end(found: &Cycles, motion: &Trajectory, told: Option<ToldFate>) -> Option<End> {
     if let Some(distance) = on_the_edge(found, motion) {
         return Some(End::OnTheEdge { distance });
     }
-    let (portrait, fate) = course(found, motion)?;
+    let (portrait, ToldFate { fate, grows }) = (&found.picture.as_ref()?.portrait, told?);
     Some(match fate {
         Fate::Rest if portrait.model.guide_static > 0.0 => End::Rests,
         Fate::Rest => End::Decays,
         Fate::Cycle(_) => {
-            let cycle = portrait.tends_to(fate)?;
-            let (x, v) = portrait.from_drawing(motion.problem.initial);
-            let q_max = cycle.q_max / portrait.model.drawing_length();
-            End::Onto { q_max, grows: portrait.starts_within(cycle, x, v) }
+            let q_max = portrait.tends_to(fate)?.q_max / portrait.model.drawing_length();
+            End::Onto { q_max, grows }
         }
         Fate::Escapes => End::Grows,
         Fate::Neutral | Fate::Moving | Fate::Unknown(_) => return None,
@@ -139,8 +146,30 @@ impl Session {
 
     /// All motions by the model that is drawn, and the fate of the one on show; `None` until its cycles are known.
     pub fn course(&self) -> Option<(&Portrait, Fate)> {
-        let motion = self.trajectory()?;
-        course(self.cycles_beside(motion)?, motion)
+        let found = self.cycles_beside(self.trajectory()?)?;
+        Some((&found.picture.as_ref()?.portrait, self.told()?.fate))
+    }
+
+    /// Finds out what becomes of the motion on show, if that or its cycles are others than before.
+    pub(crate) fn keep_course(&mut self) {
+        let asked = |motion: &Trajectory| {
+            let found = self.cycles_beside(motion)?;
+            let cycles = &self.standing(Topic::Cycles, self.plot).answered()?.request;
+            let start = motion.problem.initial;
+            let known = self.course.as_ref();
+            let known = known.filter(|known| known.start == start && known.cycles == *cycles);
+            let told = || told(found, start);
+            let told = known.map_or_else(told, |known| known.told);
+            Some(Course { start, cycles: cycles.clone(), told })
+        };
+        self.course = self.trajectory().and_then(asked);
+    }
+
+    /// What becomes of the motion on show, if that is known of this one.
+    fn told(&self) -> Option<ToldFate> {
+        let start = self.trajectory()?.problem.initial;
+        let known = self.course.as_ref().filter(|known| known.start == start)?;
+        known.told
     }
 
     /// The fate of the motion that was computed last; `None` until its cycles are known, and for methods
@@ -151,7 +180,7 @@ impl Session {
             return None;
         }
         let found = self.cycles_beside(motion);
-        let end = found.map_or_else(|| linear(motion), |found| fate(found, motion));
+        let end = found.map_or_else(|| linear(motion), |found| end(found, motion, self.told()));
         // A coarse step can end on the wrong side.
         end.filter(|end| match motion.outcome {
             Outcome::Captured { .. } => matches!(end, End::Rests | End::OnTheEdge { .. }),
