@@ -14,13 +14,17 @@ use crate::portrait::basin::between;
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::{Border, Cycle, Node, Portrait};
 
-/// Values of a number, in SI units, and what a machine does at each, or why there is no answer.
-pub type Portraits = Vec<(f64, Result<Portrait, Reason>)>;
+/// A value of a number, in SI units, and what a machine does there, or why there is no answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PortraitPoint {
+    pub value: f64,
+    pub found: Result<Portrait, Reason>,
+}
 
 /// What a machine does along a number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MachineBranch {
-    pub points: Portraits,
+    pub points: Vec<PortraitPoint>,
     /// Where the portrait changes, in the order of the points.
     pub special: Vec<Special>,
     /// Cost of the points; locating the changes between them is not counted.
@@ -58,11 +62,12 @@ impl MachineBranch {
             // Nearer are those by which the changes were told.
             let outer = |change: Change| change.beside.into_iter().step_by(ASIDE.len() - 1);
             let known = changes.into_iter().flat_map(outer).filter(|(value, _)| within(value));
-            points.extend(known.filter_map(|(value, found)| Some((value, Ok(found?)))));
-            points.sort_by(|one, other| one.0.total_cmp(&other.0));
+            let point = |(value, found)| Some(PortraitPoint { value, found: Ok(found?) });
+            points.extend(known.filter_map(point));
+            points.sort_by(|one, other| one.value.total_cmp(&other.value));
         }
         let mut cost = Cost::default();
-        let known = points.iter().filter_map(|(_, found)| found.as_ref().ok());
+        let known = points.iter().filter_map(|point| point.found.as_ref().ok());
         known.for_each(|found| cost += found.cost);
         Ok(MachineBranch { points, special, cost })
     }
@@ -102,8 +107,11 @@ impl Family<'_> {
         Portrait::of(&self.model(value)?).ok()
     }
 
-    fn portraits(&self, values: Vec<f64>) -> Result<Portraits, String> {
-        let portrait = |value| Ok((value, self.source.with(self.varied, value)?.portrait()));
+    fn portraits(&self, values: Vec<f64>) -> Result<Vec<PortraitPoint>, String> {
+        let portrait = |value| {
+            let found = self.source.with(self.varied, value)?.portrait();
+            Ok(PortraitPoint { value, found })
+        };
         let wanted = |_: &f64| !(self.limits.interrupted)();
         values.into_par_iter().filter(wanted).map(portrait).collect()
     }
@@ -116,8 +124,8 @@ impl Family<'_> {
     }
 
     /// All changes, in the order of these portraits.
-    fn all_changes(&self, portraits: &Portraits) -> Vec<Change> {
-        let places = portraits.par_iter().map(|(value, found)| {
+    fn all_changes(&self, portraits: &[PortraitPoint]) -> Vec<Change> {
+        let places = portraits.par_iter().map(|PortraitPoint { value, found }| {
             let portrait = found.as_ref().ok()?;
             let functions = test_functions(&portrait.model, portrait.landmarks.as_ref());
             Some(PortraitPlace { value: *value, portrait, functions })

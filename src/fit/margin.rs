@@ -99,6 +99,17 @@ impl MarginSpread {
     }
 }
 
+/// A displacement that is not survived with D2 or D3 at an end of its interval and all other numbers following.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AllowedLoss {
+    /// `D2` or `D3`.
+    pub name: &'static str,
+    /// Its value at that end.
+    pub value: f64,
+    /// The smallest displacement that is not survived there.
+    pub displacement: f64,
+}
+
 /// The distribution of the margins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Margins {
@@ -121,10 +132,9 @@ pub struct Margins {
     pub fold: MarginSpread,
     /// Whether the median displacement lies outside the amplitudes measured.
     pub extrapolated: bool,
-    /// The smallest displacement not survived with D2 or D3 at an end of its interval and all other numbers following:
-    /// the name, its value, and the displacement.
+    /// What the record does not exclude and is not survived, with the smallest displacement.
     #[serde(skip)]
-    pub allowed: Option<(&'static str, f64, f64)>,
+    pub allowed: Option<AllowedLoss>,
     /// The smallest change of position from the worst rest position that is not captured, for every draw, in ascending
     /// order; infinite if all are survived.
     #[serde(skip)]
@@ -207,7 +217,7 @@ pub fn margins(
 fn allowed(
     estimate: &Estimate,
     ask: impl Fn(&Unknowns) -> Result<MarginOfDraw, Reason>,
-) -> Option<(&'static str, f64, f64)> {
+) -> Option<AllowedLoss> {
     let rows = NAMES.iter().filter(|row| [D2, D3].contains(&row.place));
     let ends = rows.flat_map(|row| {
         let interval = estimate.intervals[row.place];
@@ -215,9 +225,10 @@ fn allowed(
     });
     let lost = ends.filter_map(|(row, end)| {
         let p = following(estimate, &[(row.place, end)]);
-        Some((row.name, end, ask(&p).ok()?.margin.displacement?))
+        let displacement = ask(&p).ok()?.margin.displacement?;
+        Some(AllowedLoss { name: row.name, value: end, displacement })
     });
-    lost.min_by(|one, other| one.2.total_cmp(&other.2))
+    lost.min_by(|one, other| one.displacement.total_cmp(&other.displacement))
 }
 
 /// The margin, the smallest stable cycle and the fold for one set of parameters.

@@ -61,7 +61,7 @@ mod valley;
 
 pub use estimate::Estimate;
 pub use fitted::{Fitted, RecordPoint};
-pub use margin::{DRAWS, MarginQuestion, Margins, margins};
+pub use margin::{AllowedLoss, DRAWS, MarginQuestion, Margins, margins};
 pub use question::{Inertia, LossName, Question, Unfit};
 pub use record::{BadRecord, Reading, Record, parse};
 pub use signal::{LENGTHS, Signal, length_in_metres};

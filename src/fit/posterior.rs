@@ -182,7 +182,7 @@ impl<'a> PosteriorFrame<'a> {
         const NEAR: f64 = 1e-4;
         let mut at =
             if *from == self.estimate.p { self.straight(&(self.center - errors)) } else { *from };
-        let mut before: Option<(Unknowns, Unknowns, f64)> = None;
+        let mut before: Option<LastDraw> = None;
         let mut negative = 0;
         for _ in 0..ROUNDS {
             negative += usize::from(at[R] < 0.0);
@@ -197,7 +197,7 @@ impl<'a> PosteriorFrame<'a> {
             });
             match (state, &before) {
                 (Some((off, values, by, cost)), last)
-                    if last.as_ref().is_none_or(|it| off < it.2) =>
+                    if last.as_ref().is_none_or(|it| off < it.off) =>
                 {
                     let lu = by.lu();
                     if off < NEAR {
@@ -206,20 +206,27 @@ impl<'a> PosteriorFrame<'a> {
                         return Some((at, -0.5 * bent - size));
                     }
                     let step = lu.solve(&(values - errors))?;
-                    before = Some((at, step, off));
+                    before = Some(LastDraw { at, step, off });
                     at += step;
                 }
                 // Too far: half the step.
                 (_, Some(_)) => {
-                    let (last, step, _) = before.as_mut()?;
-                    *step *= 0.4;
-                    at = *last + *step;
+                    let last = before.as_mut()?;
+                    last.step *= 0.4;
+                    at = last.at + last.step;
                 }
                 (_, None) => at = 0.5 * (at + from),
             }
         }
         None
     }
+}
+
+/// The last point of a search that came nearer, the step from it, and how far off it was.
+struct LastDraw {
+    at: Unknowns,
+    step: Unknowns,
+    off: f64,
 }
 
 /// The residuals along the directions, and the derivatives of the motion along them.

@@ -148,16 +148,16 @@ fn along_the_valley(
     let (along, error) = (covariance.following(&[(R, 1.0)]), covariance.error(R));
     let parts = (1..=STEPS).map(|k| PART * f64::from(k) * optimum.p[R]);
     let errors = (1..=ERRORS).map(|k| f64::from(k) * error);
-    let mut points = ValleyPoints::new();
+    let mut points = Vec::new();
     for step in parts.chain(errors).flat_map(|step| [step, -step]) {
         let p = optimum.p + step * along;
         if p[R] > 0.0
             && let Some(seen) = task.evaluated(&p, false)
         {
-            points.push((seen.turns.len(), task.cost(&seen), p));
+            points.push(ValleyPoint { half_swings: seen.turns.len(), cost: task.cost(&seen), p });
         }
     }
-    points.retain(|(_, cost, _)| *cost - optimum.cost <= FAR * task.unit(optimum.cost));
+    points.retain(|point| point.cost - optimum.cost <= FAR * task.unit(optimum.cost));
     closest(points, known)
 }
 
@@ -176,32 +176,37 @@ pub fn through_the_valley(
     known: &[Optimum],
 ) -> Vec<Unknowns> {
     let held = task.holding(R);
-    let mut points = ValleyPoints::new();
+    let mut points = Vec::new();
     for up in [true, false] {
         let mut p = optimum.p;
         for factor in factors {
             p[R] *= if up { factor } else { 1.0 / factor };
             let Some(found) = held.solve_roughly(p) else { break };
             p = found.p;
-            points.push((found.seen.turns.len(), found.cost, p));
+            let half_swings = found.seen.turns.len();
+            points.push(ValleyPoint { half_swings, cost: found.cost, p });
         }
     }
     closest(points, known)
 }
 
-/// Points with their number of half swings and their loss.
-type ValleyPoints = Vec<(usize, f64, Unknowns)>;
+/// A point with its number of half swings and its loss.
+struct ValleyPoint {
+    half_swings: usize,
+    cost: f64,
+    p: Unknowns,
+}
 
 /// For each number of half swings the point that is closest to the record, if it is lower than the minimum known there:
 /// the lowest few of these.
-fn closest(mut points: ValleyPoints, known: &[Optimum]) -> Vec<Unknowns> {
+fn closest(mut points: Vec<ValleyPoint>, known: &[Optimum]) -> Vec<Unknowns> {
     /// Maximum number of points from which to descend.
     const MOST: usize = 3;
-    points.sort_by(|one, other| one.1.total_cmp(&other.1));
+    points.sort_by(|one, other| one.cost.total_cmp(&other.cost));
     let mut met = BTreeSet::new();
-    points.retain(|(half_swings, cost, _)| {
+    points.retain(|ValleyPoint { half_swings, cost, .. }| {
         let same = known.iter().find(|valley| valley.seen.turns.len() == *half_swings);
         met.insert(*half_swings) && same.is_none_or(|valley| *cost < valley.cost)
     });
-    points.into_iter().take(MOST).map(|(.., p)| p).collect()
+    points.into_iter().take(MOST).map(|point| point.p).collect()
 }

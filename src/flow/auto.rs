@@ -126,7 +126,9 @@ impl Auto {
 
     /// The integral of `v^2` over the last step; nonlinear fields only.
     pub fn square_integral(&self) -> f64 {
-        self.implicit().map_or_else(|| self.taylor.square_integral(), |stiff| stiff.powers().x)
+        let Some(stiff) = self.implicit() else { return self.taylor.square_integral() };
+        let [second, _, _] = stiff.powers().into();
+        second
     }
 
     /// The largest v in the last step, which took this long, if the acceleration changes sign there.

@@ -95,21 +95,37 @@ pub fn in_si(unit: &str, dimension: Dimension) -> Option<f64> {
     read_unit(unit).ok().filter(|(_, found)| *found == dimension).map(|(value, _)| value)
 }
 
-/// Units without prefixes: name, value in SI units, dimension, and whether the unit takes prefixes.
-const UNITS: [(&str, f64, Dimension, bool); 12] = [
-    ("g", 1e-3, Dimension::new(1, 0, 0), true),
-    ("m", 1.0, Dimension::LENGTH, true),
-    ("s", 1.0, Dimension::TIME, true),
-    ("N", 1.0, Dimension::FORCE, true),
-    ("Ns", 1.0, Dimension::IMPULSE, true),
-    ("Hz", 1.0, Dimension::new(0, 0, -1), true),
+/// A unit without prefixes, with its value in SI units.
+struct UnitRow {
+    name: &'static str,
+    value: f64,
+    dimension: Dimension,
+    takes_prefixes: bool,
+}
+
+const fn unit(name: &'static str, value: f64, dimension: Dimension) -> UnitRow {
+    UnitRow { name, value, dimension, takes_prefixes: true }
+}
+
+/// A unit that takes no prefixes.
+const fn bare(name: &'static str, value: f64, dimension: Dimension) -> UnitRow {
+    UnitRow { takes_prefixes: false, ..unit(name, value, dimension) }
+}
+
+const UNITS: [UnitRow; 12] = [
+    unit("g", 1e-3, Dimension::new(1, 0, 0)),
+    unit("m", 1.0, Dimension::LENGTH),
+    unit("s", 1.0, Dimension::TIME),
+    unit("N", 1.0, Dimension::FORCE),
+    unit("Ns", 1.0, Dimension::IMPULSE),
+    unit("Hz", 1.0, Dimension::new(0, 0, -1)),
     // The weight of a kilogram under standard gravity.
-    ("kgf", 9.806_65, Dimension::FORCE, false),
-    ("in", 0.0254, Dimension::LENGTH, false),
-    ("inch", 0.0254, Dimension::LENGTH, false),
-    ("sec", 1.0, Dimension::TIME, false),
-    ("min", 60.0, Dimension::TIME, false),
-    ("h", 3600.0, Dimension::TIME, false),
+    bare("kgf", 9.806_65, Dimension::FORCE),
+    bare("in", 0.0254, Dimension::LENGTH),
+    bare("inch", 0.0254, Dimension::LENGTH),
+    bare("sec", 1.0, Dimension::TIME),
+    bare("min", 60.0, Dimension::TIME),
+    bare("h", 3600.0, Dimension::TIME),
 ];
 
 /// Prefixes of units, none first.
@@ -292,8 +308,9 @@ impl UnitReader<'_> {
         let name = &self.rest[..end];
         let split = |(prefix, scale): &(&str, f64)| {
             let base = name.strip_prefix(prefix)?;
-            let takes = |row: &&(_, _, _, bool)| prefix.is_empty() || row.3;
-            let (_, value, dimension, _) = UNITS.iter().filter(takes).find(|row| row.0 == base)?;
+            let is_it =
+                |row: &&UnitRow| row.name == base && (prefix.is_empty() || row.takes_prefixes);
+            let UnitRow { value, dimension, .. } = UNITS.iter().find(is_it)?;
             Some((scale * value, *dimension))
         };
         let found = PREFIXES.iter().find_map(split).ok_or_else(|| self.wrong())?;

@@ -17,7 +17,7 @@ pub(super) const CHECKS: &[Check] = &[
         Evidence::worst(it.cycles()?.value.into_iter().map(|cycle| {
             let Parameters { d, d3, r, .. } = **it;
             let [rise, fall] = it.arcs(&cycle)?;
-            let square = rise.powers().x + fall.powers().x;
+            let [square, _, _] = (rise.powers() + fall.powers()).into();
             let share = |turning: f64| (turning - r) / (turning + r);
             // On a closed curve the integral of v vanishes.
             let formula = share(-cycle.q_min)

@@ -294,9 +294,10 @@ impl<'a> ClaimCase<'a> {
         const INTEGRAL: f64 = 1e-11;
         let [rise, fall] = self.arcs(cycle)?;
         let Parameters { d2, d3, r, .. } = **self;
-        let (up, down) = (rise.powers(), fall.powers());
-        let even = d2 * (up.x + down.x);
-        let odd = d3 * (up.y - down.y) + r * (rise.swing.duration - fall.swing.duration);
+        let [second_up, third_up, _] = rise.powers().into();
+        let [second_down, third_down, _] = fall.powers().into();
+        let even = d2 * (second_up + second_down);
+        let odd = d3 * (third_up - third_down) + r * (rise.swing.duration - fall.swing.duration);
         Ok(Known::new(-(even + odd) / cycle.period, INTEGRAL * cycle.q_max))
     }
 

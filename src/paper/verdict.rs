@@ -282,11 +282,11 @@ impl Evidence {
     }
 
     /// A formula and what it should approach, at two places, the second nearer to the limit.
-    pub fn tends(far: (f64, Known), near: (f64, Known)) -> Self {
-        let before = Self::near(far.0, far.1).miss();
-        let mark = Certainty::of_limit((far.0, &far.1), (near.0, &near.1));
-        let evidence = Evidence { before, mark, ..Self::new(Sense::Tends, near.0, near.1) };
-        Evidence { held: usize::from(evidence.holds(near.0)), ..evidence }
+    pub fn tends((far, far_computed): (f64, Known), (near, near_computed): (f64, Known)) -> Self {
+        let mark = Certainty::of_limit((far, &far_computed), (near, &near_computed));
+        let before = Self::near(far, far_computed).miss();
+        let evidence = Evidence { before, mark, ..Self::new(Sense::Tends, near, near_computed) };
+        Evidence { held: usize::from(evidence.holds(near)), ..evidence }
     }
 
     /// What should hold in each of these cases; the place becomes the first in which it does not. Fails with the

@@ -40,7 +40,8 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         && let Some(found) = session.speeds(index)
     {
         // A speed without an answer is left out.
-        let known = found.points.iter().filter_map(|(at, found)| Some((*at, found.as_ref().ok()?)));
+        let known = found.points.iter();
+        let known = known.filter_map(|it| Some((it.value, it.found.as_ref().ok()?)));
         let points: Vec<_> = known.collect();
         for kind in KINDS {
             cycles(picture, &points, kind);

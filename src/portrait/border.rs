@@ -2,7 +2,6 @@
 
 use serde::{Serialize, Serializer};
 
-use super::basin::arc::Arc;
 use super::basin::orbit::Orbit;
 use super::cycle::Cycle;
 use crate::flow::Reason;
@@ -117,8 +116,8 @@ impl Edge {
     pub fn area(&self) -> Option<f64> {
         match self {
             Edge::Orbit(orbit) => {
-                let area = |arc: &Arc| arc.powers().x;
-                orbit.closed.then(|| area(&orbit.upper) + area(&orbit.lower))
+                let [area, _, _] = (orbit.upper.powers() + orbit.lower.powers()).into();
+                orbit.closed.then_some(area)
             }
             Edge::Curve(curve) => Some(curve.area()),
         }

@@ -67,14 +67,11 @@ impl Margin {
         Margin { displacement: size, impulse: size, from_rest }
     }
 
-    /// From the sizes of displacement and impulse, and of both from rest; infinite where every kick is survived.
+    /// From the sizes of the kicks, which are infinite where every kick is survived.
     #[must_use]
-    pub fn of_sizes(kicks: (f64, f64), from_rest: (f64, f64)) -> Self {
-        let finite = |kick: f64| Some(kick).filter(|kick| kick.is_finite());
-        let (displacement, impulse) = (finite(kicks.0), finite(kicks.1));
-        let (shift, push) = (finite(from_rest.0), finite(from_rest.1));
-        let from_rest = RestMargin { displacement: shift, impulse: push };
-        Margin { displacement, impulse, from_rest }
+    pub fn of_sizes(sizes: &Kicks<f64>) -> Self {
+        let finite = |size: &f64| Some(*size).filter(|size| size.is_finite());
+        sizes.each(finite, finite)
     }
 
     /// The margin with functions of its displacements and of its impulses in their place: in other units, or

@@ -8,7 +8,8 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::{Border, Cycle, Edge, Margin, Reach};
+use super::margin::RestKicks;
+use super::{Border, Cycle, Edge, Kicks, Margin, Reach};
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
 use crate::model::{ContactState, Model, Phase};
@@ -141,7 +142,11 @@ impl Portrait {
         let lowest = one.0.min(one.1).min(other.0).min(other.1);
         let impulse = if gap > 0.0 { mass * lowest } else { 0.0 };
         let Reach { displacement: (right, left), velocity: (up, down) } = reach;
-        Margin::of_sizes((right.min(left), mass * up.min(down)), (gap, impulse))
+        Margin::of_sizes(&Kicks {
+            displacement: right.min(left),
+            impulse: mass * up.min(down),
+            from_rest: RestKicks { displacement: gap, impulse },
+        })
     }
 
     /// Radius of the disk that Lyapunov's method proves to be captured (equation 24), as a fraction of the true margin:

@@ -72,8 +72,10 @@ impl Walk {
     fn maps(&self, inverse: bool) -> [(Fences, Map); 2] {
         let [d, d2, d3, _] = self.parameters.map(Interval::middle);
         let sign = if inverse { -1.0 } else { 1.0 };
-        let fences =
-            [-d2, d2].map(|b| fences([2.0 * d * sign, b, d3 * sign]).map_or(0.0, |it| it.0));
+        let fences = [-d2, d2].map(|b| {
+            let known = fences([2.0 * d * sign, b, d3 * sign]);
+            known.map_or(0.0, |(speed, _)| speed)
+        });
         [None, Some(fences)]
             .map(|fences| (fences, Map::new(self.parameters, inverse, fences.unwrap_or_default())))
     }

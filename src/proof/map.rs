@@ -286,7 +286,7 @@ impl ProvedMap {
         let funnel = self.funnel(index, direction);
         let stiff = |climb| funnel.and_then(|it| it.contraction(&field, start, climb));
         let far = funnel.and_then(|it| it.climb_from(&field, start)).and_then(stiff);
-        let settled = |it: &(Interval, Interval)| it.1.upper() < SUPERSTABLE;
+        let settled = |(_, slope): &(Interval, Interval)| slope.upper() < SUPERSTABLE;
         if far.as_ref().is_some_and(settled) {
             return far;
         }

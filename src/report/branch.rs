@@ -8,7 +8,7 @@ use super::proof::{
 use super::table::digits;
 use super::{About, Answer, Columns, Quantity};
 use crate::branch::fold::{Boundary, BoundaryPoint};
-use crate::branch::machine::MachineBranch;
+use crate::branch::machine::{MachineBranch, PortraitPoint};
 use crate::branch::{Branch, BranchPoint, Jump, Special};
 use crate::flow::{Cost, Fate};
 use crate::model::Knob;
@@ -171,7 +171,7 @@ pub fn of_machine(about: &About, varied: Knob, found: &MachineBranch, seconds: f
             .file("reason", |row| row.reason.clone())
     };
     let mut rows = Vec::new();
-    for (value, found) in &found.points {
+    for PortraitPoint { value, found } in &found.points {
         let row = |cycle, reason| MachineBranchRow { value: *value, cycle, reason };
         match found {
             Ok(found) => rows.extend(found.cycles.iter().map(|cycle| row(Some(*cycle), None))),

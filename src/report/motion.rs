@@ -19,7 +19,6 @@ use crate::words::{counted, duration, significant};
 
 /// A point of a motion, its start, an arrival at `v = 0` or its end: what it is, `tau`, `q` and `v` as far as they are
 /// known, and what is proved of them.
-#[derive(Clone, Copy)]
 struct MotionRow {
     what: &'static str,
     tau: f64,

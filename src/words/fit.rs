@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::counted;
 use super::number::{in_unit, rounded_down, significant, with_unit};
 use crate::fit::{
-    Combination, Condition, D, Dropped, Fitted, MarginQuestion, Margins, NAMES, NameSpec, R, Rival,
-    StartKind, combination, conditions,
+    AllowedLoss, Combination, Condition, D, Dropped, Fitted, MarginQuestion, Margins, NAMES,
+    NameSpec, R, Rival, StartKind, combination, conditions,
 };
 use crate::numerics::count::real;
 use crate::portrait::Margin;
@@ -292,7 +292,7 @@ fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
             "motions reach {} of the smallest amplitude measured ({range})",
             significant(reach * high / low, 2)
         ),
-        (None, Some((name, value, at))) => format!(
+        (None, Some(AllowedLoss { name, value, displacement: at })) => format!(
             "amplitudes measured were {range}; with {name} = {}, which the record does not exclude, a displacement of {} \
              is not survived, {} times the largest amplitude",
             significant(value, 2),

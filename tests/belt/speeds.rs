@@ -1,7 +1,7 @@
 //! The view of the cycles over the belt speed: every kind of cycle has its own look, and jumps up and down are
 //! where the motions of the machine leave the end of a stable state.
 
-use hopfscope::branch::machine::MachineBranch;
+use hopfscope::branch::machine::{MachineBranch, PortraitPoint};
 use hopfscope::branch::{Jump, Special, SpecialKind};
 use hopfscope::flow::{Fate, Limits};
 use hopfscope::model::belt::FrictionLaw;
@@ -169,7 +169,7 @@ fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
         assert!(draft.cost.evaluations < HALF_FRAME, "{scene}: {}", draft.cost.evaluations);
         let belt = &find(scene).unwrap().machine.clone().unwrap().machine.belt;
         let mut compared = 0;
-        for (at, found) in &draft.points {
+        for PortraitPoint { value: at, found } in &draft.points {
             let exact = Portrait::of_belt(&Belt { belt_speed: *at, ..belt.clone() });
             let (found, exact) = (&found.as_ref().unwrap().cycles, exact.unwrap().cycles);
             let kinds = |cycles: &[Cycle]| -> Vec<_> {
@@ -184,7 +184,7 @@ fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
         assert!(draft.points.len() >= 5 && compared >= draft.points.len(), "{scene}: {compared}");
         // Near each change the curves are followed right up to it.
         for special in &whole.special {
-            let near = whole.points.iter().filter(|(at, _)| (at - special.value).abs() < 1e-3);
+            let near = whole.points.iter().filter(|it| (it.value - special.value).abs() < 1e-3);
             assert!(near.count() >= 2, "{scene}: {special:?}");
         }
     }

@@ -118,6 +118,13 @@ impl SignChange {
     }
 }
 
+/// An end of a piece of a turn, and whether the function is positive there.
+#[derive(Clone, Copy)]
+struct PieceEnd {
+    angle: f64,
+    positive: bool,
+}
+
 /// Every sign change over a turn, in the order of the angle; there is an even number of them.
 ///
 /// Guarantee: these are all the sign changes of a function that differs from this one by rounding, that
@@ -134,26 +141,25 @@ pub fn sign_changes(function: &Fourier) -> Vec<SignChange> {
     let noise = f64::EPSILON * (function.bound(1) + function.mean().abs());
     let pieces = PIECES * function.degree();
     // Zero counts as positive wherever a sign is asked for.
-    let end = |angle: f64| (angle, function.at::<1>(angle)[0] >= 0.0);
+    let end = |angle: f64| PieceEnd { angle, positive: function.at::<1>(angle)[0] >= 0.0 };
     let mut left = end(0.0);
     // The end of the turn is its beginning, and rounding must not make its sign another.
-    let mut ahead = vec![(TAU, left.1)];
+    let mut ahead = vec![PieceEnd { angle: TAU, ..left }];
     ahead.extend((1..pieces).rev().map(|piece| end(TAU * (real(piece) / real(pieces)))));
     let mut found = Vec::new();
     while let Some(&right) = ahead.last() {
-        let (angle, half) = (0.5 * (left.0 + right.0), 0.5 * (right.0 - left.0));
+        let angle = 0.5 * (left.angle + right.angle);
+        let half = 0.5 * (right.angle - left.angle);
         let derivatives = function.at(angle);
         // The middle of two neighbouring numbers is one of them.
-        let atom = angle <= left.0 || angle >= right.0;
+        let atom = angle <= left.angle || angle >= right.angle;
         if !(atom || ends_decide(&derivatives, rest, half, noise)) {
-            ahead.push((angle, derivatives[0] >= 0.0));
+            ahead.push(PieceEnd { angle, positive: derivatives[0] >= 0.0 });
             continue;
         }
-        if left.1 != right.1 {
-            found.push(sign_change(
-                function,
-                Bracket { low: left.0, high: right.0, rising: right.1 },
-            ));
+        if left.positive != right.positive {
+            let bracket = Bracket { low: left.angle, high: right.angle, rising: right.positive };
+            found.push(sign_change(function, bracket));
         }
         left = right;
         ahead.pop();

@@ -137,24 +137,26 @@ impl<'a> Followed<'a> {
         /// Smallest step.
         const SMALLEST: f64 = 1.0 / 256.0;
         let Parameters { d, d2, d3, r } = self.parameters;
-        let (mut here, mut step) = ((0.0, self.first.clone()), 1.0);
-        here.1.q.coefficients[0] = Complex::default();
+        let (mut here, mut step) = (BranchPlace { strength: 0.0, ansatz: self.first.clone() }, 1.0);
+        here.ansatz.q.coefficients[0] = Complex::default();
         // Of the first-order answer only its mean (equation 40) depends on the strength, in proportion to it.
-        let mut before = Some((1.0, self.first.clone()));
+        let mut before = Some(BranchPlace { strength: 1.0, ansatz: self.first.clone() });
         loop {
-            let s = f64::min(here.0 + step, 1.0);
+            let s = f64::min(here.strength + step, 1.0);
             let weaker = Parameters { d: s * d, d2: s * d2, d3: s * d3, r: s * r };
-            let start = before.as_ref().map_or(here.1.clone(), |before| secant(before, &here, s));
+            let onwards = before.as_ref().map(|before| secant(before, &here, s));
+            let start = onwards.unwrap_or_else(|| here.ansatz.clone());
             match self.solve(&weaker, count, &start) {
                 Ok(solution) if s == 1.0 => return Ok(solution),
                 Ok(solution) => {
-                    let was = std::mem::replace(&mut here, (s, solution.ansatz));
-                    before = (was.0 > 0.0).then_some(was);
+                    let there = BranchPlace { strength: s, ansatz: solution.ansatz };
+                    let was = std::mem::replace(&mut here, there);
+                    before = Some(was).filter(|was| was.strength > 0.0);
                     step *= 2.0;
                 }
                 Err(Reason::Harmonics { .. }) if step > SMALLEST => step *= 0.5,
                 Err(Reason::Harmonics { count, .. }) => {
-                    return Err(Reason::Harmonics { count, strength: here.0 });
+                    return Err(Reason::Harmonics { count, strength: here.strength });
                 }
                 Err(lost) => return Err(lost),
             }
@@ -205,13 +207,19 @@ impl<'a> Followed<'a> {
     }
 }
 
+/// A place on the branch to all of damping and friction: how much of them there is, and the cycle.
+struct BranchPlace {
+    strength: f64,
+    ansatz: Ansatz,
+}
+
 /// The line through two solutions, at strength `s`.
-fn secant(before: &(f64, Ansatz), here: &(f64, Ansatz), s: f64) -> Ansatz {
-    let ahead = (s - here.0) / (here.0 - before.0);
-    let mut next = here.1.clone();
-    next.frequency += ahead * (here.1.frequency - before.1.frequency);
+fn secant(before: &BranchPlace, here: &BranchPlace, s: f64) -> Ansatz {
+    let ahead = (s - here.strength) / (here.strength - before.strength);
+    let mut next = here.ansatz.clone();
+    next.frequency += ahead * (here.ansatz.frequency - before.ansatz.frequency);
     for (k, coefficient) in next.q.coefficients.iter_mut().enumerate() {
-        *coefficient += (*coefficient - before.1.q.coefficient(k.cast_signed())) * ahead;
+        *coefficient += (*coefficient - before.ansatz.q.coefficient(k.cast_signed())) * ahead;
     }
     next
 }

@@ -162,7 +162,8 @@ pub(super) fn ledger(
     end: (f64, f64),
 ) -> Ledger {
     let energy = |(x, y): (f64, f64)| 0.5 * ((x + model.pull) * (x + model.pull) + y * y);
-    let works = [("belt", works.x), ("damper", -works.y), ("guide", -works.z)];
+    let [belt, damper, guide] = works.into();
+    let works = [("belt", belt), ("damper", -damper), ("guide", -guide)];
     let work = |(source, amount)| Work { source, amount, acts: amount != 0.0 };
     let works = works.into_iter().map(work).collect();
     Ledger::new((energy(start), energy(end)), works).scaled(model.stiffness)

@@ -192,13 +192,13 @@ impl Knob {
     /// at rest, and R.
     #[must_use]
     pub fn of_belt(self, belt: &Belt) -> Option<f64> {
-        (self.spec().belt?.0)(belt)
+        (self.spec().belt?.get)(belt)
     }
 
     /// Reads a number of a vibration mode; `None` if it has none.
     #[must_use]
     pub fn of_mode(self, mode: &Modal) -> Option<f64> {
-        (self.spec().mode?.0)(mode)
+        (self.spec().mode?.get)(mode)
     }
 
     /// Writes a number of a mass on a belt, in SI units.
@@ -224,11 +224,11 @@ impl Knob {
         at: fn(&KnobSpec) -> Option<Access<T>>,
         value: f64,
     ) -> Result<(), String> {
-        if let Some(place) = at(self.spec()).and_then(|(_, place)| place(it)) {
+        if let Some(place) = at(self.spec()).and_then(|access| (access.place)(it)) {
             *place = value;
             return Ok(());
         }
-        let has = |row: &&KnobSpec| at(row).and_then(|(get, _)| get(it)).is_some();
+        let has = |row: &&KnobSpec| at(row).and_then(|access| (access.get)(it)).is_some();
         let all: Vec<_> = KNOBS.iter().filter(has).map(|row| row.name).collect();
         Err(format!("no {self} here; there are {}", all.join(", ")))
     }

@@ -40,7 +40,20 @@ impl Group {
 }
 
 /// How a number is read from what has it, and where it is written.
-pub(crate) type Access<T> = (fn(&T) -> Option<f64>, fn(&mut T) -> Option<&mut f64>);
+#[derive(Debug)]
+pub(crate) struct Access<T> {
+    pub get: fn(&T) -> Option<f64>,
+    pub place: fn(&mut T) -> Option<&mut f64>,
+}
+
+// Derived, it would ask as much of T.
+impl<T> Clone for Access<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Access<T> {}
 
 /// One row of [`KNOBS`].
 #[derive(Clone, Copy, Debug)]
@@ -144,49 +157,49 @@ macro_rules! knobs {
 /// A number that is a field.
 macro_rules! at {
     ($($field:tt)+) => {
-        (|it| Some(it.$($field)+), |it| Some(&mut it.$($field)+))
+        Access { get: |it| Some(it.$($field)+), place: |it| Some(&mut it.$($field)+) }
     };
 }
 
 /// A number of a friction law.
 macro_rules! law {
     ($law:ident $number:ident) => {
-        (
-            |belt: &Belt| match &belt.law {
+        Access {
+            get: |belt: &Belt| match &belt.law {
                 FrictionLaw::$law { $number, .. } => Some(*$number),
                 _ => None,
             },
-            |belt: &mut Belt| match &mut belt.law {
+            place: |belt: &mut Belt| match &mut belt.law {
                 FrictionLaw::$law { $number, .. } => Some($number),
                 _ => None,
             },
-        )
+        }
     };
 }
 
 /// A coefficient of a polynomial law.
 macro_rules! coefficient {
     ($power:literal) => {
-        (
-            |belt: &Belt| match &belt.law {
+        Access {
+            get: |belt: &Belt| match &belt.law {
                 FrictionLaw::Polynomial { coefficients } => coefficients.get($power).copied(),
                 _ => None,
             },
-            |belt: &mut Belt| match &mut belt.law {
+            place: |belt: &mut Belt| match &mut belt.law {
                 FrictionLaw::Polynomial { coefficients } => coefficients.get_mut($power),
                 _ => None,
             },
-        )
+        }
     };
 }
 
 /// A coefficient of a damping ratio.
 macro_rules! ratio {
     ($power:literal) => {
-        (
-            |mode: &Modal| mode.damping_ratio.get($power).copied(),
-            |mode: &mut Modal| mode.damping_ratio.get_mut($power),
-        )
+        Access {
+            get: |mode: &Modal| mode.damping_ratio.get($power).copied(),
+            place: |mode: &mut Modal| mode.damping_ratio.get_mut($power),
+        }
     };
 }
 
@@ -210,22 +223,22 @@ const POSITIVE: (f64, f64) = (1e-12, 1e12);
 const START: (f64, f64) = (-1e6, 1e6);
 
 /// The coefficient of the belt at rest: that of the law where nothing is said.
-const HELD_BY_BELT: Access<Belt> = (
-    |belt| belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
-    |belt| Some(belt.static_coefficient.get_or_insert(0.0)),
-);
+const HELD_BY_BELT: Access<Belt> = Access {
+    get: |belt| belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
+    place: |belt| Some(belt.static_coefficient.get_or_insert(0.0)),
+};
 
 /// The friction of the guide at rest: that of the moving mass where nothing is said.
-const HELD_BY_GUIDE: Access<Belt> = (
-    |belt| Some(belt.static_guide.unwrap_or(belt.friction)),
-    |belt| Some(belt.static_guide.get_or_insert(0.0)),
-);
+const HELD_BY_GUIDE: Access<Belt> = Access {
+    get: |belt| Some(belt.static_guide.unwrap_or(belt.friction)),
+    place: |belt| Some(belt.static_guide.get_or_insert(0.0)),
+};
 
 /// The same of a mode.
-const MODE_HELD: Access<Modal> = (
-    |mode| Some(mode.static_guide.unwrap_or(mode.friction)),
-    |mode| Some(mode.static_guide.get_or_insert(0.0)),
-);
+const MODE_HELD: Access<Modal> = Access {
+    get: |mode| Some(mode.static_guide.unwrap_or(mode.friction)),
+    place: |mode| Some(mode.static_guide.get_or_insert(0.0)),
+};
 
 knobs! {
     [Motion]

@@ -92,8 +92,8 @@ pub(crate) fn awaited(session: &Session, plot: usize) -> Option<Request> {
 /// The window of the speeds: the same speeds, and all cycles at these.
 fn speeds(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
-    let points = session.speeds(plot)?.points.iter().filter(|(at, _)| x.contains(*at));
-    let cycles = points.flat_map(|(_, found)| found.iter().flat_map(|found| &found.cycles));
+    let points = session.speeds(plot)?.points.iter().filter(|it| x.contains(it.value));
+    let cycles = points.flat_map(|it| it.found.iter().flat_map(|found| &found.cycles));
     let sizes = cycles.map(|cycle| cycle.q_max);
     let y = Span::covering(sizes.chain([0.0]))?;
     Some(Window { x, y: y.scaled(0.0, ROOM) })
