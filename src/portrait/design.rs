@@ -143,8 +143,15 @@ pub fn friction_for(
     Ok((least_friction((kick, wanted), (holds, any), &mut margin)?, cost))
 }
 
+/// A friction, and by how much the margin there exceeds the one wanted, in the logarithm.
+#[derive(Clone, Copy)]
+struct Tried {
+    r: f64,
+    excess: f64,
+}
+
 /// The least friction at which the margin of a kick, a function of friction that increases and may jump, is as `wanted`:
-/// enclosed, and narrowed until rounding, or next to a fold until the search for cycles no longer converges. The search
+/// enclosed, and narrowed until rounding, or next to a fold until the search for cycles fails. The search
 /// starts at the friction `first`; `any` is one that counts as none. `None` where no bracket is found.
 fn least_friction(
     (kick, wanted): (Kick, f64),
@@ -160,45 +167,50 @@ fn least_friction(
         return Ok(Some(FrictionNeeded::Any));
     }
     // A displacement within the sticking set is kept: the first is high enough, or nearly so.
-    let mut high = (first, excess(first)?);
+    let mut high = Tried { r: first, excess: excess(first)? };
     let mut low = high;
     for _ in 0..STEPS {
-        if high.1 < 0.0 {
+        if high.excess < 0.0 {
             low = high;
-            high = (2.0 * high.0, excess(2.0 * high.0)?);
-        } else if low.1 >= 0.0 {
+            high = Tried { r: 2.0 * high.r, excess: excess(2.0 * high.r)? };
+        } else if low.excess >= 0.0 {
             high = low;
-            low = (0.5 * low.0, excess(0.5 * low.0)?);
+            low = Tried { r: 0.5 * low.r, excess: excess(0.5 * low.r)? };
         } else {
             break;
         }
     }
-    if high.1 < 0.0 || low.1 >= 0.0 {
+    if high.excess < 0.0 || low.excess >= 0.0 {
         return Ok(None);
     }
     // In the logarithm of r, as a fraction of the first upper end.
-    let unit = high.0;
-    let ends = [(ln(low.0 / unit), low.1), (0.0, high.1)];
+    let unit = high.r;
+    let ends = [(ln(low.r / unit), low.excess), (0.0, high.excess)];
     let searched = illinois(ends, WIDTH, PlaceTolerance::Absolute(WIDTH), |log| {
         let r = unit * exp(log);
         let here = match excess(r) {
-            // The upper end is the safe one, and known: that ends the search where an error would.
-            Err(Reason::NoConvergence { .. }) if high.0 - low.0 <= BLUR * high.0 => Err(None),
+            // The upper end is the safe one, and known: that ends the search where an error would. Next to a fold a
+            // search for cycles may as well meet no cycle at all.
+            Err(Reason::NoConvergence { .. } | Reason::Escapes)
+                if high.r - low.r <= BLUR * high.r =>
+            {
+                Err(None)
+            }
             here => here.map_err(Some),
         }?;
-        *(if here < 0.0 { &mut low } else { &mut high }) = (r, here);
+        *(if here < 0.0 { &mut low } else { &mut high }) = Tried { r, excess: here };
         Ok(here)
     });
     if let Err(Some(error)) = searched {
         return Err(error);
     }
-    if low.1 >= -WIDTH {
-        return Ok(Some(FrictionNeeded::Friction { r: low.0 }));
+    if low.excess >= -WIDTH {
+        return Ok(Some(FrictionNeeded::Friction { r: low.r }));
     }
-    Ok(Some(if high.1.is_finite() {
-        FrictionNeeded::Friction { r: high.0 }
+    Ok(Some(if high.excess.is_finite() {
+        FrictionNeeded::Friction { r: high.r }
     } else {
-        FrictionNeeded::Fold { r: high.0, below: wanted * exp(low.1) }
+        FrictionNeeded::Fold { r: high.r, below: wanted * exp(low.excess) }
     }))
 }
 
@@ -207,6 +219,8 @@ mod tests {
     use super::*;
     use crate::branch::fold::fold;
     use crate::closed_form::piecewise_linear::LinearCycle;
+    use crate::model::Belt;
+    use crate::paper::model::machine as paper;
 
     fn found(
         parameters: Parameters,
@@ -266,6 +280,22 @@ mod tests {
         assert!(below > 0.3 && below < 5.0);
         assert_eq!(margin(-0.1, 0.2, 0.4, 1.001 * r).displacement, None);
         assert!(margin(-0.1, 0.2, 0.4, 0.999 * r).displacement.is_some());
+    }
+
+    #[test]
+    fn every_margin_beyond_a_fold_needs_the_friction_of_the_fold() {
+        let slow = Belt { belt_speed: 0.1, ..paper() };
+        let half_widths = [("R".to_owned(), 0.1)].into();
+        let known = Tolerances { half_widths, ..Tolerances::default() };
+        for wanted in [2.0e-3, 2.1e-3, 2.2e-3, 2.4e-3] {
+            let belt = Body::Belt(Box::new(slow.clone())).into();
+            let kick = Kick::Displacement;
+            let found = friction_for(&belt, &known, kick, wanted, &Limits::PATIENT).unwrap().0;
+            let Some(FrictionNeeded::Fold { r, .. }) = found else {
+                panic!("{wanted} m: {found:?}")
+            };
+            assert!((r - 3.153_423_17).abs() < 1e-8, "{wanted} m: {r}");
+        }
     }
 
     #[test]
