@@ -6,6 +6,7 @@ use super::{
     Dropped, Estimate, FEWEST, FittedDrift, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R,
     RUN, Record, Rival, Runs, Unfit, Unknowns, longest_run, peaks, samples,
 };
+use crate::numerics::decimal::{in_unit, significant, with_error};
 use crate::numerics::{Random, real};
 
 /// A condition on which an answer rests.
@@ -42,12 +43,12 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
     let whiteness = &estimate.whiteness;
     let kind = match (whiteness.systematic, whiteness.white) {
         (true, _) => {
-            "they swing with the motion: the model leaves something out, not covered by errors"
+            "they swing with the motion: the model leaves something out, which the errors do not cover"
         }
         (_, true) => "white",
         _ => "correlated as filtered noise is, which the errors allow for",
     };
-    let kind = format!("{kind} (correlation {:.2})", whiteness.correlation);
+    let kind = format!("{kind}; correlation {}", significant(whiteness.correlation, 2));
     let ratio = estimate.covariance.deviation / estimate.noise.deviation;
     let run = longest_run(estimate.left_out.iter().map(|why| *why == Some(Dropped::Outlier)));
     let freedom = estimate
@@ -97,18 +98,17 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
 fn zero(estimate: &Estimate) -> Condition {
     let left = estimate.left_drift;
     let unit = estimate.data.signal_unit();
-    let size = |value: f64| format!("{value:.2e} {unit}").trim_end().to_owned();
+    let size = |value: f64| in_unit(&significant(value, 3), &unit);
     let (holds, essential, detail) = match estimate.drift() {
         _ if left.is_seen() => {
             (false, true, format!("it drifts by {} over the record", size(left.change)))
         }
         Some(FittedDrift { change, standard_error, bend, bend_standard_error }) => {
-            let with_error = |value, error| format!("{} +- {error:.1e}", size(value));
-            let along = match bend {
+            let along = match bend_standard_error {
                 0.0 => "along a line".to_owned(),
-                _ => format!("its ends {} above its middle", with_error(bend, bend_standard_error)),
+                error => format!("its ends {} above its middle", with_error(bend, error, &unit)),
             };
-            let change = with_error(change, standard_error);
+            let change = with_error(change, standard_error, &unit);
             let detail =
                 format!("it drifts by {change}, {along}, which is fitted: the offset is its mean");
             (!estimate.whiteness.systematic, true, detail)

@@ -6,6 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::count::truncated;
 use super::elementary::{ln, log10, powi};
 
 /// The shortest text that parses back to this number, without a redundant `.0`.
@@ -19,6 +20,52 @@ pub fn shortest(value: f64) -> String {
 pub fn brief(value: f64) -> String {
     let (plain, scientific) = (shortest(value), format!("{value:e}"));
     if plain.len() > scientific.len() + 1 { scientific } else { plain }
+}
+
+/// Writes `value` with at most `digits` significant digits, without trailing zeros.
+///
+/// Magnitudes from `1e-4` up to `1e6` are written plainly, others with an exponent.
+pub fn significant(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return "-".into();
+    }
+    if value == 0.0 {
+        return "0".into();
+    }
+    let digits = digits.max(1);
+    let scientific = format!("{value:.*e}", digits - 1);
+    let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
+    match exponent.parse::<i32>() {
+        Ok(power @ -4..6) => {
+            let whole = power.unsigned_abs() as usize;
+            let decimals =
+                if power < 0 { digits - 1 + whole } else { (digits - 1).saturating_sub(whole) };
+            without_trailing_zeros(&format!("{value:.decimals$}")).into()
+        }
+        _ => format!("{}e{exponent}", without_trailing_zeros(mantissa)),
+    }
+}
+
+/// Writes `value` with only the digits needed to distinguish numbers that are `resolution` apart.
+pub fn resolved(value: f64, resolution: f64) -> String {
+    let ratio = log10(value.abs() / resolution);
+    let digits = truncated((ratio.ceil() + 1.0).clamp(1.0, 17.0));
+    if ratio < 0.0 { "0".into() } else { significant(value, digits) }
+}
+
+/// Writes `value` and its standard error, each with the digits that count, and their unit.
+pub fn with_error(value: f64, error: f64, unit: &str) -> String {
+    let value = resolved(value, 0.05 * error);
+    in_unit(&format!("{value} +- {}", significant(error, 2)), unit)
+}
+
+/// A number with its unit, if that is known.
+pub fn in_unit(number: &str, unit: &str) -> String {
+    format!("{number} {unit}").trim_end().to_owned()
+}
+
+fn without_trailing_zeros(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 
 /// A step size: 1, 2 or 5 times a power of ten.

@@ -1,31 +1,8 @@
 //! Numbers as text: with a few significant digits, with a prefix and a unit, or exactly, within a given width.
 
-use crate::numerics::{log10, real, truncated};
+pub use crate::numerics::decimal::{in_unit, resolved, significant, with_error};
+use crate::numerics::real;
 use crate::scan::measure::Value;
-
-/// Writes `value` with at most `digits` significant digits, without trailing zeros.
-///
-/// Magnitudes from `1e-4` up to `1e6` are written plainly, others with an exponent.
-pub fn significant(value: f64, digits: usize) -> String {
-    if !value.is_finite() {
-        return "-".into();
-    }
-    if value == 0.0 {
-        return "0".into();
-    }
-    let digits = digits.max(1);
-    let scientific = format!("{value:.*e}", digits - 1);
-    let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
-    match exponent.parse::<i32>() {
-        Ok(power @ -4..6) => {
-            let whole = power.unsigned_abs() as usize;
-            let decimals =
-                if power < 0 { digits - 1 + whole } else { (digits - 1).saturating_sub(whole) };
-            without_trailing_zeros(&format!("{value:.decimals$}")).into()
-        }
-        _ => format!("{}e{exponent}", without_trailing_zeros(mantissa)),
-    }
-}
 
 /// A positive `value` with all but this many significant digits cut off, so that it is not above `value`.
 pub fn rounded_down(value: f64, digits: usize) -> f64 {
@@ -34,24 +11,6 @@ pub fn rounded_down(value: f64, digits: usize) -> f64 {
     // One more for the point.
     let kept = &mantissa[..mantissa.len().min(digits + 1)];
     format!("{kept}e{exponent}").parse().unwrap_or(0.0)
-}
-
-/// Writes `value` with only the digits needed to distinguish numbers that are `resolution` apart.
-pub fn resolved(value: f64, resolution: f64) -> String {
-    let ratio = log10(value.abs() / resolution);
-    let digits = truncated((ratio.ceil() + 1.0).clamp(1.0, 17.0));
-    if ratio < 0.0 { "0".into() } else { significant(value, digits) }
-}
-
-/// Writes `value` and its standard error, each with the digits that count, and their unit.
-pub fn with_error(value: f64, error: f64, unit: &str) -> String {
-    let value = resolved(value, 0.05 * error);
-    in_unit(&format!("{value} +- {}", significant(error, 2)), unit)
-}
-
-/// A number with its unit, if that is known.
-pub fn in_unit(number: &str, unit: &str) -> String {
-    format!("{number} {unit}").trim_end().to_owned()
 }
 
 /// Writes `value` so that it reads back as the same number, if that fits into `width` columns; otherwise rounds
@@ -145,10 +104,6 @@ pub fn measurement(value: Value, digits: Option<usize>) -> String {
         (Value::Count(count), _) => count.to_string(),
         (Value::Word(word), _) => word.to_owned(),
     }
-}
-
-fn without_trailing_zeros(text: &str) -> &str {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 
 #[cfg(test)]
