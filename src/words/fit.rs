@@ -17,15 +17,23 @@ use crate::portrait::Margin;
 /// All that is said of a fit.
 pub fn sentences(fitted: &Fitted) -> Vec<String> {
     let statement = signed(fitted);
-    let told = statement.conditions.iter().filter(|it| TOLD.contains(&it.name));
+    let told = statement.conditions.iter().filter(|it| is_told(it, fitted));
     let told = told.map(|it| format!("{}: {}", it.name, it.detail));
     let broken = statement.broken().into_iter();
     let all = broken.chain(left_out(fitted)).chain(undetermined(fitted)).chain(told);
     all.chain([statement.text.clone()]).collect()
 }
 
-/// Conditions that are told although they hold.
-const TOLD: [&str; 3] = ["residuals", "zero", "alternatives"];
+/// Whether a condition is told beside those that fail: not what is as it should be, but for the residuals.
+fn is_told(condition: &Condition, fitted: &Fitted) -> bool {
+    let is_of_interest = match condition.name {
+        "residuals" => true,
+        "zero" => !condition.holds || fitted.estimate.drift().is_some(),
+        "alternatives" => fitted.estimate.contenders().nth(1).is_some(),
+        _ => false,
+    };
+    is_of_interest && (condition.holds || !condition.essential)
+}
 
 /// What cannot be determined, or not by a standard error.
 pub fn undetermined(fitted: &Fitted) -> Vec<String> {
