@@ -99,6 +99,9 @@ impl FitCommand {
     fn fitted(&self, bytes: &[u8]) -> Result<Fitted, Failure> {
         let name = self.file.display().to_string();
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
+        // What contradicts itself is not the fault of the file.
+        self.record.question().map_err(Failure::Usage)?;
+        self.half_widths().map_err(Failure::Usage)?;
         let opened = self.record.opened(&self.file, bytes).map_err(|problem| bad(&problem))?;
         let asked = self.margin_question(&opened).map_err(|problem| bad(&problem))?;
         let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
@@ -115,12 +118,20 @@ impl FitCommand {
         Ok(Fitted { seconds, ..Fitted::new(name, record, estimate, margins) })
     }
 
+    /// The half widths of D, D2, D3 and r.
+    fn half_widths(&self) -> Result<[f64; 4], String> {
+        let mut half_widths = [None; 4];
+        for (row, half) in &self.half_width {
+            if half_widths[row.place - D].replace(*half).is_some() {
+                return Err(format!("{} has two half widths", row.name));
+            }
+        }
+        Ok(half_widths.map(Option::unwrap_or_default))
+    }
+
     fn margin_question(&self, opened: &Opened) -> Result<MarginQuestion, String> {
         let inertia = opened.metric();
-        let mut half_widths = [0.0; 4];
-        for (row, half) in &self.half_width {
-            half_widths[row.place - D] = *half;
-        }
+        let half_widths = self.half_widths()?;
         let record = &opened.record;
         let disturbance =
             self.disturbance.map_or(Ok(0.0), |it| disturbance(it, inertia, record))?;

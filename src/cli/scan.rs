@@ -227,8 +227,11 @@ impl ScanCommand {
         let Subject { tolerances, motion, .. } = &mut case.described.subject;
         motion.until = until.unwrap_or(motion.until);
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
-        let half_widths = self.half_width.iter().map(|(knob, half)| (knob.to_string(), *half));
-        tolerances.half_widths.extend(half_widths);
+        for (knob, half) in &self.half_width {
+            if tolerances.half_widths.insert(knob.to_string(), *half).is_some() {
+                return Err(Failure::Usage(format!("{knob} has two half widths")));
+            }
+        }
         let subject = case.checked()?.described.subject;
         let machine = subject.paper().is_none();
         for measure in self.measure.iter().filter(|_| machine) {

@@ -74,7 +74,7 @@ fn unit(text: &str) -> Result<String, String> {
     let known = || {
         let lengths = LENGTHS.join(", ");
         format!(
-            "{text:?} is not a unit of length; there are {lengths}, each also with /s or /s^2, and g"
+            "{text:?} is not a unit; there are lengths such as {lengths}, each also with /s or /s^2, and g"
         )
     };
     quantity(text).map(|_| text.to_owned()).ok_or_else(known)
@@ -149,20 +149,28 @@ impl RecordOptions {
     /// # Errors
     /// One line that says what is wrong with it or with the options, where, and what is allowed.
     pub fn opened(&self, path: &Path, bytes: &[u8]) -> Result<Opened, String> {
+        let question = self.question()?;
         let (time, displacement) = self.columns.clone().unwrap_or_default();
         let (peaks, signal, unit) = (self.peaks, self.signal, self.unit.clone());
         let reading = Reading { time, displacement, peaks, signal, unit };
         let record = parse(bytes, &reading).map_err(|error| error.to_string())?;
         let inertia = self.inertia(&record)?;
-        let (free, held) = (self.free.clone(), self.set.clone());
-        if let Some((row, _)) =
-            held.iter().find(|(row, _)| free.iter().flatten().any(|it| it == row))
-        {
-            return Err(format!("{} is both --free and --set; it can be one of them", row.name));
-        }
-        let question = Question { choice: Choice { free, held }, loss: self.loss, peaks };
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
         Ok(Opened { name, record, inertia, question })
+    }
+
+    /// What is estimated, and how.
+    ///
+    /// # Errors
+    /// One line that names a number which is both held and estimated.
+    pub fn question(&self) -> Result<Question, String> {
+        let (free, held) = (self.free.clone(), self.set.clone());
+        let is_free = |row: &NameSpec| free.iter().flatten().any(|it| *it == row);
+        if let Some((row, _)) = held.iter().find(|(row, _)| is_free(row)) {
+            return Err(format!("{} is both --free and --set; it can be one of them", row.name));
+        }
+        let choice = Choice { free, held };
+        Ok(Question { choice, loss: self.loss, peaks: self.peaks })
     }
 
     /// The mass or stiffness, if given. Fails with one line if the record's unit of length is not known.
@@ -178,10 +186,13 @@ impl RecordOptions {
         }
         let known = LENGTHS.map(|it| record.signal.unit(it)).join(", ");
         let unit = record.unit.as_deref();
-        let unit =
-            unit.ok_or_else(|| format!("the file names no unit of length; --unit one of {known}"))?;
+        let unit = unit.ok_or_else(|| {
+            format!("the file names no unit of length; --unit says it, such as {known}")
+        })?;
         if length_in_metres(unit).is_none() {
-            return Err(format!("{unit:?} is not a known unit of length; --unit one of {known}"));
+            return Err(format!(
+                "{unit:?} is not a known unit of length; --unit says it, such as {known}"
+            ));
         }
         Ok(Some(inertia))
     }

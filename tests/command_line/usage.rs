@@ -7,7 +7,7 @@ use std::process::Stdio;
 use crate::program::{command, run};
 
 /// A wrong command line, and the words that its error message must contain.
-const WRONG: [(&str, &[&str]); 36] = [
+const WRONG: [(&str, &[&str]); 37] = [
     ("--sett D=1", &["--sett", "did you mean '--set'"]),
     ("nowhere", &["nowhere", "hopfscope scenes", "hopfscope --help"]),
     ("supercritcal", &["supercritcal", "did you mean supercritical"]),
@@ -41,6 +41,10 @@ const WRONG: [(&str, &[&str]); 36] = [
     ("branch --over D=0:nan:9", &["nan", "-1e6 .. 1e6"]),
     ("branch --over r=-1:1:9", &["r=-1:1:9", "0 .. 1e150"]),
     ("branch --over q0=0:1:9", &["q0", "D, D2, D3, r"]),
+    (
+        "scan --over D=-1:1:3 --measure guaranteed --half-width r=0.1 --half-width r=0.2",
+        &["r has two half widths"],
+    ),
     ("replay /does/not/exist", &["/does/not/exist", "No such file"]),
     ("replay x --size 80", &["80", "WxH"]),
     ("--glyphs cuneiform", &["cuneiform", "braille"]),

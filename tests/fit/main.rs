@@ -327,7 +327,7 @@ fn bad_files_and_options_get_one_line() {
     let good = path("coulomb_rest");
     let [word, short] = [("word", "t;x\n0;1\n1;abc\n2;3\n"), ("short", "t;x\n0;1\n1;2\n2;3\n")]
         .map(|(name, text)| write(name, text));
-    let cases: [(Vec<&str>, i32, &str); 7] = [
+    let cases: [(Vec<&str>, i32, &str); 8] = [
         (vec![&word], 2, "line 3, column 2: \"abc\" is not a number"),
         (vec![&short], 2, "3 measured numbers cannot tell 8 unknowns"),
         (vec!["/no/such/file.csv"], 2, "No such file"),
@@ -337,7 +337,12 @@ fn bad_files_and_options_get_one_line() {
             "no number \"q\"; there are omega0, offset, D, D2, D3, r",
         ),
         (vec![&good, "--set", "r=-1"], 2, "r = -1 is outside its range 0 .. 1e150"),
-        (vec![&good, "--free", "D", "--set", "D=0"], 2, "D is both --free and --set"),
+        (vec![&good, "--free", "D", "--set", "D=0"], 2, "hopfscope: D is both --free and --set"),
+        (
+            vec![&good, "--half-width", "r=0.1", "--half-width", "r=0"],
+            2,
+            "hopfscope: r has two half widths",
+        ),
         (vec![&good, "--columns", "t=1,x=7"], 2, "there is no column 7; there are 2"),
     ];
     for (arguments, code, message) in cases {
