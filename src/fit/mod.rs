@@ -6,7 +6,7 @@
 //! minimizes the loss; [`search`] finds the right [`valley`] for it. [`mod@samples`]
 //! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for
 //! correlated noise ([`uncertainty`], [`residuals`]); intervals where the loss is not quadratic ([`profile`]); numbers
-//! of which only combination are known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What
+//! of which only a combination is known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What
 //! all of this rests on is tested by the record itself ([`mod@conditions`]).
 //!
 //! Nothing here reads or writes files: text goes in, estimates come out.

@@ -113,7 +113,7 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     let unit = time.filter(|_| !stamps).and_then(|time| Some((time, unit_of(time)?)));
     let seconds = unit.map_or(Ok(1.0), |(time, unit)| {
         seconds_in(unit).ok_or_else(|| {
-            in_header(time, format!("times in {unit:?}; allowed are s, ms, us, ns, min, h"))
+            in_header(time, format!("times in {unit:?}; allowed are such as s, ms, us, min, h"))
         })
     })?;
     let written = unit_of(displacement);
@@ -350,7 +350,10 @@ mod tests {
         for (text, problem) in [
             ("t,x\n0,1\n1,abc\n2,3\n", "line 3, column 2: \"abc\" is not a number"),
             ("t,x\n0,1\n1\n2,3\n", "line 3, column 2: 1 of at least 2 cells"),
-            ("t [frames],x\n0,1\n1,2\n", "line 1, column 1: times in \"frames\"; allowed are s, "),
+            (
+                "t [frames],x\n0,1\n1,2\n",
+                "line 1, column 1: times in \"frames\"; allowed are such as s",
+            ),
             ("t [s],u [mV]\n0,1\n1,2\n", "line 1, column 2: \"mV\" is a unit of voltage"),
             ("t [s],force [N]\n0,1\n1,2\n", "line 1, column 2: \"N\" is a unit of force"),
             ("1\n2\n", "line 1: one column only"),

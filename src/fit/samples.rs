@@ -56,7 +56,7 @@ pub fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Esti
         guessed([0.0; 2]).ok_or(Unfit::NoSwings)?;
     let part = |range: Range<usize>| {
         let (t, x) = (t[range.clone()].to_vec(), x[range.clone()].to_vec());
-        let part = Record { t, x, ..record.clone() };
+        let part = Record { t, x, signal, unit: record.unit.clone(), ..Record::default() };
         let found = samples(&part, question, runs).ok();
         found.filter(|it| !it.whiteness.systematic).map(|it| of_part(it, range, &within))
     };
@@ -69,7 +69,8 @@ pub fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Esti
     }
     let loss = loss_of(question.loss, &noise);
     let reach = reach(&swinging);
-    let data = Record { t: t.clone(), x: x.clone(), ..record.clone() };
+    let unit = record.unit.clone();
+    let data = Record { t: t.clone(), x: x.clone(), signal, unit, ..Record::default() };
     let task = Task::new(&data, beginnings[0].start, free, reach, runs);
     let mut task = Task { loss, noise: noise.deviation, ..task };
     let lost = || runs.ended().unwrap_or(Unfit::NoMotion);

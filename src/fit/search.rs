@@ -62,7 +62,7 @@ impl Task<'_> {
             let guesses = guesses.chain([optima[0].p]).collect();
             optima.extend(task.by_fewer_terms(guesses));
         }
-        Some(task.valleys(optima))
+        Some(task.valleys(optima)).filter(|_| !self.runs.has_ended())
     }
 
     /// The lowest minimum if the same motion was released some periods earlier or later.

@@ -86,10 +86,10 @@ impl Signal {
 /// The usual units of length.
 pub const LENGTHS: [&str; 7] = ["m", "mm", "um", "cm", "nm", "in", "km"];
 
-/// The value of a unit of length in metres; `None` if it is none.
+/// The value of a unit of length in metres; `None` if it is none, or made of several such as mm^2/m.
 #[must_use]
 pub fn length_in_metres(unit: &str) -> Option<f64> {
-    in_si(unit, Dimension::LENGTH)
+    in_si(unit, Dimension::LENGTH).filter(|_| unit.chars().all(char::is_alphabetic))
 }
 
 /// What the column of a record holds.
