@@ -1,8 +1,8 @@
 //! Numbers with units, as engineers write them: `2 kg`, `800 N/m`, `15 mm`, `40 N s^3/m^3`.
 //!
-//! A unit is a product and quotient of grams, metres, seconds, newtons and hertz with the usual prefixes, and of
-//! inches, minutes, hours and kilograms-force. It may contain `^` and parentheses; a blank, `*` or `·` means a product. `N/m s`, which can be
-//! read in two ways, is refused. A number without a unit is in SI units.
+//! A unit is a product and quotient of grams, metres, seconds, newtons and hertz with the usual prefixes, and of in
+//! (inch), sec, min, h and kgf. It may contain `^` and parentheses; a blank, `*` or `·` means a product. `N/m s`, which
+//! can be read in two ways, is refused. A number without a unit is in SI units.
 
 use crate::numerics::{Interval, powi};
 
@@ -248,7 +248,7 @@ struct UnitReader<'a> {
 impl UnitReader<'_> {
     fn wrong(&self) -> String {
         format!(
-            "{:?} is not a unit; units are made of g, m, s, N, Hz with prefixes, and of in, min, h, kgf, such as N s/m",
+            "{:?} is not a unit; units are made of g, m, s, N, Hz with prefixes, and of in (inch), sec, min, h, kgf, such as N s/m",
             self.text
         )
     }
