@@ -1,5 +1,6 @@
 //! `hopfscope scan`: the same measures at every point of a line or grid of parameters.
 
+use std::collections::BTreeMap;
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -227,11 +228,13 @@ impl ScanCommand {
         let Subject { tolerances, motion, .. } = &mut case.described.subject;
         motion.until = until.unwrap_or(motion.until);
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
+        let mut half_widths = BTreeMap::new();
         for (knob, half) in &self.half_width {
-            if tolerances.half_widths.insert(knob.to_string(), *half).is_some() {
+            if half_widths.insert(knob.to_string(), *half).is_some() {
                 return Err(Failure::Usage(format!("{knob} has two half widths")));
             }
         }
+        tolerances.half_widths.extend(half_widths);
         let subject = case.checked()?.described.subject;
         let machine = subject.paper().is_none();
         for measure in self.measure.iter().filter(|_| machine) {
