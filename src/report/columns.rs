@@ -319,6 +319,21 @@ mod tests {
     use crate::model::State;
 
     #[test]
+    fn each_line_of_titles_is_of_another_column_of_a_report() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/report");
+        let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+        let files = files.filter_map(|file| std::fs::read_to_string(file).ok());
+        let reports: String = files.collect::<String>().split_whitespace().collect();
+        let mut met = std::collections::BTreeSet::new();
+        for line in TITLES.lines().filter(|line| !(line.is_empty() || line.starts_with('#'))) {
+            let Some([name, _]) = cells(line) else { panic!("{line}") };
+            assert!(met.insert(name), "{name}");
+            let is = |form| reports.contains(&format!(".{form}(\"{name}\","));
+            assert!(["number", "word", "bounds"].into_iter().any(is), "no column {name}");
+        }
+    }
+
+    #[test]
     fn a_column_is_told_once_for_every_form() {
         let lost = Columns::default().bounds("loss", |loss: &Interval| Some(*loss));
         let columns = Columns::default()
