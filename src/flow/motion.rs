@@ -8,7 +8,7 @@ use crate::numerics::{Hermite, Scalar};
 
 /// An initial value problem.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Problem {
     /// Parameters of the oscillator; a machine has its model in their place.
     pub parameters: Parameters,
@@ -361,8 +361,14 @@ mod tests {
     #[test]
     fn what_is_set_is_read_back() {
         let mut problem = Problem::default();
-        let all = Knob::MOTION.into_iter().chain([Knob::Until, Knob::Tolerance, Knob::Step]);
-        for (knob, value) in all.clone().zip([0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5]) {
+        let all = Knob::MOTION.into_iter().chain([
+            Knob::Until,
+            Knob::Tolerance,
+            Knob::Step,
+            Knob::Epsilon,
+        ]);
+        for (knob, place) in all.clone().zip(0..) {
+            let value = 0.5 + f64::from(place);
             problem.set(knob, value);
             assert_eq!(problem.get(knob), value);
         }

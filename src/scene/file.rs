@@ -3,22 +3,88 @@
 //!
 //! Only the program itself has scene files, so that what they say beyond their syntax is examined by tests.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
+
+use serde::{Deserialize, Serialize};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
+
 use super::machine::ScaledMachine;
-use super::misread::{self, Misread, built_in};
+use super::misread::{Complaint, Misread, built_in};
+use super::plot_setup::{Arrangement, Axes};
 use super::scene::Scene;
 use super::views::Layer;
 use crate::fit::{Signal, length_in_metres};
+use crate::flow::Problem;
+use crate::model::Knob;
 use crate::question::Recording;
 
-/// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages. A machine sets its numbers
-/// itself. Fails with [`Misread`], which names the place and what is allowed there.
+/// What the scene of a file may leave out; a saved session, which holds a scene too, leaves out nothing.
+#[derive(Default, Serialize)]
+struct Usual {
+    name: String,
+    terms: BTreeSet<Knob>,
+    problem: Problem,
+    steps: BTreeMap<Knob, f64>,
+    arrangement: Arrangement,
+    plots: [UsualPlot; 1],
+}
+
+/// The same of each of its plots.
+#[derive(Default, Serialize)]
+struct UsualPlot {
+    axes: Axes,
+}
+
+/// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages. Fails with [`Misread`],
+/// which names the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
-    let mut scene: Scene = misread::toml(file, text)?;
+    let read = DeTable::parse(text).map_err(|error| Complaint::new(&error, 0..0));
+    let mut scene = read.and_then(scene).map_err(|complaint| complaint.in_file(file, text))?;
     name.clone_into(&mut scene.name);
+    Ok(scene)
+}
+
+/// The scene of a file. A machine sets its numbers itself.
+fn scene(mut read: Spanned<DeTable>) -> Result<Scene, Complaint> {
+    static USUAL: LazyLock<String> =
+        LazyLock::new(|| toml::to_string(&Usual::default()).expect("it is made of tables"));
+    let misplaced = |error: toml::de::Error| Complaint::new(&error, 0..0);
+    let own = read.get_mut();
+    let numbers = ["problem", "terms"].iter().find_map(|name| Some(own.get(*name)?.span()));
+    complete(own, DeTable::parse(&USUAL).map_err(misplaced)?.get_ref());
+    let mut scene = Scene::deserialize(Deserializer::from(read)).map_err(misplaced)?;
     if let Some(scaled) = scene.machine.as_deref() {
+        if let Some(at) = numbers {
+            return Err(Complaint { at, message: "a machine sets its numbers itself".to_owned() });
+        }
         (scene.problem, scene.terms) = (scaled.problem(), scaled.terms());
     }
     Ok(scene)
+}
+
+/// Adds what a table leaves out of the usual one; each table of a list is completed by the first of the usual list.
+fn complete<'a>(own: &mut DeTable<'a>, usual: &DeTable<'a>) {
+    for (name, usual) in usual {
+        let Some(own) = own.get_mut(name) else {
+            own.insert(name.clone(), usual.clone());
+            continue;
+        };
+        match (own.get_mut(), usual.get_ref()) {
+            (DeValue::Table(own), DeValue::Table(usual)) => complete(own, usual),
+            (DeValue::Array(own), DeValue::Array(usual)) => {
+                for (own, usual) in own.iter_mut().zip(usual.iter().cycle()) {
+                    if let (DeValue::Table(own), DeValue::Table(usual)) =
+                        (own.get_mut(), usual.get_ref())
+                    {
+                        complete(own, usual);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
 }
 
 /// A scene of a file of the program, to be completed.
@@ -144,6 +210,12 @@ plots = [
             ("\"phase\"", "\"plane\"", "9:12", "unknown variant `plane`"),
             ("view = \"phase\", window", "view = \"phase\", x", "9:21", "unknown field `x`"),
             ("\"trajectory\"", "\"tail\"", "7:11", "expected one of `trajectory`"),
+            (
+                "terms = [\"D\", \"r\"]",
+                "machine = \"groan\"",
+                "5:",
+                "a machine sets its numbers itself",
+            ),
             ("title", "machine = \"groan 1 m\"\ntitle", "1:11", "\"1 m\" is no speed of its belt"),
             ("title", "machine = \"none\"\ntitle", "1:", "no machine \"none\"; there are textbook"),
         ] {

@@ -1,8 +1,8 @@
 //! How a scene sets up its plots: their views, axes and windows, and how they share the screen.
 //!
-//! The axes of a diagram are a parameter to the right and a property of the cycles upwards. [`ORDINATES`] is the one table
-//! of properties. Each is computed from the same cycles, so that a change of the ordinate needs no new branch. Most also
-//! follow from the first-order harmonic balance; for the others, its curves are not drawn.
+//! The axes of a diagram are a parameter to the right and a property of the cycles upwards. [`ORDINATES`] is the one
+//! table of properties. Each is computed from the same cycles, so that a change of the ordinate needs no new branch.
+//! Most also follow from the first-order harmonic balance; for the others, its curves are not drawn.
 
 use std::f64::consts::{LN_10, TAU};
 
@@ -166,13 +166,14 @@ pub const MOST_PLOTS: usize = 4;
 
 /// The axes of a plot. A view that leaves no choice ignores them and keeps them for other views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Axes {
     /// The parameter to the right.
     pub abscissa: Knob,
     /// The property of the cycles upwards.
     pub ordinate: Ordinate,
     /// The unit of the ordinate, where that is a length.
+    #[serde(default)]
     pub unit: Unit,
     /// The parameter upwards, in a chart over two parameters.
     pub against: Knob,
@@ -205,7 +206,6 @@ impl Axes {
 pub struct PlotSetup {
     pub view: View,
     /// The axes, where the view leaves a choice.
-    #[serde(default)]
     pub axes: Axes,
     /// The part to show; `None` for a window fitted to the content.
     pub window: Option<Window>,

@@ -23,7 +23,6 @@ use crate::question::Recording;
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The name by which it is opened; that of its file.
-    #[serde(default)]
     pub name: String,
     /// The figure of the paper that it shows; the scene can also be opened by this name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -35,13 +34,10 @@ pub struct Scene {
     /// What to press to see more.
     pub press: String,
     /// The parameters that the scene uses, in the order of the table; all others are zero.
-    #[serde(default)]
     pub terms: BTreeSet<Knob>,
     /// The motion on show: parameters, start, end time, method and tolerance.
-    #[serde(default)]
     pub problem: Problem,
     /// Step sizes of the keys that differ from those of the table.
-    #[serde(default)]
     pub steps: BTreeMap<Knob, f64>,
     pub layers: BTreeSet<Layer>,
     /// The plots, one to four, in the order in which they get the focus.
@@ -50,7 +46,6 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub families: Vec<Vec<Variant>>,
     /// How the plots share the screen.
-    #[serde(default)]
     pub arrangement: Arrangement,
     /// The machine that the numbers describe, if any.
     #[serde(default, deserialize_with = "named_or_whole", skip_serializing_if = "Option::is_none")]

@@ -74,6 +74,12 @@ fn a_scene_changed_on_the_command_line_is_saved_in_full() {
     let other = reopened(&trial.session);
     assert_eq!(other.scene, trial.session.scene);
     assert_eq!(other.problem.parameters.d, -0.25);
+    let good = save::text(&other).unwrap();
+    for field in ["name", "terms", "until", "abscissa"] {
+        let damaged = good.replacen(&format!("\n{field} = "), "\n# ", 1);
+        let why = save::open(&mut trial.session, &damaged).unwrap_err();
+        assert!(why.contains(&format!("missing field `{field}`")), "{why}");
+    }
 }
 
 #[test]
