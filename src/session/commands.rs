@@ -1,8 +1,8 @@
 //! The commands: one table that feeds the keys, the command line, the help and the footer, and decides what a key does.
 //!
-//! A command is a line of `assets/commands.txt`, which says its name, its keys and what it does, with a row here and one
-//! small function in `session::act` for what no other command does. Every command of a key can also be typed by its name. A line is run completely or not at
-//! all, and a refused line says what is allowed.
+//! A command is a line of `assets/commands.txt`, which says its name, its keys and what it does, with a row here and
+//! one small function in `session::act` for what no other command does. Every command of a key can also be typed by
+//! its name. A line is run completely or not at all, and a refused line says what is allowed.
 
 use std::sync::{Arc, LazyLock};
 
@@ -16,13 +16,14 @@ use crate::session::act::{
 use crate::session::read::completion;
 use crate::session::settings::{Colors, Glyphs, Theme, choices};
 use crate::session::state::keymap::CommandAction::{self, Act, Choose, Line, Move, Toggle, Try};
-use crate::session::state::keymap::contexts;
+use crate::session::state::keymap::{COMMANDS, contexts};
 use crate::session::{
     Command, Context, Effect, Input, Key, Keymap, Letter as Ask, Pending, Purpose, Session, Size,
 };
 
-/// What commands do: by the name that their line ends with, which is that of the command where the line does not say it;
-/// by its name behind a colon if it takes words. What moves something takes the steps to the right and upwards from there.
+/// What commands do: by the name that their line ends with, which is that of the command where the line does not say
+/// it; by its name behind a colon if it takes words. What moves something takes the steps to the right and upwards
+/// from there.
 #[rustfmt::skip]
 const ACTIONS: &[(&str, CommandAction)] = &[
     ("select", Move(|s, [by, _]| parameters::select(s, by as isize))),
@@ -182,13 +183,12 @@ const ACTIONS: &[(&str, CommandAction)] = &[
 
 /// All commands, in the order in which the help lists them.
 fn table() -> &'static [Command] {
-    static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
-        let lines = include_str!("../../assets/commands.txt").lines();
+    static ALL: LazyLock<Vec<Command>> = LazyLock::new(|| {
         let (keys, words): (Vec<_>, Vec<_>) =
-            lines.filter_map(command).partition(|command| command.words().is_none());
+            COMMANDS.lines().filter_map(command).partition(|command| command.words().is_none());
         keys.into_iter().chain(LAYERS.iter().map(toggle)).chain(words).collect()
     });
-    &COMMANDS
+    &ALL
 }
 
 /// The command that a line of the file describes; `None` for a comment. A test reads every line.
@@ -278,11 +278,11 @@ impl Session {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::TOPICS;
 
     #[test]
     fn every_line_of_the_file_has_a_function_and_keys_that_can_be_read() {
-        let lines = include_str!("../../assets/commands.txt").lines();
-        let lines: Vec<_> = lines.filter(|line| line.contains(" | ")).collect();
+        let lines: Vec<_> = COMMANDS.lines().filter(|line| line.contains(" | ")).collect();
         let does = |line: &&str| {
             let does = line.split(" | ").nth(4).or(line.split(" | ").next());
             does.unwrap().split(' ').next().unwrap().to_owned()
@@ -296,6 +296,29 @@ mod tests {
             };
             let read = keys(words).iter().map(|(_, keys)| 1 + keys.len()).sum::<usize>();
             assert_eq!(read, words.split_whitespace().count(), "{line}");
+        }
+    }
+
+    #[test]
+    fn what_a_command_waits_for_is_a_topic_or_has_a_meaning_of_its_own() {
+        let own = ["cycles-at-present", "motion-over-time", "window", "comparison", "everything"];
+        for command in table() {
+            for need in command.needs.split_whitespace() {
+                let topic = TOPICS.iter().any(|topic| topic.name() == need);
+                assert!(topic || own.contains(&need), "{}: {need}", command.name);
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_scenes_of_opened_files_say_to_press_are_commands() {
+        let machine = include_str!("../../assets/templates/machine.toml");
+        let record = include_str!("../../assets/templates/record.toml");
+        for text in [machine, record] {
+            let press = text.lines().find(|line| line.starts_with("press = ")).unwrap();
+            let names: Vec<_> = press.split('{').skip(1).map(|it| it.split('}').next()).collect();
+            let known = |name: &&str| commands().any(|command| command.name == *name);
+            assert!(names.iter().all(|name| name.as_ref().is_some_and(known)), "{names:?}");
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Everything that can be run by name, commands of keys and commands that take words, and the bindings of keys to
 //! commands, by context.
 //!
-//! This file describes commands: their lines are in `assets/commands.txt`, what they do in `session::commands`. A [`Keymap`] is built from the default keys of
-//! all commands. Several contexts, in which keys have their meanings, hold at once (a plot, the phase plane, everywhere); no
-//! key may have two meanings in contexts that can hold together.
+//! This file describes commands: their lines are in `assets/commands.txt`, what they do in `session::commands`. A
+//! [`Keymap`] is built from the default keys of all commands. Several contexts, in which keys have their meanings,
+//! hold at once (a plot, the phase plane, everywhere); no key may have two meanings in contexts that can hold
+//! together.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
@@ -64,12 +65,16 @@ pub enum CommandAction {
     Line(Candidates, fn(&mut Session, &str) -> Done),
 }
 
+/// The file of commands.
+pub const COMMANDS: &str = include_str!("../../../assets/commands.txt");
+
 /// The name of the command that a word stands for; the word itself unless it is another name of a command.
 pub fn full_name(word: &str) -> &str {
-    let lines = include_str!("../../../assets/commands.txt").lines();
-    let mut others = lines.filter_map(|line| line.strip_prefix("= ")?.split_once(": "));
-    let found = others.find(|(_, words)| words.split(' ').any(|other| other == word));
-    found.map_or(word, |(name, _)| name)
+    static OTHERS: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
+        let others = COMMANDS.lines().filter_map(|line| line.strip_prefix("= ")?.split_once(": "));
+        others.flat_map(|(name, words)| words.split(' ').map(move |word| (word, name))).collect()
+    });
+    OTHERS.get(word).copied().unwrap_or(word)
 }
 
 /// Candidates for the last of the words after the name of a command.

@@ -100,7 +100,7 @@ pub struct ToldFate {
     clippy::struct_excessive_bools,
     reason = "what is on or off has nothing to do with each other"
 )]
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Session {
     /// The scene that was opened last.
     pub scene: Arc<Scene>,
@@ -203,7 +203,35 @@ impl Session {
             keymap,
             size,
             scene,
-            ..Session::default()
+            selected: Row::default(),
+            unfolded: false,
+            focus: Pane::default(),
+            plot: 0,
+            enlarged: false,
+            playback: Playback::default(),
+            held: None,
+            kicks: RandomKick::default(),
+            overlay: None,
+            history: History::default(),
+            pending: None,
+            waiting: None,
+            chord: 0,
+            asked: 0,
+            marks: Bookmarks::default(),
+            caption: SessionCaption::default(),
+            interrupted: Vec::new(),
+            writing: None,
+            lines: Vec::new(),
+            answers: Answers::default(),
+            course: None,
+            scanned: None,
+            fitting: 0,
+            price: Price::default(),
+            measuring: false,
+            notice: None,
+            display: DisplaySettings::default(),
+            effects: Vec::new(),
+            quit: false,
         }
     }
 

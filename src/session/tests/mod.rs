@@ -152,13 +152,13 @@ impl Trial {
     }
 }
 
-/// An unstable cycle at `r + 1` and a stable one at `r + 3`.
 /// That of an oscillator of which the made-up answers say something else.
 fn portrait() -> Box<Portrait> {
     let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
     Box::new(Portrait::of_oscillator(&parameters, 3.0, &Limits::PATIENT).expect("it has one"))
 }
 
+/// An unstable cycle at `r + 1`, or a stable one at `r + 3`.
 fn cycle(stable: bool, r: f64) -> Cycle {
     let clearance = if stable { 3.0 } else { 1.0 };
     let q = r + clearance;
