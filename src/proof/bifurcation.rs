@@ -160,7 +160,7 @@ fn change(near: f64, mut verdict: impl FnMut(f64) -> Option<bool>) -> Option<Int
     let found = bracket(near, distances, &mut verdict)?;
     let (mut low, mut high) = (found.lower(), found.upper());
     let middle = |low: f64, high: f64| low + 0.5 * (high - low);
-    let at = middle(low, high);
+    let at = found.middle();
     if at > low && at < high {
         let (mut from, mut to) = (at, at);
         for _ in 0..CLOSER {

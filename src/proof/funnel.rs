@@ -95,8 +95,9 @@ impl Funnel {
             let excess = (a - c * 3.0 * to.square()) * 4.0;
             least.lower() > 0.0 && excess.upper() <= (least * least.square()).lower()
         };
-        let farther = |at: &f64| (*at < top.lower()).then(|| (2.0 * at).min(top.lower()));
-        let (mut from, mut ends) = (speed, std::iter::successors(Some(speed), farther));
+        let next = |at: f64| (2.0 * at).min(top.lower());
+        let farther = |at: &f64| (*at < top.lower()).then(|| next(*at));
+        let (mut from, mut ends) = (speed, std::iter::successors(Some(next(speed)), farther));
         if !ends.all(|to| fenced(std::mem::replace(&mut from, to), to)) {
             return None;
         }
@@ -330,8 +331,8 @@ fn beyond_fold(field: &FieldBox, entry: Interval, speed: Interval) -> Option<Int
     Some(Interval::new(entry.lower(), last.upper()))
 }
 
-/// The velocities between which the fences run for these coefficients, chosen in plain numbers and not verified: where the
-/// slope of the damping is large enough to make motions meet. The larger one is infinite unless `c < 0`.
+/// The velocities between which the fences run for these coefficients, chosen in plain numbers and not verified: where
+/// the slope of the damping is large enough to make motions meet. The larger one is infinite unless `c < 0`.
 pub fn fences([a, b, c]: [f64; 3]) -> Option<(f64, f64)> {
     /// The slope at which a motion is no longer stiff.
     const SLOPE: f64 = 8.0;

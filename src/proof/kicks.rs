@@ -202,6 +202,12 @@ fn pushed(
     }
 }
 
+/// Where to halve an interval of positive values: by their ratio where that is large.
+fn halving(over: Interval) -> f64 {
+    let (low, high) = (over.lower(), over.upper());
+    if high > 4.0 * low { (low * high).sqrt() } else { over.middle() }
+}
+
 /// An interval from the largest value that is certainly captured to the smallest that certainly is not,
 /// infinite where none is found.
 fn threshold(hint: Option<f64>, mut captured: impl FnMut(f64) -> Option<bool>) -> Option<Interval> {
@@ -218,11 +224,30 @@ fn threshold(hint: Option<f64>, mut captured: impl FnMut(f64) -> Option<bool>) -
     });
     let Some(high) = lost else { return Some(Interval::new(safe, f64::INFINITY)) };
     let mut between = |over, counts: fn(Option<bool>) -> Option<bool>| {
-        narrowed(over, [&true, &false], |at| counts(captured(at)))
+        narrowed(over, [&true, &false], halving, |at| counts(captured(at)))
     };
     let over = between(Interval::new(safe, high), |answer| answer);
     // Uncertain values count as not captured for the lower bound, and as captured for the upper.
     let lower = between(over, |answer| Some(answer == Some(true))).lower();
     let upper = between(over, |answer| Some(answer != Some(false))).upper();
     Some(Interval::new(lower, upper))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_threshold_far_below_the_hint_takes_few_halvings() {
+        for edge in [0.7, 1e-9, 1e9] {
+            let mut asked = 0;
+            let found = threshold(Some(1.0), |at| {
+                asked += 1;
+                Some(at < edge)
+            });
+            let found = found.unwrap();
+            assert!(found.contains(edge) && found.width() < 1e-15 * edge * 2.0, "{edge}: {found}");
+            assert!(asked < 90, "{edge}: {asked}");
+        }
+    }
 }

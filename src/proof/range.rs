@@ -112,8 +112,9 @@ pub fn range(base: &ParameterBox, symbol: Knob, (low, high): (f64, f64)) -> Rang
             && below != above
         {
             let mut near = Inquiry::new(base, symbol, MOST_FOR_CHANGE);
-            let between =
-                narrowed(open.over, [below, above], |at| near.cycles(Interval::point(at)));
+            let between = narrowed(open.over, [below, above], Interval::middle, |at| {
+                near.cycles(Interval::point(at))
+            });
             asked.steps += near.steps;
             changes.push(CountChange { between, below: below.clone(), above: above.clone() });
         }
@@ -131,28 +132,30 @@ fn halves(piece: RangePiece) -> Vec<RangePiece> {
     vec![part(low, middle), part(middle, high)]
 }
 
-/// Narrows an interval at whose ends these verdicts are certain, as long as the verdict in its middle is one of both.
+/// Narrows an interval at whose ends these verdicts are certain, as long as the verdict in its middle is one of both;
+/// `middle` finds that.
 pub(super) fn narrowed<T: PartialEq>(
     over: Interval,
     [below, above]: [&T; 2],
+    middle: impl Fn(Interval) -> f64,
     mut verdict: impl FnMut(f64) -> Option<T>,
 ) -> Interval {
     let (mut low, mut high) = (over.lower(), over.upper());
-    while let middle = Interval::new(low, high).middle()
-        && middle > low
-        && middle < high
+    while let at = middle(Interval::new(low, high))
+        && at > low
+        && at < high
     {
-        match verdict(middle) {
-            Some(found) if found == *below => low = middle,
-            Some(found) if found == *above => high = middle,
+        match verdict(at) {
+            Some(found) if found == *below => low = at,
+            Some(found) if found == *above => high = at,
             _ => break,
         }
     }
     Interval::new(low, high)
 }
 
-/// An interval near a guess at whose ends a verdict is certain and different, the nearest of those whose ends have these
-/// distances from the guess, relative to it; narrowed as far as the verdict in its middle is certain.
+/// An interval near a guess at whose ends a verdict is certain and different, the nearest of those whose ends have
+/// these distances from the guess, relative to it; narrowed as far as the verdict in its middle is certain.
 pub(super) fn bracket<T: PartialEq>(
     near: f64,
     mut distances: impl Iterator<Item = f64>,
@@ -163,7 +166,7 @@ pub(super) fn bracket<T: PartialEq>(
         let (below, above) = (verdict(near - away)?, verdict(near + away)?);
         (below != above).then_some((Interval::new(near - away, near + away), below, above))
     })?;
-    Some(narrowed(over, [&below, &above], verdict))
+    Some(narrowed(over, [&below, &above], Interval::middle, verdict))
 }
 
 /// The change between the values `at - away abs(at)` and `at + away abs(at)`, if there is one.
