@@ -68,9 +68,12 @@ pub struct Portrait {
 }
 
 impl PartialEq for Portrait {
-    /// Portraits of one model are equal as far as both were followed.
+    /// Portraits of one model that were followed equally far are equal where cycles and border are: all else follows.
     fn eq(&self, other: &Self) -> bool {
-        self.model == other.model && self.followed == other.followed
+        self.model == other.model
+            && self.followed == other.followed
+            && self.cycles == other.cycles
+            && self.border == other.border
     }
 }
 

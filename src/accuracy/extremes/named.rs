@@ -151,12 +151,16 @@ fn scaled_and_mirrored(method: Method, limits: &Limits) -> NamedExtreme {
 
 /// Whether a motion is `sign * 2^k` times another one, to the last bit.
 fn is_image(motion: &Trajectory, of: &Trajectory, sign: f64, k: i32) -> bool {
-    let image = |q: f64| sign * times_power(q, k);
-    let turns = of.crossings.iter().map(|turn| Crossing { q: image(turn.q), ..*turn });
-    let end = of.outcome.state().map(|(q, v)| (image(q), image(v)));
+    let is_image = |q: f64, of: f64| q.to_bits() == (sign * times_power(of, k)).to_bits();
+    let ends = motion.outcome.state().zip(of.outcome.state());
+    // The velocity of what rests has no sign.
+    let same_end = ends.is_some_and(|((q, v), (from, speed))| {
+        is_image(q, from) && (is_image(v, speed) || matches!(of.outcome, Outcome::Captured { .. }))
+    });
+    let turn = |turn: &Crossing, from: &Crossing| turn.tau == from.tau && is_image(turn.q, from.q);
     motion.outcome.word() == of.outcome.word()
         && motion.outcome.tau() == of.outcome.tau()
-        && motion.outcome.state() == end
-        && end.is_some()
-        && motion.crossings.iter().copied().eq(turns)
+        && same_end
+        && motion.crossings.len() == of.crossings.len()
+        && motion.crossings.iter().zip(&of.crossings).all(|(one, from)| turn(one, from))
 }
