@@ -1,7 +1,7 @@
 //! The commands that take `--machine`: a machine by its own numbers, in the words of the oscillator of the paper.
 
 use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Problem, Trajectory};
-use hopfscope::model::{Model, State};
+use hopfscope::model::{Model, Reason, State};
 use hopfscope::numerics::elementary::ln;
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::Portrait;
@@ -269,6 +269,17 @@ fn a_motion_is_that_of_the_overview_by_every_method() {
     }
     run(&["trajectory", "--machine", "textbook", "--method", "rk4"])
         .is_refused(&["knows one switching line only"]);
+}
+
+/// `mu = 0.5 - 0.4 v` vanishes at 1.25 m/s, and the start slips by 1.7 m/s.
+#[test]
+fn a_start_beyond_the_friction_law_says_where_that_ends() {
+    let model = Model::new(&find("straight").unwrap().belt).unwrap();
+    let motion = follow_by_series(&model, (0.0, -1.2), 1.0);
+    let Err(Reason::BeyondLaw { slip }) = motion.outcome.answered() else {
+        panic!("{:?}", motion.outcome)
+    };
+    assert!((slip - 1.25).abs() < 1e-9, "{slip}");
 }
 
 #[test]

@@ -83,7 +83,8 @@ impl<'a> Flow<'a> {
         self.series.left -= self.series.step.duration;
     }
 
-    /// Follows a motion from `(x, y)` to the end of its phase, forward in time or backward; `watch` sees each of its steps.
+    /// Follows a motion from `(x, y)` to the end of its phase, forward in time or backward; `watch` sees each of its
+    /// steps.
     ///
     /// # Errors
     /// [`Reason`] where it does not get there.
@@ -131,7 +132,7 @@ impl<'a> Flow<'a> {
                     let log_ratio = ln((entered / slope).abs());
                     return Ok(ArcEnd { x: end.x - offset, y, log_ratio });
                 }
-                Some((y, true)) => return Err(self.outside(y)),
+                Some((y, true)) => return Err(self.outside(phase, y)),
                 _ if self.series.left <= 0.0 => return Err(Reason::Settles),
                 _ if by_series => self.stays((phase, forward), started, end)?,
                 _ => {}
@@ -156,7 +157,7 @@ impl<'a> Flow<'a> {
             // Without acceleration the speed has its maximum here.
             if rate == 0.0 { phase == Phase::Below } else { rate > 0.0 }
         });
-        let piece = side.piece(y, rising).ok_or(self.outside(y))?;
+        let piece = side.piece(y, rising).ok_or_else(|| self.outside(phase, y))?;
         self.series.expand((side, piece), (x, y), forward, known);
         self.steps += 1;
         let (series, left) = (&self.series, self.series.left);
@@ -208,8 +209,12 @@ impl<'a> Flow<'a> {
         if escapes { Err(Reason::Escapes) } else { Ok(()) }
     }
 
-    fn outside(&self, y: f64) -> Reason {
-        Reason::BeyondLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
+    /// That a velocity is beyond the law, which ends at the slip that is told.
+    fn outside(&self, phase: Phase, y: f64) -> Reason {
+        let pieces = &self.model.side(phase).pieces;
+        let low = pieces.first().map_or(y, |piece| piece.low);
+        let end = pieces.last().map_or(y, |piece| y.max(low).min(piece.high));
+        Reason::BeyondLaw { slip: (self.model.speed - end).abs() * self.model.omega_0 }
     }
 }
 
