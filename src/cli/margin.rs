@@ -58,9 +58,9 @@ impl MarginCommand {
 
     /// Answers about a machine; what is known exactly has its own margin for certain.
     fn of_machine(&self, case: &CommandCase) -> Result<(), Failure> {
-        let Subject { source: subject, tolerances, .. } = &case.described.subject;
+        let Subject { source, tolerances, .. } = &case.described.subject;
         let (found, mut seconds) = case.portrait(&self.output)?;
-        let certain = match subject.of_belt().filter(|_| !tolerances.is_none()) {
+        let certain = match source.of_belt().filter(|_| !tolerances.is_none()) {
             None => Ok(found.margin),
             Some(belt) => {
                 let (certain, more) =
@@ -69,7 +69,7 @@ impl MarginCommand {
                 certain.map_err(troubled)?.map(|(_, margin)| margin)
             }
         };
-        let uncertain = subject.of_belt().map(|belt| tolerances.intervals(belt));
+        let uncertain = source.of_belt().map(|belt| tolerances.intervals(belt));
         let about = case.about().within(&uncertain.unwrap_or_default());
         let answer = margins(&about, found.margin, certain, tolerances.disturbance);
         self.output.print(answer.portrayed(&found, seconds))

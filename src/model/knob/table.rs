@@ -1,8 +1,8 @@
 //! The one table of every number that can be set.
 //!
-//! A number is a row of [`KNOBS`]: what it is called, its unit, its range, its default and first step, and where it
-//! stands. The pane, the command line, the files of scenes, machines and sessions, scans, charts and all that is said
-//! about a wrong value read it.
+//! A number is a row of [`KNOBS`]: what it is called, its unit, its range, its default and first step, and, of a
+//! machine or a mode, where it stands; of a motion see `Problem::own` and `Parameters::part`. The pane, the command
+//! line, the files of scenes, machines and sessions, scans, charts and all that is said about a wrong value read it.
 
 use crate::model::belt::friction::Belt;
 use crate::model::belt::friction::FrictionLaw;

@@ -86,12 +86,12 @@ pub(super) fn remarks(found: &MachineAnswer) -> Vec<String> {
 
 impl DesignAnswer {
     /// The answer for a machine in a sentence.
-    pub(super) fn sentence(&self, subject: &Source) -> String {
+    pub(super) fn sentence(&self, source: &Source) -> String {
         let (name, unit) = match self.kick {
             Kick::Displacement => ("displacement", "m"),
             Kick::Impulse => ("impulse", "N s"),
         };
-        let number = |knob: Knob, unit| Some(with_unit(subject.get(knob)?, PLACES, unit));
+        let number = |knob: Knob, unit| Some(with_unit(source.get(knob)?, PLACES, unit));
         let wanted = with_unit(self.wanted, PLACES, unit);
         let at = number(Knob::BeltSpeed, "m/s").map(|speed| format!(" at v0 = {speed}"));
         let has = number(Knob::Friction, "N").unwrap_or_default();
