@@ -1,11 +1,10 @@
 //! The bifurcation diagram: a property of the cycles, over a parameter.
 //!
-//! Computed branches are solid where the cycle is stable and dashed where it is not; the first-order
-//! harmonic answer is dotted beside them. Rest belongs to every diagram: with friction the
-//! sticking set, a band that attracts; without, the equilibrium at 0, stable on one side of the Hopf point and unstable on
-//! the other. A dotted upright stands at
-//! the present value of the parameter, and the cycles there are marked. Beside the branch of the present values
-//! those of others are paler, without marks. A point of the branch that is held has a cross.
+//! Computed branches are solid where the cycle is stable and dashed where it is not; the first-order harmonic answer
+//! is dotted beside them. Rest belongs to every diagram: with friction the sticking set, a band that attracts;
+//! without, the equilibrium at 0, stable on one side of the Hopf point and unstable on the other. A dotted upright
+//! stands at the present value of the parameter, and the cycles there are marked. Beside the branch of the present
+//! values those of others are paler, without marks. A point of the branch that is held has a cross.
 
 use super::{Dash, Fill, Item, LineStyle, Picture, Role, Text, cycle_mark, cycle_name};
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};

@@ -1,8 +1,8 @@
 //! The phase plane: where motions go, where they rest, and what separates those that do.
 //!
 //! Layers from back to front: directions of the flow, shading of the basin, borders of the capture bands,
-//! the point left for a mark, random kicks, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers,
-//! cursor. Formulas show the present parameters; computed layers show the last answer, and the title
+//! the point left for a mark, random kicks, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking
+//! set, markers, cursor. Formulas show the present parameters; computed layers show the last answer, and the title
 //! says when that is stale.
 
 use super::{Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_name, ellipse};

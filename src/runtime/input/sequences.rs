@@ -58,7 +58,8 @@ enum First {
     Noise,
 }
 
-/// What some input begins with, and how many bytes of it; `None` for the beginning of a sequence, as far as it has arrived.
+/// What some input begins with, and how many bytes of it; `None` for the beginning of a sequence, as far as it has
+/// arrived.
 type Begin = Option<(First, usize)>;
 
 const ALT: Begin = Some((First::Alt, 2));

@@ -127,8 +127,8 @@ impl ScaledMachine {
         [Knob::D, Knob::R].into_iter().chain(varied).collect()
     }
 
-    /// A machine with its belt at `speed` m/s instead of its own speed. Fails with one line that says what is allowed: the
-    /// range of speeds, or what the friction law lacks there.
+    /// A machine with its belt at `speed` m/s instead of its own speed. Fails with one line that says what is allowed:
+    /// the range of speeds, or what the friction law lacks there.
     pub fn at(machine: &Machine, speed: f64) -> Result<Self, String> {
         let mut machine = machine.clone();
         machine.belt.belt_speed = Knob::BeltSpeed.check(speed)?;
@@ -182,8 +182,8 @@ impl ScaledMachine {
         })
     }
 
-    /// The unit of a number of the motion, in SI units; for D2, that of damping per velocity. A number of the machine is
-    /// in SI units itself.
+    /// The unit of a number of the motion, in SI units; for D2, that of damping per velocity. A number of the machine
+    /// is in SI units itself.
     pub fn scale(&self, symbol: Knob) -> f64 {
         let units = &self.reduced.units;
         let mass = self.machine.belt.mass;

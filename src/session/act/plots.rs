@@ -211,8 +211,8 @@ fn after(parameter: Knob, places: usize) -> Knob {
     Knob::PARAMETERS[(parameter.place() + places) % Knob::PARAMETERS.len()]
 }
 
-/// Draws the diagram or the chart in focus over the next parameter to the right or upwards, cycling; both axes of a chart
-/// always differ.
+/// Draws the diagram or the chart in focus over the next parameter to the right or upwards, cycling; both axes of a
+/// chart always differ.
 pub fn next_parameter(session: &mut Session, upwards: bool) {
     let Some(&Plot { view, axes, .. }) = session.focused() else { return };
     let Axes { abscissa, against, .. } = axes;
@@ -234,8 +234,8 @@ pub fn next_parameter(session: &mut Session, upwards: bool) {
     session.inform(format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
 }
 
-/// Gives the diagram in focus these axes: in the scene's window if they are the scene's, otherwise in one that is fitted to the
-/// branch.
+/// Gives the diagram in focus these axes: in the scene's window if they are the scene's, otherwise in one that is
+/// fitted to the branch.
 pub fn set_axes(session: &mut Session, axes: Axes) {
     let Some(plot) = session.focused() else { return };
     let symbol = axes.abscissa;
