@@ -33,14 +33,14 @@ pub use read::lists::PaletteRow;
 pub use read::plots::{ShownMotion, VariantTag};
 pub use read::{fate, ledger, motion, wants};
 pub use replay::script::{Instruction, Script, ScriptStep};
-pub use state::answers::{AnswerState, Answers};
+pub use state::answers::{AnswerState, Answers, Course, ToldFate};
 pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snapshot};
 pub use state::keymap::{Candidates, Command, CommandAction, Context, Keymap, NextCommand};
 pub use state::overlay::{Completion, Input, List, Listed, Overlay, Prompt, SessionCaption};
 pub use state::scan::{ScanOnShow, ScanProgress};
 pub use state::session::{
-    BranchStop, Course, Framing, Kept, Letter, Pace, Pane, Pending, Playback, Plot, Price,
-    Recomputation, Session, Size, ToldFate, Waiting,
+    BranchStop, Framing, Kept, Letter, Pace, Pane, Pending, Playback, Plot, Price, Recomputation,
+    Session, Size, Waiting,
 };
 pub use state::setup::{MOST_MOTIONS, Row, Setup, StepSizes, Uncertainty};
 pub use state::{overlay, scan, settings};

@@ -156,19 +156,19 @@ impl Session {
             let found = self.cycles_beside(motion)?;
             let cycles = &self.standing(Topic::Cycles, self.plot).answered()?.request;
             let start = motion.problem.initial;
-            let known = self.course.as_ref();
+            let known = self.answers.course.as_ref();
             let known = known.filter(|known| known.start == start && known.cycles == *cycles);
             let told = || told(found, start);
             let told = known.map_or_else(told, |known| known.told);
             Some(Course { start, cycles: cycles.clone(), told })
         };
-        self.course = self.trajectory().and_then(asked);
+        self.answers.course = self.trajectory().and_then(asked);
     }
 
     /// What becomes of the motion on show, if that is known of this one.
     fn told(&self) -> Option<ToldFate> {
         let start = self.trajectory()?.problem.initial;
-        let known = self.course.as_ref().filter(|known| known.start == start)?;
+        let known = self.answers.course.as_ref().filter(|known| known.start == start)?;
         known.told
     }
 

@@ -5,7 +5,8 @@
 
 use std::sync::Arc;
 
-use crate::flow::Reason;
+use crate::flow::{Fate, Reason};
+use crate::model::State;
 use crate::question::NoAnswer;
 use crate::scene::{Answered, Finding, Request};
 
@@ -49,6 +50,24 @@ impl<'a> AnswerState<'a> {
     }
 }
 
+/// What becomes of a start. It is kept for the motion on show, so that it is computed once per answer, not wherever
+/// it is told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    pub start: State,
+    /// The question about cycles whose portrait says so.
+    pub cycles: Request,
+    /// `None` if it is unknown.
+    pub told: Option<ToldFate>,
+}
+
+/// A fate, and whether a motion onto a cycle starts within it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToldFate {
+    pub fate: Fate,
+    pub grows: bool,
+}
+
 /// The stored answers and failures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answers {
@@ -56,6 +75,8 @@ pub struct Answers {
     held: Vec<Arc<Answered>>,
     /// The present questions and their drafts.
     asked: Vec<Request>,
+    /// What becomes of the motion on show by these answers.
+    pub course: Option<Course>,
 }
 
 impl Answers {

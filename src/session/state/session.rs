@@ -11,7 +11,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::branch::{BranchPoint, Special, SpecialKind};
-use crate::flow::{Cost, Fate, Problem};
+use crate::flow::{Cost, Problem};
 use crate::model::{Knob, State};
 use crate::portrait::{Cycle, RandomKick};
 use crate::scene::{
@@ -77,24 +77,6 @@ impl Size {
     }
 }
 
-/// What becomes of a start. The session keeps it for the motion on show, so that it is computed once per answer, not
-/// wherever it is told.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Course {
-    pub start: State,
-    /// The question about cycles whose portrait says so.
-    pub cycles: Request,
-    /// `None` if it is unknown.
-    pub told: Option<ToldFate>,
-}
-
-/// A fate, and whether a motion onto a cycle starts within it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToldFate {
-    pub fate: Fate,
-    pub grows: bool,
-}
-
 /// The complete state of a session.
 #[expect(
     clippy::struct_excessive_bools,
@@ -130,8 +112,6 @@ pub struct Session {
     pub enlarged: bool,
     /// How the plots share the screen.
     pub arrangement: Arrangement,
-    /// What becomes of the motion on show.
-    pub course: Option<Course>,
     /// Playback of the motion.
     pub playback: Playback,
     /// The point of the branch in focus at which a walk is held.
@@ -223,7 +203,6 @@ impl Session {
             writing: None,
             lines: Vec::new(),
             answers: Answers::default(),
-            course: None,
             scanned: None,
             fitting: 0,
             price: Price::default(),
