@@ -170,7 +170,7 @@ fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_other
 #[test]
 fn what_is_free_held_and_how_residuals_count_may_stand_behind_the_file() {
     let mut trial = Trial::open("plain");
-    let words = "loss=cauchy free=D,r r=0.05 mass=2 kg";
+    let words = "loss=cauchy free=D r=0.05 mass=2 kg";
     trial.give(Msg::Run(format!("fit decay.csv {words}")));
     let purpose = Purpose::Fit(words.to_owned());
     trial.give(Msg::Read { path: "decay.csv".into(), purpose, result: Ok(record()) });
@@ -181,6 +181,17 @@ fn what_is_free_held_and_how_residuals_count_may_stand_behind_the_file() {
     assert_eq!(recording.question.loss, hopfscope::fit::LossName::Cauchy);
     // A reopened session asks the same again.
     reopened(&trial.session);
+}
+
+#[test]
+fn a_number_that_is_free_and_held_at_once_is_refused() {
+    let mut trial = Trial::open("plain");
+    let words = "free=D,r r=0.05".to_owned();
+    trial.give(Msg::Run(format!("fit decay.csv {words}")));
+    let purpose = Purpose::Fit(words);
+    trial.give(Msg::Read { path: "decay.csv".into(), purpose, result: Ok(record()) });
+    assert!(trial.notice().ends_with("r is both --free and --set; it can be one of them"));
+    assert!(trial.session.scene.recording.is_none());
 }
 
 #[test]
