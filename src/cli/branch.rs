@@ -52,7 +52,10 @@ impl BranchCommand {
         if let Some(case) = case {
             let subject = &case.described.subject.source;
             let (found, seconds) = timed(self.output.repeat, || followed(subject, &over));
-            let (found, about) = (found.map_err(Failure::Usage)?, case.about().but(&[symbol]));
+            let (found, about) = (
+                found.map_err(Failure::Usage)?,
+                case.about().but(&[symbol]).told_as(self.output.format),
+            );
             return self.output.print(report::of_machine(&about, symbol, &found, seconds));
         }
         if !symbol.is_parameter() {
@@ -66,7 +69,7 @@ impl BranchCommand {
             || branch(base, symbol, ends, Points::Even(count), tolerance, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the branch could not be completed", follow)?;
         let certified = self.certify.ask(|| range(&ParameterBox::from(base), symbol, ends));
-        let about = About::oscillator(base).but(&[symbol]);
+        let about = About::oscillator(base).but(&[symbol]).told_as(self.output.format);
         let certified = certified.as_ref();
         self.output.print(report::branch(&about, &found, certified, tolerance, seconds))
     }

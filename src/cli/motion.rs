@@ -49,7 +49,8 @@ impl MotionOptions {
             problem.method = way;
             problem.tolerance = self.source.start.tol.unwrap_or(Knob::Tolerance.usual());
         }
-        Ok(AskedMotion { about: case.about(), problem, model })
+        let about = case.about().told_as(self.output.format);
+        Ok(AskedMotion { about, problem, model })
     }
 }
 

@@ -26,9 +26,11 @@ pub enum Format {
     Csv,
 }
 
-/// An answer in every form.
+/// An answer in every form, or in the only one that is asked for.
 #[derive(Clone, Debug, Default)]
 pub struct Answer {
+    /// The only form that is made: the others of a long answer would cost more than its computation.
+    only: Option<Format>,
     /// What it is about, in two parts of a line.
     pub(super) head: [String; 2],
     /// Its tables and lines, for reading.
@@ -63,14 +65,31 @@ impl Answer {
         Answer { head: [name.to_owned(), subject], ..Answer::default() }
     }
 
+    /// Whether a form is made.
+    fn makes(&self, format: Format) -> bool {
+        self.only.is_none_or(|only| only == format)
+    }
+
     /// With a field of its document.
     pub(super) fn with(self, name: &str, value: impl Serialize) -> Self {
-        Answer { document: self.document.with(name, value), ..self }
+        self.with_any(name, Some(value))
     }
 
     /// With a field of its document, or without it if there is no value.
     pub(super) fn with_any(self, name: &str, value: Option<impl Serialize>) -> Self {
+        let value = value.filter(|_| self.makes(Format::Json));
         Answer { document: self.document.with_any(name, value), ..self }
+    }
+
+    /// With these rows as a field of its document.
+    pub(super) fn with_rows<R>(
+        self,
+        name: &str,
+        columns: &Columns<R>,
+        rows: impl IntoIterator<Item: Borrow<R>>,
+    ) -> Self {
+        let objects = self.makes(Format::Json).then(|| columns.objects(rows));
+        self.with_any(name, objects)
     }
 
     /// With the fields of a record in its document.
@@ -97,7 +116,17 @@ impl Answer {
         columns: &Columns<R>,
         rows: impl IntoIterator<Item: Borrow<R>>,
     ) -> Self {
-        Answer { csv: columns.csv(rows), ..self }
+        let csv = if self.makes(Format::Csv) { columns.csv(rows) } else { String::new() };
+        Answer { csv, ..self }
+    }
+
+    /// With these rows for reading.
+    pub(super) fn table_of<R>(
+        self,
+        columns: &Columns<R>,
+        rows: impl IntoIterator<Item: Borrow<R>>,
+    ) -> Self {
+        if self.makes(Format::Table) { self.table(columns.table(rows)) } else { self }
     }
 
     /// With a table for reading; nothing if it has no rows.
@@ -112,7 +141,7 @@ impl Answer {
         columns: &Columns<R>,
         rows: impl IntoIterator<Item: Borrow<R>> + Clone,
     ) -> Self {
-        self.csv(columns, rows.clone()).table(columns.table(rows))
+        self.csv(columns, rows.clone()).table_of(columns, rows)
     }
 
     /// With a heading of a page.
@@ -189,6 +218,8 @@ pub(super) const PLACES: usize = 5;
 
 /// What an answer is about.
 pub struct About {
+    /// The only form in which it is answered.
+    only: Option<Format>,
     /// Name and title of a machine; `None` for the oscillator of the paper.
     machine: Option<(String, String)>,
     /// Every number, where it lies, and whether text shows it.
@@ -205,7 +236,7 @@ impl About {
     pub fn boxed(known: &ParameterBox) -> Self {
         let numbers = Knob::PARAMETERS.into_iter().zip(known.numbers());
         let numbers = numbers.map(|(knob, known)| (knob, known, true)).collect();
-        About { machine: None, numbers }
+        About { only: None, machine: None, numbers }
     }
 
     /// The oscillator of the paper, or a machine by the name under which it is opened, and its title.
@@ -220,7 +251,7 @@ impl About {
         let number = |(knob, value): (Knob, f64)| (knob, Interval::point(value), is_own(knob));
         let is_machine = !matches!(source.body, Body::Paper(_));
         let machine = is_machine.then(|| (name.to_owned(), title.to_owned()));
-        About { machine, numbers: source.numbers().map(number).collect() }
+        About { only: None, machine, numbers: source.numbers().map(number).collect() }
     }
 
     /// Whether it is a machine.
@@ -243,6 +274,11 @@ impl About {
             *is_shown &= !varied.contains(knob);
         }
         self
+    }
+
+    /// The same, to be answered in one form only.
+    pub fn told_as(self, format: Format) -> Self {
+        About { only: Some(format), ..self }
     }
 
     /// Its numbers on a line.
@@ -273,13 +309,14 @@ impl About {
     pub(super) fn answer_to(&self, question: &str) -> Answer {
         let numbers = self.heading() + question;
         let parameters = self.parameters(Interval::lower);
-        match self.machine.clone() {
-            Some((name, title)) => Answer { by_steps: true, ..Answer::new(&name, title) }
-                .lines([numbers])
-                .with("machine", name),
-            None => Answer::new("", numbers),
-        }
-        .with("parameters", parameters)
+        let answer = match &self.machine {
+            Some((name, title)) => {
+                let answer = Answer { by_steps: true, ..Answer::new(name, title.clone()) };
+                Answer { only: self.only, ..answer }.lines([numbers]).with("machine", name)
+            }
+            None => Answer { only: self.only, ..Answer::new("", numbers) },
+        };
+        answer.with("parameters", parameters)
     }
 
     /// A quantity of a machine in its SI unit; of the oscillator of the paper a pure number with this many digits.

@@ -18,19 +18,19 @@ use crate::words::{significant, stability, with_unit};
 
 /// A point with the number of the connected piece to which it belongs.
 #[derive(Clone, Copy)]
-struct PointRow<'a> {
+struct PieceRow<'a> {
     piece: usize,
     point: &'a BranchPoint,
 }
 
 /// A point, or a part of the range of which something is proved.
 enum BranchRow<'a> {
-    Point(PointRow<'a>),
+    Point(PieceRow<'a>),
     Proved(&'a RangePiece),
 }
 
 impl<'a> BranchRow<'a> {
-    fn point(&self) -> Option<PointRow<'a>> {
+    fn point(&self) -> Option<PieceRow<'a>> {
         if let BranchRow::Point(point) = self { Some(*point) } else { None }
     }
 
@@ -40,11 +40,11 @@ impl<'a> BranchRow<'a> {
 }
 
 /// The columns of points; `value` names the number that varies.
-fn point_columns<'a>(value: &'static str, digits: usize) -> Columns<'a, PointRow<'a>> {
+fn point_columns<'a>(value: &'static str, digits: usize) -> Columns<'a, PieceRow<'a>> {
     let columns = Columns::default()
-        .file("piece", |row: &PointRow| row.piece)
+        .file("piece", |row: &PieceRow| row.piece)
         .number(value, Quantity::pure(digits), |row| row.point.value)
-        .and(cycle_fields(|row: &PointRow| Some(row.point.cycle)))
+        .and(cycle_fields(|row: &PieceRow| Some(row.point.cycle)))
         .text("piece", |row| row.piece.to_string())
         .text("cycle", |row| stability(row.point.cycle.stable).to_owned());
     number_columns(columns, move |row, number| number.text(&row.point.cycle, digits))
@@ -61,7 +61,7 @@ pub fn branch(
 ) -> Answer {
     let points = || {
         let pieces = branch.pieces.iter().enumerate();
-        pieces.flat_map(|(piece, points)| points.iter().map(move |point| PointRow { piece, point }))
+        pieces.flat_map(|(piece, points)| points.iter().map(move |point| PieceRow { piece, point }))
     };
     let name = branch.parameter.spec().name;
     let shown = digits(tolerance).min(10);
@@ -79,12 +79,12 @@ pub fn branch(
     let mut answer = about
         .answer()
         .with("parameter", branch.parameter)
-        .with("points", point_columns("value", shown).objects(points()))
+        .with_rows("points", &point_columns("value", shown), points())
         .with("special", &branch.special)
         .with("vague", &branch.vague)
         .with_any("certified", certified.map(decided))
         .csv(&columns, points().map(BranchRow::Point).chain(parts.map(BranchRow::Proved)))
-        .table(point_columns(name, shown).table(points()))
+        .table_of(&point_columns(name, shown), points())
         .lines(branch.pieces.is_empty().then_some("no limit cycle"))
         .table(special.table(&branch.special))
         .lines(vague(branch));
@@ -183,7 +183,7 @@ pub fn of_machine(about: &About, varied: Knob, found: &MachineBranch, seconds: f
         .answer()
         .with("parameter", name)
         .with("unit", unit)
-        .with("points", columns("value").objects(&rows))
+        .with_rows("points", &columns("value"), &rows)
         .with("special", &found.special)
         .rows(&columns(name), &rows)
         .table(special_columns(varied, |special| special).table(&found.special))

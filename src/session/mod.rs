@@ -33,7 +33,7 @@ pub use read::lists::PaletteRow;
 pub use read::plots::{ShownMotion, VariantTag};
 pub use read::{fate, ledger, motion, wants};
 pub use replay::script::{Instruction, Script, ScriptStep};
-pub use state::answers::{AnswerState, Answers, Course, ToldFate};
+pub use state::answers::{AnswerState, Answers, Course};
 pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snapshot};
 pub use state::keymap::{Candidates, Command, CommandAction, Context, Keymap, NextCommand};
 pub use state::overlay::{Completion, Input, List, Listed, Overlay, Prompt, SessionCaption};

@@ -3,13 +3,14 @@
 
 use std::ops::RangeBounds;
 
-use crate::flow::{Fate, Outcome, Trajectory};
+use crate::flow::{Fate, Outcome, Problem, Trajectory};
+use crate::model::parameters::rests;
 use crate::model::{Parameters, State};
 use crate::portrait::{Border, Cycle, Cycles, Portrait};
 use crate::scene::Topic;
 use crate::scene::said;
 use crate::scene::said::TextCondition;
-use crate::session::{Course, Session, Setup, ToldFate};
+use crate::session::{Course, Session, Setup};
 
 /// The fate of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,15 +39,16 @@ pub enum End {
 /// computed turning point, which carries the error of the motion up to there.
 const NEAR: [f64; 2] = [1e-12, 1e-8];
 
-/// What becomes of a start among these cycles; `None` if it is unknown.
-fn told(found: &Cycles, start: State) -> Option<ToldFate> {
+/// The fate of a start among these cycles, and whether a motion onto one of them starts within it; `None` if it is
+/// unknown.
+fn told(found: &Cycles, start: State) -> Option<(Fate, bool)> {
     /// Half swings after which a start far out is given up: a key must not wait for it.
     const MOST: usize = 100;
     let portrait = &found.picture.as_ref()?.portrait;
     let (x, v) = portrait.from_drawing(start);
     let fate = portrait.told_fate(x, v, MOST).ok()?;
     let cycle = portrait.tends_to(fate);
-    Some(ToldFate { fate, grows: cycle.is_some_and(|cycle| portrait.starts_within(cycle, x, v)) })
+    Some((fate, cycle.is_some_and(|cycle| portrait.starts_within(cycle, x, v))))
 }
 
 /// The fate of a motion among these cycles; `None` if it is unknown.
@@ -54,13 +56,16 @@ pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<End> {
     end(found, motion, told(found, motion.problem.initial))
 }
 
-fn end(found: &Cycles, motion: &Trajectory, told: Option<ToldFate>) -> Option<End> {
+fn end(found: &Cycles, motion: &Trajectory, told: Option<(Fate, bool)>) -> Option<End> {
     if let Some(distance) = on_the_edge(found, motion) {
         return Some(End::OnTheEdge { distance });
     }
-    let (portrait, ToldFate { fate, grows }) = (&found.picture.as_ref()?.portrait, told?);
+    let (portrait, (fate, grows)) = (&found.picture.as_ref()?.portrait, told?);
+    let Problem { parameters, initial, .. } = motion.problem;
     Some(match fate {
-        Fate::Rest if portrait.model.guide_static > 0.0 => End::Rests,
+        Fate::Rest if portrait.model.guide_static > 0.0 || rests(initial, parameters.r) => {
+            End::Rests
+        }
         Fate::Rest => End::Decays,
         Fate::Cycle(_) => {
             let q_max = portrait.tends_to(fate)?.q_max / portrait.model.drawing_length();
@@ -147,7 +152,8 @@ impl Session {
     /// All motions by the model that is drawn, and the fate of the one on show; `None` until its cycles are known.
     pub fn course(&self) -> Option<(&Portrait, Fate)> {
         let found = self.cycles_beside(self.trajectory()?)?;
-        Some((&found.picture.as_ref()?.portrait, self.told()?.fate))
+        let (fate, _) = self.told()?;
+        Some((&found.picture.as_ref()?.portrait, fate))
     }
 
     /// Finds out what becomes of the motion on show, if that or its cycles are others than before.
@@ -166,7 +172,7 @@ impl Session {
     }
 
     /// What becomes of the motion on show, if that is known of this one.
-    fn told(&self) -> Option<ToldFate> {
+    fn told(&self) -> Option<(Fate, bool)> {
         let start = self.trajectory()?.problem.initial;
         let known = self.answers.course.as_ref().filter(|known| known.start == start)?;
         known.told
@@ -195,8 +201,7 @@ impl Session {
 mod tests {
     use super::*;
     use crate::flow::trajectory::trajectory;
-    use crate::flow::{Detail, Limits, Problem};
-    use crate::model::State;
+    use crate::flow::{Detail, Limits};
 
     fn motion(parameters: Parameters, initial: State, until: f64) -> Trajectory {
         let problem =

@@ -57,15 +57,8 @@ pub struct Course {
     pub start: State,
     /// The question about cycles whose portrait says so.
     pub cycles: Request,
-    /// `None` if it is unknown.
-    pub told: Option<ToldFate>,
-}
-
-/// A fate, and whether a motion onto a cycle starts within it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToldFate {
-    pub fate: Fate,
-    pub grows: bool,
+    /// Its fate, and whether a motion onto a cycle starts within that; `None` if it is unknown.
+    pub told: Option<(Fate, bool)>,
 }
 
 /// The stored answers and failures.
