@@ -13,8 +13,6 @@
 //! the solution is hardly more accurate than the difference. The tolerance of the difference therefore depends
 //! on both.
 
-use std::sync::LazyLock;
-
 mod arrival;
 
 use super::motion::Cost;
@@ -22,14 +20,12 @@ use super::step::{
     Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length,
     powers_of_stages, stopping_time,
 };
-use super::tableau::radau::{
-    Collocation, Differences, FIVE, MOST, SEVEN, StageMatrix, Stages, THREE,
-};
+use super::tableau::radau::{Collocation, Differences, MOST, SCHEMES, StageMatrix, Stages};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
 
-/// The scheme for each tolerance: the first whose bound is not above it.
-static SCHEMES: [(f64, &LazyLock<Collocation>); 3] = [(5e-4, &THREE), (1e-8, &FIVE), (0.0, &SEVEN)];
+/// The tolerances down to which three stages and five stages are enough.
+const ENOUGH: (f64, f64) = (5e-4, 1e-8);
 
 /// Fraction of the way to an arrival after which the arrival is sought anew, from nearby. Where a motion creeps
 /// in along `v^2 = -x/D2`, a hundredth of the way out is left.
@@ -77,7 +73,12 @@ pub struct Stiff<F: Field = HalfPlane> {
 impl<F: Field> Stiff<F> {
     /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(field: F, tolerance: f64) -> Self {
-        let scheme = SCHEMES.iter().find(|row| tolerance >= row.0).map_or(&SEVEN, |row| row.1);
+        let [three, five, seven] = &*SCHEMES;
+        let scheme = match tolerance {
+            loose if loose >= ENOUGH.0 => three,
+            medium if medium >= ENOUGH.1 => five,
+            _ => seven,
+        };
         Stiff {
             scheme,
             field,

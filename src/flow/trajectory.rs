@@ -9,7 +9,7 @@ use super::method::Method;
 pub use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::run::MotionRun;
 use super::stiff::Stiff;
-use super::tableau::{CLASSICAL, dop853, dopri5};
+use super::tableau::{CLASSICAL, DOP853, DOPRI5};
 use super::taylor::Taylor;
 use crate::model::{HalfPlane, Reason, Side};
 
@@ -38,12 +38,13 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
             found
         }
         Method::Taylor => asked.go(&mut Taylor::new(tolerance)),
-        Method::Dop853 => asked.go(&mut Explicit::new(&dop853::SCHEME, field, tolerance)),
-        Method::Dopri5 => asked.go(&mut Explicit::new(&dopri5::SCHEME, field, tolerance)),
+        Method::Dop853 => asked.go(&mut Explicit::new(&DOP853, field, tolerance)),
+        Method::Dopri5 => asked.go(&mut Explicit::new(&DOPRI5, field, tolerance)),
         Method::Rk4 => asked.go(&mut Explicit::new(&CLASSICAL, field, step)),
         Method::Stiff => asked.go(&mut Stiff::new(field, tolerance)),
-        Method::Smoothed => asked
-            .walk(Some(epsilon), false, |field| Explicit::new(&dop853::SCHEME, field, tolerance)),
+        Method::Smoothed => {
+            asked.walk(Some(epsilon), false, |field| Explicit::new(&DOP853, field, tolerance))
+        }
         Method::SignRk4 => asked.walk(None, false, |field| Explicit::new(&CLASSICAL, field, step)),
         Method::TimeStepping => asked.walk(None, true, |field| TimeStepping::new(field, step)),
     }

@@ -6,7 +6,7 @@ use super::levels::{PhaseStep, crossing};
 use crate::flow::Method;
 use crate::flow::explicit::Explicit;
 use crate::flow::step::{Field, StepPoint, Stepper};
-use crate::flow::tableau::{dop853, dopri5};
+use crate::flow::tableau::{DOP853, DOPRI5};
 use crate::model::{ContactState, Model, Phase, Reason};
 
 /// The methods that can follow a machine.
@@ -40,8 +40,8 @@ pub(crate) type PhaseStepper<'a> = Box<dyn Stepper<PhaseField<'a>> + 'a>;
 pub(crate) fn stepper(model: &Model, method: Method) -> Option<PhaseStepper<'_>> {
     let field = PhaseField { model, phase: Phase::Between };
     match method {
-        Method::Dop853 => Some(Box::new(Explicit::new(&dop853::SCHEME, field, model.tolerance))),
-        Method::Dopri5 => Some(Box::new(Explicit::new(&dopri5::SCHEME, field, model.tolerance))),
+        Method::Dop853 => Some(Box::new(Explicit::new(&DOP853, field, model.tolerance))),
+        Method::Dopri5 => Some(Box::new(Explicit::new(&DOPRI5, field, model.tolerance))),
         _ => None,
     }
 }

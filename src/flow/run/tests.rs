@@ -2,7 +2,7 @@
 
 use super::super::explicit::Explicit;
 use super::super::stiff::Stiff;
-use super::super::tableau::dop853;
+use super::super::tableau::DOP853;
 use super::super::trajectory::trajectory;
 use super::super::{Limits, Method, Outcome, Problem, Trajectory};
 use super::*;
@@ -51,7 +51,7 @@ fn an_implicit_method_creeps_to_the_same_place() {
     let problem = Problem { epsilon: 1e-4, ..from(0.4) };
     let start = || MotionRun::new(&problem, Method::Smoothed, Detail::default(), &Limits::PATIENT);
     let epsilon = Some(problem.epsilon);
-    let stepper = |field| Explicit::new(&dop853::SCHEME, field, 1e-8);
+    let stepper = |field| Explicit::new(&DOP853, field, 1e-8);
     let explicit = start().walk(epsilon, false, stepper);
     let implicit = start().walk(epsilon, false, |field| Stiff::new(field, 1e-8));
     assert!((end(&explicit) - end(&implicit)).abs() < 1e-8);

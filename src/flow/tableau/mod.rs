@@ -1,10 +1,37 @@
-//! Coefficients of the methods, one file for each but the shortest.
+//! Coefficients of the methods, which stand as published in `assets/tableaux.txt`.
 //!
-//! [`Scheme`] is the form in which the explicit steppers read theirs.
+//! [`Scheme`] is the form in which the explicit steppers read theirs, [`radau`] has those of the implicit one.
 
-pub mod dop853;
-pub mod dopri5;
 pub mod radau;
+
+use std::sync::LazyLock;
+
+use crate::numerics::cells;
+
+/// The classical method of order 4 (Kutta 1901), for steps of fixed length.
+pub static CLASSICAL: LazyLock<Scheme<4, 4>> =
+    LazyLock::new(|| Scheme::read("rk4", ErrorEstimate::None));
+
+/// Order 5 with an error estimate of order 4 (Dormand and Prince 1980).
+pub static DOPRI5: LazyLock<Scheme<7, 8>> =
+    LazyLock::new(|| Scheme::read("dopri5", ErrorEstimate::Embedded(5.0)));
+
+/// Order 8 with error estimates of order 5 and 3 (Hairer, Norsett and Wanner 1993).
+pub static DOP853: LazyLock<Scheme<12, 16>> =
+    LazyLock::new(|| Scheme::read("dop853", ErrorEstimate::Combined(8.0)));
+
+/// The rows of numbers of a scheme.
+fn rows(scheme: &str) -> impl Iterator<Item = Vec<f64>> {
+    let lines = include_str!("../../../assets/tableaux.txt").lines().filter_map(cells);
+    let own = lines.filter(move |[name, _]| *name == scheme);
+    own.map(|[_, numbers]| numbers.split(' ').map(number).collect())
+}
+
+/// A number, or a fraction.
+fn number(text: &str) -> f64 {
+    let parsed = |text: &str| text.parse().unwrap_or(f64::NAN);
+    text.split_once('/').map_or_else(|| parsed(text), |(over, under)| parsed(over) / parsed(under))
+}
 
 /// An explicit Runge-Kutta scheme of S stages as a stepper reads it: by slopes, not by stages.
 ///
@@ -35,52 +62,19 @@ pub enum ErrorEstimate {
 }
 
 impl<const S: usize, const R: usize> Scheme<S, R> {
-    /// From the coefficients as published: the triangle of the weights of the slopes in each stage from the second on, row
-    /// by row; the weights in the solution; and those in the error estimates. A last stage that is missing lies at the end
-    /// of the step.
-    const fn new(
-        stages: &[f64],
-        weights: [f64; S],
-        errors: &[&[f64; S]],
-        estimate: ErrorEstimate,
-    ) -> Self {
+    /// From the coefficients as published, a row for each sum.
+    fn read(name: &str, estimate: ErrorEstimate) -> Self {
         let mut columns = [[0.0; R]; S];
-        let mut next = 0;
-        let mut i = 0;
-        while i < S {
-            let mut j = 0;
-            while j <= i && next < stages.len() {
-                columns[j][i] = stages[next];
-                next += 1;
-                j += 1;
-            }
-            columns[i][S - 1] = weights[i];
-            let mut e = 0;
-            while e < errors.len() {
-                columns[i][S + e] = errors[e][i];
-                e += 1;
-            }
-            i += 1;
-        }
-        let last_is_end = stages.len() < S * (S - 1) / 2;
-        if last_is_end {
-            let mut j = 0;
-            while j < S {
-                columns[j][S - 2] = weights[j];
-                j += 1;
+        for (sum, row) in rows(name).enumerate() {
+            for (column, weight) in columns.iter_mut().zip(row) {
+                column[sum] = weight;
             }
         }
+        let weights = columns.map(|column| column[S - 1]);
+        let last_is_end = columns.iter().all(|column| column[S - 2] == column[S - 1]);
         Scheme { columns, weights, estimate, last_is_end }
     }
 }
-
-/// The classical method of order 4 (Kutta 1901), for steps of fixed length.
-pub static CLASSICAL: Scheme<4, 4> = Scheme::new(
-    &[0.5, 0.0, 0.5, 0.0, 0.0, 1.0],
-    [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
-    &[],
-    ErrorEstimate::None,
-);
 
 #[cfg(test)]
 mod tests {
@@ -103,8 +97,8 @@ mod tests {
 
     #[test]
     fn schemes_are_consistent() {
-        is_consistent(&dop853::SCHEME);
-        is_consistent(&dopri5::SCHEME);
+        is_consistent(&DOP853);
+        is_consistent(&DOPRI5);
         is_consistent(&CLASSICAL);
     }
 }

@@ -9,6 +9,7 @@ use std::sync::LazyLock;
 
 use nalgebra::{SMatrix, SVector};
 
+use super::rows;
 use crate::numerics::{Scalar, Twofold, real};
 
 /// Maximum number of stages.
@@ -42,10 +43,10 @@ pub struct Collocation {
 }
 
 impl Collocation {
-    /// The scheme with these nodes, each the double next to it and what that leaves out. The difference from the embedded
-    /// solution vanishes for polynomials of degree below S.
-    fn new(nodes: &[(f64, f64)], start: f64, stiff: f64) -> Self {
-        let nodes: Vec<_> = nodes.iter().map(|&(high, low)| Twofold { high, low }).collect();
+    /// The scheme with the nodes of this name, each the double next to it and what that leaves out. The difference from the
+    /// embedded solution vanishes for polynomials of degree below S.
+    fn read(name: &str, start: f64, stiff: f64) -> Self {
+        let nodes: Vec<_> = rows(name).map(|row| Twofold { high: row[0], low: row[1] }).collect();
         let polynomials: Vec<_> = (0..nodes.len()).map(|own| lagrange(&nodes, own)).collect();
         let integrals = StageMatrix::from_fn(|stage, own| {
             let pair = nodes.get(stage).zip(polynomials.get(own));
@@ -121,40 +122,13 @@ fn integral(coefficients: &[Twofold], end: Twofold) -> f64 {
         .value()
 }
 
-/// Three stages, order 5.
-pub static THREE: LazyLock<Collocation> = LazyLock::new(|| {
-    let nodes = [
-        (0.155_051_025_721_682_2, -5.032_819_811_655_113e-18),
-        (0.644_948_974_278_317_8, 4.389_062_567_353_559e-17),
-        (1.0, 0.0),
-    ];
-    Collocation::new(&nodes, 0.274_888_829_595_677_34, 8.2)
-});
-
-/// Five stages, order 9.
-pub static FIVE: LazyLock<Collocation> = LazyLock::new(|| {
-    let nodes = [
-        (0.057_104_196_114_517_68, -7.652_790_650_215_884e-19),
-        (0.276_843_013_638_123_8, 2.498_013_745_992_455e-17),
-        (0.583_590_432_368_916_8, -1.375_958_814_762_028e-17),
-        (0.860_240_135_656_219_5, -3.666_886_943_982_11e-17),
-        (1.0, 0.0),
-    ];
-    Collocation::new(&nodes, 0.159_065_844_427_469_13, 11.0)
-});
-
-/// Seven stages, order 13.
-pub static SEVEN: LazyLock<Collocation> = LazyLock::new(|| {
-    let nodes = [
-        (0.029_316_427_159_784_893, -7.477_235_308_989_243e-19),
-        (0.148_078_599_668_484_3, -9.038_616_599_831_79e-18),
-        (0.336_984_690_281_154_3, 1.410_725_035_691_059e-18),
-        (0.558_671_518_771_550_1, 5.241_859_125_105_358e-17),
-        (0.769_233_862_030_054_5, -3.982_229_183_965_062e-18),
-        (0.926_945_671_319_741_1, -3.418_937_520_720_429e-17),
-        (1.0, 0.0),
-    ];
-    Collocation::new(&nodes, 0.111_896_465_300_035_08, 14.1)
+/// The schemes of order 5, 9 and 13.
+pub static SCHEMES: LazyLock<[Collocation; 3]> = LazyLock::new(|| {
+    [
+        Collocation::read("radau-3", 0.274_888_829_595_677_34, 8.2),
+        Collocation::read("radau-5", 0.159_065_844_427_469_13, 11.0),
+        Collocation::read("radau-7", 0.111_896_465_300_035_08, 14.1),
+    ]
 });
 
 #[cfg(test)]
@@ -211,7 +185,7 @@ mod tests {
 
     #[test]
     fn stiff_damping_reduces_the_order() {
-        for scheme in [&THREE, &FIVE, &SEVEN] {
+        for scheme in &*SCHEMES {
             for damping in [10.0, 30.0, 100.0, 300.0, 1e3, 1e4] {
                 let (solution, embedded) = errors(scheme, damping);
                 let part = scheme.reduced_order(damping) * embedded / solution;
@@ -222,9 +196,7 @@ mod tests {
 
     #[test]
     fn stages_collocate_and_ends_superconverge() {
-        collocates(&THREE);
-        collocates(&FIVE);
-        collocates(&SEVEN);
-        assert_eq!((order(&THREE), order(&FIVE), order(&SEVEN)), (5, 9, 13));
+        SCHEMES.iter().for_each(collocates);
+        assert_eq!(SCHEMES.each_ref().map(order), [5, 9, 13]);
     }
 }
