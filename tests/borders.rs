@@ -75,12 +75,11 @@ fn the_margin_is_the_extreme_of_the_cycle_that_borders_the_basin() {
         largest = largest.max(cycle.log_multiplier);
         let expected = row.log_multiplier.unwrap();
         assert!(same(cycle.log_multiplier, expected, 1e-9), "{row:?} {cycle:?}");
-        let picture = found.picture.unwrap();
-        let displacement = picture.margin.displacement.unwrap();
+        let displacement = found.margin.displacement.unwrap();
         assert!(same(displacement, cycle.q_max.min(-cycle.q_min), 1e-12), "{row:?}");
         // The drawn curve has the extremes of the cycle, up to the spacing of its points.
         let extreme =
-            |part: fn(&State) -> f64| picture.curves[0].iter().map(part).fold(0.0, f64::max);
+            |part: fn(&State) -> f64| found.curves[0].iter().map(part).fold(0.0, f64::max);
         for (drawn, exact) in [
             (extreme(|it| it.q), cycle.q_max),
             (extreme(|it| -it.q), -cycle.q_min),

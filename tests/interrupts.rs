@@ -101,7 +101,7 @@ fn cycles_stop() {
             match Portrait::of_oscillator(&parameters, 1e3, limits)
                 .and_then(|found| found.drawn(&parameters, 12))
             {
-                Ok(found) => (None, Some(found.cost)),
+                Ok(found) => (None, Some(found.portrait.cost)),
                 Err(reason) => (Some(reason), None),
             }
         });

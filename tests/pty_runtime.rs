@@ -9,8 +9,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use hopfscope::flow::{Cost, Limits, Reason};
-use hopfscope::model::Parameters;
-use hopfscope::portrait::{Border, Cycles};
+use hopfscope::model::{Parameters, State};
 use hopfscope::runtime::workers::Tell;
 use hopfscope::runtime::{Application, Options, launch};
 use hopfscope::scene::{Answered, Finding, Request};
@@ -34,25 +33,17 @@ struct Machinery {
 /// The request that encodes a number.
 fn request(number: u32) -> Request {
     let parameters = Parameters { d: f64::from(number), d2: 0.0, d3: 0.0, r: 0.0 };
-    Request::Cycles { parameters, machine: None, whole: false }
+    Request::Capture { parameters, reach: 1.0, most: 1 }
 }
 
 /// The worker, which panics at 3.
 fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Finding, Reason> {
-    let Request::Cycles { parameters, .. } = *request else {
+    let Request::Capture { parameters, .. } = *request else {
         return Err(Reason::OutOfRange);
     };
     assert!(parameters.d != 3.0, "three is too much");
-    Ok(Finding::Cycles(
-        Cycles {
-            parameters,
-            cycles: Vec::new(),
-            border: Border::None,
-            picture: None,
-            cost: Cost::default(),
-        },
-        None,
-    ))
+    let point = State { q: parameters.d, v: 0.0 };
+    Ok(Finding::Capture(vec![vec![point]], Cost::default()))
 }
 
 impl Application for Machinery {

@@ -38,7 +38,7 @@ fn each_point_has_its_row_in_order_and_the_numbers_are_those_of_the_questions() 
         let found = Portrait::of_oscillator(&parameters, 1e3, &Limits::PATIENT)
             .and_then(|found| found.drawn(&parameters, 12))
             .unwrap();
-        let margin = found.picture.unwrap().margin;
+        let margin = found.margin;
         assert_eq!(row["displacement"].parse(), Ok(margin.displacement.unwrap()));
         assert_eq!(row["impulse"].parse(), Ok(margin.impulse.unwrap()));
         assert_eq!(row["cycles"], "2");

@@ -12,7 +12,7 @@ use crate::flow::{Outcome, Problem, Sample, Trajectory};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
 use crate::portrait::kicks::{Distribution, RandomKick};
-use crate::portrait::{Border, Cycle, Cycles, Ride};
+use crate::portrait::{Border, Cycle, Drawing, Ride};
 use crate::question::zones::Extent;
 use crate::scene::{Finding, Layer, Point, Topic, rectangle};
 use crate::session::{Session, ShownMotion, VariantTag};
@@ -42,7 +42,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         (variant, Finding::Cycles(found, _)) => Some((variant, found)),
         _ => None,
     });
-    let all_cycles: Vec<(VariantTag, &Cycles)> = all_cycles.collect();
+    let all_cycles: Vec<(VariantTag, &Drawing)> = all_cycles.collect();
     for (variant, found) in all_cycles.iter().filter(|_| shows(Layer::Basin)) {
         basin(picture, found, variant, shows(Layer::Cycles));
     }
@@ -218,14 +218,14 @@ fn flow(parameters: &Parameters, Point { x: q, y: v }: Point) -> Point {
 
 /// The shaded basin of the sticking set, if it has an edge; an edge that is one of the cycles is drawn
 /// with these, where they are, so that its dashes are those of one curve.
-fn basin(picture: &mut Picture, found: &Cycles, variant: &VariantTag, with_cycles: bool) {
-    let Some(drawn) = found.picture.as_ref().filter(|drawn| !drawn.border.is_empty()) else {
+fn basin(picture: &mut Picture, found: &Drawing, variant: &VariantTag, with_cycles: bool) {
+    if found.edge.is_empty() {
         return;
-    };
-    let edge = points(&drawn.border);
+    }
+    let edge = points(&found.edge);
     let area = LineStyle::from("basin of the sticking set").of(variant);
     picture.items.push(Item::Shade(area, edge.clone()));
-    if !(with_cycles && found.border == Border::Cycle) {
+    if !(with_cycles && found.portrait.border == Border::Cycle) {
         picture.curve(LineStyle::from("border of the basin").of(variant), edge);
     }
 }
@@ -263,13 +263,8 @@ fn circle(picture: &mut Picture, ShownMotion { variant, problem, .. }: &ShownMot
     }
 }
 
-/// The cycles, each with its curve.
-fn curves(found: &Cycles) -> impl Iterator<Item = (&Cycle, &Vec<State>)> {
-    found.cycles.iter().zip(found.picture.iter().flat_map(|picture| &picture.curves))
-}
-
-fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, whole: bool) {
-    for (cycle, curve) in curves(found) {
+fn cycles(picture: &mut Picture, found: &Drawing, variant: &VariantTag, whole: bool) {
+    for (cycle, curve) in found.cycles.iter().zip(&found.curves) {
         let plain = cycle_name(cycle.stable);
         let (name, own) = if whole { kind(cycle) } else { (plain, variant.label.as_str()) };
         let points: Vec<Point> = points(curve);
@@ -288,7 +283,7 @@ fn ghost(picture: &mut Picture, session: &Session) {
                 picture.curve("motion left", found.samples.iter().map(Sample::state));
             }
             Finding::Cycles(found, _) => {
-                for (cycle, curve) in curves(found) {
+                for (cycle, curve) in found.cycles.iter().zip(&found.curves) {
                     let role = if cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
                     let line = LineStyle { role, ..LineStyle::from("cycle left") };
                     picture.curve(line, curve.iter().copied());

@@ -47,8 +47,8 @@ mod portrait;
 mod without_belt;
 
 pub use basin::capture::bands;
-pub use basin::cycle::{BasinPicture, Cycles, cycles};
-pub(crate) use basin::cycle::{cycles_and_closings, picture_reach};
+pub(crate) use basin::cycle::picture_reach;
+pub use basin::cycle::{Cycles, Drawing, cycles};
 pub use basin::stability::Share;
 pub use basin::{Counts, StartWindow};
 pub use border::{Border, Edge};

@@ -18,7 +18,7 @@ use crate::flow::{Cost, Detail, Limits, Method, MotionUnits, Problem, Reason, Tr
 use crate::model::{Belt, Knob, Model, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::closing::return_map::return_map;
-use crate::portrait::{Cycles, Margin, Portrait, ReturnMap, Share, bands, picture_reach};
+use crate::portrait::{Drawing, Margin, Portrait, ReturnMap, Share, bands, picture_reach};
 use crate::proof::{ParameterBox, Proof, prove};
 use crate::scan::grid::ScanRow;
 
@@ -28,8 +28,9 @@ pub enum Finding {
     Fit(Fit),
     Refit(Fit),
     Trajectory(Trajectory),
-    /// Cycles, and the margins of a machine; nothing where the whole model has no answer.
-    Cycles(Cycles, Option<MachineMargins>),
+    /// All motions, and the margin of a machine by the model that is not drawn: every kick is survived where the cubic
+    /// expansion has no answer, nothing is told where the whole model has none.
+    Cycles(Drawing, Option<Margin>),
     Zones(CertainZones),
     /// The fraction of the kicks that lead out of the basin of the sticking set, and the cost of the basin.
     Kicks(Share, Cost),
@@ -54,7 +55,7 @@ impl Finding {
     pub fn cost(&self) -> Cost {
         match self {
             Finding::Trajectory(found) => found.cost,
-            Finding::Cycles(found, _) => found.cost,
+            Finding::Cycles(found, _) => found.portrait.cost,
             Finding::Zones(found) => found.cost,
             Finding::Kicks(_, cost) | Finding::Capture(_, cost) => *cost,
             Finding::Branch(found) => found.cost,
@@ -72,13 +73,6 @@ impl Finding {
             | Finding::Reference(Err(_)) => Cost::default(),
         }
     }
-}
-
-/// The margins of a machine by its whole model and by its cubic expansion, without units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MachineMargins {
-    pub whole: Margin,
-    pub cubic: Margin,
 }
 
 /// An answer with its question and its computing time, as the worker returns it.
@@ -181,8 +175,8 @@ pub fn answer_for(
         }
         Request::Cycles { parameters, machine, whole } => {
             let machine = machine.as_deref();
-            let (drawn, known) = cycles(parameters, machine, *whole, points, limits)?;
-            Finding::Cycles(drawn, known)
+            let (drawn, other) = cycles(parameters, machine, *whole, points, limits)?;
+            Finding::Cycles(drawn, other)
         }
         Request::Zones { source, tolerances } => {
             Finding::Zones(zones(source, tolerances, points, limits)?)
@@ -307,22 +301,19 @@ fn motion(
 }
 
 /// The cycles with their curves, `points` on each step, and the border of the basin: of the paper's oscillator, or of a
-/// machine by the `whole` model or by its cubic expansion; beside them its margins by both: every kick is survived where the
-/// expansion has no answer.
+/// machine by the `whole` model or by its cubic expansion; beside them its margin by the other one.
 fn cycles(
     parameters: &Parameters,
     machine: Option<&Belt>,
     whole: bool,
     points: u16,
     limits: &Limits,
-) -> Result<(Cycles, Option<MachineMargins>), Reason> {
+) -> Result<(Drawing, Option<Margin>), Reason> {
     let expansion = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
     let Some(belt) = machine else { return Ok((expansion?.drawn(parameters, points)?, None)) };
     let found = Portrait::of_belt(belt);
-    let cubic = expansion.as_ref().map_or(Margin::ENDLESS, |found| found.margin);
-    let known = found.as_ref().ok();
-    let margins =
-        known.map(|found| MachineMargins { whole: found.in_drawing(&found.margin), cubic });
-    let shown = if whole { found } else { expansion };
-    Ok((shown?.drawn(parameters, points)?, margins))
+    let (shown, other) = if whole { (found, expansion) } else { (expansion, found) };
+    let other = other.map(|other| other.in_drawing(&other.margin));
+    let other = other.ok().or(whole.then_some(Margin::ENDLESS));
+    Ok((shown?.drawn(parameters, points)?, other))
 }

@@ -4,7 +4,6 @@
 use super::{fitted::statement, pane};
 use crate::model::Knob;
 use crate::portrait::{Border, Margin};
-use crate::question::answer::MachineMargins;
 use crate::scene::Topic;
 use crate::session::Session;
 use crate::words::number::rounded_down;
@@ -169,15 +168,14 @@ fn oscillator(session: &Session, width: usize) -> Option<String> {
     if found.parameters.r == 0.0 {
         return None;
     }
-    if found.border == Border::None {
+    if found.portrait.border == Border::None {
         return Some(EVERY.to_owned());
     }
-    let picture = found.picture.as_ref()?;
     Some(fitting(width, |places| {
         let write = KickWriting::new(session, places);
-        let headline = write.headline(&picture.margin);
-        let centre = write.centre(&picture.margin).map(|centre| format!("{headline}; {centre}"));
-        let proved = centre.iter().zip(share(picture.lyapunov_share));
+        let headline = write.headline(&found.margin);
+        let centre = write.centre(&found.margin).map(|centre| format!("{headline}; {centre}"));
+        let proved = centre.iter().zip(share(found.lyapunov_share));
         let proved = proved.map(|(centre, share)| format!("{centre} ({share})")).next();
         proved.into_iter().chain(centre.clone()).chain([headline.clone()]).collect()
     }))
@@ -195,8 +193,9 @@ pub fn share(share: Option<f64>) -> Option<String> {
 /// The margin of a machine by the model on show, and by how much the expansion is wrong.
 fn machine(session: &Session, width: usize) -> Option<String> {
     let fresh = !session.is_stale(Topic::Cycles, session.plot);
-    let MachineMargins { whole, cubic } = session.machine_margins().filter(|_| fresh)?;
+    let [drawn, other] = session.machine_margins().filter(|_| fresh)?;
     session.running()?;
+    let (whole, cubic) = if session.draws_whole() { (drawn, other) } else { (other, drawn) };
     let error = match (whole.from_rest.displacement, cubic.from_rest.displacement) {
         (Some(own), Some(other)) if own > 0.0 => {
             let percent = 100.0 * (other / own - 1.0);

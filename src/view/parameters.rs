@@ -12,7 +12,7 @@ use crate::model::Knob;
 use crate::model::belt::Units;
 use crate::picture::{Role, cycle_mark, cycle_name, cycle_role, units};
 use crate::portrait::proved::compare;
-use crate::portrait::{Border, Cycle, Cycles};
+use crate::portrait::{Border, Cycle, Drawing};
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
 use crate::words::number::exact;
@@ -282,7 +282,7 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
 }
 
 /// How many cycles there are, and whether that is proved.
-fn counted(session: &Session, found: &Cycles, width: usize) -> (String, Role) {
+fn counted(session: &Session, found: &Drawing, width: usize) -> (String, Role) {
     let count = cycles_in_words(found.cycles.len());
     let Some(proof) = session.proof().filter(|_| found.parameters == session.problem.parameters)
     else {
@@ -300,25 +300,24 @@ fn counted(session: &Session, found: &Cycles, width: usize) -> (String, Role) {
 }
 
 /// What borders the basin of the sticking set, and which kicks it survives.
-fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<String> {
-    let whole = found.picture.as_ref().filter(|_| session.draws_whole());
-    let border = match found.border {
+fn basin(session: &Session, found: &Drawing, width: usize, look: &Look) -> Vec<String> {
+    let whole = session.draws_whole();
+    let border = match found.portrait.border {
         Border::NoBasin => "rest repels",
         Border::Grazing => "border: touches the belt",
         Border::Capture => "border: where the guide holds",
-        Border::None | Border::Unknown(_) if whole.is_some_and(|it| it.portrait.neutral) => {
+        Border::None | Border::Unknown(_) if whole && found.portrait.neutral => {
             "all motions periodic"
         }
-        Border::None | Border::Unknown(_) if whole.is_some() => "all motions come to rest",
+        Border::None | Border::Unknown(_) if whole => "all motions come to rest",
         Border::None if found.parameters.r == 0.0 => "no sticking set",
         Border::None | Border::Unknown(_) => "all motions captured",
         Border::Cycle => "border: unstable cycle",
         Border::Separatrix => "border: separatrix",
     };
     // Without friction there is no set of rests that could survive anything.
-    let rests = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
-    let kicks =
-        rests.and_then(|picture| margin::in_pane(session, "from rest", &picture.margin, width));
+    let rests = Some(found).filter(|_| found.parameters.r > 0.0);
+    let kicks = rests.and_then(|found| margin::in_pane(session, "from rest", &found.margin, width));
     // Where there is a second status line, it says what kicks are survived.
     let low = !session.size.tells_margin();
     let mut lines = vec![border.to_owned()];
@@ -329,18 +328,18 @@ fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<St
     lines.extend(spread(session, width, look));
     lines.extend(on_the_machine(session, found, width));
     lines.extend(margin::brief_certain(session, width));
-    let share = rests.and_then(|picture| margin::share(picture.lyapunov_share));
+    let share = rests.and_then(|found| margin::share(found.lyapunov_share));
     let screen = usize::from(session.size.width).saturating_sub(1);
     let above =
         |share: &String| margin::status(session, screen).is_some_and(|it| it.contains(share));
     lines.extend(share.filter(|it| low || (session.shows(Layer::Lyapunov) && !above(it))));
-    let area = rests.and_then(|picture| picture.area).filter(|_| !physical);
+    let area = rests.and_then(|found| found.area).filter(|_| !physical);
     lines.extend(area.map(|area| format!("area {}", significant(area, 5))));
     lines
 }
 
 /// The frequency of the machine, and which cycles overtake its belt.
-fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
+fn on_the_machine(session: &Session, found: &Drawing, width: usize) -> Vec<String> {
     let Some(running) = session.running() else { return Vec::new() };
     // The whole model covers what happens there.
     let sticking = running.reduced.sticking_velocity;

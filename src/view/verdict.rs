@@ -5,7 +5,7 @@ use crate::branch::SpecialKind;
 use crate::flow::{Fate, Outcome, Trajectory};
 use crate::model::belt::Units;
 use crate::picture::{Role, units};
-use crate::portrait::{Border, Cycle, Cycles, Portrait};
+use crate::portrait::{Border, Cycle, Drawing, Portrait};
 use crate::scene::{Finding, Layer, Topic};
 use crate::session::fate::End;
 use crate::session::{BranchStop, Session};
@@ -73,8 +73,8 @@ fn held_motions(session: &Session) -> Option<String> {
 }
 
 /// What becomes of a motion and why, in a sentence.
-fn verdict(end: End, among: Option<&Cycles>, motion: &Trajectory, writing: Writing) -> String {
-    let border = among.and_then(|found| match found.border {
+fn verdict(end: End, among: Option<&Drawing>, motion: &Trajectory, writing: Writing) -> String {
+    let border = among.and_then(|found| match found.portrait.border {
         border if border.parts_without_cycle() => Some("separatrix"),
         _ => found.cycles.iter().any(|cycle| !cycle.stable).then_some("unstable cycle"),
     });

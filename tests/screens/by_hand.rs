@@ -11,9 +11,7 @@ use hopfscope::model::{Knob, Ledger, Parameters, State};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{cos, exp, ln, sin, sin_cos};
 use hopfscope::portrait::basin::stability::Share;
-use hopfscope::portrait::{
-    BasinPicture, Border, Cycle, Cycles, Margin, Portrait, RestMargin, Return, ReturnMap,
-};
+use hopfscope::portrait::{Cycle, Drawing, Margin, Portrait, RestMargin, Return, ReturnMap};
 use hopfscope::proof::cycles::ProvedCycle;
 use hopfscope::proof::{ParameterBox, Proof};
 use hopfscope::question;
@@ -84,17 +82,8 @@ pub fn by_hand(request: &Request) -> Finding {
         Request::Trajectory { problem, .. } => Finding::Trajectory(spiral(*problem)),
         Request::Cycles { parameters, .. } => {
             let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
-            let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
-            Finding::Cycles(
-                Cycles {
-                    parameters: *parameters,
-                    border: Border::Cycle,
-                    cost: Cost { evaluations: 1_200, steps: 60, rejected: 0 },
-                    cycles,
-                    picture: Some(picture(curves[0].clone(), curves)),
-                },
-                None,
-            )
+            let drawn = drawing(cycles, circle(0.5), vec![circle(0.5), circle(1.2)]);
+            Finding::Cycles(Drawing { parameters: *parameters, ..drawn }, None)
         }
         Request::Scan { scan, from } => {
             let measured = scan.measured().len();
@@ -176,16 +165,20 @@ fn margin(radius: f64) -> Margin {
     Margin { displacement: Some(radius), impulse: Some(radius), from_rest }
 }
 
-pub fn picture(border: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture {
+/// A basin bordered by a cycle, with these cycles and their curves.
+pub fn drawing(cycles: Vec<Cycle>, edge: Vec<State>, curves: Vec<Vec<State>>) -> Drawing {
     let margin = margin(0.5);
     let symmetric = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
     let works = Ledger::of_terms(&symmetric, (0.72, 0.72), [2.5, 0.25, -2.0, -0.75]);
     let works = vec![Ledger { residual: 3e-15, ..works }; curves.len()];
-    let portrait = Portrait::of_oscillator(&symmetric, 3.0, &Limits::PATIENT).unwrap();
-    BasinPicture {
+    let mut portrait = Portrait::of_oscillator(&symmetric, 3.0, &Limits::PATIENT).unwrap();
+    portrait.cost = Cost { evaluations: 1_200, steps: 60, rejected: 0 };
+    Drawing {
+        parameters: symmetric,
+        cycles,
         curves,
         works,
-        border,
+        edge,
         margin,
         area: Some(0.8),
         lyapunov_share: Some(0.3),

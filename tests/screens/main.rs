@@ -287,8 +287,7 @@ fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
         settle_with(&mut session, |request| {
             let mut answer = by_hand(request);
             if let Finding::Cycles(found, _) = &mut answer {
-                found.cycles = vec![cycle(1.0, stable)];
-                found.picture = Some(picture(Vec::new(), vec![circle(1.0)]));
+                *found = drawing(vec![cycle(1.0, stable)], Vec::new(), vec![circle(1.0)]);
             }
             answer
         });
@@ -415,8 +414,9 @@ proptest! {
                     found.outcome = Outcome::Moving { tau: value, q: low, v: high };
                 }
                 Finding::Cycles(found, _) => {
-                    found.picture = Some(picture(states.clone(), vec![states.clone(), states.clone()]));
-                    found.cycles = vec![cycle(value, true), cycle(low, false)];
+                    let cycles = vec![cycle(value, true), cycle(low, false)];
+                    let curves = vec![states.clone(), states.clone()];
+                    *found = drawing(cycles, states.clone(), curves);
                 }
                 Finding::Branch(found) => {
                     found.pieces = vec![curve.iter().map(|(value, q_max)| {

@@ -38,23 +38,12 @@ pub(crate) fn picture_reach(d2: f64) -> f64 {
 /// # Errors
 /// The [`Reason`] why the search could not be completed.
 pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<Cycles, Reason> {
-    Ok(cycles_and_closings(parameters, limits)?.0)
-}
-
-/// All limit cycles, without a picture, and the closed pairs of half swings that they are.
-///
-/// # Errors
-/// The [`Reason`] why the search could not be completed.
-pub(crate) fn cycles_and_closings(
-    parameters: &Parameters,
-    limits: &Limits,
-) -> Result<(Cycles, Vec<Closing>), Reason> {
     let mut equation = Equation::new(parameters, STEP, limits);
     let closings = all_closings(&mut equation)?;
     let cycles = described(parameters, &closings);
     let border = Border::around(parameters, &cycles);
     let (parameters, cost) = (*parameters, equation.cost());
-    Ok((Cycles { parameters, cycles, border, picture: None, cost }, closings))
+    Ok(Cycles { parameters, cycles, closings, border, cost })
 }
 
 /// The cycles that these closed pairs of half swings are.
@@ -69,7 +58,7 @@ impl Portrait {
     ///
     /// # Errors
     /// [`Reason`] why a cycle on a belt could not be followed once more.
-    pub fn drawn(self, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
+    pub fn drawn(self, parameters: &Parameters, points: u16) -> Result<Drawing, Reason> {
         let model = &self.model;
         let unit = model.drawing_length();
         let energy = model.stiffness * unit * unit;
@@ -91,26 +80,18 @@ impl Portrait {
                 works.extend(works_over(orbit, parameters));
             }
         }
-        let border = self.edge().map(|edge| self.places(edge, points)).unwrap_or_default();
-        let lyapunov_share = self.lyapunov_share();
         let area = self.area().filter(|_| !self.fates.is_empty());
-        let area = area.map(|area| area / (unit * unit * model.omega_0));
-        let margin = self.in_drawing(&self.margin);
         let cycle = |cycle: &Cycle| cycle.scaled(1.0 / unit, 1.0 / model.omega_0);
-        Ok(Cycles {
+        Ok(Drawing {
             parameters: *parameters,
             cycles: self.cycles.iter().map(cycle).collect(),
-            border: self.border,
-            cost: self.cost,
-            picture: Some(BasinPicture {
-                curves,
-                works,
-                border,
-                margin,
-                area,
-                lyapunov_share,
-                portrait: Box::new(self),
-            }),
+            curves,
+            works,
+            edge: self.edge().map(|edge| self.places(edge, points)).unwrap_or_default(),
+            margin: self.in_drawing(&self.margin),
+            area: area.map(|area| area / (unit * unit * model.omega_0)),
+            lyapunov_share: self.lyapunov_share(),
+            portrait: Box::new(self),
         })
     }
 
@@ -183,27 +164,7 @@ impl Closing {
     }
 }
 
-// Limit cycles as data: one, and all of them with a picture of the basin.
-
-/// What a picture of the basin shows.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BasinPicture {
-    /// The closed curve of each cycle.
-    pub curves: Vec<Vec<State>>,
-    /// What each source does over one turn of each cycle.
-    pub works: Vec<Ledger>,
-    /// The border of the basin: a closed curve, or the separatrix as far as it was followed; else empty.
-    pub border: Vec<State>,
-    /// The kicks that are survived.
-    pub margin: Margin,
-    /// Area of the basin, where it is finite.
-    pub area: Option<f64>,
-    /// Radius of Lyapunov's disk (24) as a fraction of the margin; above 1 it promises too much, because it
-    /// leaves out D2 and D3.
-    pub lyapunov_share: Option<f64>,
-    /// All motions; of a machine in SI units.
-    pub portrait: Box<Portrait>,
-}
+// Limit cycles as data: as the search finds them, and as they are drawn with the basin.
 
 /// All limit cycles, by amplitude, and what they imply for the basin.
 #[derive(Clone, Debug, PartialEq)]
@@ -212,10 +173,34 @@ pub struct Cycles {
     pub parameters: Parameters,
     /// The cycles, smallest first.
     pub cycles: Vec<Cycle>,
+    /// The closed pairs of half swings that they are.
+    pub(crate) closings: Vec<Closing>,
     /// What borders the basin of the sticking set.
     pub border: Border,
-    /// Curves and margins, if asked for.
-    pub picture: Option<BasinPicture>,
     /// What it cost.
     pub cost: Cost,
+}
+
+/// All motions as a picture shows them, in units of the oscillator of the paper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// The parameters of that oscillator.
+    pub parameters: Parameters,
+    /// The cycles, smallest first.
+    pub cycles: Vec<Cycle>,
+    /// The closed curve of each cycle.
+    pub curves: Vec<Vec<State>>,
+    /// What each source does over one turn of each cycle.
+    pub works: Vec<Ledger>,
+    /// The border of the basin: a closed curve, or the separatrix as far as it was followed; else empty.
+    pub edge: Vec<State>,
+    /// The kicks that are survived.
+    pub margin: Margin,
+    /// Area of the basin, where it is finite.
+    pub area: Option<f64>,
+    /// Radius of Lyapunov's disk (24) as a fraction of the margin; above 1 it promises too much, because it
+    /// leaves out D2 and D3.
+    pub lyapunov_share: Option<f64>,
+    /// The motions; of a machine in SI units.
+    pub portrait: Box<Portrait>,
 }

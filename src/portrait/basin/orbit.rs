@@ -306,7 +306,7 @@ mod works_tests {
             let parameters = Parameters { d, d2, d3, r };
             let found = Portrait::of_oscillator(&parameters, 1e3, &Limits::PATIENT).unwrap();
             let found = found.drawn(&parameters, 12).unwrap();
-            let ledgers = found.picture.unwrap().works;
+            let ledgers = found.works;
             assert_eq!(ledgers.len(), found.cycles.len());
             assert!(!ledgers.is_empty());
             for (cycle, ledger) in found.cycles.iter().zip(ledgers) {

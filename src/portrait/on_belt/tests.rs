@@ -142,7 +142,7 @@ fn cycles_and_margins_come_back_in_physical_units() {
     let ReducedBelt { parameters, units, .. } = linear.reduce().unwrap();
     let found = Portrait::of_oscillator(&parameters, 1e3, &Limits::PATIENT).unwrap();
     let found = found.drawn(&parameters, 12).unwrap();
-    let margin = found.picture.unwrap().margin;
+    let margin = found.margin;
     let margin = margin.map(|q| q * units.displacement, |speed| speed * units.impulse);
     // A_q = r coth(x/2), x = -pi D/omega (equation 32); in metres R/c takes the place of r.
     let x = -std::f64::consts::PI * parameters.d / parameters.omega().unwrap();

@@ -4,34 +4,25 @@ use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 
 use super::*;
 use crate::flow::{Cost, Problem};
-use crate::model::Parameters;
-use crate::portrait::{Border, Cycles};
+use crate::model::{Parameters, State};
 use crate::session::Notice;
 
 /// A request that can be told apart from others by its number.
 fn request(number: f64) -> Request {
     let parameters = Parameters { d: number, d2: 0.0, d3: 0.0, r: 0.1 };
-    Request::Cycles { parameters, machine: None, whole: false }
+    Request::Capture { parameters, reach: 1.0, most: 1 }
 }
 
 fn number(request: &Request) -> f64 {
     match request {
-        Request::Cycles { parameters, .. } => parameters.d,
+        Request::Capture { parameters, .. } => parameters.d,
         other => unreachable!("{other:?}"),
     }
 }
 
 fn nothing(request: &Request) -> Finding {
-    Finding::Cycles(
-        Cycles {
-            parameters: Parameters { d: number(request), d2: 0.0, d3: 0.0, r: 0.1 },
-            cycles: Vec::new(),
-            border: Border::None,
-            picture: None,
-            cost: Cost::default(),
-        },
-        None,
-    )
+    let point = State { q: number(request), v: 0.0 };
+    Finding::Capture(vec![vec![point]], Cost::default())
 }
 
 /// An instruction to a job.

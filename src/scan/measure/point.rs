@@ -10,9 +10,7 @@ use crate::numerics::Interval;
 use crate::portrait::guarantee::certain::guaranteed;
 use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::proved;
-use crate::portrait::{
-    Equation, Portrait, STEP, cycles_and_closings, first_closings, friction_for,
-};
+use crate::portrait::{Equation, Portrait, STEP, cycles, first_closings, friction_for};
 
 impl Cells<'_> {
     /// Computes a measure, and fills its cells and those of all that are computed with it. Fails with why it gave up.
@@ -85,9 +83,9 @@ impl Cells<'_> {
     }
 
     fn cycles_of(&mut self, parameters: &Parameters) -> Result<(), Reason> {
-        let found = cycles_and_closings(parameters, self.limits)?;
-        self.cost += found.0.cost;
-        self.cycles(&found.0.cycles);
+        let found = cycles(parameters, self.limits)?;
+        self.cost += found.cost;
+        self.cycles(&found.cycles);
         self.known = Some(found);
         Ok(())
     }
@@ -95,8 +93,8 @@ impl Cells<'_> {
     fn basin_of(&mut self, parameters: &Parameters) -> Result<(), Reason> {
         let conditions = self.conditions;
         // What is beyond the edge does not matter here.
-        let inner = if let Some((_, closings)) = &self.known {
-            closings.first().copied()
+        let inner = if let Some(found) = &self.known {
+            found.closings.first().copied()
         } else {
             let mut equation = Equation::new(parameters, STEP, self.limits);
             let inner = first_closings(&mut equation, 1);
@@ -117,7 +115,7 @@ impl Cells<'_> {
         if self.known.is_none() {
             self.cycles_of(parameters)?;
         }
-        let Some((found, _)) = &self.known else { return Ok(()) };
+        let Some(found) = &self.known else { return Ok(()) };
         let differ = |_| Reason::NotApplicable { needs: "a search that agrees with its proof" };
         let proof = proved(found).map_err(differ)?;
         let word = Value::Word(if proof.is_complete() { "yes" } else { "no" });

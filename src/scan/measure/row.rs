@@ -7,7 +7,7 @@ use super::settling::Settling;
 use super::table::{CYCLES, Conditions, Measure, Value};
 use crate::flow::{Cost, Limits, Outcome, Reason, Subject, Trajectory};
 use crate::model::State;
-use crate::portrait::{Closing, Cycle, Cycles, Margin, Portrait, Share, StartWindow};
+use crate::portrait::{Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub(super) struct Cells<'a> {
     pub reasons: Vec<String>,
     pub cost: Cost,
     /// The cycles of the oscillator, once they are known.
-    pub known: Option<(Cycles, Vec<Closing>)>,
+    pub known: Option<Cycles>,
     /// All motions, once they are known; of the oscillator for repeated kicks only.
     pub portrait: Option<Portrait>,
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::model::State;
 use crate::numerics::decimal::{decimal_sum, shortest};
-use crate::portrait::Cycles;
+use crate::portrait::Drawing;
 use crate::scene::{Layer, Topic};
 use crate::session::act::parameters::put;
 use crate::session::state::session::PACES;
@@ -66,13 +66,13 @@ pub fn beside_edge(session: &mut Session, factor: f64) -> Done {
 }
 
 /// The clearance of the border from the sticking set, and the side (1 or -1) of its turning point.
-fn edge(found: &Cycles) -> Option<(f64, f64)> {
-    if !found.border.parts_without_cycle() {
+fn edge(found: &Drawing) -> Option<(f64, f64)> {
+    if !found.portrait.border.parts_without_cycle() {
         return found.cycles.iter().find(|cycle| !cycle.stable).map(|cycle| (cycle.clearance, 1.0));
     }
     // Motions escape to the side where D2 feeds them: for D2 > 0 to the left, from a turning point on the
     // right.
-    let displacement = found.picture.as_ref()?.margin.displacement?;
+    let displacement = found.margin.displacement?;
     Some(((displacement - found.parameters.r).max(0.0), 1.0_f64.copysign(found.parameters.d2)))
 }
 

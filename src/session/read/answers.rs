@@ -11,7 +11,7 @@ use crate::flow::Trajectory;
 use crate::model::belt::Units;
 use crate::model::{Knob, State};
 use crate::paper::ClaimResult;
-use crate::portrait::{Cycles, ReturnMap};
+use crate::portrait::{Drawing, ReturnMap};
 use crate::proof::Proof;
 use crate::question::zones::CertainZones;
 use crate::question::{Fit, NoAnswer};
@@ -45,7 +45,7 @@ impl Session {
         last!(self, Trajectory, self.plot)
     }
 
-    pub fn cycles(&self) -> Option<&Cycles> {
+    pub fn cycles(&self) -> Option<&Drawing> {
         last!(self, Cycles, self.plot)
     }
 

@@ -6,7 +6,7 @@ use std::ops::RangeBounds;
 use crate::flow::{Fate, Outcome, Problem, Trajectory};
 use crate::model::parameters::rests;
 use crate::model::{Parameters, State};
-use crate::portrait::{Border, Cycle, Cycles, Portrait};
+use crate::portrait::{Border, Cycle, Drawing, Portrait};
 use crate::scene::Topic;
 use crate::scene::said;
 use crate::scene::said::TextCondition;
@@ -41,10 +41,9 @@ const NEAR: [f64; 2] = [1e-12, 1e-8];
 
 /// The fate of a start among these cycles, and whether a motion onto one of them starts within it; `None` if it is
 /// unknown.
-fn told(found: &Cycles, start: State) -> Option<(Fate, bool)> {
+fn told(portrait: &Portrait, start: State) -> Option<(Fate, bool)> {
     /// Half swings after which a start far out is given up: a key must not wait for it.
     const MOST: usize = 100;
-    let portrait = &found.picture.as_ref()?.portrait;
     let (x, v) = portrait.from_drawing(start);
     let fate = portrait.told_fate(x, v, MOST).ok()?;
     let cycle = portrait.tends_to(fate);
@@ -52,15 +51,15 @@ fn told(found: &Cycles, start: State) -> Option<(Fate, bool)> {
 }
 
 /// The fate of a motion among these cycles; `None` if it is unknown.
-pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<End> {
-    end(found, motion, told(found, motion.problem.initial))
+pub fn fate(found: &Drawing, motion: &Trajectory) -> Option<End> {
+    end(found, motion, told(&found.portrait, motion.problem.initial))
 }
 
-fn end(found: &Cycles, motion: &Trajectory, told: Option<(Fate, bool)>) -> Option<End> {
+fn end(found: &Drawing, motion: &Trajectory, told: Option<(Fate, bool)>) -> Option<End> {
     if let Some(distance) = on_the_edge(found, motion) {
         return Some(End::OnTheEdge { distance });
     }
-    let (portrait, (fate, grows)) = (&found.picture.as_ref()?.portrait, told?);
+    let (portrait, (fate, grows)) = (&found.portrait, told?);
     let Problem { parameters, initial, .. } = motion.problem;
     Some(match fate {
         Fate::Rest if portrait.model.guide_static > 0.0 || rests(initial, parameters.r) => {
@@ -86,7 +85,7 @@ fn linear(motion: &Trajectory) -> Option<End> {
 
 /// How near the first turning point of a motion is to an unstable cycle, if so near that rounding decides. Where turning
 /// points were not located, only the start can be one.
-fn on_the_edge(found: &Cycles, motion: &Trajectory) -> Option<f64> {
+fn on_the_edge(found: &Drawing, motion: &Trajectory) -> Option<f64> {
     let Parameters { d2, r, .. } = found.parameters;
     let start = motion.problem.initial;
     let (q, near) = if start.v == 0.0 && start.q.abs() > r {
@@ -113,7 +112,7 @@ impl Session {
         let any = |is: &dyn Fn(&Cycle) -> bool| {
             self.cycles().is_some_and(|found| found.cycles.iter().any(is))
         };
-        let border = self.cycles().map(|found| found.border);
+        let border = self.cycles().map(|found| found.portrait.border);
         match condition {
             TextCondition::Here => {
                 let (own, scene) = (self.problem, self.scene.problem);
@@ -145,7 +144,7 @@ impl Session {
     }
 
     /// The cycles at the parameters of a motion; `None` until they are known.
-    pub(crate) fn cycles_beside(&self, motion: &Trajectory) -> Option<&Cycles> {
+    pub(crate) fn cycles_beside(&self, motion: &Trajectory) -> Option<&Drawing> {
         self.cycles().filter(|found| found.parameters == motion.problem.parameters)
     }
 
@@ -153,7 +152,7 @@ impl Session {
     pub fn course(&self) -> Option<(&Portrait, Fate)> {
         let found = self.cycles_beside(self.trajectory()?)?;
         let (fate, _) = self.told()?;
-        Some((&found.picture.as_ref()?.portrait, fate))
+        Some((&found.portrait, fate))
     }
 
     /// Finds out what becomes of the motion on show, if that or its cycles are others than before.
@@ -164,7 +163,7 @@ impl Session {
             let start = motion.problem.initial;
             let known = self.answers.course.as_ref();
             let known = known.filter(|known| known.start == start && known.cycles == *cycles);
-            let told = || told(found, start);
+            let told = || told(&found.portrait, start);
             let told = known.map_or_else(told, |known| known.told);
             Some(Course { start, cycles: cycles.clone(), told })
         };

@@ -45,8 +45,7 @@ impl Session {
         if self.layers.contains(&Layer::CycleWorks)
             && let Some(found) = self.cycles()
         {
-            let works = found.picture.iter().flat_map(|picture| &picture.works);
-            for (cycle, works) in found.cycles.iter().zip(works) {
+            for (cycle, works) in found.cycles.iter().zip(&found.works) {
                 add(&mut lines, Owner::Cycle(*cycle), works, None);
             }
         }

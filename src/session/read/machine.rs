@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::fit::Fitted;
 use crate::flow::Problem;
 use crate::model::{Belt, Body, Knob, Parameters, Source};
-use crate::question::answer::MachineMargins;
+use crate::portrait::Margin;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Finding, Layer, Request, ScaledMachine, Setting, Topic, View};
 use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
@@ -63,10 +63,10 @@ impl Session {
         self.layers.contains(&Layer::Whole) && self.machine().is_some()
     }
 
-    /// The margins of the machine; `None` while they are not known.
-    pub fn machine_margins(&self) -> Option<MachineMargins> {
+    /// The margin of the machine by the model that is drawn, and by the other one; `None` while they are not known.
+    pub fn machine_margins(&self) -> Option<[Margin; 2]> {
         match self.answer(Topic::Cycles, self.plot)? {
-            Finding::Cycles(_, margins) => *margins,
+            Finding::Cycles(found, other) => Some([found.margin, (*other)?]),
             _ => None,
         }
     }

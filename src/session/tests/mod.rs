@@ -37,7 +37,7 @@ use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::model::{Ledger, Parameters, State};
 use crate::numerics::{Twofold, ln};
-use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, Portrait, ReturnMap, Share};
+use crate::portrait::{Cycle, Drawing, Margin, Portrait, ReturnMap, Share};
 use crate::proof::{ParameterBox, Proof};
 use crate::question::Rows;
 use crate::question::zones::{CertainZones, Extent};
@@ -152,10 +152,13 @@ impl Trial {
     }
 }
 
-/// That of an oscillator of which the made-up answers say something else.
-fn portrait() -> Box<Portrait> {
+/// That of an oscillator of which the made-up answers say something else, at this cost.
+fn portrait(cost: Cost) -> Box<Portrait> {
     let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
-    Box::new(Portrait::of_oscillator(&parameters, 3.0, &Limits::PATIENT).expect("it has one"))
+    let found = Portrait::of_oscillator(&parameters, 3.0, &Limits::PATIENT);
+    let mut portrait = Box::new(found.expect("it has one"));
+    portrait.cost = cost;
+    portrait
 }
 
 /// An unstable cycle at `r + 1`, or a stable one at `r + 3`.
@@ -243,20 +246,16 @@ pub fn by_hand(request: &Request) -> Finding {
             })
         }
         Request::Cycles { parameters, .. } => Finding::Cycles(
-            Cycles {
+            Drawing {
                 parameters: *parameters,
                 cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
-                border: Border::Cycle,
-                picture: Some(BasinPicture {
-                    curves: Vec::new(),
-                    works: vec![Ledger::of_terms(parameters, (0.0, 0.0), [1.0, 0.0, 0.0, -1.0]); 2],
-                    border: Vec::new(),
-                    margin: Margin::ENDLESS,
-                    area: None,
-                    lyapunov_share: None,
-                    portrait: portrait(),
-                }),
-                cost,
+                curves: Vec::new(),
+                works: vec![Ledger::of_terms(parameters, (0.0, 0.0), [1.0, 0.0, 0.0, -1.0]); 2],
+                edge: Vec::new(),
+                margin: Margin::ENDLESS,
+                area: None,
+                lyapunov_share: None,
+                portrait: portrait(cost),
             },
             None,
         ),

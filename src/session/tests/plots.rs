@@ -1,8 +1,8 @@
 //! Cursor, zoom, pan and fit; starts beside the cycle.
 
-use super::{Trial, portrait};
+use super::Trial;
 use crate::model::State;
-use crate::portrait::{BasinPicture, Border, Cycles, Margin};
+use crate::portrait::{Border, Drawing, Margin};
 use crate::scene::{Finding, Point, Span, Topic, Window};
 use crate::session::{Framing, VariantTag};
 
@@ -127,7 +127,7 @@ fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
 }
 
 /// The answered cycles.
-fn cycles(trial: &mut Trial) -> &mut Cycles {
+fn cycles(trial: &mut Trial) -> &mut Drawing {
     let mut cycles = trial.session.answers.each().filter_map(|held| match &mut held.result {
         Ok(Finding::Cycles(found, _)) => Some(found),
         _ => None,
@@ -141,19 +141,9 @@ fn a_separatrix_has_two_sides_too() {
         let mut trial = Trial::open("escape");
         let found = cycles(&mut trial);
         found.parameters.d2 = d2;
-        found.border = Border::Separatrix;
+        found.portrait.border = Border::Separatrix;
         found.cycles.clear();
-        let margin = Margin { displacement: Some(1.1), impulse: Some(1.4), ..Margin::ENDLESS };
-        let (curves, edge) = (Vec::new(), Vec::new());
-        found.picture = Some(BasinPicture {
-            curves,
-            works: Vec::new(),
-            border: edge,
-            margin,
-            area: None,
-            lyapunov_share: None,
-            portrait: portrait(),
-        });
+        found.margin = Margin { displacement: Some(1.1), impulse: Some(1.4), ..Margin::ENDLESS };
         // r is 0.1, and the clearance is 1.
         trial.press("i");
         assert_eq!(trial.session.problem.initial, State { q: sign * 1.05, v: 0.0 });
