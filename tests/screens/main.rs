@@ -30,7 +30,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Modifier;
 use std::sync::Arc;
 
-use by_hand::{by_hand, circle, cycle, drawn_over, open, picture, press, settle, settle_with};
+use by_hand::{by_hand, circle, cycle, drawing, drawn_over, open, press, settle, settle_with};
 
 fn draw(session: &Session, look: settings::DisplaySettings) -> Buffer {
     let Size { width, height } = session.size;
