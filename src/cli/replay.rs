@@ -56,8 +56,7 @@ impl ReplayCommand {
         // With the user's own settings the same file could show different screens.
         session.display = self.looks.wishes(&Config::default());
         let light = session.display.theme == Theme::Light;
-        let played = play(session, anywhere(), script, self.allow_write)
-            .map_err(|error| Failure::Unanswered(format!("no thread to compute in: {error}")))?;
+        let played = play(session, anywhere(), script, self.allow_write);
         if let Some(directory) = &self.screens {
             let unwritten = |error| Failure::unwritten(directory, &error);
             std::fs::create_dir_all(directory).map_err(unwritten)?;

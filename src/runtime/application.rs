@@ -1,9 +1,11 @@
 //! The interface of what the loop runs, the events to which it reacts, and why it ends.
 
+use std::io;
 use std::path::Path;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
+use rustix::io::Errno;
 
 use super::workers::Work;
 use crate::scene::Request;
@@ -113,8 +115,17 @@ pub enum LoopEnd {
     Ended { signal: i32 },
     /// The terminal is gone.
     Closed,
-    /// The thread that reads the terminal has panicked, with this message.
-    Deaf(String),
+    /// The terminal cannot be used any more: it cannot be written to, or the thread that reads it has panicked, with
+    /// this message.
+    Broken(String),
+}
+
+impl From<io::Error> for LoopEnd {
+    /// If the terminal is gone, writing to it fails before the signal arrives.
+    fn from(error: io::Error) -> Self {
+        let is_gone = error.raw_os_error() == Some(Errno::IO.raw_os_error());
+        if is_gone { LoopEnd::Closed } else { LoopEnd::Broken(error.to_string()) }
+    }
 }
 
 /// The result of a keystroke file that was played without a terminal.

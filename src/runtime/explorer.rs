@@ -127,7 +127,7 @@ pub fn play(
     environment: Environment,
     script: Script,
     may_play_write: bool,
-) -> io::Result<ReplayResult<Explorer>> {
+) -> ReplayResult<Explorer> {
     let crate::session::Size { width, height } = session.size;
     let screen = Screen::new(io::sink(), Size { width, height });
     let files = Files { may_play_write, ..Files::default() };
@@ -148,7 +148,7 @@ mod tests {
     fn played(file: &str) -> ReplayResult<Explorer> {
         let size = crate::session::Size { width: 80, height: 24 };
         let session = Session::new(find(PLAIN).unwrap(), size);
-        play(session, Environment::default(), parse(file).unwrap(), false).unwrap()
+        play(session, Environment::default(), parse(file).unwrap(), false)
     }
 
     #[test]

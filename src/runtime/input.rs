@@ -45,7 +45,7 @@ pub fn start(events: Sender<Event>) -> io::Result<()> {
 /// not continue.
 fn listen(terminal: &impl AsFd, events: &Sender<Event>) {
     let read = caught(|| read(terminal, |event| drop(events.send(event))));
-    drop(events.send(Event::End(read.map_or_else(LoopEnd::Deaf, |()| LoopEnd::Closed))));
+    drop(events.send(Event::End(read.map_or_else(LoopEnd::Broken, |()| LoopEnd::Closed))));
 }
 
 /// Reads until the input ends.

@@ -1,6 +1,7 @@
 //! From an application to a running program: takes the terminal, starts the threads, runs the loop, and gives
 //! the terminal back.
 
+use std::convert::Infallible;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
@@ -8,7 +9,6 @@ use std::sync::Arc;
 
 use crossbeam_channel::unbounded;
 use ratatui::layout::Size;
-use rustix::io::Errno;
 
 use super::application::{Application, LoopEnd};
 use super::effects::Files;
@@ -47,25 +47,21 @@ pub fn launch(
     // A panic has already been reported and the terminal given back; the panic still ends the program.
     let conducted = catch_unwind(AssertUnwindSafe(|| conduct(&mut pump, &guard)));
     pump.close_record();
-    let left = matches!(conducted, Ok(Ok(LoopEnd::Quit)));
+    let left = matches!(conducted, Ok(Err(LoopEnd::Quit)));
     let place = if left { &pump.options.last } else { &pump.options.keep };
     let kept = keep(&pump, place.as_deref());
-    let ended = match conducted.unwrap_or_else(|panic| resume_unwind(panic)) {
-        // If the terminal is gone, writing to it fails before the signal arrives.
-        Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(LoopEnd::Closed),
-        ended => ended,
-    };
-    if !matches!(ended, Ok(LoopEnd::Closed | LoopEnd::Deaf(_)) | Err(_)) {
+    let Err(end) = conducted.unwrap_or_else(|panic| resume_unwind(panic));
+    if !matches!(end, LoopEnd::Closed | LoopEnd::Broken(_)) {
         pump.await_terminal();
     }
     guard.leave();
-    if let (Err(why), Ok(LoopEnd::Quit | LoopEnd::Ended { .. })) = (kept, &ended) {
+    if let (Err(why), LoopEnd::Quit | LoopEnd::Ended { .. }) = (kept, &end) {
         tell(format!("the session is not kept: {why}"));
     }
-    match ended? {
+    match end {
         LoopEnd::Ended { signal } => Ok(exit_code(signal)),
         LoopEnd::Closed => Ok(exit_code(HANG_UP)),
-        LoopEnd::Deaf(why) => Err(io::Error::other(why)),
+        LoopEnd::Broken(why) => Err(io::Error::other(why)),
         _ => Ok(0),
     }
 }
@@ -83,15 +79,15 @@ fn keep<M: Application, W: io::Write>(
     Files::write(path, &text, true, Readers::Owner).map(drop)
 }
 
-/// Runs the loop through all pauses until it ends.
+/// Runs the loop through all pauses. It does not return but for an end of the program.
 fn conduct<M: Application>(
     pump: &mut Pump<M, Arc<std::fs::File>>,
     guard: &Guard,
-) -> io::Result<LoopEnd> {
+) -> Result<Infallible, LoopEnd> {
     // A stop from here is followed by an event that the process continues, which needs no further reaction.
     let mut expected = false;
     loop {
-        match pump.run()? {
+        match pump.run() {
             LoopEnd::Suspend | LoopEnd::Suspended if !signals::can_be_continued() => {
                 let text = "not stopped: there is no shell that could make it go on".to_owned();
                 pump.tell(Notice { error: true, text })?;
@@ -116,7 +112,7 @@ fn conduct<M: Application>(
                 guard.enter()?;
                 pump.repaint()?;
             }
-            ended => return Ok(ended),
+            end => return Err(end),
         }
     }
 }

@@ -29,10 +29,9 @@ use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
 use crate::view;
 
-mod play;
 mod playing;
 
-use play::Playing;
+use playing::Playing;
 
 /// How long a frame waits for the worker before it shows the old answers, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
@@ -67,8 +66,8 @@ impl Options {
     }
 }
 
-/// Why the loop ends or pauses after a step, if it does; or why the terminal cannot be written to.
-type Step = io::Result<Option<LoopEnd>>;
+/// A step of the loop. Fails with why the loop ends or pauses there, if it does.
+type Step = Result<(), LoopEnd>;
 
 pub struct Pump<M, W: Write> {
     application: M,
@@ -140,31 +139,33 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Runs until an event that concerns the whole process.
-    pub fn run(&mut self) -> io::Result<LoopEnd> {
+    pub fn run(&mut self) -> LoopEnd {
         loop {
-            if let Some(stop) = self.play()? {
-                return Ok(stop);
-            }
-            // Without a terminal, answers that are there are taken before more is asked for, and none between that and the
-            // next step: what a file shows does not depend on how soon they come.
-            while self.unattended
-                && let Ok(event) = self.events.try_recv()
-            {
-                if let Some(stop) = self.handle(event)? {
-                    return Ok(stop);
-                }
-            }
-            self.workers.ask(&self.application.wants());
-            self.keep_record()?;
-            let mut next = self.wait()?;
-            while let Some(event) = next {
-                if let Some(stop) = self.handle(event)? {
-                    return Ok(stop);
-                }
-                self.release();
-                next = self.missed.pop_front().or_else(|| self.events.try_recv().ok());
+            if let Err(end) = self.round() {
+                return end;
             }
         }
+    }
+
+    /// Plays a step, asks the workers, waits for an event, and handles it and all that have come meanwhile.
+    fn round(&mut self) -> Step {
+        self.play()?;
+        // Without a terminal, answers that are there are taken before more is asked for, and none between that and the
+        // next step: what a file shows does not depend on how soon they come.
+        while self.unattended
+            && let Ok(event) = self.events.try_recv()
+        {
+            self.handle(event)?;
+        }
+        self.workers.ask(&self.application.wants());
+        self.keep_record()?;
+        let mut next = self.wait()?;
+        while let Some(event) = next {
+            self.handle(event)?;
+            self.release();
+            next = self.missed.pop_front().or_else(|| self.events.try_recv().ok());
+        }
+        Ok(())
     }
 
     /// Waits for the next event; draws and returns none if a frame is due first.
@@ -189,8 +190,8 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Shows a notice in the session.
-    pub fn tell(&mut self, notice: Notice) -> io::Result<()> {
-        self.update(Msg::Told(notice)).map(drop)
+    pub fn tell(&mut self, notice: Notice) -> Step {
+        self.update(Msg::Told(notice))
     }
 
     /// Stops drawing until [`Pump::repaint`], because the terminal is given back.
@@ -239,9 +240,9 @@ impl<M: Application, W: Write> Pump<M, W> {
                 self.changed.get_or_insert_with(Instant::now);
             }
             Event::Resized => self.resized(),
-            Event::End(end) => return Ok(Some(end)),
+            Event::End(end) => return Err(end),
         }
-        Ok(None)
+        Ok(())
     }
 
     /// Follows the size of the terminal, and draws everything again even if that is the size it was: in between
@@ -260,12 +261,9 @@ impl<M: Application, W: Write> Pump<M, W> {
     fn update(&mut self, msg: Msg) -> Step {
         self.changed.get_or_insert_with(Instant::now);
         for effect in self.application.update(msg) {
-            let stop = self.carry_out(effect)?;
-            if stop.is_some() {
-                return Ok(stop);
-            }
+            self.carry_out(effect)?;
         }
-        Ok(None)
+        Ok(())
     }
 
     fn copy(&mut self, text: &str) -> io::Result<Result<String, String>> {
@@ -280,7 +278,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             .and_then(|work| self.workers.write(path, replace, work));
         self.writing |= begun.is_ok();
         match begun {
-            Ok(()) => Ok(None),
+            Ok(()) => Ok(()),
             Err(text) => self.told(Notice { error: true, text }, true),
         }
     }
@@ -342,23 +340,23 @@ impl<M: Application, W: Write> Pump<M, W> {
         if let Some(text) = self.withheld(&effect) {
             let of_figure = matches!(effect, Effect::Figure { .. });
             let notice = Notice { error: true, text };
-            return if notice.text.is_empty() { Ok(None) } else { self.told(notice, of_figure) };
+            return if notice.text.is_empty() { Ok(()) } else { self.told(notice, of_figure) };
         }
         let done = match effect {
-            Effect::Quit => return Ok(Some(LoopEnd::Quit)),
-            Effect::Suspend => return Ok(Some(LoopEnd::Suspend)),
-            Effect::Mouse(on) => return Ok(Some(LoopEnd::Mouse(on))),
+            Effect::Quit => return Err(LoopEnd::Quit),
+            Effect::Suspend => return Err(LoopEnd::Suspend),
+            Effect::Mouse(on) => return Err(LoopEnd::Mouse(on)),
             Effect::Repaint => {
                 self.resized();
-                return Ok(None);
+                return Ok(());
             }
             Effect::StopWriting => {
                 self.workers.stop_writing();
-                return Ok(None);
+                return Ok(());
             }
             Effect::PutAside(path) => {
                 Files::put_aside(&path);
-                return Ok(None);
+                return Ok(());
             }
             Effect::Figure { path, plot, replace } => {
                 return self.write_figure(path, plot, replace);

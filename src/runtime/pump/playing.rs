@@ -3,18 +3,56 @@
 //! A recording has the steps that a replay has given to the session instead of the command that asked for it. Without a
 //! terminal nothing waits for time to pass, no frame is drawn, and the end of the file is that of the loop.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::Path;
 
 use ratatui::layout::Size;
 
-use super::play::{Pause, Playing};
 use super::{Application, Files, Pump, Step};
 use crate::runtime::application::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
-use crate::session::replay::{Action, Script, ScriptError};
+use crate::session::replay::{Action, Player, Script, ScriptError};
 use crate::session::{Code, Effect, Key, Msg, Notice};
 use crate::view;
+
+/// Why a replay is paused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pause {
+    Not,
+    /// A caption waits to be read.
+    Caption,
+    /// The user asked for it.
+    Wished,
+}
+
+/// A file that is being played.
+#[derive(Debug)]
+pub(super) struct Playing {
+    player: Player,
+    /// The player at its beginning, to start over.
+    start: Player,
+    /// Number of captions to skip on the way to the wanted one.
+    passed: usize,
+    /// Whether keys had their usual effect since the present caption was shown.
+    tried: bool,
+    pause: Pause,
+    /// Why the first file that it asked for was not written.
+    unwritten: Option<String>,
+}
+
+impl Playing {
+    pub(super) fn new(script: Script) -> Self {
+        let (player, pause) = (Player::new(script), Pause::Not);
+        let start = player.clone();
+        Playing { player, start, passed: 0, tried: false, pause, unwritten: None }
+    }
+
+    /// Plays everything again up to the caption after so many.
+    fn again(&mut self, passed: usize) {
+        self.player = self.start.clone();
+        (self.passed, self.pause, self.tried) = (passed, Pause::Not, false);
+    }
+}
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
 const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
@@ -35,7 +73,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             if self.application.is_waiting() {
                 if !forgets(&msg) && !leaves(&msg) {
                     self.held_back.push_back(Event::Session(msg));
-                    return Ok(None);
+                    return Ok(());
                 }
                 // The waiting command has not been carried out, and never will be.
                 self.options.recorder.forget(1);
@@ -55,7 +93,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             return self.played(false, "replay stopped".to_owned());
         }
         if leaves(&msg) {
-            return Ok(Some(LoopEnd::Quit));
+            return Err(LoopEnd::Quit);
         }
         if caption && BACK.iter().any(|code| is_key(&msg, *code)) {
             if let Some(passed) = playing.player.said().checked_sub(2) {
@@ -68,7 +106,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             }
             playing.pause = Pause::Not;
         } else if is_key(&msg, Code::Char('q')) {
-            return Ok(Some(LoopEnd::Quit));
+            return Err(LoopEnd::Quit);
         } else if is_key(&msg, Code::Char(' ')) {
             let wished = playing.pause == Pause::Wished;
             playing.pause = if wished { Pause::Not } else { Pause::Wished };
@@ -76,7 +114,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                 if wished { "" } else { "replay held: space continues, esc stops, q leaves" };
             return self.update(Msg::Told(Notice { error: false, text: text.to_owned() }));
         }
-        Ok(None)
+        Ok(())
     }
 
     /// The text of a file, from the replay if that embeds it, else from disk; the recording embeds it.
@@ -95,10 +133,10 @@ impl<M: Application, W: Write> Pump<M, W> {
         self.options.recorder.forget(self.application.asked());
         let Some(playing) = &mut self.playing else {
             self.playing = Some(Playing::new(script));
-            return Ok(None);
+            return Ok(());
         };
         match playing.player.interject(script) {
-            Ok(()) => Ok(None),
+            Ok(()) => Ok(()),
             Err(unmet) => self.fail(unmet),
         }
     }
@@ -140,13 +178,13 @@ impl<M: Application, W: Write> Pump<M, W> {
     pub(super) fn play(&mut self) -> Step {
         let has_events = !(self.unattended || self.events.is_empty() && self.missed.is_empty());
         if self.changed.is_some() || has_events || self.application.is_waiting() {
-            return Ok(None);
+            return Ok(());
         }
         let (application, size) = (&self.application, self.screen.size());
         let idle = application.wants().is_empty() && !self.writing;
         let screen = || view::screen::text(&application.picture(size));
         let Some(playing) = self.playing.as_mut().filter(|it| it.pause == Pause::Not) else {
-            return Ok(None);
+            return Ok(());
         };
         loop {
             return match playing.player.next(idle, screen) {
@@ -157,7 +195,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                     continue;
                 }
                 Ok(Action::Give(Msg::Resize { .. })) if !self.unattended => continue,
-                Ok(Action::Wait) => Ok(None),
+                Ok(Action::Wait) => Ok(()),
                 Ok(Action::Give(msg)) => {
                     let is_caption = matches!(msg, Msg::Say(..)) && !self.unattended;
                     if is_caption && playing.player.said() > playing.passed {
@@ -168,7 +206,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                     }
                     self.record(msg)
                 }
-                Ok(Action::Done) if self.unattended => Ok(Some(LoopEnd::Quit)),
+                Ok(Action::Done) if self.unattended => Err(LoopEnd::Quit),
                 Ok(Action::Done) => match playing.unwritten.take() {
                     Some(why) => self.played(true, format!("replay done, but {why}")),
                     None => self.played(false, "replay done".to_owned()),
@@ -179,20 +217,22 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Plays a file without a terminal until it ends, an expectation is not met, or the session quits.
-    pub fn unattended(mut self) -> io::Result<ReplayResult<M>> {
+    pub fn unattended(mut self) -> ReplayResult<M> {
         self.unattended = true;
         let Size { width, height } = self.screen.size();
-        self.update(Msg::Resize { width, height })?;
-        self.run()?;
+        // Neither the size nor a frame that nobody sees can end the loop.
+        drop(self.update(Msg::Resize { width, height }));
+        drop(self.run());
         // A figure that has been begun is written.
-        while self.writing {
-            let Ok(event) = self.events.recv() else { break };
-            self.handle(event)?;
+        while self.writing
+            && let Ok(event) = self.events.recv()
+        {
+            drop(self.handle(event));
         }
         let screen = self.application.picture(self.screen.size());
         let unwritten = self.playing.and_then(|playing| playing.unwritten);
         let Pump { application, kept, unmet, .. } = self;
-        Ok(ReplayResult { application, screen, kept, unmet, unwritten })
+        ReplayResult { application, screen, kept, unmet, unwritten }
     }
 
     /// Ends a replay whose file cannot be played further.
@@ -201,7 +241,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             return self.played(true, format!("replay stopped: {unmet}"));
         }
         self.unmet = Some(unmet);
-        Ok(Some(LoopEnd::Quit))
+        Err(LoopEnd::Quit)
     }
 
     /// Ends a replay.
@@ -224,15 +264,15 @@ impl<M: Application, W: Write> Pump<M, W> {
     /// Gives the session a message that is recorded, unless it quits.
     fn record(&mut self, msg: Msg) -> Step {
         self.options.recorder.note(&msg);
-        let stop = self.update(msg)?;
-        if stop == Some(LoopEnd::Quit) {
+        let done = self.update(msg);
+        if done == Err(LoopEnd::Quit) {
             self.options.recorder.forget(1);
         }
-        Ok(stop)
+        done
     }
 
     /// Writes what was recorded since the last call, if there is a file for it.
-    pub(super) fn keep_record(&mut self) -> io::Result<()> {
+    pub(super) fn keep_record(&mut self) -> Step {
         let kept = self.options.keep_record();
         if let Err(text) = kept {
             self.options.record = None;

@@ -151,7 +151,7 @@ fn after_a_stop_no_frame_waits_for_the_terminal() {
 /// Plays a file and returns what is on the screen at its end.
 fn play(file: &str) -> String {
     let Bench { mut pump, events, written } = playing(file);
-    let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+    let running = std::thread::spawn(move || (pump.run(), pump));
     while !written.recv().unwrap().contains("replay") {}
     events.send(key("q")).unwrap();
     let (stop, pump) = running.join().unwrap();
@@ -175,7 +175,7 @@ fn a_replay_goes_on_without_a_file_that_it_may_not_write_and_says_so_at_the_end(
         let (path, text) = (path.clone(), "text".to_owned());
         pump.application.asks = Some(Effect::Write { path, text, replace: false });
         pump.options.files.may_play_write = may_play_write;
-        let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+        let running = std::thread::spawn(move || (pump.run(), pump));
         while !written.recv().unwrap().contains("done") {}
         events.send(key("q")).unwrap();
         let (_, pump) = running.join().unwrap();
@@ -195,7 +195,7 @@ fn keys_are_answered_while_a_figure_is_written() {
     let asks = Effect::Figure { path: path.clone(), plot: None, replace: false };
     (pump.application.asks, pump.application.gate) = (Some(asks), Some(gate));
     events.send(key("<enter>")).unwrap();
-    let running = std::thread::spawn(move || pump.run().unwrap());
+    let running = std::thread::spawn(move || pump.run());
     for count in ["1", "2"] {
         events.send(key("<right>")).unwrap();
         while !written.recv().unwrap().contains(count) {}
@@ -232,7 +232,7 @@ const TOURS: [Tour; 4] = [
 fn a_tour_waits_at_captions_goes_back_lets_keys_be_tried_and_is_left_by_escape() {
     for (file, pressed, count) in TOURS {
         let Bench { mut pump, events, written } = playing(file);
-        let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+        let running = std::thread::spawn(move || (pump.run(), pump));
         for (seen, names) in pressed {
             while !written.recv().unwrap().contains(seen) {}
             for name in *names {
@@ -268,12 +268,12 @@ fn recorded(pump: &Pump<Counter, Wire>) -> String {
 fn the_users_keys_stop_hold_or_leave_a_replay_and_are_no_part_of_it() {
     let step = |pump: &mut Pump<Counter, Wire>| {
         pump.draw().unwrap();
-        pump.play().unwrap()
+        pump.play().unwrap();
     };
     let Bench { mut pump, .. } = playing("<right*3>");
     step(&mut pump);
     for ignored in ["<right>", "x", "<enter>"] {
-        assert_eq!(pump.handle(key(ignored)).unwrap(), None);
+        assert_eq!(pump.handle(key(ignored)), Ok(()));
     }
     assert_eq!(pump.application.count, 1, "keys of the user are not mixed into it");
     pump.handle(key("<space>")).unwrap();
@@ -284,7 +284,7 @@ fn the_users_keys_stop_hold_or_leave_a_replay_and_are_no_part_of_it() {
     step(&mut pump);
     assert_eq!(pump.application.count, 2, "and on");
     for leaves in ["q", "<C-c>"] {
-        assert_eq!(pump.handle(key(leaves)).unwrap(), Some(LoopEnd::Quit));
+        assert_eq!(pump.handle(key(leaves)), Err(LoopEnd::Quit));
     }
     pump.handle(key("<esc>")).unwrap();
     assert_eq!(pump.application.notice, "replay stopped");
