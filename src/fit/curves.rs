@@ -1,10 +1,10 @@
-//! The curves in the pictures of a fit, and the plotted points of its record. They are computed once, with the answer; drawing them computes nothing.
+//! The curves in the pictures of a fit. They are computed once, with the answer; drawing them computes nothing.
 
 use std::f64::consts::TAU;
 
 use super::{
-    Dropped, Estimate, Margins, OFFSET, OMEGA0, Q0, Record, Way, autocorrelations, averaged,
-    follow, parameters, rate,
+    Estimate, Margins, OFFSET, OMEGA0, Q0, Way, autocorrelations, averaged, follow, parameters,
+    rate,
 };
 use crate::model::{Parameters, State};
 use crate::numerics::{real, truncated};
@@ -18,8 +18,9 @@ pub type Extent = [f64; 4];
 /// The curves in the pictures of a fit.
 #[derive(Clone, Debug)]
 pub struct Curves {
-    /// Record, residuals and motion; `None` for a record of peaks only.
-    pub sampled: Option<Sampled>,
+    /// The fitted motion: time in s, displacement from the offset, velocity over omega0, and the signal with its offset;
+    /// none for a record of peaks only.
+    pub motion: Vec<[f64; 4]>,
     /// Damping over amplitude.
     pub damping: Damping,
     /// The fraction of draws whose smallest change of position from rest that is not survived is less than the abscissa.
@@ -44,29 +45,20 @@ pub struct Damping {
 }
 
 impl Curves {
-    /// The window in which the residuals are shown.
-    pub fn residual_extent(&self, deviation: f64) -> Option<Extent> {
-        let seen = self.sampled.as_ref()?;
-        let sizes = seen.points.iter().map(|[.., residual]| residual.abs());
-        let far = 1.06 * sizes.fold(2.0 * deviation, f64::max);
-        Some([seen.points.first()?[0], seen.points.last()?[0], -far, far])
-    }
-
     /// Computes all curves.
     pub fn of(estimate: &Estimate, margins: &Margins) -> Self {
         let (spread, spread_extent) = spread(estimate, margins);
-        let sampled = Sampled::of(estimate);
-        let farthest = match (&sampled, &estimate.data) {
-            (Some(seen), _) => seen.motion.iter().map(|[_, q, ..]| q.abs()).fold(0.0, f64::max),
+        let motion = motion(estimate);
+        let largest =
+            |places: &mut dyn Iterator<Item = f64>| places.map(f64::abs).fold(0.0, f64::max);
+        let farthest = if motion.is_empty() {
             // What was measured at a peak less its residual is how far the fitted motion goes.
-            (None, data) => data
-                .x
-                .iter()
-                .zip(&estimate.residuals)
-                .map(|(x, residual)| (x - residual - estimate.p[OFFSET]).abs())
-                .fold(0.0, f64::max),
+            let peaks = estimate.data.x.iter().zip(&estimate.residuals);
+            largest(&mut peaks.map(|(x, residual)| x - residual - estimate.p[OFFSET]))
+        } else {
+            largest(&mut motion.iter().map(|[_, q, ..]| *q))
         };
-        Curves { damping: damping(estimate, margins, farthest), sampled, spread, spread_extent }
+        Curves { damping: damping(estimate, margins, farthest), motion, spread, spread_extent }
     }
 }
 
@@ -192,50 +184,18 @@ fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<PlotPoint>, Extent) {
     (steps, [from, to, 0.0, 1.0])
 }
 
-/// Maximum number of points plotted of a record. Of longer records every second, third, .. sample is plotted.
-const POINTS: usize = 4000;
-
-/// The plotted points of a sampled record, without outliers and jumps.
-#[derive(Clone, Debug)]
-pub struct Sampled {
-    /// Time in s, the signal, and its difference from the fitted motion; NaN in a gap.
-    pub points: Vec<[f64; 3]>,
-    /// The fitted motion: time, displacement from the offset, velocity over omega0, and the signal with its offset.
-    pub motion: Vec<[f64; 4]>,
-}
-
-impl Sampled {
-    /// The plotted points of a fitted record; `None` for a record of peaks.
-    pub fn of(estimate: &Estimate) -> Option<Self> {
-        /// A step longer than the average one by this factor is a gap.
-        const GAP: f64 = 6.0;
-        let Record { t, x, .. } = &estimate.data;
-        if estimate.data.has_peaks() {
-            return None;
-        }
-        let every = t.len().div_ceil(POINTS);
-        let mut points: Vec<[f64; 3]> = Vec::new();
-        for (index, why) in estimate.left_out.iter().enumerate().step_by(every) {
-            let gap = GAP * real(every) / rate(t);
-            if points.last().is_some_and(|[last, ..]| t[index] - last > gap) {
-                points.push([f64::NAN; 3]);
-            }
-            if !matches!(why, Some(Dropped::Outlier | Dropped::Jump)) {
-                points.push([t[index], x[index], estimate.residuals[index]]);
-            }
-        }
-        Some(Sampled { points, motion: motion(estimate, t) })
-    }
-}
-
 /// The fitted motion at closely spaced times, and its signal.
-fn motion(estimate: &Estimate, t: &[f64]) -> Vec<[f64; 4]> {
-    /// Number of points for each half swing.
+fn motion(estimate: &Estimate) -> Vec<[f64; 4]> {
+    /// Number of points for each half swing, and of all at most.
     const FINE: usize = 40;
-    let p = &estimate.p;
+    const MOST: usize = 16_000;
+    if estimate.data.has_peaks() {
+        return Vec::new();
+    }
+    let (p, t) = (&estimate.p, &estimate.data.t);
     let (first, last) = (t[0], t[t.len() - 1]);
     let (origin, start) = estimate.start.beginning(p, t);
-    let count = (FINE * (estimate.half_swings + 2)).min(4 * POINTS);
+    let count = (FINE * (estimate.half_swings + 2)).min(MOST);
     let at = |index: usize| origin + (last - origin) * real(index) / real(count);
     let taus: Vec<f64> = (0..=count).map(|index| p[OMEGA0] * (at(index) - origin)).collect();
     let signal = estimate.data.signal;

@@ -6,10 +6,9 @@ use serde::Serialize;
 
 use super::{
     BEND, Choice, Covariance, Dropped, Extreme, FittedDrift, HIDDEN, LeftDrift, NAMES, NameSpec,
-    Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, Signal, StartKind,
-    Task, UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, left_over, whiteness,
+    Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, StartKind, Task,
+    UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, left_over, whiteness,
 };
-use crate::model::State;
 use crate::numerics::{cos, sin};
 
 /// A minimum that competes with the best one.
@@ -100,18 +99,6 @@ impl Estimate {
     /// The rows of the numbers that were asked for and could be estimated.
     pub fn wanted(&self) -> impl Iterator<Item = &'static NameSpec> + '_ {
         NAMES.iter().filter(|row| self.choice.is_wanted(row) && self.free[row.place])
-    }
-
-    /// The place of a sample in the phase plane: what is measured of it, and the rest of it by the fitted state at this
-    /// time; `None` for an acceleration, of which nothing is seen there.
-    #[must_use]
-    pub fn measured(&self, t: f64, x: f64, fitted: State) -> Option<State> {
-        let seen = x - self.data.zero(&self.p, t);
-        match self.data.signal {
-            Signal::Displacement => Some(State { q: seen, ..fitted }),
-            Signal::Velocity => Some(State { v: seen / self.p[OMEGA0], ..fitted }),
-            Signal::Acceleration => None,
-        }
     }
 
     /// Smallest and largest half peak-to-peak amplitude in the record.

@@ -11,13 +11,14 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use super::{
-    Curves, D, D2, D3, Dropped, Estimate, Inertia, LAST, MarginQuestion, Margins, NAMES, NameSpec,
-    OFFSET, OMEGA0, Q0, R, Record, Signal, StartKind, averaged, length_in_metres, parameters,
+    Curves, D, D2, D3, Dropped, Estimate, Extent, Inertia, LAST, MarginQuestion, Margins, NAMES,
+    NameSpec, OFFSET, OMEGA0, PlotPoint, Q0, R, Record, Signal, StartKind, averaged,
+    length_in_metres, parameters, rate,
 };
 use crate::flow::Problem;
 use crate::model::belt::Units;
 use crate::model::{Knob, State};
-use crate::numerics::powi;
+use crate::numerics::{powi, real};
 
 /// The whole result of a fit.
 #[derive(Clone, Debug)]
@@ -42,10 +43,16 @@ pub struct Fitted {
     pub seconds: f64,
 }
 
-/// A point of the record in the units of the oscillator: time in `1/omega0`, lengths in the record's unit.
+/// A point of the record, as measured and in the units of the oscillator: time in `1/omega0`, lengths in the record's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RecordPoint {
-    /// Time since the release, or since the first sample.
+    /// Time in s.
+    pub t: f64,
+    /// The signal.
+    pub x: f64,
+    /// Measured minus computed; NaN where nothing is fitted.
+    pub residual: f64,
+    /// Dimensionless time since the release, or since the first sample.
     pub tau: f64,
     /// Displacement from the offset, as measured; of a velocity from the fit, of an acceleration NaN.
     pub q: f64,
@@ -76,6 +83,44 @@ impl Fitted {
         let points = points(&record, &estimate);
         let (rise, drawn, seconds) = (0.0, true, 0.0);
         Fitted { name, record, estimate, margins, curves, points, rise, drawn, seconds }
+    }
+
+    /// The samples of the fitted motion as a line through the places that `of` reads, without outliers and jumps, and with a
+    /// break (NaN) at each gap; of a long record every second, third, .. sample. None for a record of peaks.
+    #[must_use]
+    pub fn line(&self, of: impl Fn(&RecordPoint) -> PlotPoint) -> Vec<PlotPoint> {
+        /// Maximum number of samples.
+        const MOST: usize = 4000;
+        /// A step longer than the average one by this factor is a gap.
+        const GAP: f64 = 6.0;
+        let data = &self.estimate.data;
+        if data.has_peaks() {
+            return Vec::new();
+        }
+        let every = data.t.len().div_ceil(MOST);
+        let gap = GAP * real(every) / rate(&data.t);
+        let fitted = self.points.iter().filter(|it| !it.dropped.is_some_and(Dropped::is_outside));
+        let (mut line, mut last) = (Vec::new(), f64::INFINITY);
+        for point in fitted.step_by(every) {
+            if matches!(point.dropped, Some(Dropped::Outlier | Dropped::Jump)) {
+                continue;
+            }
+            if point.t - last > gap {
+                line.push([f64::NAN; 2]);
+            }
+            line.push(of(point));
+            last = point.t;
+        }
+        line
+    }
+
+    /// The window in which the residuals are shown; `None` for a record of peaks.
+    #[must_use]
+    pub fn residual_extent(&self) -> Option<Extent> {
+        let line = self.line(|it| [it.t, it.residual]);
+        let sizes = line.iter().map(|[_, residual]| residual.abs());
+        let far = 1.06 * sizes.fold(2.0 * self.estimate.covariance.deviation, f64::max);
+        Some([line.first()?[0], line.last()?[0], -far, far])
     }
 
     /// The question about its margin with these half widths and a disturbance in the unit of r.
@@ -169,16 +214,23 @@ impl Fitted {
 /// The measured points, relative to the fitted motion.
 fn points(record: &Record, estimate: &Estimate) -> Vec<RecordPoint> {
     let p = &estimate.p;
-    let (origin, _) = estimate.start.beginning(p, &estimate.data.t);
-    let mut states = estimate.data.states(estimate.start, p, estimate.reach).into_iter();
+    let data = &estimate.data;
+    let (origin, _) = estimate.start.beginning(p, &data.t);
+    let states = data.states(estimate.start, p, estimate.reach).into_iter();
+    let mut fitted = states.zip(estimate.residuals.iter().copied());
     let all = record.t.iter().zip(&record.x).zip(&estimate.dropped);
     all.map(|((&t, &x), &dropped)| {
         let is_outside = dropped.is_some_and(Dropped::is_outside);
-        let fitted = if is_outside { None } else { states.next() };
-        let unseen = State { q: f64::NAN, v: f64::NAN };
-        let fitted = fitted.unwrap_or(State { q: 0.0, v: 0.0 });
-        let State { q, v } = estimate.measured(t, x, fitted).unwrap_or(unseen);
-        RecordPoint { tau: p[OMEGA0] * (t - origin), q, v, dropped }
+        let fitted = if is_outside { None } else { fitted.next() };
+        let (State { q, v }, residual) = fitted.unwrap_or((State { q: 0.0, v: 0.0 }, f64::NAN));
+        let seen = x - data.zero(p, t);
+        // What is measured is seen, the rest of the state is that of the fit; of an acceleration nothing is seen.
+        let (q, v) = match data.signal {
+            Signal::Displacement => (seen, v),
+            Signal::Velocity => (q, seen / p[OMEGA0]),
+            Signal::Acceleration => (f64::NAN, f64::NAN),
+        };
+        RecordPoint { t, x, residual, tau: p[OMEGA0] * (t - origin), q, v, dropped }
     })
     .collect()
 }

@@ -84,7 +84,7 @@ pub use {
 pub(crate) use {
     cells::{ColumnHeader, Header, cells, clock_seconds, lines, read, seconds_in, separator},
     conditions::repeated,
-    curves::{Curves, PlotPoint, memory},
+    curves::{Curves, Extent, PlotPoint, memory},
     drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
     estimate::{LeftOut, RISES, contour, held, judged, left_out},
     fitted::{Combination, combination, rows},

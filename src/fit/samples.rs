@@ -92,16 +92,28 @@ pub fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Esti
     {
         return Ok(found);
     }
-    let mut dropped = without_jumps_of_signal(&task, &mut found).ok_or_else(lost)?;
+    let renew: Refit = |task, found| task.renew(found);
+    let dropped = vec![None; data.residuals()];
+    let mut sorted = SortedOut { task, found, dropped, is_due: false };
+    if signal == Signal::Acceleration {
+        // The jumps move as the fit improves.
+        sorted.leave_out(2, renew, |_, best| beside_jumps(best, &t)).ok_or_else(lost)?;
+    }
     if question.loss == LossName::Auto {
-        task.loss = Loss::LINEAR;
-        drop_outliers(&task, &mut dropped, loss.is_robust(), &mut found).ok_or_else(lost)?;
+        // If the search used a robust loss, even an unchanged selection is fitted again.
+        (sorted.task.loss, sorted.is_due) = (Loss::LINEAR, loss.is_robust());
+        let polish: Refit = |task, found| task.polish(found);
+        let before = sorted.dropped.clone();
+        sorted.leave_out(4, polish, |_, best| outliers(&before, best)).ok_or_else(lost)?;
         // If no motion fits, it is not known where the mass rests.
-        if (Task { dropped: &dropped, ..task }).comes_near(&found[0]) {
-            drop_alike_at_rest(&task, &noise, &mut dropped, &mut found).ok_or_else(lost)?;
+        if sorted.task().comes_near(&sorted.found[0]) {
+            let before = sorted.dropped.clone();
+            let why = |task: &Task, best: &Optimum| alike_at_rest(task, best, &noise, &before);
+            // Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
+            sorted.leave_out(2, renew, why).ok_or_else(lost)?;
         }
     }
-    let estimate = judged(&Task { dropped: &dropped, ..task }, &found)?;
+    let estimate = judged(&sorted.task(), &sorted.found)?;
     let mut estimate = of_part(estimate, 0..x.len(), &within);
     let scale = (signal.as_displacement(estimate.p[OMEGA0]) / factor).abs();
     for extreme in &mut extremes {
@@ -132,70 +144,76 @@ fn loss_of(name: LossName, noise: &Noise) -> Loss {
     Loss { name, scale: 3.0 * noise.deviation }
 }
 
-/// The samples without those next to jumps of the signal, which only an acceleration has. The minima are then sought
-/// again with these samples. `None` if the computation has ended, or if the motion is lost.
-fn without_jumps_of_signal(task: &Task, found: &mut Vec<Optimum>) -> Option<Vec<Option<Dropped>>> {
-    /// The jumps move as the fit improves.
-    const ROUNDS: usize = 2;
-    let mut dropped = vec![None; task.data.residuals()];
-    let Record { t, signal, .. } = task.data;
-    if *signal == Signal::Acceleration {
-        for _ in 0..ROUNDS {
-            dropped = beside(&jumps(&found[0], t), t, found[0].p[OMEGA0]);
-            Task { dropped: &dropped, ..*task }.renew(found)?;
-        }
+/// Seeks minima again with the residuals that now count. `None` if the computation has ended, or if the motion is lost.
+type Refit = fn(&Task, &mut Vec<Optimum>) -> Option<()>;
+
+/// A fit whose samples are sorted out: which of them count follows from the motion, and the motion from these.
+struct SortedOut<'a> {
+    task: Task<'a>,
+    /// The minima, the lowest first.
+    found: Vec<Optimum>,
+    dropped: Vec<Option<Dropped>>,
+    /// Whether the next selection is fitted even if nothing has changed.
+    is_due: bool,
+}
+
+impl SortedOut<'_> {
+    /// What is estimated from the samples that count.
+    fn task(&self) -> Task<'_> {
+        Task { dropped: &self.dropped, ..self.task }
     }
-    Some(dropped)
+
+    /// Leaves out what `why` says of the best minimum and fits again, until nothing changes. `None` as [`Refit`].
+    fn leave_out(
+        &mut self,
+        rounds: usize,
+        refit: Refit,
+        why: impl Fn(&Task, &Optimum) -> Vec<Option<Dropped>>,
+    ) -> Option<()> {
+        for _ in 0..rounds {
+            let now = why(&self.task(), &self.found[0]);
+            if now == self.dropped && !self.is_due {
+                break;
+            }
+            (self.dropped, self.is_due) = (now, false);
+            refit(&Task { dropped: &self.dropped, ..self.task }, &mut self.found)?;
+        }
+        Some(())
+    }
 }
 
-/// The times of the jumps of a motion.
-fn jumps(best: &Optimum, t: &[f64]) -> Vec<f64> {
-    let (origin, _) = best.start.beginning(&best.p, t);
-    let release = Some(origin).filter(|_| best.start == StartKind::Release);
-    let turns = best.seen.turns.iter().map(|turn| origin + turn.tau / best.p[OMEGA0]);
-    release.into_iter().chain(turns).collect()
-}
-
-/// Drops the samples closer to a jump than half a step, or than the phase of a record is uncertain by.
-fn beside(jumps: &[f64], t: &[f64], omega0: f64) -> Vec<Option<Dropped>> {
+/// The samples closer to a jump of an acceleration than half a step, or than the phase of a record is uncertain by.
+fn beside_jumps(best: &Optimum, t: &[f64]) -> Vec<Option<Dropped>> {
     /// In radians of the phase.
     const UNCERTAIN: f64 = 0.03;
+    let omega0 = best.p[OMEGA0];
     let near = f64::max(0.5 / rate(t), UNCERTAIN / omega0);
+    let (origin, _) = best.start.beginning(&best.p, t);
+    let release = Some(origin).filter(|_| best.start == StartKind::Release);
+    let turns = best.seen.turns.iter().map(|turn| origin + turn.tau / omega0);
     let mut dropped = vec![None; t.len()];
-    for jump in jumps {
+    for jump in release.into_iter().chain(turns) {
         let range = [jump - near, jump + near].map(|end| t.partition_point(|t| *t <= end));
         dropped[range[0]..range[1]].fill(Some(Dropped::Jump));
     }
     dropped
 }
 
-/// Leaves out readings of a mass at rest that only repeat the rounding error of others, and fits again.
-fn drop_alike_at_rest(
+/// Beside what was left out before the readings of a mass at rest that only repeat the rounding error of others.
+fn alike_at_rest(
     task: &Task,
+    best: &Optimum,
     noise: &Noise,
-    dropped: &mut Vec<Option<Dropped>>,
-    found: &mut Vec<Optimum>,
-) -> Option<()> {
-    /// Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
-    const ROUNDS: usize = 2;
-    let before = dropped.clone();
-    let mut alike = vec![false; dropped.len()];
-    for _ in 0..ROUNDS {
-        let values = Task { dropped, ..*task }.values(&found[0].seen);
-        let now = all_but_some(task, &found[0], noise.readings_at_rest(mean_square(&values)));
-        if now == alike {
-            break;
-        }
-        alike = now;
-        let why = |(before, alike): (&Option<Dropped>, &bool)| match before {
-            Some(Dropped::Jump) => *before,
-            _ if *alike => Some(Dropped::Alike),
-            _ => *before,
-        };
-        *dropped = before.iter().zip(&alike).map(why).collect();
-        Task { dropped, ..*task }.renew(found)?;
-    }
-    Some(())
+    before: &[Option<Dropped>],
+) -> Vec<Option<Dropped>> {
+    let variance = mean_square(&task.values(&best.seen));
+    let alike = all_but_some(task, best, noise.readings_at_rest(variance));
+    let why = |(before, alike): (&Option<Dropped>, bool)| match before {
+        Some(Dropped::Jump) => *before,
+        _ if alike => Some(Dropped::Alike),
+        _ => *before,
+    };
+    before.iter().zip(alike).map(why).collect()
 }
 
 /// Selects the samples held and those at rest except for `enough` (at least two) of each, evenly spread.
@@ -221,37 +239,18 @@ fn all_but_some(task: &Task, best: &Optimum, enough: f64) -> Vec<bool> {
     selected
 }
 
-/// Leaves out samples that cannot belong to the motion and fits again, until nothing changes.
-fn drop_outliers(
-    task: &Task,
-    dropped: &mut Vec<Option<Dropped>>,
-    robust: bool,
-    found: &mut [Optimum],
-) -> Option<()> {
+/// Beside what was left out before the samples that cannot belong to the motion.
+fn outliers(before: &[Option<Dropped>], best: &Optimum) -> Vec<Option<Dropped>> {
     /// A model that leaves out more than this fraction of the record does not describe it.
     const MOST: f64 = 0.15;
-    const ROUNDS: usize = 4;
-    let before = dropped.clone();
-    // If the search used a robust loss, even an unchanged selection is fitted again.
-    let mut settled = !robust;
-    for _ in 0..ROUNDS {
-        let values: Vec<f64> = found[0].seen.residuals.iter().map(|it| it.value).collect();
-        let limit = limit_of(&values);
-        let why = |(before, value): (&Option<Dropped>, &f64)| {
-            before.or((value.abs() > limit).then_some(Dropped::Outlier))
-        };
-        let mut now: Vec<_> = before.iter().zip(&values).map(why).collect();
-        let outliers = now.iter().filter(|why| **why == Some(Dropped::Outlier)).count();
-        if real(outliers) > MOST * real(now.len()) {
-            now.clone_from(&before);
-        }
-        if settled && now == *dropped {
-            break;
-        }
-        (*dropped, settled) = (now, true);
-        Task { dropped, ..*task }.polish(found)?;
-    }
-    Some(())
+    let values: Vec<f64> = best.seen.residuals.iter().map(|it| it.value).collect();
+    let limit = limit_of(&values);
+    let why = |(before, value): (&Option<Dropped>, &f64)| {
+        before.or((value.abs() > limit).then_some(Dropped::Outlier))
+    };
+    let now: Vec<_> = before.iter().zip(&values).map(why).collect();
+    let outliers = now.iter().filter(|why| **why == Some(Dropped::Outlier)).count();
+    if real(outliers) > MOST * real(now.len()) { before.to_vec() } else { now }
 }
 
 /// The size beyond which a residual does not belong to the motion: a multiple of the standard deviation of the

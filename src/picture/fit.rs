@@ -11,7 +11,7 @@ use crate::fit::{
     parameters,
 };
 use crate::flow::Limits;
-use crate::model::{Parameters, State};
+use crate::model::Parameters;
 use crate::numerics::count::real;
 use crate::portrait::Portrait;
 use crate::scene::{Point, Span, Window};
@@ -27,35 +27,32 @@ pub fn pictures(fitted: &Fitted) -> Vec<Picture<'static>> {
 }
 
 fn record(fitted: &Fitted) -> Option<Picture<'static>> {
-    let seen = fitted.curves.sampled.as_ref()?;
     let name = ["x", "x'", "x''"][fitted.record.signal.order()];
     let name = with_unit(name, &fitted.record.signal_unit());
     let mut picture = Picture::new("record and fit", "t [s]", name, Window::default());
-    picture.curve("record", seen.points.iter().map(|[t, x, _]| [*t, *x]));
-    picture.curve("fitted motion", seen.motion.iter().map(|[t, .., x]| [*t, *x]));
+    picture.curve("record", fitted.line(|it| [it.t, it.x]));
+    picture.curve("fitted motion", fitted.curves.motion.iter().map(|[t, .., x]| [*t, *x]));
     picture.window = around(&picture)?;
-    let record = &fitted.record;
     // What lies before and after the motion is seen, too.
-    if let Some(times) = Span::covering(record.t.iter().copied()) {
+    if let Some(times) = Span::covering(fitted.points.iter().map(|it| it.t)) {
         picture.window.x = times.scaled(times.center(), 1.06);
     }
-    let all = record.t.iter().zip(&record.x).zip(&fitted.estimate.dropped);
-    mark_dropped(&mut picture, all.filter_map(|((t, x), why)| Some((at(*t, *x), (*why)?))));
+    let apart = fitted.points.iter().filter_map(|it| Some((at(it.t, it.x), it.dropped?)));
+    mark_dropped(&mut picture, apart);
     Some(picture)
 }
 
 pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
-    let seen = fitted.curves.sampled.as_ref()?;
     let name = with_unit("measured - fitted", &fitted.record.signal_unit());
     let mut picture = Picture::new("residuals", "t [s]", name, Window::default());
-    picture.curve("residuals", seen.points.iter().map(|[t, _, e]| [*t, *e]));
-    let deviation = fitted.estimate.covariance.deviation;
-    band(&mut picture, [seen.points.first()?[0], seen.points.last()?[0]], 2.0 * deviation);
+    let line = fitted.line(|it| [it.t, it.residual]);
+    let ends = [line.first()?[0], line.last()?[0]];
+    picture.curve("residuals", line);
+    band(&mut picture, ends, 2.0 * fitted.estimate.covariance.deviation);
     picture.window = around(&picture)?;
-    let all = fitted.estimate.data.t.iter().zip(&fitted.estimate.residuals);
-    let apart = all.zip(&fitted.estimate.left_out).filter_map(|((t, e), why)| {
-        let why = why.filter(|it| matches!(it, Dropped::Outlier | Dropped::Jump))?;
-        Some((at(*t, *e), why))
+    let apart = fitted.points.iter().filter_map(|it| {
+        let why = it.dropped.filter(|why| matches!(why, Dropped::Outlier | Dropped::Jump))?;
+        Some((at(it.t, it.residual), why))
     });
     mark_dropped(&mut picture, apart);
     Some(picture)
@@ -137,23 +134,17 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
     }
     let line = LineStyle { dash: Dash::Solid, ..LineStyle::from("border of the basin") };
     border(&mut picture, &parameters(p), largest, line);
-    if let Some(seen) = &fitted.curves.sampled {
-        let mut motion = seen.motion.iter().peekable();
-        let mut data = Vec::new();
-        for [t, x, _] in &seen.points {
-            while motion.next_if(|point| point[0] < *t).is_some() {}
-            if let Some([_, q, v, _]) = motion.peek() {
-                data.extend(estimate.measured(*t, *x, State { q: *q, v: *v }));
-            }
-        }
+    if !estimate.data.has_peaks() {
         let name = match estimate.data.signal {
-            Signal::Displacement => "record (velocity by the fit)",
-            _ => "record (displacement by the fit)",
+            Signal::Displacement => Some("record (velocity by the fit)"),
+            Signal::Velocity => Some("record (displacement by the fit)"),
+            Signal::Acceleration => None,
         };
-        if !data.is_empty() {
-            picture.curve(name, data);
+        if let Some(name) = name {
+            picture.curve(name, fitted.line(|it| [it.q, it.v]));
         }
-        picture.curve("fitted motion", seen.motion.iter().map(|[_, q, v, _]| [*q, *v]));
+        let motion = fitted.curves.motion.iter();
+        picture.curve("fitted motion", motion.map(|[_, q, v, _]| [*q, *v]));
     }
     picture.curve("sticking set", [[-p[R], 0.0], [p[R], 0.0]]);
     Some(picture)

@@ -53,10 +53,7 @@ pub(crate) fn fitted(session: &Session, index: usize) -> Option<Window> {
         View::Eigenvalues => eigenvalues(session),
         View::Speeds => speeds(session, index),
         View::Damping => Window::of(session.fitted()?.curves.damping.extent),
-        View::Residuals => {
-            let fit = session.fitted()?;
-            Window::of(fit.curves.residual_extent(fit.estimate.covariance.deviation)?)
-        }
+        View::Residuals => Window::of(session.fitted()?.residual_extent()?),
         View::Spread => Window::of(session.fitted()?.curves.spread_extent),
         View::Scan => session.scanned.as_ref().map(ScanOnShow::window),
         #[allow(
