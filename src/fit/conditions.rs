@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     Dropped, Estimate, FEWEST, FittedDrift, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R,
-    RUN, Record, Rival, Runs, Unfit, Unknowns, longest_run, peaks, samples,
+    RUN, Record, Rival, Runs, Unfit, Unknowns, longest_run, of_kind,
 };
 use crate::numerics::decimal::{in_unit, significant, with_error};
 use crate::numerics::{Random, real};
@@ -135,8 +135,7 @@ fn zero(estimate: &Estimate) -> Condition {
 /// [`Unfit::Interrupted`].
 pub fn repeated(estimate: &Estimate, question: &Question, runs: &Runs) -> Result<f64, Unfit> {
     let record = simulated(estimate);
-    let fit = if question.peaks { peaks } else { samples };
-    let again = fit(&record, question, runs).ok();
+    let again = of_kind(&record, question, runs).ok();
     let off = again.map_or(f64::INFINITY, |again| furthest(estimate, &again.p));
     runs.ended().map_or(Ok(off), Err)
 }

@@ -2,10 +2,10 @@
 //!
 //! [`record`] reads the files of instruments. [`mod@guess`] makes a first guess from the [`mod@turning_points`], by the
 //! decrements of averaging. [`motion`] follows a motion with its exact derivatives, half swing by half swing;
-//! [`observation`] compares it with the record. [`task`] says which of the [`unknowns`] are estimated, and
+//! [`observation`] compares it with the record. [`task`] says which of the unknowns ([`question`]) are estimated, and
 //! minimizes the loss; [`search`] finds the right [`valley`] for it. [`mod@samples`]
 //! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for
-//! correlated noise ([`uncertainty`], [`residuals`]); intervals where the loss is not quadratic ([`profile`]); numbers
+//! correlated noise ([`mod@noise`]), and intervals where the loss is not quadratic ([`uncertainty`]); numbers
 //! of which only a combination is known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What
 //! all of this rests on is tested by the record itself ([`mod@conditions`]).
 //!
@@ -37,7 +37,6 @@ mod cells;
 mod conditions;
 mod curves;
 mod descent;
-mod drift;
 mod estimate;
 mod fitted;
 mod guess;
@@ -46,26 +45,22 @@ mod motion;
 mod noise;
 mod observation;
 mod posterior;
-mod profile;
 mod question;
 mod record;
-mod residuals;
 mod samples;
 mod search;
 mod signal;
 mod task;
 mod turning_points;
 mod uncertainty;
-mod unknowns;
 mod valley;
 
 pub use estimate::Estimate;
 pub use fitted::{Fitted, RecordPoint};
 pub use margin::{AllowedLoss, DRAWS, MarginQuestion, Margins, margins};
-pub use question::{Inertia, LossName, Question, Unfit};
+pub use question::{Inertia, LossName, Question, Unfit, parameters};
 pub use record::{BadRecord, Reading, Record, parse};
 pub use signal::{LENGTHS, Signal, length_in_metres};
-pub use unknowns::parameters;
 
 #[doc(hidden)]
 pub use {
@@ -73,11 +68,11 @@ pub use {
     estimate::{Rival, following},
     motion::Way,
     observation::Residual,
-    question::{Choice, NAMES, NameSpec, named},
-    task::{Dropped, Runs, Task},
-    unknowns::{
-        BEND, D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, SLOPE, StartKind, UNKNOWNS, Unknowns,
+    question::{
+        BEND, Choice, D, D2, D3, LAST, NAMES, NameSpec, OFFSET, OMEGA0, Q0, R, SLOPE, StartKind,
+        UNKNOWNS, Unknowns, named,
     },
+    task::{Dropped, Runs, Task},
 };
 
 // What other rings use of it, and its files of each other.
@@ -85,33 +80,28 @@ pub(crate) use {
     cells::{ColumnHeader, Header, cells, clock_seconds, lines, read, seconds_in, separator},
     conditions::repeated,
     curves::{Curves, Extent, PlotPoint, memory},
-    drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
     estimate::{LeftOut, RISES, contour, held, judged, left_out},
     fitted::{Combination, combination, rows},
     guess::{Beginning, Guess, guess, period_of},
     margin::MarginSpread,
     motion::{FittedTurn, MotionLost, follow},
     noise::{
-        IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,
+        IMPOSSIBLE, Noise, Whiteness, autocorrelations, chi_squared, deviation_of_95_percent,
+        least_squares, median, normal_at, range, rate, robust_deviation, whiteness, within_scale,
     },
     observation::{Bound, Region, Seen, drift},
     posterior::{Drawn, FEWEST, drawn},
-    profile::{Profile, ProfileInterval},
-    question::{Loss, assigned, listed, placed, reach},
+    question::{Loss, UnknownsMatrix, assigned, direction, listed, placed, reach},
     record::decoded,
-    residuals::{
-        Whiteness, autocorrelations, chi_squared, deviation_of_95_percent, normal_at, whiteness,
-    },
-    samples::{peaks, samples},
-    search::released_before,
+    samples::of_kind,
+    search::{FittedDrift, LeftDrift, drift_of_swings, released_before, without_drift},
     signal::{SignalUnit, measure, quantity},
     task::{FitVerdict, HIDDEN, LinearResiduals, Optimum, RUN, longest_run, mean_square},
     turning_points::{
         Extreme, amplitudes, averaged, dominant_frequency, middle_of, regressions, robust,
         smoothed, turning_points, without_jumps,
     },
-    uncertainty::{Covariance, left_over, ratio_of_kinds},
-    unknowns::{UnknownsMatrix, direction},
+    uncertainty::{Covariance, Profile, ProfileInterval, left_over, ratio_of_kinds},
     valley::{WIDE, by_cost, through_the_valley},
 };
 
@@ -129,8 +119,7 @@ pub fn estimate(
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Estimate, Unfit> {
     let runs = Runs { most: MOST_MOTIONS, ..Runs::new(interrupted) };
-    let fit = if question.peaks { peaks } else { samples };
-    let found = fit(record, question, &runs)?;
+    let found = of_kind(record, question, &runs)?;
     // What is known to be wrong need not be tested again.
     if found.whiteness.systematic {
         return Ok(found);

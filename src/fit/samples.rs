@@ -16,8 +16,13 @@ use super::{
 };
 use crate::numerics::{real, truncated};
 
+/// Fits a record of samples or of peaks. Fails with [`Unfit`].
+pub fn of_kind(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
+    if question.peaks { peaks(record, question, runs) } else { samples(record, question, runs) }
+}
+
 /// Fits a record of samples. Fails with [`Unfit`].
-pub fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
+fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
     let all = &record.t;
     let frequency = dominant_frequency(all, &record.x);
     let per_period = frequency.map_or(f64::INFINITY, |frequency| rate(all) / frequency);
@@ -267,7 +272,7 @@ fn limit_of(residuals: &[f64]) -> f64 {
 
 /// Fits a list of peaks. The relative weight of displacements and times follows from their residuals.
 /// Fails with [`Unfit`].
-pub fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
+fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
     const ROUNDS: usize = 8;
     let x = &record.x;
     let mut held = question.choice.unknowns();
