@@ -18,7 +18,7 @@ use crate::flow::{Limits, Reason};
 use crate::model::{Knob, ParameterBox, Parameters};
 use crate::numerics::{real, truncated};
 use crate::portrait::guarantee::oscillator::guaranteed;
-use crate::portrait::{Equation, Kicks, Margin, Portrait, all_closings};
+use crate::portrait::{Kicks, Margin, Portrait};
 
 /// What is asked of the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -182,12 +182,12 @@ pub fn margins(
     let ask = |p: &Unknowns| answer(&parameters(p), largest, limits);
     let draws = question.draws.max(question.needed());
     let Drawn { draws: drawn, effective, motions } = drawn(estimate, draws, limits)?;
-    let compute = |p: &Unknowns| -> Result<(MarginOfDraw, Margin), Reason> {
-        let found = ask(p)?;
-        let sure = question.guaranteed(p, &found.margin, limits)?;
-        Ok((found, sure))
+    let compute = |p: &Unknowns| {
+        let found = ask(p).ok()?;
+        let sure = question.guaranteed(p, &found.margin, limits).ok()?;
+        Some((found, sure))
     };
-    let computed: Vec<_> = drawn.par_iter().map(|p| compute(p).ok()).collect();
+    let computed: Vec<_> = drawn.par_iter().map(compute).collect();
     if (limits.interrupted)() {
         return Err(Reason::Interrupted);
     }
@@ -241,14 +241,10 @@ struct MarginOfDraw {
 }
 
 fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<MarginOfDraw, Reason> {
-    let mut equation = Equation::new(parameters, f64::EPSILON, limits);
-    let found = all_closings(&mut equation)?;
-    let stable = found.iter().find(|closing| closing.log_multiplier(parameters) < 0.0);
-    Ok(MarginOfDraw {
-        margin: Portrait::around(parameters, &found, reach, limits)?.margin,
-        cycle: stable.map(|closing| closing.describe(parameters, equation.side).q_max),
-        fold: fold(parameters, limits)?.0.map(|fold| fold.d),
-    })
+    let Portrait { margin, cycles, .. } = Portrait::of_oscillator(parameters, reach, limits)?;
+    let cycle = cycles.iter().find(|cycle| cycle.stable).map(|cycle| cycle.q_max);
+    let fold = fold(parameters, limits)?.0.map(|fold| fold.d);
+    Ok(MarginOfDraw { margin, cycle, fold })
 }
 
 /// In ascending order, infinite where there is none.

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{SMatrix, SVector};
 use serde::Serialize;
 
-use crate::numerics::{cos, exp, ln, pow, powi, real, sin, truncated};
+use crate::numerics::{bisect, cos, exp, integrate, ln, pow, powi, real, sin, truncated};
 
 /// Number of standard deviations beyond which a residual does not belong to the motion. Chance exceeds it 7 times
 /// in a million.
@@ -380,22 +380,13 @@ pub fn chi_squared(freedom: f64, z: f64) -> f64 {
 /// the expansion about the normal distribution in `1/n` (error below 1e-5).
 pub fn deviation_of_95_percent(freedom: f64) -> f64 {
     const FEW: f64 = 12.0;
-    const PANELS: u32 = 4000;
     let n = freedom.max(1.0);
     if n < FEW {
-        let width = FRAC_PI_2 / f64::from(PANELS);
-        let angle = |panel: u32| width * (f64::from(panel) + 0.5);
-        let density: Vec<f64> = (0..PANELS).map(|panel| pow(cos(angle(panel)), n - 1.0)).collect();
-        let mut left = 0.95 * density.iter().sum::<f64>();
-        let mut reached = 0.0;
-        for part in density {
-            reached += width * (left / part).min(1.0);
-            left -= part;
-            if left <= 0.0 {
-                break;
-            }
-        }
-        return n.sqrt() * sin(reached) / cos(reached);
+        let density = |angle: f64| pow(cos(angle), n - 1.0);
+        let within = |angle: f64| integrate(&density, (0.0, angle), 1e-9).value;
+        let wanted = 0.95 * within(FRAC_PI_2);
+        let (_, angle) = bisect(0.0, FRAC_PI_2, 40, |angle| within(angle) >= wanted);
+        return n.sqrt() * sin(angle) / cos(angle);
     }
     let z: f64 = 1.959_963_984_540_054;
     let (z3, z5, z7) = (powi(z, 3), powi(z, 5), powi(z, 7));

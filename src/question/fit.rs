@@ -31,18 +31,12 @@ pub struct Opened {
 
 /// An opened record. Copies share their data, so that comparing them is immediate.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(from = "Opened", into = "Opened")]
+#[serde(transparent)]
 pub struct Recording(Arc<Opened>);
 
 impl From<Opened> for Recording {
     fn from(opened: Opened) -> Self {
         Recording(Arc::new(opened))
-    }
-}
-
-impl From<Recording> for Opened {
-    fn from(Recording(opened): Recording) -> Self {
-        (*opened).clone()
     }
 }
 
