@@ -110,11 +110,8 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
             let swings = with_rest.iter().filter(|extreme| extreme.t > next);
             let held = is_displacement.then_some(Extreme { t: begin, x: hold });
             let swings: Vec<Extreme> = held.into_iter().chain(swings.copied()).collect();
-            let found = regressions(&swings);
-            found
-                .iter()
-                .map(|it| unknowns(it, held_at(&swings, it, signal), begin))
-                .collect::<Vec<_>>()
+            let guess = |it: &Unknowns| unknowns(it, held_at(&swings, it, signal), begin);
+            regressions(&swings).iter().map(guess).collect::<Vec<_>>()
         };
         guesses.flat_map(at).collect()
     };

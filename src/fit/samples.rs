@@ -42,11 +42,7 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     let omega0 = TAU * frequency.unwrap_or(1.0);
     let factor = signal.as_displacement(omega0);
     let swinging: Vec<f64> = x.iter().map(|x| factor * x).collect();
-    let quiet = Noise {
-        deviation: factor.abs() * noise.deviation,
-        step: factor.abs() * noise.step,
-        ..noise
-    };
+    let quiet = Noise::of(&swinging, per_period);
     let guessed = |[slope, bend]: [f64; 2]| {
         let level = without_drift(&t, &swinging, [factor * slope, factor * bend]);
         let mut guess = guess(&t, &level, &quiet, signal)?;
@@ -59,23 +55,27 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     };
     let Guess { beginnings, mut extremes, struck, again } =
         guessed([0.0; 2]).ok_or(Unfit::NoSwings)?;
+    let cut = |range: Range<usize>| {
+        let (t, x) = (t[range.clone()].to_vec(), x[range].to_vec());
+        Record { t, x, signal, unit: record.unit.clone(), ..Record::default() }
+    };
     let part = |range: Range<usize>| {
-        let (t, x) = (t[range.clone()].to_vec(), x[range.clone()].to_vec());
-        let part = Record { t, x, signal, unit: record.unit.clone(), ..Record::default() };
-        let found = samples(&part, question, runs).ok();
+        let found = samples(&cut(range.clone()), question, runs).ok();
         found.filter(|it| !it.whiteness.systematic).map(|it| of_part(it, range, &within))
     };
     let struck = struck.map(|from| from..x.len());
     let at_once = struck.clone().filter(|_| signal.is_displacement());
-    for range in again.map(|until| 0..until).into_iter().chain(at_once) {
-        if let Some(found) = part(range) {
-            return Ok(found);
-        }
+    let mut parts = again.map(|until| 0..until).into_iter().chain(at_once);
+    if let Some(found) = parts.find_map(part) {
+        return Ok(found);
     }
-    let loss = loss_of(question.loss, &noise);
+    let name = match question.loss {
+        LossName::Auto if noise.has_outliers => LossName::SoftL1,
+        name => name,
+    };
+    let loss = Loss { name, scale: 3.0 * noise.deviation };
     let reach = reach(&swinging);
-    let unit = record.unit.clone();
-    let data = Record { t: t.clone(), x: x.clone(), signal, unit, ..Record::default() };
+    let data = cut(0..x.len());
     let task = Task::new(&data, beginnings[0].start, free, reach, runs);
     let mut task = Task { loss, noise: noise.deviation, ..task };
     let lost = || runs.ended().unwrap_or(Unfit::NoMotion);
@@ -97,27 +97,9 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     {
         return Ok(found);
     }
-    let renew: Refit = |task, found| task.renew(found);
     let dropped = vec![None; data.residuals()];
     let mut sorted = SortedOut { task, found, dropped, is_due: false };
-    if signal == Signal::Acceleration {
-        // The jumps move as the fit improves.
-        sorted.leave_out(2, renew, |_, best| beside_jumps(best, &t)).ok_or_else(lost)?;
-    }
-    if question.loss == LossName::Auto {
-        // If the search used a robust loss, even an unchanged selection is fitted again.
-        (sorted.task.loss, sorted.is_due) = (Loss::LINEAR, loss.is_robust());
-        let polish: Refit = |task, found| task.polish(found);
-        let before = sorted.dropped.clone();
-        sorted.leave_out(4, polish, |_, best| outliers(&before, best)).ok_or_else(lost)?;
-        // If no motion fits, it is not known where the mass rests.
-        if sorted.task().comes_near(&sorted.found[0]) {
-            let before = sorted.dropped.clone();
-            let why = |task: &Task, best: &Optimum| alike_at_rest(task, best, &noise, &before);
-            // Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
-            sorted.leave_out(2, renew, why).ok_or_else(lost)?;
-        }
-    }
+    sorted.sort_out(&noise, question.loss).ok_or_else(lost)?;
     let estimate = judged(&sorted.task(), &sorted.found)?;
     let mut estimate = of_part(estimate, 0..x.len(), &within);
     let scale = (signal.as_displacement(estimate.p[OMEGA0]) / factor).abs();
@@ -142,13 +124,6 @@ fn of_part(found: Estimate, range: Range<usize>, within: &[bool]) -> Estimate {
     Estimate { dropped: within.iter().map(&mut why).collect(), ..found }
 }
 
-/// The loss that is asked for; by itself it is robust where there are outliers.
-fn loss_of(name: LossName, noise: &Noise) -> Loss {
-    let is_robust = name == LossName::Auto && noise.has_outliers;
-    let name = if is_robust { LossName::SoftL1 } else { name };
-    Loss { name, scale: 3.0 * noise.deviation }
-}
-
 /// Seeks minima again with the residuals that now count. `None` if the computation has ended, or if the motion is lost.
 type Refit = fn(&Task, &mut Vec<Optimum>) -> Option<()>;
 
@@ -166,6 +141,33 @@ impl SortedOut<'_> {
     /// What is estimated from the samples that count.
     fn task(&self) -> Task<'_> {
         Task { dropped: &self.dropped, ..self.task }
+    }
+
+    /// Leaves out samples next to jumps, outliers and readings at rest. `None` as [`Refit`].
+    fn sort_out(&mut self, noise: &Noise, loss: LossName) -> Option<()> {
+        let renew: Refit = |task, found| task.renew(found);
+        let polish: Refit = |task, found| task.polish(found);
+        let Record { t, signal, .. } = self.task.data;
+        if *signal == Signal::Acceleration {
+            // The jumps move as the fit improves.
+            self.leave_out(2, renew, |_, best| beside_jumps(best, t))?;
+        }
+        if loss != LossName::Auto {
+            return Some(());
+        }
+        // If the search used a robust loss, even an unchanged selection is fitted again.
+        self.is_due = self.task.loss.is_robust();
+        self.task.loss = Loss::LINEAR;
+        let before = self.dropped.clone();
+        self.leave_out(4, polish, |_, best| outliers(&before, best))?;
+        // If no motion fits, it is not known where the mass rests.
+        if self.task().comes_near(&self.found[0]) {
+            let before = self.dropped.clone();
+            let why = |task: &Task, best: &Optimum| alike_at_rest(task, best, noise, &before);
+            // Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
+            self.leave_out(2, renew, why)?;
+        }
+        Some(())
     }
 
     /// Leaves out what `why` says of the best minimum and fits again, until nothing changes. `None` as [`Refit`].

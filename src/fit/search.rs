@@ -1,6 +1,7 @@
 //! The search for the best minimum from first guesses, with several starts and growing horizons; and with a drift of the
 //! zero beside the motion, along a line or a parabola over the record, where the record shows one.
 
+use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::{
@@ -91,22 +92,14 @@ impl Task<'_> {
         let fewer = self.holding(D2).holding(D3);
         let guesses = guesses.into_iter().map(|guess| self.without(guess, &[D2, D3])).collect();
         let beginning = Beginning { start: self.start, certain: true, guesses };
-        let mut minima = Vec::new();
-        for (_, guess, _) in fewer.ranked(&[beginning]) {
-            if let Some(found) = fewer.solve(guess) {
-                let mut optima = Vec::new();
-                for guess in through_the_valley(&fewer, &found, WIDE, &[]) {
-                    optima.extend(fewer.solve(guess));
-                }
-                optima.push(found);
-                minima = fewer.valleys(optima);
-            }
-        }
-        let mut optima = Vec::new();
-        for minimum in minima.into_iter().take(MOST) {
-            optima.extend(self.solve(minimum.p));
-        }
-        optima
+        let closest = fewer.ranked(&[beginning]).into_iter().next();
+        let Some(found) = closest.and_then(|(_, guess, _)| fewer.solve(guess)) else {
+            return Vec::new();
+        };
+        let through = through_the_valley(&fewer, &found, WIDE, &[]).into_iter();
+        let optima = through.filter_map(|guess| fewer.solve(guess)).chain([found]).collect();
+        let minima = fewer.valleys(optima).into_iter().take(MOST);
+        minima.filter_map(|minimum| self.solve(minimum.p)).collect()
     }
 
     /// Fits every minimum again with the residuals that now count. `None` if the computation has ended, or if
@@ -348,11 +341,8 @@ pub fn drift_of_swings(t: &[f64], extremes: &[Extreme]) -> [f64; 2] {
 }
 
 /// Takes a drift off a record.
-pub fn without_drift(t: &[f64], x: &[f64], [slope, bend]: [f64; 2]) -> Vec<f64> {
-    let at = |time: f64| {
-        let [by_slope, by_bend] = drift(t, time);
-        slope * by_slope + bend * by_bend
-    };
+pub fn without_drift(t: &[f64], x: &[f64], by: [f64; 2]) -> Vec<f64> {
+    let at = |time: f64| Vector2::from(by).dot(&Vector2::from(drift(t, time)));
     t.iter().zip(x).map(|(&t, x)| x - at(t)).collect()
 }
 
