@@ -48,12 +48,12 @@ fn all_cycles_by_a_dense_scan() -> usize {
     let mut before = at(place(0));
     for index in 1..=GRID {
         let here = at(place(index));
-        if (before.value() > 0.0) != (here.value() > 0.0) && here.value().is_finite() {
+        if (before.value > 0.0) != (here.value > 0.0) && here.value.is_finite() {
             let mut node = here;
             for _ in 0..6 {
-                node = at(node.at - node.value() / node.slope);
+                node = at(node.at - node.value / node.slope);
             }
-            found += usize::from(node.value().abs() < 1e-12);
+            found += usize::from(node.value.abs() < 1e-12);
         }
         before = here;
     }

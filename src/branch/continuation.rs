@@ -109,7 +109,7 @@ impl<'a> CycleCurve<'a> {
         match closing {
             Err(Reason::Budget { .. } | Reason::OutOfRange) => Ok(None),
             Err(reason) => Err(reason),
-            Ok(closing) => Ok(closing.node.value().is_finite().then_some(closing)),
+            Ok(closing) => Ok(closing.node.value.is_finite().then_some(closing)),
         }
     }
 
@@ -125,7 +125,7 @@ impl<'a> CycleCurve<'a> {
     fn renew_slope(&mut self, route: Route, u: f64, p: f64, value: f64) -> Result<f64, Reason> {
         let stride = self.probe * self.scale;
         let beside = self.closing(route, u, p + stride)?;
-        let slope = beside.map_or(f64::NAN, |beside| (beside.node.value() - value) / stride);
+        let slope = beside.map_or(f64::NAN, |beside| (beside.node.value - value) / stride);
         self.slope_in_p = slope.is_finite().then_some((route, slope));
         Ok(slope)
     }
@@ -145,7 +145,7 @@ impl<'a> CycleCurve<'a> {
         for _ in 0..CORRECTIONS {
             let (u, p) = place(s);
             let Some(closing) = self.closing(route, u, p)? else { return Ok(None) };
-            let value = closing.node.value();
+            let value = closing.node.value;
             // Where a swing begins at the very end of the sticking set the slope in u does not exist,
             // and across u it does not matter.
             let in_u =
@@ -212,7 +212,7 @@ impl<'a> CycleCurve<'a> {
             Equation::on_side(&self.parameters_at(p), self.side, self.tolerance, self.limits);
         let closing = equation.at(Route::Mixed, u);
         self.cost += equation.cost();
-        Ok(closing?.node.value())
+        Ok(closing?.node.value)
     }
 
     /// Where the line between or beyond two points leads after `length` from the second one.
@@ -308,7 +308,7 @@ impl<'a> CycleCurve<'a> {
     ) -> Result<Option<Tangent>, Reason> {
         let route = start.route();
         let Some(closing) = self.closing(route, start.u, start.p)? else { return Ok(None) };
-        let in_p = self.renew_slope(route, start.u, start.p, closing.node.value())?;
+        let in_p = self.renew_slope(route, start.u, start.p, closing.node.value)?;
         let tangent = self.across_slopes(closing.node.slope, in_p);
         let turned = tangent.times((tangent.p * direction).signum());
         Ok((turned.u.is_finite() && turned.p.is_finite()).then_some(turned))

@@ -99,7 +99,7 @@ fn excess_at_infinity(
     const NEAR: f64 = 1e-2;
     let far = ln(FAR / parameters.d2.abs() + 2.0 * parameters.r);
     let mut equation = Equation::new(parameters, f64::EPSILON, limits);
-    let plain = equation.at(Route::Mixed, far).map(|found| found.node.value());
+    let plain = equation.at(Route::Mixed, far).map(|found| found.node.value);
     // Weighed as energy, it keeps the digits that the difference loses near `D_c`.
     let weighed = match plain {
         Ok(plain) if plain.abs() < NEAR => weighed_closing(&mut equation, far),

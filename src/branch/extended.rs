@@ -138,7 +138,7 @@ impl System<'_> {
         let closing = equation.at(Route::Mixed, u);
         self.cost += equation.cost();
         let Ok(closing) = Reason::tolerated(closing)? else { return Ok(None) };
-        let (f, g) = (closing.node.value(), closing.growth[0] + closing.growth[1]);
+        let (f, g) = (closing.node.value, closing.growth[0] + closing.growth[1]);
         let slope = closing.node.slope;
         let finite = f.is_finite() && g.is_finite() && slope.is_finite();
         Ok(finite.then_some(Values { step, f, g, slope, closing }))

@@ -222,9 +222,9 @@ impl Family<'_> {
         };
         let ends = (extremum(with)?, extremum(without)?);
         let value = zero(
-            &|value| Some(extremum(value)?.difference),
-            (with, ends.0.difference),
-            (without, ends.1.difference),
+            &|value| Some(extremum(value)?.value),
+            (with, ends.0.value),
+            (without, ends.1.value),
         )?;
         let q_max = Some(exp(extremum(value)?.at));
         Some(Special { q_max, ..Special::new(SpecialKind::Fold, value, None) })

@@ -88,7 +88,7 @@ fn residual(closing: &Closing, parameters: &Parameters, limits: &Limits) -> f64 
     let mut equation = Equation::new(parameters, AGAIN, limits);
     let route = Route::contracting(closing.log_multiplier(parameters));
     let again = equation.at(route, closing.node.at);
-    again.map_or(f64::INFINITY, |again| again.node.value().abs())
+    again.map_or(f64::INFINITY, |again| again.node.value.abs())
 }
 
 #[cfg(test)]

@@ -120,25 +120,25 @@ fn resolved(equation: &mut Equation, u: f64) -> Result<Node, Reason> {
     let closing = equation.at(Route::Mixed, u)?;
     let node = closing.node;
     let decided = |value: f64, noise: f64| value.is_nan() || value.abs() >= SMOOTH * noise;
-    let known = decided(node.value(), closing.noise) || !closing.duration.is_finite();
+    let known = decided(node.value, closing.noise) || !closing.duration.is_finite();
     if known || !is_exact(equation) {
         return Ok(node);
     }
-    let (mut difference, mut noise) = (node.value(), closing.noise);
+    let (mut value, mut noise) = (node.value, closing.noise);
     if let Some((weighed, bound)) = weighed_closing(equation, u)?.map(|(_, weighed)| weighed)
         && bound < noise
     {
-        (difference, noise) = (weighed, bound);
+        (value, noise) = (weighed, bound);
     }
-    if !decided(difference, noise) && FINER * closing.noise < noise {
+    if !decided(value, noise) && FINER * closing.noise < noise {
         match equation.precisely_at(Route::Mixed, Twofold::of(closing.first.value)) {
-            Ok(found) => difference = found.residual,
+            Ok(found) => value = found.residual,
             Err(Some(Reason::Interrupted)) => return Err(Reason::Interrupted),
             // Too stiff, or out of range: doubles have to do.
             Err(_) => {}
         }
     }
-    Ok(Node { difference, ..node })
+    Ok(Node { value, ..node })
 }
 
 /// Where the search begins, or `None` where no swing passes the sticking set.

@@ -270,7 +270,7 @@ impl<'a> Equation<'a> {
             let Place { error, log_gain, .. } = clearances[index];
             [Errors { length: error, ..own }, Errors { length: exp(log_gain), ..gain }]
         });
-        let uncertainty = (node.value().abs() + noise) / node.slope.abs();
+        let uncertainty = (node.value.abs() + noise) / node.slope.abs();
         let lengths = clearances.map(|clearance| clearance.length);
         Closing { growth, noise, uncertainty, errors, ..Closing::new(node, lengths, swings) }
     }

@@ -85,7 +85,7 @@ fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<Clo
     /// The method takes about five evaluations, and halving to rounding about sixty.
     const EVALUATIONS: usize = 200;
     let mut ends = places(&bracket);
-    if (bracket.1.value() - bracket.0.value()).abs() > STEEP * (ends.high - ends.low) {
+    if (bracket.1.value - bracket.0.value).abs() > STEEP * (ends.high - ends.low) {
         (ends.low, ends.high) = (ends.low - SLACK, ends.high + SLACK);
     }
     let route = beyond_the_end(&[bracket.0, bracket.1]);
@@ -135,7 +135,7 @@ impl Steps<'_, '_> {
         }
         // The closing keeps the plain residual.
         let Some((weighed, noise)) = energy.filter(|_| self.weigh) else {
-            let value = closing.node.value();
+            let value = closing.node.value;
             return Ok((closing, value, flat));
         };
         closing.uncertainty = (weighed.abs() + noise) / closing.node.slope.abs();
@@ -146,7 +146,7 @@ impl Steps<'_, '_> {
     fn closing(&mut self, u: f64) -> Result<(Closing, Option<Weighed>), Reason> {
         let found = self.along_route(u)?;
         let (route, node) = (self.route, found.0.node);
-        let finite = node.value().is_finite();
+        let finite = node.value.is_finite();
         self.route = if finite {
             Route::steadiest(found.0.growth)
         } else if route != Route::Mixed {
@@ -187,7 +187,7 @@ fn beyond_the_end(nodes: &[Node]) -> Route {
 /// use forward: backward it contracts.
 fn closest(equation: &mut Equation, u: f64) -> Result<Closing, Reason> {
     let worst =
-        |it: &Closing| if it.node.value().is_finite() { it.uncertainty } else { f64::INFINITY };
+        |it: &Closing| if it.node.value.is_finite() { it.uncertainty } else { f64::INFINITY };
     let mut best = equation.at(Route::Mixed, u)?;
     for route in [Route::Backward, Route::Forward] {
         let closing = equation.at(route, u)?;
@@ -256,7 +256,7 @@ fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<Guess, Reason
     let (mut coarse, route) = (equation.again(COARSE), beyond_the_end(&[bracket.0, bracket.1]));
     for _ in 0..STEPS {
         let node = coarse.at(route, u)?.node;
-        let change = -node.value() / node.slope;
+        let change = -node.value / node.slope;
         let inside = u + change > bracket.0.at && u + change < bracket.1.at;
         if !inside {
             break;
@@ -274,6 +274,6 @@ fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<Guess, Reason
 /// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.
 fn secant(bracket: &Bracket) -> f64 {
     let (low, high) = bracket;
-    let rise = (high.at - low.at) / (high.value() - low.value());
-    places(bracket).inside(low.at - low.value() * rise)
+    let rise = (high.at - low.at) / (high.value - low.value);
+    places(bracket).inside(low.at - low.value * rise)
 }

@@ -32,8 +32,9 @@ pub struct Node {
     pub rise: f64,
     /// The increasing function that counts negative; `+inf` beyond its domain.
     pub fall: f64,
-    /// Their difference, which may be known better than both.
-    pub difference: f64,
+    /// Their difference, which may be known better than both: positive outside the domain of `rise`, negative outside
+    /// that of `fall`.
+    pub value: f64,
     /// Slope of the difference (of no meaning where it is infinite).
     pub slope: f64,
 }
@@ -41,21 +42,16 @@ pub struct Node {
 impl Node {
     /// From the values of both functions.
     pub fn new(at: f64, rise: f64, fall: f64, slope: f64) -> Self {
-        Node { at, rise, fall, difference: rise - fall, slope }
+        Node { at, rise, fall, value: rise - fall, slope }
     }
 
     /// Of the growth of an increasing map over its argument: the map less the argument.
-    pub fn of_growth(at: f64, difference: f64, slope: f64) -> Self {
-        Node { at, rise: at + difference, fall: at, difference, slope }
-    }
-
-    /// `rise - fall`: positive outside the domain of `rise`, negative outside that of `fall`.
-    pub fn value(&self) -> f64 {
-        self.difference
+    pub fn of_growth(at: f64, value: f64, slope: f64) -> Self {
+        Node { at, rise: at + value, fall: at, value, slope }
     }
 
     fn is_finite(&self) -> bool {
-        self.value().is_finite() && self.slope.is_finite()
+        self.value.is_finite() && self.slope.is_finite()
     }
 }
 
@@ -64,7 +60,7 @@ pub type Bracket = (Node, Node);
 
 /// The places of a bracket.
 pub fn places((low, high): &Bracket) -> root::Bracket {
-    root::Bracket { low: low.at, high: high.at, rising: high.value() > low.value() }
+    root::Bracket { low: low.at, high: high.at, rising: high.value > low.value }
 }
 
 /// A search, and what it found so far.
@@ -103,7 +99,7 @@ impl RootSearch {
         if surely_negative || surely_positive {
             return Ok(());
         }
-        let blurred = |node: &Node| node.value().abs() < CLEAR * blur;
+        let blurred = |node: &Node| node.value.abs() < CLEAR * blur;
         let width = high.at - low.at;
         let mut middle = low;
         if !blurred(&low) && !blurred(&high) {
@@ -113,16 +109,16 @@ impl RootSearch {
             let (low, high) = (function(low.at, true)?, function(high.at, true)?);
             return self.between(low, high, 0.0, function);
         }
-        let changes = (low.value() > 0.0) != (high.value() > 0.0);
+        let changes = (low.value > 0.0) != (high.value > 0.0);
         let halves = [(low, middle), (middle, high)];
-        let foretold = (middle.value() - cubic(&low, &high).at(0.5)).abs();
+        let foretold = (middle.value - cubic(&low, &high).at(0.5)).abs();
         if low.is_finite() && high.is_finite() && middle.is_finite() {
             let error = SAFETY * foretold + blur;
             if !changes && halves.iter().all(|(a, b)| stays_away(a, b, error)) {
                 return Ok(());
             }
             if changes && halves.iter().all(|(a, b)| is_monotone(a, b, error)) {
-                let second = (low.value() > 0.0) == (middle.value() > 0.0);
+                let second = (low.value > 0.0) == (middle.value > 0.0);
                 self.found.push(halves[usize::from(second)]);
                 return Ok(());
             }
@@ -130,7 +126,7 @@ impl RootSearch {
         // If all values have one sign and all slopes another, there is no room for roots, however rough the function.
         let one_way = low.slope * middle.slope > 0.0 && middle.slope * high.slope > 0.0;
         let least =
-            [low, middle, high].iter().fold(f64::INFINITY, |it, node| it.min(node.value().abs()));
+            [low, middle, high].iter().fold(f64::INFINITY, |it, node| it.min(node.value.abs()));
         let predicted = foretold <= self.nothing.max(PREDICTED * least);
         let trusted = predicted || (one_way && foretold < 0.5 * width);
         let settled = self.nothing > 0.0 && trusted;
@@ -157,10 +153,10 @@ impl RootSearch {
     ) -> Result<(), E> {
         /// What rounding makes of a value of zero, as a part of what counts as zero.
         const ROUNDING: f64 = 0.01;
-        if low.value().abs().max(high.value().abs()) < ROUNDING * self.nothing {
+        if low.value.abs().max(high.value.abs()) < ROUNDING * self.nothing {
             return Ok(());
         }
-        if (low.value() > 0.0) != (high.value() > 0.0) {
+        if (low.value > 0.0) != (high.value > 0.0) {
             self.found.push((low, high));
         } else if let Some(extremum) = beyond_zero(low, high, function)? {
             self.found.extend([(low, extremum), (extremum, high)]);
@@ -173,13 +169,13 @@ impl RootSearch {
 fn cubic(low: &Node, high: &Node) -> Hermite {
     let width = high.at - low.at;
     let slopes = (width * low.slope, width * high.slope);
-    Hermite { values: (low.value(), high.value()), slopes }
+    Hermite { values: (low.value, high.value), slopes }
 }
 
 /// Whether the cubic through two nodes of one sign stays further than `error` from zero between them.
 fn stays_away(low: &Node, high: &Node, error: f64) -> bool {
-    let sign = low.value().signum();
-    let (cubic, ends) = (cubic(low, high), (sign * low.value()).min(sign * high.value()));
+    let sign = low.value.signum();
+    let (cubic, ends) = (cubic(low, high), (sign * low.value).min(sign * high.value));
     let extrema = cubic.extrema().into_iter().flatten();
     let nearest = extrema.map(|t| sign * cubic.at(t)).fold(ends, f64::min);
     nearest > error
@@ -187,7 +183,7 @@ fn stays_away(low: &Node, high: &Node, error: f64) -> bool {
 
 fn is_monotone(low: &Node, high: &Node, error: f64) -> bool {
     let sign = low.slope.signum();
-    let mean = sign * (high.value() - low.value()) / (high.at - low.at);
+    let mean = sign * (high.value - low.value) / (high.at - low.at);
     // Sufficient for a monotone cubic (Fritsch and Carlson): end slopes of at most three times the mean.
     let bounded = |slope: f64| sign * slope > 0.0 && sign * slope <= 3.0 * mean;
     bounded(low.slope) && bounded(high.slope) && error < mean * (high.at - low.at)
@@ -199,7 +195,7 @@ fn beyond_zero<E>(
     high: Node,
     function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
 ) -> Result<Option<Node>, E> {
-    let sign = low.value().signum();
+    let sign = low.value.signum();
     let towards_zero = sign * low.slope < 0.0 && sign * high.slope > 0.0;
     if !(towards_zero && low.is_finite() && high.is_finite()) {
         return Ok(None);
@@ -207,7 +203,7 @@ fn beyond_zero<E>(
     // A value beyond zero ends the search where an error would.
     let slope = |at| {
         let node = function(at, true).map_err(Err)?;
-        let beyond = (node.value() > 0.0) != (low.value() > 0.0);
+        let beyond = (node.value > 0.0) != (low.value > 0.0);
         if beyond { Err(Ok(node)) } else { Ok(node.slope) }
     };
     let width = PlaceTolerance::Absolute(ROUNDED * high.at.abs().max(1.0));
@@ -227,7 +223,7 @@ mod tests {
         move |u, _| {
             let rise = u * u + 10.0 * u + a * b;
             Ok(Node {
-                difference: (u - a) * (u - b),
+                value: (u - a) * (u - b),
                 ..Node::new(u, rise, (a + b + 10.0) * u, 2.0 * u - a - b)
             })
         }
@@ -257,7 +253,7 @@ mod tests {
             let lifted = |u: f64, fine: bool| {
                 touching(u, fine).map(|node| Node {
                     rise: node.rise + lift,
-                    difference: node.difference + lift,
+                    value: node.value + lift,
                     ..node
                 })
             };

@@ -134,7 +134,7 @@ impl FixedPointSearch<'_, '_> {
         let touch = grazing.and_then(|grazing| Some((grazing, grazing.right?)));
         let touches_before = touch.is_some_and(|(_, touch)| touch > held && touch <= smallest);
         if held > 0.0 && slips && !touches_before && innermost.is_none() {
-            let grows = self.growth_at(smallest)?.value() > 0.0;
+            let grows = self.growth_at(smallest)?.value > 0.0;
             self.divides.extend(grows.then_some((caught, Divide::Capture)));
         }
         // Where motions only slip: up to the one that touches the belt's line.
@@ -201,7 +201,7 @@ impl FixedPointSearch<'_, '_> {
         let mut x = self.unit * 1e-3;
         let linear = self.flow.model.linear_growth();
         for _ in 0..12 {
-            let here = self.growth_at(x)?.value();
+            let here = self.growth_at(x)?.value;
             let settled = (here - linear).abs() <= 0.1 * linear.abs() || here.abs() < WEAK;
             if settled || !linear.is_finite() {
                 break;
@@ -240,15 +240,15 @@ impl FixedPointSearch<'_, '_> {
 
     /// The zero of the growth in a bracket, by Newton's method.
     fn zero(&mut self, (left, right): Bracket) -> Result<f64, Reason> {
-        let best = if left.value().abs() < right.value().abs() { left } else { right };
-        if best.value() == 0.0 {
+        let best = if left.value.abs() < right.value.abs() { left } else { right };
+        if best.value == 0.0 {
             return Ok(best.at);
         }
         let bracket = places(&(left, right));
         let width = 2.0 * f64::EPSILON * (1.0 + best.at.abs()).min(2.0);
-        let start = bracket.inside(best.at - best.value() / best.slope);
+        let start = bracket.inside(best.at - best.value / best.slope);
         let root = try_newton(bracket, start, PlaceTolerance::Absolute(width), |u| {
-            self.growth(u).map(|sample| (sample.value(), sample.slope))
+            self.growth(u).map(|sample| (sample.value, sample.slope))
         });
         Ok(root?.at)
     }
@@ -308,8 +308,8 @@ impl FixedPointSearch<'_, '_> {
                     return Ok(if dear { last } else { self.edge(last, ln(x / self.unit)) });
                 }
             }
-            let grows_less = last.value() < CONTRACTS && last.value() < before.value();
-            if (doubling > ENOUGH && grows_less) || last.value() >= FAR {
+            let grows_less = last.value < CONTRACTS && last.value < before.value;
+            if (doubling > ENOUGH && grows_less) || last.value >= FAR {
                 break;
             }
             x *= 2.0;
@@ -328,7 +328,7 @@ impl FixedPointSearch<'_, '_> {
     fn is_neutral(&mut self, first: Node, last: Node) -> Result<bool, Reason> {
         let middle = self.growth(0.5 * (first.at + last.at))?;
         let other = self.growth(0.3 * first.at + 0.7 * last.at)?;
-        Ok([first, middle, other, last].iter().all(|sample| sample.value().abs() < NOTHING))
+        Ok([first, middle, other, last].iter().all(|sample| sample.value.abs() < NOTHING))
     }
 }
 

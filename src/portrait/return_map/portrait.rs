@@ -96,8 +96,8 @@ fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tenden
         let high = mark.map_or(beyond, |(x, _)| *x);
         let x = low + 0.5 * (high - low);
         ways.push(match flow.growth(0.0, x) {
-            Ok(there) if there.value().abs() < NOTHING => Ok(Ordering::Equal),
-            Ok(there) => Ok(there.value().total_cmp(&0.0)),
+            Ok(there) if there.value.abs() < NOTHING => Ok(Ordering::Equal),
+            Ok(there) => Ok(there.value.total_cmp(&0.0)),
             Err(stop @ Reason::BeyondLaw { .. }) => Err(stop),
             Err(reason) => return Err(reason),
         });
