@@ -9,13 +9,10 @@ use super::{
 };
 use crate::flow::{Limits, Subject};
 use crate::model::Parameters;
-use crate::portrait::Margin;
 use crate::portrait::guarantee::machine;
 use crate::portrait::guarantee::oscillator::{guaranteed, nominal};
 use crate::portrait::kicks::repeated::repeated;
-use crate::portrait::proved::agreed;
-use crate::proof;
-use crate::proof::{ParameterBox, prove};
+use crate::portrait::proved::proved_kicks;
 use crate::report::About;
 use crate::report::margin::{basin, kicks, margins};
 
@@ -107,11 +104,7 @@ impl BasinCommand {
         let (counts, seconds) = self.output.timed("the starts could not be counted", count)?;
         // What is proved, is proved of the oscillator of the paper.
         let parameters = found.model.parameters().filter(|_| !about.is_machine());
-        let enclose = |parameters: Parameters| {
-            let proof = prove(&ParameterBox::from(&parameters), &[]);
-            let Margin { displacement, impulse, from_rest } = found.margin;
-            agreed(proof::kicks::kicks(&proof, [displacement, impulse, from_rest.impulse]), &found)
-        };
+        let enclose = |parameters: Parameters| proved_kicks(&parameters, &found);
         let certified = self.certify.ask(|| parameters.map(enclose)).flatten();
         let seconds = before + seconds;
         self.output.print(basin(&about, &found, (&window, counts), certified.as_ref(), seconds))

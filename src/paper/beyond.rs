@@ -51,7 +51,7 @@ pub(super) const CHECKS: &[Check] = &[
         let end = it.motion(start, 1e3)?.outcome;
         let fate = it.enclosed(start, 1e3).fate;
         let value = matches!(end, Outcome::Escaped { .. });
-        Ok(Certain { value, certain: value && matches!(fate, ProvedFate::Escaped { .. }) })
+        Ok(Certain { value, certain: value && fate == ProvedFate::Escaped })
     }),
     worst("end of the cycle", |it| {
         let computed = it.last_cycle(end_of_cycle(it)?, 1e-12);
@@ -73,8 +73,8 @@ fn returns_to(it: &ClaimCase, q: f64) -> Result<Certain<bool>, Reason> {
     let value = motion.crossings.get(1).is_some_and(|crossing| crossing.q >= q);
     let bounds = it.enclosed(at_rest(q), 60.0);
     let nearer = match (bounds.turns.get(1), bounds.fate) {
-        (Some(turn), _) => turn.q.upper() < q,
-        (None, ProvedFate::Captured { .. } | ProvedFate::Escaped { .. }) => true,
+        (Some(turn), _) => turn.q.is_some_and(|place| place.upper() < q),
+        (None, ProvedFate::Captured | ProvedFate::Escaped) => true,
         (None, _) => false,
     };
     Ok(Certain { value, certain: nearer && !value })

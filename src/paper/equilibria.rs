@@ -9,10 +9,9 @@ use crate::closed_form::lyapunov::{self, Disk};
 use crate::flow::{Outcome, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::{Interval, atan, atan2, exp, hypot, sin, sin_cos};
-use crate::portrait::{Border, Margin, Portrait};
-use crate::proof::kicks::kicks;
+use crate::portrait::proved::proved_kicks;
+use crate::portrait::{Border, Portrait};
 use crate::proof::motion::ProvedFate;
-use crate::proof::{ParameterBox, prove};
 
 pub(super) const CHECKS: &[Check] = &[
     always("rest", |it| Ok(it.captured(at_rest(it.more), 1e-3)?.is(it.more.abs() <= it.r))),
@@ -34,8 +33,9 @@ pub(super) const CHECKS: &[Check] = &[
         let (q, start) = (it.more, State { q: it.more, v: 1e-3 });
         let end = it.motion(start, 10.0)?.outcome;
         let value = matches!(end, Outcome::Captured { q: end, .. } if end != q);
-        let fate = it.enclosed(start, 10.0).fate;
-        let certain = matches!(fate, ProvedFate::Captured { q: end, .. } if !end.contains(q));
+        let enclosed = it.enclosed(start, 10.0);
+        let elsewhere = enclosed.end.q.is_some_and(|end| !end.contains(q));
+        let certain = enclosed.fate == ProvedFate::Captured && elsewhere;
         Ok(Certain { value, certain: certain && value })
     }),
     worst("energy with friction (5)", |it| energy(it, -1.0)),
@@ -186,15 +186,12 @@ fn least_kick(it: &ClaimCase) -> Result<Known, Reason> {
     let basin = Portrait::of_oscillator(it, 10.0, &it.limits)?;
     let border = basin.borders.first().map(|border| border.curve(POINTS.0)).unwrap_or_default();
     let least = border.iter().map(|point| hypot(point.q, point.v)).fold(f64::INFINITY, f64::min);
-    Ok(Known::relative(least, POINTS.1).within(at_most(it, &basin.margin)))
-}
-
-/// The distance of the border is at most that of two of its points, where these are enclosed.
-fn at_most(parameters: &Parameters, margin: &Margin) -> Option<Interval> {
-    let proof = prove(&ParameterBox::from(parameters), &[]);
-    let found = kicks(&proof, [margin.displacement, margin.impulse, None]);
-    let nearer = found.displacement?.upper().min(found.impulse?.upper());
-    Some(Interval::new(f64::NEG_INFINITY, nearer))
+    // It is at most that of two of its points, where these are enclosed.
+    let kicks = proved_kicks(it, &basin);
+    let nearest = kicks.displacement.zip(kicks.impulse);
+    let bounds = nearest
+        .map(|(one, other)| Interval::new(f64::NEG_INFINITY, one.upper().min(other.upper())));
+    Ok(Known::relative(least, POINTS.1).within(bounds))
 }
 
 /// What the formulas of a half swing are made of, in units of friction.

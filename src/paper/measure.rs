@@ -11,11 +11,11 @@ use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
 use crate::model::{Knob, Parameters, Side, State};
 use crate::numerics::Interval;
 use crate::portrait::basin::arc::Arc;
-use crate::portrait::proved::matching;
+use crate::portrait::proved::{matching, proved_kicks};
 use crate::portrait::{Border, Cycle, Direction, Equation, Length, Portrait, closings};
 use crate::proof::motion::{ProvedFate, ProvedMotion, follow};
 use crate::proof::range::change_within;
-use crate::proof::{Enclosure, ParameterBox, kicks, prove};
+use crate::proof::{Enclosure, ParameterBox, prove};
 
 /// Rounding of a number that several operations made from a computed one.
 const ROUNDED: f64 = 1e-14;
@@ -181,7 +181,7 @@ impl<'a> ClaimCase<'a> {
             motion.crossings.first().map(|crossing| [crossing.q, crossing.tau])
         })?;
         let turn = self.enclosed(initial, until).turns.first().copied();
-        Ok([q.within(turn.map(|turn| turn.q)), tau.within(turn.map(|turn| turn.tau))])
+        Ok([q.within(turn.and_then(|turn| turn.q)), tau.within(turn.map(|turn| turn.tau))])
     }
 
     /// State at a time before the motion comes to rest.
@@ -219,9 +219,9 @@ impl<'a> ClaimCase<'a> {
         let end = self.motion(initial, until)?.outcome;
         let value = matches!(end, Outcome::Captured { .. });
         let certain = match self.enclosed(initial, until).fate {
-            ProvedFate::Captured { .. } => value,
-            ProvedFate::Moving { .. } | ProvedFate::Escaped { .. } => !value,
-            ProvedFate::Open { .. } => false,
+            ProvedFate::Captured => value,
+            ProvedFate::Moving | ProvedFate::Escaped => !value,
+            ProvedFate::Open => false,
         };
         Ok(Certain { value, certain })
     }
@@ -234,10 +234,8 @@ impl<'a> ClaimCase<'a> {
 
     /// Bounds of a state at a time before the motion comes to rest.
     fn enclosed_state(&self, initial: State, tau: f64) -> Option<[Interval; 2]> {
-        match self.enclosed(initial, tau).fate {
-            ProvedFate::Moving { q, v } => Some([q, v]),
-            _ => None,
-        }
+        let end = self.enclosed(initial, tau).end;
+        Some([end.q?, end.v?])
     }
 
     /// All cycles by the general search, smallest first, whether or not a closed form exists.
@@ -272,10 +270,10 @@ impl<'a> ClaimCase<'a> {
 
     /// What borders the basin.
     pub fn edge(&self) -> Result<Certain<Border>, Reason> {
-        let found = Portrait::of_oscillator(self, 10.0, &self.limits)?.border;
-        let proved = kicks::edge(&prove(&ParameterBox::from(&self.parameters), &[]));
-        let certain = proved.map(Border::from) == Some(found);
-        Ok(Certain { value: found, certain })
+        let found = Portrait::of_oscillator(self, 10.0, &self.limits)?;
+        let proved = proved_kicks(self, &found).edge;
+        let certain = proved.map(Border::from) == Some(found.border);
+        Ok(Certain { value: found.border, certain })
     }
 
     /// The value of D at which cycles vanish, `found` being where the search says so: enclosed to a thousandth.

@@ -6,10 +6,11 @@
 use thiserror::Error;
 
 use super::basin::cycle::Cycles;
+use crate::model::Parameters;
 use crate::numerics::Interval;
 use crate::portrait::{Border, Cycle, Margin, Portrait};
 use crate::proof::cycles::ProvedCycle;
-use crate::proof::kicks::{ProvedEdge, ProvedKicks};
+use crate::proof::kicks::{ProvedEdge, ProvedKicks, kicks};
 use crate::proof::{ParameterBox, Proof, prove};
 
 /// The search and the proof say different things: an error of this program.
@@ -59,6 +60,14 @@ impl From<ProvedEdge> for Border {
             ProvedEdge::Separatrix => Border::Separatrix,
         }
     }
+}
+
+/// What is proved about the edge of the basin of the oscillator with these parameters, of which this was found.
+#[must_use]
+pub fn proved_kicks(parameters: &Parameters, found: &Portrait) -> ProvedKicks {
+    let Margin { displacement, impulse, from_rest } = found.margin;
+    let proof = prove(&ParameterBox::from(parameters), &[]);
+    agreed(kicks(&proof, [displacement, impulse, from_rest.impulse]), found)
 }
 
 /// What is proved about the edge of a basin; nothing where the search says otherwise.

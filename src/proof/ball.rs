@@ -2,7 +2,7 @@
 
 use super::field::{FieldBox, scaled};
 use super::series::MotionSeries;
-use super::step::{INFLATE, Norm, StepEnd, StepField};
+use super::step::{INFLATE, Norm, StepEnd, StepField, UNIT};
 use crate::numerics::{Interval, exponent};
 
 /// Steps after which a swing is abandoned: a smooth one takes ten, a stiff one any number.
@@ -36,6 +36,10 @@ pub struct Ball {
     pub v: f64,
     /// Norm of the distance to the motions.
     pub radius: f64,
+    /// Time since the start, as the plain sum of the steps, and its largest error.
+    pub time: f64,
+    /// See `time`.
+    pub time_error: f64,
     /// The Taylor polynomials at the point.
     pub series: MotionSeries,
     /// Exponent of the unit of length.
@@ -62,6 +66,8 @@ impl Ball {
             v: v.middle(),
             // The norm of a vector is at most the sum of the magnitudes of its components.
             radius: (x.radius() + v.radius()) * INFLATE,
+            time: 0.0,
+            time_error: 0.0,
             series: MotionSeries::EMPTY,
             unit,
         })
@@ -77,7 +83,9 @@ impl Ball {
             return None;
         }
         let end = self.series.at(h);
-        (self.norm, self.radius) = self.local.ball((self.norm, self.radius), [self.v, end.1], h);
+        let norm = self.local.norm(self.norm, [self.v, end.1], h);
+        self.radius = self.radius * self.norm.into(norm) * INFLATE;
+        self.norm = norm;
         Some((h, end))
     }
 
@@ -100,9 +108,16 @@ impl Ball {
         self.local.carry(self.norm, &self.series, ahead, self.radius)
     }
 
-    /// Moves to the end of a step.
-    pub fn advance(&mut self, reached: &StepEnd) {
+    /// Moves to the end of a step of length h.
+    pub fn advance(&mut self, h: f64, reached: &StepEnd) {
         (self.x, self.v, self.radius) = (reached.x, reached.v, reached.radius);
+        self.time += h;
+        self.time_error += UNIT * self.time;
+    }
+
+    /// The time since the start, which is known to within `lag` beside its rounding.
+    pub fn elapsed(&self, lag: f64) -> Interval {
+        Interval::around(self.time, (self.time_error + lag) * INFLATE)
     }
 
     /// The largest distance of a component of the motions from that of the point.

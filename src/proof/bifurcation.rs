@@ -13,7 +13,7 @@
 //! `B = z_c` (lemma 20).
 
 use super::ball::StartBox;
-use super::count::{Count, Sign, sign_at};
+use super::count::{Count, Sign, SignedGap, sign_at};
 use super::field::{FieldBox, ParameterBox};
 use super::funnel::Funnel;
 use super::map::{MapDirection, ProvedMap};
@@ -56,7 +56,7 @@ pub fn enclose_fold(
         let value = change(near, |at| {
             let mut map = ProvedMap::new(&place(Interval::point(at)));
             let found = (steps < MOST_STEPS).then(|| inside(&mut map, gap, clearance, halvings))?;
-            steps += map.steps;
+            steps += map.effort.steps;
             found
         })?;
         let around = place(value);
@@ -81,7 +81,7 @@ fn inside(map: &mut ProvedMap, gap: Interval, near: f64, halvings: u32) -> Optio
         return Some(true);
     }
     let mut count = Count::default();
-    count.decide(map, (gap.lower(), sign), (gap.upper(), sign), halvings);
+    count.decide(map, SignedGap { over: gap, low: sign, high: sign }, halvings);
     (count.open.is_empty() && count.cycles.is_empty()).then_some(false)
 }
 

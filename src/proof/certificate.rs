@@ -5,7 +5,7 @@
 
 use super::cycles::{Proof, ProvedCycle, Theorem};
 use super::funnel::fences;
-use super::map::{MapDirection, ProvedMap};
+use super::map::{ProvedHalf, ProvedMap};
 use crate::check::map::Map;
 use crate::check::{Bounds, Certificate, CertificateStep, StepKind};
 use crate::numerics::Interval;
@@ -84,8 +84,9 @@ impl Walk {
     /// repelling node.
     fn begin(&mut self, proof: &Proof) -> Result<(), String> {
         let mut map = ProvedMap::new(&proof.parameters);
-        let second = map.half(1, MapDirection::Backward, Interval::point(0.0)).lower();
-        let first = map.half(0, MapDirection::Backward, Interval::point(second)).lower();
+        let before =
+            |at: f64, half: &ProvedHalf| half.image(Interval::point(at), &mut map.effort).lower();
+        let first = map.backward.iter().fold(0.0, before);
         let known = first > 0.0 && first < f64::INFINITY;
         let mut to = if known { 0.95 * first } else { map.gap.upper() };
         for _ in 0..40 {
@@ -116,18 +117,10 @@ impl Walk {
     /// fences used.
     fn reach(&self) -> (f64, Fences) {
         let at = Interval::point(self.at);
-        let reaches = self
-            .maps(!self.above)
-            .into_iter()
-            .map(|(fences, map)| (map.images(at).lower(), fences));
-        let mut found = (f64::NEG_INFINITY, None);
-        for (reach, fences) in reaches {
-            if reach > self.at {
-                return (reach, fences);
-            }
-            found = (reach, fences);
-        }
-        found
+        let reach = |(fences, map): (Fences, Map)| (map.images(at).lower(), fences);
+        let [plain, fenced] = self.maps(!self.above);
+        let found = reach(plain);
+        if found.0 > self.at { found } else { reach(fenced) }
     }
 
     /// One step, at most up to `most`.

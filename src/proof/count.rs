@@ -21,6 +21,23 @@ const NARROWEST: f64 = 1e-13;
 /// An end of a gap, and the side of the diagonal on which the map lies there.
 pub type GapEnd = (f64, Sign);
 
+/// An interval of clearances, and the side of the diagonal on which the map lies at either end.
+#[derive(Clone, Copy, Debug)]
+pub struct SignedGap {
+    /// The clearances.
+    pub over: Interval,
+    /// At the lower end.
+    pub low: Sign,
+    /// At the upper end.
+    pub high: Sign,
+}
+
+impl SignedGap {
+    fn between(low: GapEnd, high: GapEnd) -> Self {
+        SignedGap { over: Interval::new(low.0, high.0), low: low.1, high: high.1 }
+    }
+}
+
 /// A limit cycle that exists and is unique in an interval of clearances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProvedCycle {
@@ -56,7 +73,7 @@ impl Count {
         match inner_end(map).and_then(|low| Ok((low, outer_end(map, low.0)?))) {
             Ok((low, high)) => {
                 let mut count = Count::default();
-                count.decide(map, low, high, HALVINGS);
+                count.decide(map, SignedGap::between(low, high), HALVINGS);
                 count
             }
             Err(known) => known,
@@ -68,49 +85,44 @@ impl Count {
         Count { cycles: Vec::new(), open: vec![Interval::new(clearance, f64::INFINITY)] }
     }
 
-    /// Decides the gap between two edges.
-    pub fn decide(
-        &mut self,
-        map: &mut ProvedMap,
-        mut low: GapEnd,
-        mut high: GapEnd,
-        halvings: u32,
-    ) {
+    /// Decides a gap.
+    pub fn decide(&mut self, map: &mut ProvedMap, gap: SignedGap, halvings: u32) {
         /// The iteration continues while each pass closes this fraction of the gap.
         const WORTH: f64 = 0.25;
         /// Relative width below which a gap with different signs at its ends goes straight to the derivative.
         const NEAR: f64 = 0.15;
+        let SignedGap { over, low, high } = gap;
+        let (mut from, mut to) = (over.lower(), over.upper());
         loop {
-            let before = high.0 - low.0;
-            if low.1 != high.1 || low.1 == Sign::Above {
-                low.0 = narrowed(map, low, Bound::Lower);
+            let before = to - from;
+            if low != high || low == Sign::Above {
+                from = narrowed(map, (from, low), Bound::Lower);
             }
-            if low.0 <= high.0 && (low.1 != high.1 || low.1 == Sign::Below) {
-                high.0 = narrowed(map, high, Bound::Upper);
+            if from <= to && (low != high || low == Sign::Below) {
+                to = narrowed(map, (to, high), Bound::Upper);
             }
-            if low.0 > high.0 {
+            if from > to {
                 return;
             }
-            let left = high.0 - low.0;
-            if left > (1.0 - WORTH) * before || (left < NEAR * low.0 && low.1 != high.1) {
+            let left = to - from;
+            if left > (1.0 - WORTH) * before || (left < NEAR * from && low != high) {
                 break;
             }
         }
-        let gap = Interval::new(low.0, high.0);
-        if high.0 < 1.6 * low.0 && self.settle(map, gap, low.1, high.1) {
+        let gap = SignedGap { over: Interval::new(from, to), ..gap };
+        if to < 1.6 * from && self.settle(map, gap) {
             return;
         }
-        if gap.width() <= NARROWEST * high.0 || halvings == 0 {
-            return self.leave(low, high);
+        if gap.over.width() <= NARROWEST * to || halvings == 0 {
+            return self.leave(gap.over);
         }
-        let Some(middle) = clear_middle(map, gap) else { return self.leave(low, high) };
-        self.decide(map, low, middle, halvings - 1);
-        self.decide(map, middle, high, halvings - 1);
+        let Some(middle) = clear_middle(map, gap.over) else { return self.leave(gap.over) };
+        self.decide(map, SignedGap::between((from, low), middle), halvings - 1);
+        self.decide(map, SignedGap::between(middle, (to, high)), halvings - 1);
     }
 
     /// Leaves a gap open, merging it with an open one that it touches.
-    fn leave(&mut self, low: GapEnd, high: GapEnd) {
-        let gap = Interval::new(low.0, high.0);
+    fn leave(&mut self, gap: Interval) {
         match self.open.last_mut() {
             Some(last) if last.upper() >= gap.lower() => *last = last.hull(gap),
             _ => self.open.push(gap),
@@ -118,26 +130,21 @@ impl Count {
     }
 
     /// Decides a gap by the derivative of the map or of its inverse; returns whether that succeeded.
-    fn settle(&mut self, map: &mut ProvedMap, gap: Interval, low: Sign, high: Sign) -> bool {
+    fn settle(&mut self, map: &mut ProvedMap, gap: SignedGap) -> bool {
+        let mut order = [MapDirection::Forward, MapDirection::Backward];
         // Near a repelling cycle the inverse contracts, and is known where the map itself is not.
-        let repels = low == Sign::Below && high == Sign::Above;
-        let directions = [MapDirection::Forward, MapDirection::Backward];
-        let order = if repels { [directions[1], directions[0]] } else { directions };
-        order.into_iter().any(|direction| self.settle_along(map, direction, gap, low, high))
+        if gap.low == Sign::Below && gap.high == Sign::Above {
+            order.reverse();
+        }
+        order.into_iter().any(|direction| self.settle_along(map, direction, gap))
     }
 
-    fn settle_along(
-        &mut self,
-        map: &mut ProvedMap,
-        direction: MapDirection,
-        gap: Interval,
-        low: Sign,
-        high: Sign,
-    ) -> bool {
-        let Some(slope) = map.slope(direction, gap) else { return false };
+    fn settle_along(&mut self, map: &mut ProvedMap, along: MapDirection, gap: SignedGap) -> bool {
+        let SignedGap { over, low, high } = gap;
+        let Some(slope) = map.slope(along, over) else { return false };
         if slope.lower() > 1.0 || slope.upper() < 1.0 {
             if low != high {
-                self.cycles.push(ProvedCycle::new(gap, low == Sign::Above));
+                self.cycles.push(ProvedCycle::new(over, low == Sign::Above));
             }
             return true;
         }
@@ -145,9 +152,9 @@ impl Count {
             return false;
         }
         // Whether the distance from the diagonal in the middle exceeds any approach towards an end.
-        let middle = Interval::point(gap.middle());
-        let away = map.image(direction, middle) - middle;
-        let sway = (slope - Interval::point(1.0)) * (gap - middle);
+        let middle = Interval::point(over.middle());
+        let away = map.image(along, middle) - middle;
+        let sway = (slope - Interval::point(1.0)) * (over - middle);
         let sum = away + sway;
         sum.lower() > 0.0 || sum.upper() < 0.0
     }
@@ -194,25 +201,23 @@ fn inner_end(map: &mut ProvedMap) -> SearchEnd {
     /// Halvings of the trial clearance where the inverse is not known.
     const HALVINGS: i32 = 40;
     // The largest clearances from which the second swing, and both swings, end in the sticking set.
-    let second = map.half(1, MapDirection::Backward, Interval::point(0.0));
-    if second.lower() == f64::INFINITY {
-        return Err(Count::default());
+    let mut largest = 0.0;
+    for half in &map.backward {
+        largest = half.image(Interval::point(largest), &mut map.effort).lower();
+        if largest == f64::INFINITY {
+            return Err(Count::default());
+        }
     }
-    let first = map.half(0, MapDirection::Backward, Interval::point(second.lower()));
-    if first.lower() == f64::INFINITY {
-        return Err(Count::default());
-    }
-    if first.lower() > 0.0 {
-        return Ok((first.lower(), Sign::Below));
+    if largest > 0.0 {
+        return Ok((largest, Sign::Below));
     }
     let gap = map.gap;
-    if map.field(0, MapDirection::Forward).a.upper() <= -2.0 {
-        let least = [0, 1].map(|index| {
-            let funnel = map.funnel(index, MapDirection::Forward);
-            let end = least_end(&map.field(index, MapDirection::Forward), funnel.as_ref());
+    if map.forward[0].field.a.upper() <= -2.0 {
+        let least = map.forward.each_ref().map(|half| {
+            let end = least_end(&half.field, half.funnel(&mut map.effort).as_ref());
             (Interval::point(end) - gap).lower()
         });
-        let passed = map.half(1, MapDirection::Forward, Interval::point(least[0])).lower();
+        let passed = map.forward[1].image(Interval::point(least[0]), &mut map.effort).lower();
         let bound = passed.max(least[1]);
         if bound > 0.0 && bound < f64::INFINITY {
             // No image is smaller, provided that every motion returns.
@@ -260,8 +265,8 @@ fn least_end(field: &FieldBox, funnel: Option<&Funnel>) -> f64 {
 fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     /// How often a clearance is quadrupled in search of an escape.
     const QUADRUPLINGS: i32 = 200;
-    let [first, second] = [0, 1].map(|index| {
-        let greatest = map.greatest(index, MapDirection::Forward, f64::INFINITY);
+    let [first, second] = map.forward.each_ref().map(|half| {
+        let greatest = half.greatest(f64::INFINITY, &mut map.effort);
         if greatest < f64::INFINITY {
             (Interval::point(greatest) - map.gap).upper()
         } else {
@@ -272,7 +277,7 @@ fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
         return Err(Count::default());
     }
     let through = if first < f64::INFINITY {
-        map.half(1, MapDirection::Forward, Interval::point(first)).upper()
+        map.forward[1].image(Interval::point(first), &mut map.effort).upper()
     } else {
         f64::INFINITY
     };
@@ -287,9 +292,9 @@ fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
         return sign.map(|sign| (bound, sign)).ok_or_else(|| Count::beyond(inner));
     }
     // The same for the inverse, all of whose images are below its greatest one.
-    let back = map.greatest(1, MapDirection::Backward, f64::INFINITY);
-    let whole = map.greatest(0, MapDirection::Backward, f64::INFINITY);
-    let through = map.half(0, MapDirection::Backward, Interval::point(back)).upper();
+    let [back, whole] =
+        map.backward.each_ref().map(|half| half.greatest(f64::INFINITY, &mut map.effort));
+    let through = map.backward[1].image(Interval::point(back), &mut map.effort).upper();
     let bound = through.min(whole);
     if bound < f64::INFINITY && bound > inner {
         return Ok((bound, Sign::Above));
@@ -327,7 +332,9 @@ mod tests {
         let [d, d2, d3, r] = [-0.172_784_28, 0.2, 0.5, 0.1].map(Interval::point);
         let mut map = ProvedMap::new(&ParameterBox { d, d2, d3, r });
         let mut count = Count::default();
-        count.decide(&mut map, (0.414, Sign::Below), (0.417, Sign::Below), 40);
+        let over = Interval::new(0.414, 0.417);
+        let gap = SignedGap { over, low: Sign::Below, high: Sign::Below };
+        count.decide(&mut map, gap, 40);
         let cycles = [(0.415_062_415_659, false), (0.416_021_602_729, true)];
         assert!(count.open.is_empty() && count.cycles.len() == 2, "{count:?}");
         // Between them the derivative passes through 1. At both it differs from 1 by only 0.0022, so it decides
@@ -335,7 +342,8 @@ mod tests {
         let both = Interval::new(0.415_06, 0.416_03);
         for direction in [MapDirection::Forward, MapDirection::Backward] {
             let mut settled = Count::default();
-            assert!(!settled.settle_along(&mut map, direction, both, Sign::Below, Sign::Below));
+            let gap = SignedGap { over: both, ..gap };
+            assert!(!settled.settle_along(&mut map, direction, gap));
         }
         for (found, (clearance, stable)) in count.cycles.iter().zip(cycles) {
             assert!(found.within.contains(clearance) && found.stable == stable, "{count:?}");

@@ -81,7 +81,7 @@ pub(crate) fn stabilities(parameters: &ParameterBox) -> (Option<Vec<bool>>, u32)
     let mut map = ProvedMap::new(&local);
     let count = counted(theorem(&local), &mut map);
     let stable = || count.cycles.iter().map(|cycle| cycle.stable).collect();
-    (count.open.is_empty().then(stable), map.steps)
+    (count.open.is_empty().then(stable), map.effort.steps)
 }
 
 /// The parameters in units of `2^k`, and k: near the limits of the range of doubles, r is scaled to about 1,
@@ -106,7 +106,7 @@ fn prove_in_units(parameters: &ParameterBox, hints: &[f64]) -> Proof {
         };
         cycle.enclosure = enclosure.filter(|it| it.clearance.intersection(within).is_some());
     }
-    Proof { parameters: *parameters, theorem, cycles, open, swings: map.swings }
+    Proof { parameters: *parameters, theorem, cycles, open, swings: map.effort.swings }
 }
 
 /// Counts cycles by the theorem, or by the return map.

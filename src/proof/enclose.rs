@@ -80,17 +80,12 @@ pub fn enclose(
             break;
         }
     }
-    let mut around = None;
-    for radius in RADII {
+    let around = RADII.into_iter().find_map(|radius| {
         let wide = Interval::around(near, radius * near);
-        if let Some(inner) = newton(map, wide, direction)
-            && inner.lower() > wide.lower()
-            && inner.upper() < wide.upper()
-        {
-            around = Some((inner, radius));
-            break;
-        }
-    }
+        let inner = newton(map, wide, direction)?;
+        let is_inside = inner.lower() > wide.lower() && inner.upper() < wide.upper();
+        is_inside.then_some((inner, radius))
+    });
     // The only cycle in an interval lies in each Newton step from there, whether in its interior or not.
     let only = |map: &mut ProvedMap| newton(map, within, direction)?.intersection(within);
     let known = around.map(|(inner, _)| inner);
@@ -131,17 +126,17 @@ fn describe(
 ) -> Option<Enclosure> {
     let ParameterBox { r, .. } = map.parameters;
     let gap = r.twice();
-    // The clearance of the left turning point, then the swings below and above.
-    let index = usize::from(direction == MapDirection::Backward);
-    let left = map.half(index, direction, clearance);
+    let (halves, effort) = map.halves(direction);
+    let left = halves[0].image(clearance, effort);
     if !(left.lower() > 0.0 && left.is_finite()) {
         return None;
     }
-    let starts = match direction {
-        MapDirection::Forward => [clearance, left],
-        MapDirection::Backward => [left + gap, clearance + gap],
+    let [right, from_left] = [(&halves[0], clearance), (&halves[1], left)]
+        .map(|(half, clearance)| half.whole_swing(half.start(clearance), effort));
+    let [below, above] = match direction {
+        MapDirection::Forward => [right, from_left],
+        MapDirection::Backward => [from_left, right],
     };
-    let [below, above] = [0, 1].map(|index| map.whole_swing(index, direction, starts[index]));
     // The contribution of D2 to the divergence vanishes around a closed curve.
     let cubic = |swing: &ProvedSwing| {
         let c = scaled(scaled(map.parameters.d3, swing.unit), swing.unit);

@@ -9,7 +9,7 @@
 use super::ball::StartBox;
 use super::cycles::{Proof, ProvedCycle, Theorem};
 use super::field::ParameterBox;
-use super::map::{MapDirection, ProvedMap};
+use super::map::{Effort, ProvedHalf, ProvedMap};
 use super::range::narrowed;
 use super::swing::{Passage, swing};
 use crate::numerics::{Interval, powi};
@@ -101,32 +101,6 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 3]) -> ProvedKicks {
     }
 }
 
-/// What certainly borders the basin.
-pub fn edge(proof: &Proof) -> Option<ProvedEdge> {
-    /// Clearances at which to look for a motion that does not come to rest, in units of r.
-    const FAR: [f64; 6] = [1e-3, 0.1, 1.0, 10.0, 1e2, 1e4];
-    if !(proof.parameters.r.lower() > 0.0) {
-        return None;
-    }
-    if let Some(innermost) = innermost(proof) {
-        return (!innermost.stable).then_some(ProvedEdge::Cycle);
-    }
-    if !(proof.is_complete() && proof.cycles.is_empty()) {
-        return None;
-    }
-    let mut map = ProvedMap::new(&proof.parameters);
-    if is_bounded(&mut map, proof) {
-        return Some(ProvedEdge::None);
-    }
-    let unit = map.gap.upper();
-    let starts = FAR.iter().flat_map(|far| [(0, far * unit), (1, far * unit)]);
-    let lost = starts.into_iter().any(|(half, clearance)| {
-        let mut known = Interval::new(0.0, f64::INFINITY);
-        at_rest(&mut map, half, clearance, &mut known) == Some(false)
-    });
-    lost.then_some(ProvedEdge::Separatrix)
-}
-
 /// The innermost cycle, if there is certainly none inside it.
 fn innermost(proof: &Proof) -> Option<&ProvedCycle> {
     let first = proof.cycles.first()?;
@@ -143,10 +117,8 @@ fn is_bounded(map: &mut ProvedMap, proof: &Proof) -> bool {
     let ParameterBox { d2, d3, .. } = proof.parameters;
     // Every motion loses energy, the first integral of lemma 13 for D2 = 0.
     let energy = proof.theorem == Some(Theorem::OneWay) && d2 == Interval::point(0.0);
-    let barred = [0, 1].iter().all(|&half| {
-        d3.lower() > 0.0 && map.greatest(half, MapDirection::Forward, f64::INFINITY) < f64::INFINITY
-    });
-    energy || barred
+    let barred = |half: &ProvedHalf| half.greatest(f64::INFINITY, &mut map.effort) < f64::INFINITY;
+    energy || (d3.lower() > 0.0 && map.forward.iter().all(barred))
 }
 
 /// Whether a start at rest with this clearance is captured, where that is certain; `half` is its first half swing.
@@ -157,8 +129,7 @@ fn at_rest(map: &mut ProvedMap, half: usize, from: f64, known: &mut Interval) ->
     for _ in 0..TURNS {
         let before = at;
         for index in [half, 1 - half] {
-            map.steps = 0;
-            at = map.half(index, MapDirection::Forward, at);
+            at = map.forward[index].image(at, &mut Effort::default());
         }
         // A motion that has not come nearer in one turn never will.
         if at.lower() >= from.min(known.upper()) {
@@ -186,9 +157,8 @@ fn pushed(
     speed: f64,
     edge: [Interval; 2],
 ) -> Option<bool> {
-    let field = map.field(half, MapDirection::Forward);
     let start = StartBox { x, v: Interval::point(speed) };
-    let passage = swing(&field, &start, false);
+    let passage = swing(&map.forward[half].field, &start, false);
     let Passage::Arrives(swing) = passage else {
         return (passage == Passage::Never).then_some(false);
     };

@@ -21,13 +21,31 @@ use crate::numerics::Interval;
 pub struct ProvedMap {
     /// The parameters.
     pub parameters: ParameterBox,
-    /// The fields of the two half maps, in the order of the forward map.
-    fields: [FieldBox; 2],
-    /// The funnel of each half and direction, once it has been computed.
-    funnels: [[OnceCell<Option<Funnel>>; 2]; 2],
     /// `2 r`.
     pub gap: Interval,
-    /// Number of half swings computed so far.
+    /// Both half maps, in the order in which the map runs them.
+    pub forward: [ProvedHalf; 2],
+    /// Both half maps of the inverse, in the order in which that runs them: the second swing first.
+    pub backward: [ProvedHalf; 2],
+    /// What was computed so far.
+    pub effort: Effort,
+}
+
+/// Half of the map, or of its inverse: from the clearances before a swing to those after it.
+#[derive(Clone, Debug)]
+pub struct ProvedHalf {
+    /// Its field.
+    pub field: FieldBox,
+    direction: MapDirection,
+    gap: Interval,
+    /// Its funnel, once it has been computed.
+    funnel: OnceCell<Option<Funnel>>,
+}
+
+/// What half swings cost.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Effort {
+    /// Number of half swings.
     pub swings: u32,
     /// Approximate number of steps they took.
     pub steps: u32,
@@ -66,188 +84,38 @@ pub enum Bound {
 impl ProvedMap {
     /// The map for these parameters.
     pub fn new(parameters: &ParameterBox) -> Self {
+        let gap = parameters.r.twice();
+        let half = |field, direction| ProvedHalf { field, direction, gap, funnel: OnceCell::new() };
+        let [first, second] =
+            [Side::Lower, Side::Upper].map(|side| FieldBox::new(parameters, side));
         ProvedMap {
             parameters: *parameters,
-            fields: [Side::Lower, Side::Upper].map(|side| FieldBox::new(parameters, side)),
-            funnels: Default::default(),
-            gap: parameters.r.twice(),
-            swings: 0,
-            steps: 0,
+            gap,
+            forward: [first, second].map(|field| half(field, MapDirection::Forward)),
+            backward: [second, first].map(|field| half(field.reversed(), MapDirection::Backward)),
+            effort: Effort::default(),
         }
     }
 
-    /// The field of a half in a direction.
-    pub fn field(&self, index: usize, direction: MapDirection) -> FieldBox {
-        match direction {
-            MapDirection::Forward => self.fields[index],
-            MapDirection::Backward => self.fields[index].reversed(),
-        }
-    }
-
-    /// Runs one field from rest.
-    pub fn run(&mut self, field: &FieldBox, start: Interval) -> Passage {
-        self.run_below(field, start, None)
-    }
-
-    /// As [`Self::run`], but stops as soon as every motion is faster than the ceiling of a funnel.
-    fn run_below(&mut self, field: &FieldBox, start: Interval, funnel: Option<&Funnel>) -> Passage {
-        if self.steps > MOST_WORK {
-            return Passage::Unknown;
-        }
-        let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
-        let passage = swing_below(field, &StartBox::at_rest(start), ceiling, false);
-        self.swings += 1;
-        self.steps += match passage {
-            Passage::Arrives(swing) | Passage::Exceeds(swing) => swing.steps,
-            Passage::Never => MOST_STEPS / 8,
-            Passage::Unknown => MOST_STEPS,
+    /// The half maps in a direction, and what counts their cost.
+    pub fn halves(&mut self, direction: MapDirection) -> (&[ProvedHalf; 2], &mut Effort) {
+        let halves = match direction {
+            MapDirection::Forward => &self.forward,
+            MapDirection::Backward => &self.backward,
         };
-        passage
-    }
-
-    /// A swing from rest with all its results; where it is stiff, between the fences.
-    pub fn whole_swing(
-        &mut self,
-        index: usize,
-        direction: MapDirection,
-        start: Interval,
-    ) -> Option<ProvedSwing> {
-        let field = self.field(index, direction);
-        self.swings += 1;
-        if let Some(swing) = swing(&field, &StartBox::at_rest(start), true).arrived() {
-            return Some(swing);
-        }
-        let funnel = self.funnel(index, direction)?;
-        let fallen = swing_below(&field, &StartBox::at_rest(start), funnel.speed, true);
-        let Passage::Exceeds(fallen) = fallen else { return None };
-        funnel.swing_after(&field, start, &fallen)
-    }
-
-    /// The funnel of a half, if it has one.
-    pub fn funnel(&mut self, index: usize, direction: MapDirection) -> Option<Funnel> {
-        let place = &self.funnels[index][usize::from(direction == MapDirection::Backward)];
-        let mut swings = 0;
-        let funnel = *place.get_or_init(|| Funnel::new(&self.field(index, direction), &mut swings));
-        self.swings += swings;
-        funnel
-    }
-
-    /// Upper bound of the ends of the swings of a half that start up to this far out.
-    pub fn greatest(&mut self, index: usize, direction: MapDirection, from: f64) -> f64 {
-        let funnel = self.funnel(index, direction);
-        funnel.filter(|it| from <= it.reach).map_or(f64::INFINITY, |it| it.greatest())
-    }
-
-    /// Lower bound of the end of a swing. Where none can be computed, the bound for a start further in is used:
-    /// that swing ends below.
-    fn least(&mut self, index: usize, direction: MapDirection, start: f64) -> f64 {
-        /// Times that a start is quartered in search of one that is not stiff.
-        const SHORTENINGS: i32 = 6;
-        let funnel = self.funnel(index, direction);
-        let field = self.field(index, direction).strongest();
-        if let Some(far) = funnel
-            && far.climb_from(&field, Interval::point(start)).is_some()
-        {
-            return far.least();
-        }
-        let mut from = start;
-        for _ in 0..SHORTENINGS {
-            match self.run_below(&field, Interval::point(from), funnel.as_ref()) {
-                Passage::Unknown => from *= 0.25,
-                known => return Funnel::least_after(funnel.as_ref(), &field, &known),
-            }
-        }
-        f64::NEG_INFINITY
-    }
-
-    /// Upper bound of the end of a swing.
-    fn most(&mut self, index: usize, direction: MapDirection, start: f64) -> f64 {
-        let funnel = self.funnel(index, direction);
-        let field = self.field(index, direction).weakest();
-        let far = funnel.and_then(|it| it.climb_from(&field, Interval::point(start)));
-        if start < f64::INFINITY && far.is_none() {
-            let passage = self.run_below(&field, Interval::point(start), funnel.as_ref());
-            if let Passage::Arrives(swing) = passage {
-                return swing.end.upper();
-            }
-        }
-        self.greatest(index, direction, start)
-    }
-
-    /// One half of the map: from the clearances before a swing to those after it.
-    pub fn half(&mut self, index: usize, direction: MapDirection, from: Interval) -> Interval {
-        let start = match direction {
-            MapDirection::Forward => from,
-            MapDirection::Backward => from + self.gap,
-        };
-        let field = self.field(index, direction);
-        if field.is_point()
-            && from.lower() > 0.0
-            && from.radius() <= ROUNDED * from.lower()
-            && let Some(swing) = self.run(&field, start).arrived()
-        {
-            return self.after(direction, swing.end);
-        }
-        let lower = self.bound(index, direction, from.lower(), Bound::Lower);
-        let upper = self.bound(index, direction, from.upper(), Bound::Upper);
-        Interval::new(lower, upper.max(lower))
-    }
-
-    /// A bound of one half of the map at a clearance.
-    fn bound(&mut self, index: usize, direction: MapDirection, from: f64, which: Bound) -> f64 {
-        if from == f64::INFINITY || (direction == MapDirection::Forward && from <= 0.0) {
-            return if from > 0.0 { from } else { f64::NEG_INFINITY };
-        }
-        let start = match direction {
-            MapDirection::Forward => Interval::point(from),
-            MapDirection::Backward => Interval::point(from) + self.gap,
-        };
-        let end = match which {
-            Bound::Lower => self.least(index, direction, start.lower()),
-            Bound::Upper => self.most(index, direction, start.upper()),
-        };
-        if end.is_infinite() {
-            return if direction == MapDirection::Backward { end.max(0.0) } else { end };
-        }
-        let after = self.after(direction, Interval::point(end));
-        match which {
-            Bound::Lower => after.lower(),
-            Bound::Upper => after.upper(),
-        }
-    }
-
-    /// The clearances after swings that end at these positions; `-inf` where they end in the sticking set.
-    fn after(&self, direction: MapDirection, end: Interval) -> Interval {
-        match direction {
-            MapDirection::Forward => {
-                let rest = |bound: f64| if bound > 0.0 { bound } else { f64::NEG_INFINITY };
-                let after = end - self.gap;
-                Interval::new(rest(after.lower()), rest(after.upper()))
-            }
-            MapDirection::Backward => Interval::new(end.lower().max(0.0), end.upper()),
-        }
-    }
-
-    /// The order of the halves in a direction.
-    fn order(direction: MapDirection) -> [usize; 2] {
-        match direction {
-            MapDirection::Forward => [0, 1],
-            MapDirection::Backward => [1, 0],
-        }
+        (halves, &mut self.effort)
     }
 
     /// A bound of the whole map at a clearance.
     pub fn image_bound(&mut self, direction: MapDirection, from: f64, which: Bound) -> f64 {
-        let [first, second] = Self::order(direction);
-        let between = self.bound(first, direction, from, which);
-        self.bound(second, direction, between, which)
+        let (halves, effort) = self.halves(direction);
+        halves.iter().fold(from, |at, half| half.bound(at, which, effort))
     }
 
     /// The whole map.
     pub fn image(&mut self, direction: MapDirection, from: Interval) -> Interval {
-        let [first, second] = Self::order(direction);
-        let between = self.half(first, direction, from);
-        self.half(second, direction, between)
+        let (halves, effort) = self.halves(direction);
+        halves.iter().fold(from, |at, half| half.image(at, effort))
     }
 
     /// The derivative of the map over an interval of clearances; `None` where a swing is not certain.
@@ -261,76 +129,207 @@ impl ProvedMap {
         direction: MapDirection,
         over: Interval,
     ) -> Option<(Interval, Interval)> {
-        let mut product = Interval::point(1.0);
-        let mut from = over;
-        for index in Self::order(direction) {
-            let start = if direction == MapDirection::Backward { from + self.gap } else { from };
-            let (end, slope) = self.half_slope(index, direction, start)?;
+        let (halves, effort) = self.halves(direction);
+        let (mut at, mut product) = (over, Interval::point(1.0));
+        for half in halves {
+            let (end, slope) = half.end_and_slope(half.start(at), effort)?;
             product = product * slope;
-            from = if direction == MapDirection::Forward { end - self.gap } else { end };
-            if !(from.lower() > 0.0) {
+            at = if direction == MapDirection::Forward { end - half.gap } else { end };
+            if !(at.lower() > 0.0) {
                 return None;
             }
         }
-        Some((from, product))
+        Some((at, product))
+    }
+}
+
+impl Effort {
+    /// Runs one field from rest; with a funnel it stops as soon as every motion is faster than the ceiling of that.
+    pub fn run(&mut self, field: &FieldBox, start: Interval, funnel: Option<&Funnel>) -> Passage {
+        if self.steps > MOST_WORK {
+            return Passage::Unknown;
+        }
+        let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
+        let passage = swing_below(field, &StartBox::at_rest(start), ceiling, false);
+        self.swings += 1;
+        self.steps += match passage {
+            Passage::Arrives(swing) | Passage::Exceeds(swing) => swing.steps,
+            Passage::Never => MOST_STEPS / 8,
+            Passage::Unknown => MOST_STEPS,
+        };
+        passage
+    }
+}
+
+impl ProvedHalf {
+    /// Where a swing with a clearance starts.
+    pub fn start(&self, clearance: Interval) -> Interval {
+        match self.direction {
+            MapDirection::Forward => clearance,
+            MapDirection::Backward => clearance + self.gap,
+        }
     }
 
-    /// The end of a half swing from an interval of starts, and its derivative with respect to the start.
-    fn half_slope(
-        &mut self,
-        index: usize,
-        direction: MapDirection,
-        start: Interval,
-    ) -> Option<(Interval, Interval)> {
-        let field = self.field(index, direction);
-        let funnel = self.funnel(index, direction);
-        let stiff = |climb| funnel.and_then(|it| it.contraction(&field, start, climb));
-        let far = funnel.and_then(|it| it.climb_from(&field, start)).and_then(stiff);
+    /// The clearances after swings that end at these positions; `-inf` where they end in the sticking set.
+    fn after(&self, end: Interval) -> Interval {
+        match self.direction {
+            MapDirection::Forward => {
+                let rest = |bound: f64| if bound > 0.0 { bound } else { f64::NEG_INFINITY };
+                let after = end - self.gap;
+                Interval::new(rest(after.lower()), rest(after.upper()))
+            }
+            MapDirection::Backward => Interval::new(end.lower().max(0.0), end.upper()),
+        }
+    }
+
+    /// A swing from rest with all its results; where it is stiff, between the fences.
+    pub fn whole_swing(&self, start: Interval, effort: &mut Effort) -> Option<ProvedSwing> {
+        let rest = StartBox::at_rest(start);
+        effort.swings += 1;
+        if let Some(swing) = swing(&self.field, &rest, true).arrived() {
+            return Some(swing);
+        }
+        let funnel = self.funnel(effort)?;
+        let fallen = swing_below(&self.field, &rest, funnel.speed, true);
+        let Passage::Exceeds(fallen) = fallen else { return None };
+        funnel.swing_after(&self.field, start, &fallen)
+    }
+
+    /// Its funnel, if it has one.
+    pub fn funnel(&self, effort: &mut Effort) -> Option<Funnel> {
+        *self.funnel.get_or_init(|| Funnel::new(&self.field, &mut effort.swings))
+    }
+
+    /// Upper bound of the ends of the swings that start up to this far out.
+    pub fn greatest(&self, from: f64, effort: &mut Effort) -> f64 {
+        let funnel = self.funnel(effort).filter(|it| from <= it.reach);
+        funnel.map_or(f64::INFINITY, |it| it.greatest())
+    }
+
+    /// Lower bound of the end of a swing. Where none can be computed, the bound for a start further in is used:
+    /// that swing ends below.
+    fn least(&self, start: f64, effort: &mut Effort) -> f64 {
+        /// Times that a start is quartered in search of one that is not stiff.
+        const SHORTENINGS: i32 = 6;
+        let (funnel, field) = (self.funnel(effort), self.field.strongest());
+        if let Some(far) = funnel
+            && far.climb_from(&field, Interval::point(start)).is_some()
+        {
+            return far.least();
+        }
+        let mut from = start;
+        for _ in 0..SHORTENINGS {
+            match effort.run(&field, Interval::point(from), funnel.as_ref()) {
+                Passage::Unknown => from *= 0.25,
+                known => return Funnel::least_after(funnel.as_ref(), &field, &known),
+            }
+        }
+        f64::NEG_INFINITY
+    }
+
+    /// Upper bound of the end of a swing.
+    fn most(&self, start: f64, effort: &mut Effort) -> f64 {
+        let (funnel, field) = (self.funnel(effort), self.field.weakest());
+        let far = funnel.and_then(|it| it.climb_from(&field, Interval::point(start)));
+        if start < f64::INFINITY && far.is_none() {
+            let passage = effort.run(&field, Interval::point(start), funnel.as_ref());
+            if let Passage::Arrives(swing) = passage {
+                return swing.end.upper();
+            }
+        }
+        self.greatest(start, effort)
+    }
+
+    /// The clearances after swings, from those before.
+    pub fn image(&self, from: Interval, effort: &mut Effort) -> Interval {
+        if self.field.is_point()
+            && from.lower() > 0.0
+            && from.radius() <= ROUNDED * from.lower()
+            && let Some(swing) = effort.run(&self.field, self.start(from), None).arrived()
+        {
+            return self.after(swing.end);
+        }
+        let lower = self.bound(from.lower(), Bound::Lower, effort);
+        let upper = self.bound(from.upper(), Bound::Upper, effort);
+        Interval::new(lower, upper.max(lower))
+    }
+
+    /// A bound of the clearance after a swing.
+    fn bound(&self, from: f64, which: Bound, effort: &mut Effort) -> f64 {
+        let is_backward = self.direction == MapDirection::Backward;
+        if from == f64::INFINITY || (!is_backward && from <= 0.0) {
+            return if from > 0.0 { from } else { f64::NEG_INFINITY };
+        }
+        let start = self.start(Interval::point(from));
+        let end = match which {
+            Bound::Lower => self.least(start.lower(), effort),
+            Bound::Upper => self.most(start.upper(), effort),
+        };
+        if end.is_infinite() {
+            return if is_backward { end.max(0.0) } else { end };
+        }
+        let after = self.after(Interval::point(end));
+        match which {
+            Bound::Lower => after.lower(),
+            Bound::Upper => after.upper(),
+        }
+    }
+
+    /// The end of a swing from an interval of starts, and its derivative with respect to the start.
+    fn end_and_slope(&self, start: Interval, effort: &mut Effort) -> Option<(Interval, Interval)> {
+        let (field, funnel) = (&self.field, self.funnel(effort));
+        let stiff = |climb| funnel.and_then(|it| it.contraction(field, start, climb));
+        let far = funnel.and_then(|it| it.climb_from(field, start)).and_then(stiff);
         let settled = |(_, slope): &(Interval, Interval)| slope.upper() < SUPERSTABLE;
         if far.as_ref().is_some_and(settled) {
             return far;
         }
-        let whole = match self.run_below(&field, start, funnel.as_ref()) {
+        let whole = match effort.run(field, start, funnel.as_ref()) {
             Passage::Arrives(swing) => swing,
             Passage::Exceeds(swing) => {
-                let near = funnel.and_then(|it| it.climb_of(&field, &swing)).and_then(stiff);
+                let near = funnel.and_then(|it| it.climb_of(field, &swing)).and_then(stiff);
                 if near.as_ref().is_some_and(settled) {
                     return near;
                 }
-                match self.run(&field, start) {
+                match effort.run(field, start, None) {
                     Passage::Arrives(swing) => swing,
                     _ => return near,
                 }
             }
             _ => return None,
         };
-        let (swing, slope) = self.swing_over(&field, start, whole)?;
-        Some((swing.end, slope))
+        let swing = self.swing_over(start, whole, effort)?;
+        // Lemma 9.
+        let slope = start / swing.end * swing.divergence.exp();
+        slope.is_finite().then_some((swing.end, slope))
     }
 
-    /// A swing from an interval of starts at rest, and the derivative of its end with respect to the start:
-    /// `z/X exp(integral of the divergence)` (lemma 9).
+    /// A swing from an interval of starts at rest, from that of the ball of its motions.
     ///
     /// The end and the integral of `v^2` increase with the start and decrease with the damping. For wide
     /// intervals they are taken from two motions, and only the duration from the ball.
     fn swing_over(
-        &mut self,
-        field: &FieldBox,
+        &self,
         start: Interval,
-        mut whole: ProvedSwing,
-    ) -> Option<(ProvedSwing, Interval)> {
-        if !(field.is_point() && start.radius() <= NARROW * start.lower()) {
-            let low = self.run(&field.strongest(), Interval::point(start.lower())).arrived()?;
-            let high = self.run(&field.weakest(), Interval::point(start.upper())).arrived()?;
-            whole.end = Interval::new(low.end.lower(), high.end.upper());
-            let least = low.square_in(whole.unit).lower();
-            let most = high.square_in(whole.unit).upper();
-            whole.square = Interval::new(least, most).intersection(whole.square)?;
-            let FieldBox { a, b, c } = field.in_units_of(whole.unit);
-            let path = scaled(whole.end + start, -whole.unit);
-            whole.divergence = -(a * whole.duration + (b * path).twice() + c * whole.square * 3.0);
+        whole: ProvedSwing,
+        effort: &mut Effort,
+    ) -> Option<ProvedSwing> {
+        let (field, unit) = (&self.field, whole.unit);
+        if field.is_point() && start.radius() <= NARROW * start.lower() {
+            return Some(whole);
         }
-        let slope = start / whole.end * whole.divergence.exp();
-        slope.is_finite().then_some((whole, slope))
+        let mut end_of = |field: &FieldBox, start: f64| {
+            effort.run(field, Interval::point(start), None).arrived()
+        };
+        let low = end_of(&field.strongest(), start.lower())?;
+        let high = end_of(&field.weakest(), start.upper())?;
+        let end = Interval::new(low.end.lower(), high.end.upper());
+        let squares = [low, high].map(|it| it.square_in(unit));
+        let square = Interval::new(squares[0].lower(), squares[1].upper());
+        let square = square.intersection(whole.square)?;
+        let FieldBox { a, b, c } = field.in_units_of(unit);
+        let path = scaled(end + start, -unit);
+        let divergence = -(a * whole.duration + (b * path).twice() + c * square * 3.0);
+        Some(ProvedSwing { end, square, divergence, ..whole })
     }
 }

@@ -1,58 +1,56 @@
 //! Enclosure of a motion, half swing by half swing, until it comes to rest, reaches the end time, or escapes.
 
+use serde::Serialize;
+
 use super::ball::{Ball, MOST_STEPS, StartBox, never_returns};
 use super::field::{FieldBox, ParameterBox, scaled};
-use super::map::{MapDirection, ProvedMap};
+use super::map::{Effort, ProvedMap};
 use super::swing::{Passage, ProvedSwing, swing};
 use crate::numerics::{Interval, cbrt};
 
-/// An arrival at `v = 0`.
+/// A point of a motion, as far as it is enclosed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProvedTurn {
-    /// Time of the arrival.
+pub struct ProvedPoint {
+    /// Time.
     pub tau: Interval,
     /// Displacement.
-    pub q: Interval,
+    pub q: Option<Interval>,
+    /// Velocity.
+    pub v: Option<Interval>,
+    /// Why nothing is known of the motion from here on.
+    pub open: Option<&'static str>,
 }
 
-/// How a motion certainly ends, or why that is open.
-#[derive(Clone, Copy, Debug, PartialEq)]
+impl ProvedPoint {
+    /// A point that is enclosed.
+    pub fn of(tau: Interval, q: Interval, v: Interval) -> Self {
+        ProvedPoint { tau, q: Some(q), v: Some(v), open: None }
+    }
+}
+
+/// How a motion certainly ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ProvedFate {
     /// At rest.
-    Captured {
-        /// Time of the arrival.
-        tau: Interval,
-        /// Displacement at rest.
-        q: Interval,
-    },
+    Captured,
     /// Still moving at the end time.
-    Moving {
-        /// Displacement at the end time.
-        q: Interval,
-        /// Velocity at the end time.
-        v: Interval,
-    },
+    Moving,
     /// Unbounded after a finite time.
-    Escaped {
-        /// Time of the blow-up.
-        tau: Interval,
-    },
+    Escaped,
     /// Uncertain from some time on.
-    Open {
-        /// Time up to which the motion is enclosed.
-        tau: Interval,
-        /// Why it is not enclosed further.
-        reason: &'static str,
-    },
+    Open,
 }
 
 /// A motion as far as it is enclosed, valid for all given parameters and starts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProvedMotion {
     /// Every arrival at `v = 0`, the last one included.
-    pub turns: Vec<ProvedTurn>,
+    pub turns: Vec<ProvedPoint>,
     /// How it ends.
     pub fate: ProvedFate,
+    /// Where and when.
+    pub end: ProvedPoint,
 }
 
 const EDGE: &str = "it arrives within its error of an end of the sticking set";
@@ -66,13 +64,27 @@ const LONG: &str = "its half swings are too many";
 const MOST: usize = 20_000;
 
 /// Encloses the motion from displacements `q` and velocities `v` until a time, which may be infinite.
-pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> ProvedMotion {
-    let r = parameters.r;
+pub fn follow(parameters: &ParameterBox, start: [Interval; 2], until: f64) -> ProvedMotion {
     let mut turns = Vec::new();
-    let mut tau = Interval::point(0.0);
-    let rests = v == Interval::point(0.0);
+    let (fate, end) = followed(parameters, start, until, &mut turns);
+    ProvedMotion { turns, fate, end }
+}
+
+/// The end of such a motion, after its turns.
+fn followed(
+    parameters: &ParameterBox,
+    [q, v]: [Interval; 2],
+    until: f64,
+    turns: &mut Vec<ProvedPoint>,
+) -> (ProvedFate, ProvedPoint) {
+    let (r, none) = (parameters.r, Interval::point(0.0));
+    let at = |tau| ProvedPoint { tau, q: None, v: None, open: None };
+    let captured = |tau, q| (ProvedFate::Captured, ProvedPoint { q: Some(q), ..at(tau) });
+    let open = |tau, reason| (ProvedFate::Open, ProvedPoint { open: Some(reason), ..at(tau) });
+    let mut tau = none;
+    let rests = v == none;
     if rests && q.magnitude() <= r.lower() {
-        return ProvedMotion { turns, fate: ProvedFate::Captured { tau, q } };
+        return captured(tau, q);
     }
     // 0 below v = 0, where x = r - q, and 1 above, where x = q + r.
     let mut index = match (v.lower() > 0.0, v.upper() < 0.0) {
@@ -80,94 +92,78 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> P
         (_, true) => 0,
         _ if rests && q.lower() > r.upper() => 0,
         _ if rests && q.upper() < -r.upper() => 1,
-        _ => {
-            let reason = if rests { EDGE } else { START };
-            return ProvedMotion { turns, fate: ProvedFate::Open { tau, reason } };
-        }
+        _ => return open(tau, if rests { EDGE } else { START }),
     };
     // The frame of a half plane turns the other one round.
     let turned = |index, it: Interval| if index == 1 { it } else { -it };
     let mut start = StartBox { x: turned(index, q) + r, v: turned(index, v) };
-    let mut map = ProvedMap::new(parameters);
-    let fate = loop {
-        let field = map.field(index, MapDirection::Forward);
-        let time = Interval::point(until) - tau;
-        let state = || {
-            let (x, v) =
-                if until < f64::INFINITY { state_at(&field, &start, time)? } else { None? };
-            Some(ProvedFate::Moving { q: turned(index, x - r), v: turned(index, v) })
+    let map = ProvedMap::new(parameters);
+    while turns.len() < MOST {
+        let field = map.forward[index].field;
+        let moving = || {
+            let time = (until < f64::INFINITY).then(|| Interval::point(until) - tau)?;
+            let (x, v) = state_at(&field, &start, time)?;
+            let (q, v) = (turned(index, x - r), turned(index, v));
+            Some((ProvedFate::Moving, ProvedPoint::of(Interval::point(until), q, v)))
         };
-        let open = |reason| ProvedFate::Open { tau, reason };
-        if turns.len() == MOST {
-            break open(LONG);
-        }
-        match swing(&field, &start, false) {
-            Passage::Arrives(found) => {
-                let arrived = tau + found.duration;
-                if arrived.lower() > until {
-                    break state().unwrap_or(open(STIFF));
-                }
-                if arrived.upper() > until {
-                    break open(END_TIME);
-                }
-                let end = end(&mut map, &field, &start, &found);
-                tau = arrived;
-                let q = turned(index, end - r);
-                turns.push(ProvedTurn { tau, q });
-                if end.upper() <= map.gap.lower() {
-                    break ProvedFate::Captured { tau, q };
-                }
-                let clearance = end - map.gap;
-                if !(clearance.lower() > 0.0) {
-                    break ProvedFate::Open { tau, reason: EDGE };
-                }
-                (start, index) = (StartBox::at_rest(clearance), 1 - index);
-            }
+        let found = match swing(&field, &start, false) {
+            Passage::Arrives(found) => found,
             Passage::Never => {
                 let escape = blow_up(&field, &start).map(|after| tau + after);
-                break match escape {
-                    Some(escape) if escape.upper() <= until => ProvedFate::Escaped { tau: escape },
-                    _ => state().unwrap_or(open(NEVER)),
+                return match escape.filter(|escape| escape.upper() <= until) {
+                    Some(escape) => (ProvedFate::Escaped, at(escape)),
+                    None => moving().unwrap_or(open(tau, NEVER)),
                 };
             }
-            Passage::Unknown | Passage::Exceeds(_) => break state().unwrap_or(open(STIFF)),
+            Passage::Unknown | Passage::Exceeds(_) => {
+                return moving().unwrap_or(open(tau, STIFF));
+            }
+        };
+        let arrived = tau + found.duration;
+        if arrived.lower() > until {
+            return moving().unwrap_or(open(tau, STIFF));
         }
-    };
-    ProvedMotion { turns, fate }
+        if arrived.upper() > until {
+            return open(tau, END_TIME);
+        }
+        let end = end(&field, &start, &found);
+        tau = arrived;
+        let q = turned(index, end - r);
+        turns.push(ProvedPoint::of(tau, q, none));
+        if end.upper() <= map.gap.lower() {
+            return captured(tau, q);
+        }
+        let clearance = end - map.gap;
+        if !(clearance.lower() > 0.0) {
+            return open(tau, EDGE);
+        }
+        (start, index) = (StartBox::at_rest(clearance), 1 - index);
+    }
+    open(tau, LONG)
 }
 
 /// End of a swing; for a wide interval of starts at rest, from the motions of its two ends (lemma 8).
-fn end(map: &mut ProvedMap, field: &FieldBox, start: &StartBox, whole: &ProvedSwing) -> Interval {
+fn end(field: &FieldBox, start: &StartBox, whole: &ProvedSwing) -> Interval {
     let point = start.x.is_point() && field.is_point();
     if point || start.v != Interval::point(0.0) {
         return whole.end;
     }
-    map.steps = 0;
-    let mut bound = |field: &FieldBox, x: f64| map.run(field, Interval::point(-x)).arrived();
+    let mut effort = Effort::default();
+    let mut bound =
+        |field: &FieldBox, x: f64| effort.run(field, Interval::point(-x), None).arrived();
     let low = bound(&field.strongest(), start.x.upper());
     let high = bound(&field.weakest(), start.x.lower());
     let ends = low.zip(high).map(|(low, high)| Interval::new(low.end.lower(), high.end.upper()));
     ends.and_then(|ends| ends.intersection(whole.end)).unwrap_or(whole.end)
 }
 
-/// A ball of motions on its way, and the time since the start.
-struct ProvedRide {
-    ball: Ball,
-    elapsed: Interval,
-}
-
-impl ProvedRide {
-    fn new(field: &FieldBox, start: &StartBox) -> Option<Self> {
-        Some(ProvedRide { ball: Ball::new(field, start)?, elapsed: Interval::point(0.0) })
-    }
-
+impl Ball {
     /// One step, at most `most` long. The velocity vanishes neither during the step nor at its end (lemma 5).
     fn step(&mut self, most: f64) -> Option<()> {
-        let ahead = self.ball.prepare(most)?;
-        let (h, reached) = self.ball.reach(ahead)?;
-        self.ball.advance(&reached);
-        self.elapsed = self.elapsed + h;
-        (self.ball.state().1.lower() > 0.0).then_some(())
+        let ahead = self.prepare(most)?;
+        let (h, reached) = self.reach(ahead)?;
+        self.advance(h, &reached);
+        (self.state().1.lower() > 0.0).then_some(())
     }
 
     /// Upper bound of the time until the velocity is infinite; `None` where that is not certain.
@@ -176,12 +172,12 @@ impl ProvedRide {
     /// u is its gain (lemma 7). For every U, the constant term bounds the time until `u = U` by `U/k0`, and
     /// `k u^n` bounds the time from there on by `1/((n - 1) k U^(n - 1))`.
     fn remaining(&self) -> Option<f64> {
-        let (x, v) = self.ball.state();
+        let (x, v) = self.state();
         let (x, v) = (x.upper(), v.lower());
-        if !never_returns(&self.ball.local.field, x, v) {
+        if !never_returns(&self.local.field, x, v) {
             return None;
         }
-        let FieldBox { a, b, c } = self.ball.local.field;
+        let FieldBox { a, b, c } = self.local.field;
         let [a, b, c] = [a, b, c].map(|it| Interval::point(it.upper()));
         let at = Interval::point(v);
         let k0 = -Interval::point(x) - at * (a + at * (b + at * c));
@@ -210,17 +206,17 @@ pub fn state_at(
     start: &StartBox,
     time: Interval,
 ) -> Option<(Interval, Interval)> {
-    let mut ride = ProvedRide::new(field, start)?;
+    let mut ball = Ball::new(field, start)?;
     let target = time.middle();
     for _ in 0..MOST_STEPS {
-        let left = target - ride.elapsed.middle();
+        let left = target - ball.time;
         if !(left > 4.0 * f64::EPSILON * target) {
-            let off = (time - ride.elapsed).magnitude();
-            let (x, v) = about(&ride.ball.local.field, ride.ball.state(), off)?;
-            let (x, v) = (scaled(x, ride.ball.unit), scaled(v, ride.ball.unit));
+            let off = (time - ball.elapsed(0.0)).magnitude();
+            let (x, v) = about(&ball.local.field, ball.state(), off)?;
+            let (x, v) = (scaled(x, ball.unit), scaled(v, ball.unit));
             return (v.lower() >= 0.0).then_some((x, v));
         }
-        ride.step(left)?;
+        ball.step(left)?;
     }
     None
 }
@@ -245,17 +241,17 @@ fn about(field: &FieldBox, (x, v): (Interval, Interval), off: f64) -> Option<(In
 pub fn blow_up(field: &FieldBox, start: &StartBox) -> Option<Interval> {
     /// Relative uncertainty of the time at which the bound is good enough.
     const GOOD: f64 = 1e-12;
-    let mut ride = ProvedRide::new(field, start)?;
+    let mut ball = Ball::new(field, start)?;
     let mut best: Option<Interval> = None;
     for _ in 0..2 * MOST_STEPS {
-        if let Some(remaining) = ride.remaining() {
-            let over = ride.elapsed + Interval::new(0.0, remaining);
+        if let Some(remaining) = ball.remaining() {
+            let over = ball.elapsed(0.0) + Interval::new(0.0, remaining);
             best = Some(best.and_then(|best| best.intersection(over)).unwrap_or(over));
             if remaining < GOOD * over.upper() {
                 break;
             }
         }
-        if ride.step(f64::INFINITY).is_none() {
+        if ball.step(f64::INFINITY).is_none() {
             break;
         }
     }

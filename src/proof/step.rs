@@ -99,18 +99,12 @@ impl StepField {
         StepField { middles: [a, b, c].map(Interval::middle), spread, most, field: *field }
     }
 
-    /// The norm chosen for the next step, and the radius of a ball in it, given its norm and radius before.
-    #[must_use]
-    pub fn ball(&self, (before, radius): (Norm, f64), velocities: [f64; 2], h: f64) -> (Norm, f64) {
-        let norm = self.norm(before, velocities, h);
-        (norm, radius * before.into(norm) * INFLATE)
-    }
-
     /// The norm in which errors grow least over the next step, between these two velocities, and for a while
     /// beyond, including the cost of changing the norm.
     ///
     /// Any norm is valid; this one keeps balls small.
-    fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
+    #[must_use]
+    pub fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
         /// Time for which the present conditions are assumed to last, if the step is shorter.
         const WHILE: f64 = 0.6;
         /// A change with a smaller gain, in the logarithm of the radius, is not made.

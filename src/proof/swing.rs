@@ -92,8 +92,6 @@ pub fn swing_below(
     let mut run = SwingRun {
         start: x,
         ball,
-        time: 0.0,
-        time_error: 0.0,
         square: 0.0,
         square_error: 0.0,
         wants_fastest,
@@ -116,8 +114,6 @@ struct SwingRun {
     /// Position at its start.
     start: Interval,
     ball: Ball,
-    time: f64,
-    time_error: f64,
     square: f64,
     square_error: f64,
     /// Whether the largest velocity is requested, and that velocity once it was reached.
@@ -143,11 +139,9 @@ impl SwingRun {
         if self.wants_fastest && self.fastest.is_none() {
             self.turn_of_speed(h, &reached)?;
         }
-        self.time += h;
-        self.time_error += UNIT * self.time;
         self.square += reached.square;
         self.square_error += reached.square_error + UNIT * self.square;
-        self.ball.advance(&reached);
+        self.ball.advance(h, &reached);
         let ball = &self.ball;
         let (off, field) = (ball.off(), ball.local.field);
         if last {
@@ -226,7 +220,7 @@ impl SwingRun {
     /// The swing to its end, which is at most `lag` away from that of the last step, in the units of the question.
     fn finish(&self, (end, velocity): (Interval, Interval), lag: f64) -> Option<ProvedSwing> {
         let (ball, FieldBox { a, b, c }) = (&self.ball, self.ball.local.field);
-        let duration = Interval::around(self.time, (self.time_error + lag) * INFLATE);
+        let duration = ball.elapsed(lag);
         // Beyond the end of the step v stays below its bound there, whose square times the lag bounds the integral.
         let beyond = lag * powi(ball.v.abs() + ball.off(), 2);
         let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);

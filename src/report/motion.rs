@@ -1,7 +1,7 @@
 //! One motion: its turning points, how it ends, where its energy goes; and what its accuracy costs, one row for each method
 //! and accuracy.
 
-use super::proof::{PointBounds, followed, point_columns};
+use super::proof::{followed, point_columns};
 use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity, Table};
 use crate::accuracy::reference::{Reference, ReferenceSource};
@@ -12,7 +12,7 @@ use crate::flow::{
 use crate::model::{ContactState, Knob, Ledger, State, Work};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{log10, pow};
-use crate::proof::motion::ProvedMotion;
+use crate::proof::motion::{ProvedMotion, ProvedPoint};
 use crate::words::motion::{Writing, sentence};
 use crate::words::number::{count, exact};
 use crate::words::{counted, duration, significant};
@@ -24,7 +24,7 @@ struct MotionRow {
     tau: f64,
     q: Option<f64>,
     v: Option<f64>,
-    bounds: Option<PointBounds>,
+    bounds: Option<ProvedPoint>,
 }
 
 /// The columns of points.
@@ -80,7 +80,7 @@ pub fn motion(
         .with_any("phases", machine.then(|| phases(&motion.legs, ["tau", "q"])))
         .with("energy", energy)
         .with_any("evaluations", machine.then_some(motion.cost.evaluations))
-        .with_any("certified", certified.map(|it| followed(it, problem.until)))
+        .with_any("certified", certified.map(followed))
         .rows(&columns.and(certified.map(|_| proved)), &points(motion, certified, machine))
         .table(works.table(amounts))
         .lines(how)
@@ -91,17 +91,16 @@ pub fn motion(
 /// far one was followed that escapes or is given up.
 fn points(motion: &Trajectory, certified: Option<&ProvedMotion>, machine: bool) -> Vec<MotionRow> {
     let State { q, v } = motion.problem.initial;
-    let known = |tau, q, v| PointBounds::of(tau, q, Interval::point(v));
-    let bounds = certified.map(|_| known(Interval::point(0.0), Interval::point(q), v));
+    let [none, place, speed] = [0.0, q, v].map(Interval::point);
+    let bounds = certified.map(|_| ProvedPoint::of(none, place, speed));
     let start = MotionRow { what: "start", tau: 0.0, q: Some(q), v: Some(v), bounds };
     let turn = |(index, crossing): (usize, &Crossing)| {
-        let enclosed = certified.and_then(|certified| certified.turns.get(index));
-        let bounds = enclosed.map(|turn| known(turn.tau, turn.q, 0.0));
+        let bounds = certified.and_then(|certified| certified.turns.get(index).copied());
         let (q, v) = (Some(crossing.q), Some(0.0));
         MotionRow { what: "turn", tau: crossing.tau, q, v, bounds }
     };
     let turns = motion.crossings.iter().enumerate().map(turn);
-    let bounds = certified.map(|certified| PointBounds::of_end(certified, motion.problem.until).1);
+    let bounds = certified.map(|certified| certified.end);
     let Sample { tau, q, v } = motion.end();
     let (q, v) = motion.outcome.state().or(machine.then_some((q, v))).unzip();
     let end = MotionRow { what: motion.outcome.word(), tau, q, v, bounds };

@@ -10,7 +10,7 @@ use crate::portrait::proved::matching;
 use crate::portrait::{Border, Cycle};
 use crate::proof::cycles::ProvedCycle;
 use crate::proof::kicks::ProvedKicks;
-use crate::proof::motion::{ProvedFate, ProvedMotion, ProvedTurn};
+use crate::proof::motion::{ProvedMotion, ProvedPoint};
 use crate::proof::range::{CountChange, Range, RangePiece};
 use crate::proof::{Enclosure, Proof};
 use crate::words::{counted, cycles, significant, stability};
@@ -176,38 +176,10 @@ pub fn certificate_table(certificate: &Certificate) -> String {
         .told(Format::Table)
 }
 
-/// The enclosure of a point of a motion.
-#[derive(Clone, Copy)]
-pub(super) struct PointBounds {
-    tau: Interval,
-    q: Option<Interval>,
-    v: Option<Interval>,
-    /// Why nothing is known of the motion from here on.
-    open: Option<&'static str>,
-}
-
-impl PointBounds {
-    /// The bounds of a point that is enclosed.
-    pub(super) fn of(tau: Interval, q: Interval, v: Interval) -> Self {
-        PointBounds { tau, q: Some(q), v: Some(v), open: None }
-    }
-
-    /// How a motion ends, by `until` at the latest, and where.
-    pub(super) fn of_end(motion: &ProvedMotion, until: f64) -> (&'static str, Self) {
-        let at = |tau, q, v, open| PointBounds { tau, q, v, open };
-        match motion.fate {
-            ProvedFate::Captured { tau, q } => ("captured", at(tau, Some(q), None, None)),
-            ProvedFate::Moving { q, v } => ("moving", Self::of(Interval::point(until), q, v)),
-            ProvedFate::Escaped { tau } => ("escaped", at(tau, None, None, None)),
-            ProvedFate::Open { tau, reason } => ("open", at(tau, None, None, Some(reason))),
-        }
-    }
-}
-
-/// The columns of the enclosure of a point.
-pub(super) fn point_columns<'a>() -> Columns<'a, PointBounds> {
+/// The columns of the enclosure of a point of a motion.
+pub(super) fn point_columns<'a>() -> Columns<'a, ProvedPoint> {
     Columns::default()
-        .bounds("tau", |point: &PointBounds| Some(point.tau))
+        .bounds("tau", |point: &ProvedPoint| Some(point.tau))
         .bounds("q", |point| point.q)
         .bounds("v", |point| point.v)
         .word("proved", |point| point.open.is_none())
@@ -215,16 +187,15 @@ pub(super) fn point_columns<'a>() -> Columns<'a, PointBounds> {
 }
 
 /// A motion up to a time, for documents.
-pub(super) fn followed(motion: &ProvedMotion, until: f64) -> Document {
-    let turn = |turn: &ProvedTurn| {
-        Document::default().with("tau", bounds(turn.tau)).with("q", bounds(turn.q))
+pub(super) fn followed(motion: &ProvedMotion) -> Document {
+    let turn = |turn: &ProvedPoint| {
+        Document::default().with("tau", bounds(turn.tau)).with("q", turn.q.map(bounds))
     };
-    let (outcome, end) = PointBounds::of_end(motion, until);
     Document::default()
-        .with("outcome", outcome)
+        .with("outcome", motion.fate)
         .with("half_swings", motion.turns.len())
         .with("turns", motion.turns.iter().map(turn).collect::<Vec<_>>())
-        .and(&point_columns().object(&end))
+        .and(&point_columns().object(&motion.end))
 }
 
 /// The columns of enclosures of the smallest kicks that are not captured.

@@ -367,7 +367,7 @@ fn stiff_half_swings_arrive_where_an_implicit_method_says() {
     ] {
         // The second half of the map runs above v = 0, where b is D2.
         let mut map = ProvedMap::new(&exactly(d, d2, d3, 0.0));
-        let found = map.half(1, MapDirection::Forward, Interval::point(start));
+        let found = map.forward[1].image(Interval::point(start), &mut map.effort);
         let slack = 1e-9 * end;
         assert!(found.lower() <= end + slack && end - slack <= found.upper(), "{found} {end}");
         assert!(found.width() <= within * end, "{d} {d2} {d3} {start}: {found}");

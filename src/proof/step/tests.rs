@@ -502,7 +502,8 @@ fn a_ball_in_another_norm_keeps_its_members() {
         c: Interval::point(0.0),
     });
     let (before, radius) = (Norm::new(-1.9), 1e-3);
-    let (after, wider) = damped.ball((before, radius), [1.0, 1.0], 0.6);
+    let after = damped.norm(before, [1.0, 1.0], 0.6);
+    let wider = radius * before.into(after) * INFLATE;
     assert!(after != before);
     // The diagonal `x = v`.
     let size = |norm: Norm| (2.0 + norm.skew).sqrt();
