@@ -53,7 +53,7 @@ impl Source {
             }
             Body::Paper(_) => Err(format!("no {knob} here; there are D, D2, D3, r")),
             Body::Belt(belt) => knob.set_in_belt(belt, value),
-            Body::Mode(mode) => knob.set_in_mode(mode, value),
+            Body::Mode(mode) => knob.write(mode, |row| row.mode, value),
         }
     }
 
@@ -63,7 +63,7 @@ impl Source {
         match &self.body {
             Body::Paper(parameters) => knob.is_parameter().then(|| parameters.value(knob)),
             Body::Belt(belt) => knob.of_belt(belt),
-            Body::Mode(mode) => knob.of_mode(mode),
+            Body::Mode(mode) => (knob.spec().mode?.get)(mode),
         }
     }
 

@@ -8,7 +8,6 @@ use serde::de::{Deserialize, Deserializer, Error};
 use serde::{Serialize, Serializer};
 
 use super::belt::friction::Belt;
-use super::modal::Modal;
 use super::parameters::{Parameters, State};
 use super::unit::{Measured, WithTolerance, measured, toleranced};
 use crate::numerics::{Interval, brief, most_similar, shortest};
@@ -195,12 +194,6 @@ impl Knob {
         (self.spec().belt?.get)(belt)
     }
 
-    /// Reads a number of a vibration mode; `None` if it has none.
-    #[must_use]
-    pub fn of_mode(self, mode: &Modal) -> Option<f64> {
-        (self.spec().mode?.get)(mode)
-    }
-
     /// Writes a number of a mass on a belt, in SI units.
     ///
     /// # Errors
@@ -209,19 +202,11 @@ impl Knob {
         self.write(belt, |row| row.belt, value)
     }
 
-    /// Writes a number of a vibration mode, in SI units.
-    ///
-    /// # Errors
-    /// One line if it has no such number.
-    pub fn set_in_mode(self, mode: &mut Modal, value: f64) -> Result<(), String> {
-        self.write(mode, |row| row.mode, value)
-    }
-
-    /// Writes a number of what has it at this place; the refusal names those that it has.
-    fn write<T>(
+    /// Writes a number of what has it at this place, in SI units. Fails with one line that names the numbers that it has.
+    pub(super) fn write<T>(
         self,
         it: &mut T,
-        at: fn(&KnobSpec) -> Option<Access<T>>,
+        at: fn(&KnobSpec) -> Option<&'static Access<T>>,
         value: f64,
     ) -> Result<(), String> {
         if let Some(place) = at(self.spec()).and_then(|access| (access.place)(it)) {

@@ -46,15 +46,6 @@ pub(crate) struct Access<T> {
     pub place: fn(&mut T) -> Option<&mut f64>,
 }
 
-// Derived, it would ask as much of T.
-impl<T> Clone for Access<T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Access<T> {}
-
 /// One row of [`KNOBS`].
 #[derive(Clone, Copy, Debug)]
 pub struct KnobSpec {
@@ -82,24 +73,24 @@ pub struct KnobSpec {
     pub step: f64,
     /// First range of a diagram over it: wide enough for what happens at friction and damping of everyday size.
     pub drawn: (f64, f64),
-    pub(crate) belt: Option<Access<Belt>>,
-    pub(crate) mode: Option<Access<Modal>>,
+    pub(crate) belt: Option<&'static Access<Belt>>,
+    pub(crate) mode: Option<&'static Access<Modal>>,
 }
 
 impl KnobSpec {
-    /// A number of a motion may not be so close to 0 that products of a few of them underflow.
-    const fn of(group: Group, unit: &'static str, (min, max): (f64, f64)) -> Self {
-        let least = if matches!(group, Group::Motion) { 1.0 / FAR } else { 0.0 };
+    /// The row of a number of which nothing else is said. One of a motion may not be so close to 0 that products of a
+    /// few of them underflow.
+    const fn of(group: Group, name: &'static str, unit: &'static str, range: (f64, f64)) -> Self {
         KnobSpec {
             knob: Knob::D,
-            name: "",
-            symbol: "",
+            name,
+            symbol: name,
             meaning: "",
             unit,
             group,
-            min,
-            max,
-            least,
+            min: range.0,
+            max: range.1,
+            least: if matches!(group, Group::Motion) { 1.0 / FAR } else { 0.0 },
             default: None,
             step: 0.05,
             drawn: (-1.0, 1.0),
@@ -107,37 +98,13 @@ impl KnobSpec {
             mode: None,
         }
     }
-
-    const fn or(self, default: f64) -> Self {
-        KnobSpec { default: Some(default), ..self }
-    }
-
-    const fn step(self, step: f64) -> Self {
-        KnobSpec { step, ..self }
-    }
-
-    const fn drawn(self, from: f64, to: f64) -> Self {
-        KnobSpec { drawn: (from, to), ..self }
-    }
-
-    const fn shown(self, symbol: &'static str) -> Self {
-        KnobSpec { symbol, ..self }
-    }
-
-    const fn belt(self, at: Access<Belt>) -> Self {
-        KnobSpec { belt: Some(at), ..self }
-    }
-
-    const fn mode(self, at: Access<Modal>) -> Self {
-        KnobSpec { mode: Some(at), ..self }
-    }
 }
 
 /// The names of numbers and their table, group by group: of each number its name, its meaning, its unit, its range, and
 /// what else is said of it.
 macro_rules! knobs {
     ($([$group:ident]
-        $($knob:ident $name:literal $meaning:literal $unit:literal $range:tt $(.$more:ident $values:tt)*;)+
+        $($knob:ident $name:literal $meaning:literal $unit:literal $range:tt $({ $($more:tt)+ })?;)+
     )+) => {
         /// A number that can be set.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -146,10 +113,11 @@ macro_rules! knobs {
         }
 
         /// Every number that can be set, those of a group together.
-        pub const KNOBS: &[KnobSpec] = &[$($({
-            let row = KnobSpec::of(Group::$group, $unit, $range)$(.$more $values)*;
-            let symbol = if row.symbol.is_empty() { $name } else { row.symbol };
-            KnobSpec { knob: Knob::$knob, name: $name, symbol, meaning: $meaning, ..row }
+        pub const KNOBS: &[KnobSpec] = &[$($(KnobSpec {
+            knob: Knob::$knob,
+            meaning: $meaning,
+            $($($more)+,)?
+            ..KnobSpec::of(Group::$group, $name, $unit, $range)
         }),+),+];
     };
 }
@@ -157,14 +125,14 @@ macro_rules! knobs {
 /// A number that is a field.
 macro_rules! at {
     ($($field:tt)+) => {
-        Access { get: |it| Some(it.$($field)+), place: |it| Some(&mut it.$($field)+) }
+        Some(&Access { get: |it| Some(it.$($field)+), place: |it| Some(&mut it.$($field)+) })
     };
 }
 
 /// A number of a friction law.
 macro_rules! law {
     ($law:ident $number:ident) => {
-        Access {
+        Some(&Access {
             get: |belt: &Belt| match &belt.law {
                 FrictionLaw::$law { $number, .. } => Some(*$number),
                 _ => None,
@@ -173,14 +141,14 @@ macro_rules! law {
                 FrictionLaw::$law { $number, .. } => Some($number),
                 _ => None,
             },
-        }
+        })
     };
 }
 
 /// A coefficient of a polynomial law.
 macro_rules! coefficient {
     ($power:literal) => {
-        Access {
+        Some(&Access {
             get: |belt: &Belt| match &belt.law {
                 FrictionLaw::Polynomial { coefficients } => coefficients.get($power).copied(),
                 _ => None,
@@ -189,17 +157,17 @@ macro_rules! coefficient {
                 FrictionLaw::Polynomial { coefficients } => coefficients.get_mut($power),
                 _ => None,
             },
-        }
+        })
     };
 }
 
 /// A coefficient of a damping ratio.
 macro_rules! ratio {
     ($power:literal) => {
-        Access {
+        Some(&Access {
             get: |mode: &Modal| mode.damping_ratio.get($power).copied(),
             place: |mode: &mut Modal| mode.damping_ratio.get_mut($power),
-        }
+        })
     };
 }
 
@@ -223,87 +191,87 @@ const POSITIVE: (f64, f64) = (1e-12, 1e12);
 const START: (f64, f64) = (-1e6, 1e6);
 
 /// The coefficient of the belt at rest: that of the law where nothing is said.
-const HELD_BY_BELT: Access<Belt> = Access {
+const HELD_BY_BELT: Option<&Access<Belt>> = Some(&Access {
     get: |belt| belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
     place: |belt| Some(belt.static_coefficient.get_or_insert(0.0)),
-};
+});
 
 /// The friction of the guide at rest: that of the moving mass where nothing is said.
-const HELD_BY_GUIDE: Access<Belt> = Access {
+const HELD_BY_GUIDE: Option<&Access<Belt>> = Some(&Access {
     get: |belt| Some(belt.static_guide.unwrap_or(belt.friction)),
     place: |belt| Some(belt.static_guide.get_or_insert(0.0)),
-};
+});
 
 /// The same of a mode.
-const MODE_HELD: Access<Modal> = Access {
+const MODE_HELD: Option<&Access<Modal>> = Some(&Access {
     get: |mode| Some(mode.static_guide.unwrap_or(mode.friction)),
     place: |mode| Some(mode.static_guide.get_or_insert(0.0)),
-};
+});
 
 knobs! {
     [Motion]
-    D "D" "linear damping" "" (-1e6, 1e6) .or(-0.1).step(0.01).drawn(-0.9, 0.1);
-    D2 "D2" "asymmetric damping" "" WIDE .or(0.0);
-    D3 "D3" "cubic damping" "" WIDE .or(0.0);
-    R "r" "dry friction" "" (0.0, FAR) .or(0.1).step(0.01).drawn(0.0, 0.5);
-    Q0 "q0" "initial displacement" "" WIDE .or(1.0);
-    V0 "v0" "initial velocity" "" WIDE .or(0.0);
+    D "D" "linear damping" "" (-1e6, 1e6) { default: Some(-0.1), step: 0.01, drawn: (-0.9, 0.1) };
+    D2 "D2" "asymmetric damping" "" WIDE { default: Some(0.0) };
+    D3 "D3" "cubic damping" "" WIDE { default: Some(0.0) };
+    R "r" "dry friction" "" (0.0, FAR) { default: Some(0.1), step: 0.01, drawn: (0.0, 0.5) };
+    Q0 "q0" "initial displacement" "" WIDE { default: Some(1.0) };
+    V0 "v0" "initial velocity" "" WIDE { default: Some(0.0) };
 
     [Machine]
-    Mass "m" "mass" "kg" POSITIVE .belt(at!(mass));
-    Stiffness "c" "stiffness of the spring" "N/m" POSITIVE .belt(at!(stiffness));
-    Damping "d1" "linear damping" "N s/m" ANY .or(0.0).belt(at!(damping));
-    CubicDamping "d3" "cubic damping" "N s^3/m^3" ANY .or(0.0).belt(at!(cubic_damping));
-    NormalForce "F" "force onto the belt" "N" POSITIVE .belt(at!(normal_force));
-    Friction "R" "friction element" "N" NO_LESS .or(0.0).belt(at!(friction)).mode(at!(friction));
-    BeltSpeed "v0" "belt speed" "m/s" POSITIVE .shown("belt").step(1.0 / 30.0).belt(at!(belt_speed));
+    Mass "m" "mass" "kg" POSITIVE { belt: at!(mass) };
+    Stiffness "c" "stiffness of the spring" "N/m" POSITIVE { belt: at!(stiffness) };
+    Damping "d1" "linear damping" "N s/m" ANY { default: Some(0.0), belt: at!(damping) };
+    CubicDamping "d3" "cubic damping" "N s^3/m^3" ANY { default: Some(0.0), belt: at!(cubic_damping) };
+    NormalForce "F" "force onto the belt" "N" POSITIVE { belt: at!(normal_force) };
+    Friction "R" "friction element" "N" NO_LESS { default: Some(0.0), belt: at!(friction), mode: at!(friction) };
+    BeltSpeed "v0" "belt speed" "m/s" POSITIVE { symbol: "belt", step: 1.0 / 30.0, belt: at!(belt_speed) };
 
     [Law]
-    StaticCoefficient "mu_s" "static friction of the belt" "" NO_LESS .belt(HELD_BY_BELT);
-    StaticGuide "R_static" "static friction element" "N" NO_LESS .belt(HELD_BY_GUIDE).mode(MODE_HELD);
-    Mu "mu" "coefficient of friction" "" ANY .belt(law!(Constant mu));
-    Rest "rest" "coefficient of friction at rest" "" ANY .belt(law!(Stribeck rest));
-    Kinetic "kinetic" "coefficient to which friction falls" "" ANY .belt(law!(Stribeck kinetic));
-    Velocity "velocity" "velocity over which friction falls" "m/s" POSITIVE .belt(law!(Stribeck velocity));
-    Exponent "exponent" "1 exponential, 2 Gaussian" "" (0.1, 10.0) .or(1.0).belt(law!(Stribeck exponent));
-    Viscous "viscous" "rise by lubrication" "s/m" ANY .or(0.0).belt(law!(Stribeck viscous));
-    Mu0 "mu0" "coefficient of friction at rest" "" ANY .belt(coefficient!(0));
-    Mu1 "mu1" "its slope at rest" "s/m" ANY .belt(coefficient!(1));
-    Mu2 "mu2" "coefficient of v^2" "s^2/m^2" ANY .belt(coefficient!(2));
-    Mu3 "mu3" "coefficient of v^3" "s^3/m^3" ANY .belt(coefficient!(3));
-    Mu4 "mu4" "coefficient of v^4" "s^4/m^4" ANY .belt(coefficient!(4));
-    Mu5 "mu5" "coefficient of v^5" "s^5/m^5" ANY .belt(coefficient!(5));
+    StaticCoefficient "mu_s" "static friction of the belt" "" NO_LESS { belt: HELD_BY_BELT };
+    StaticGuide "R_static" "static friction element" "N" NO_LESS { belt: HELD_BY_GUIDE, mode: MODE_HELD };
+    Mu "mu" "coefficient of friction" "" ANY { belt: law!(Constant mu) };
+    Rest "rest" "coefficient of friction at rest" "" ANY { belt: law!(Stribeck rest) };
+    Kinetic "kinetic" "coefficient to which friction falls" "" ANY { belt: law!(Stribeck kinetic) };
+    Velocity "velocity" "velocity over which friction falls" "m/s" POSITIVE { belt: law!(Stribeck velocity) };
+    Exponent "exponent" "1 exponential, 2 Gaussian" "" (0.1, 10.0) { default: Some(1.0), belt: law!(Stribeck exponent) };
+    Viscous "viscous" "rise by lubrication" "s/m" ANY { default: Some(0.0), belt: law!(Stribeck viscous) };
+    Mu0 "mu0" "coefficient of friction at rest" "" ANY { belt: coefficient!(0) };
+    Mu1 "mu1" "its slope at rest" "s/m" ANY { belt: coefficient!(1) };
+    Mu2 "mu2" "coefficient of v^2" "s^2/m^2" ANY { belt: coefficient!(2) };
+    Mu3 "mu3" "coefficient of v^3" "s^3/m^3" ANY { belt: coefficient!(3) };
+    Mu4 "mu4" "coefficient of v^4" "s^4/m^4" ANY { belt: coefficient!(4) };
+    Mu5 "mu5" "coefficient of v^5" "s^5/m^5" ANY { belt: coefficient!(5) };
 
     [Mode]
-    Frequency "frequency" "natural frequency" "Hz" (1e-9, 1e12) .mode(at!(frequency));
-    ModalMass "modal_mass" "modal mass" "kg" POSITIVE .mode(at!(mass));
-    Ratio0 "ratio0" "damping ratio at rest" "" ANY .mode(ratio!(0));
-    Ratio1 "ratio1" "its slope at rest" "s/m" ANY .mode(ratio!(1));
-    Ratio2 "ratio2" "coefficient of v^2" "s^2/m^2" ANY .mode(ratio!(2));
-    Ratio3 "ratio3" "coefficient of v^3" "s^3/m^3" ANY .mode(ratio!(3));
-    Ratio4 "ratio4" "coefficient of v^4" "s^4/m^4" ANY .mode(ratio!(4));
-    Ratio5 "ratio5" "coefficient of v^5" "s^5/m^5" ANY .mode(ratio!(5));
+    Frequency "frequency" "natural frequency" "Hz" (1e-9, 1e12) { mode: at!(frequency) };
+    ModalMass "modal_mass" "modal mass" "kg" POSITIVE { mode: at!(mass) };
+    Ratio0 "ratio0" "damping ratio at rest" "" ANY { mode: ratio!(0) };
+    Ratio1 "ratio1" "its slope at rest" "s/m" ANY { mode: ratio!(1) };
+    Ratio2 "ratio2" "coefficient of v^2" "s^2/m^2" ANY { mode: ratio!(2) };
+    Ratio3 "ratio3" "coefficient of v^3" "s^3/m^3" ANY { mode: ratio!(3) };
+    Ratio4 "ratio4" "coefficient of v^4" "s^4/m^4" ANY { mode: ratio!(4) };
+    Ratio5 "ratio5" "coefficient of v^5" "s^5/m^5" ANY { mode: ratio!(5) };
 
     [Table]
-    Scatter "scatter" "scatter of the points" "" NO_LESS .or(0.0);
+    Scatter "scatter" "scatter of the points" "" NO_LESS { default: Some(0.0) };
 
     [Record]
     Omega0 "omega0" "natural frequency" "1/s" (1.0 / FAR, FAR);
-    Offset "offset" "displacement of the middle" "" WIDE .or(0.0);
-    Confidence "confidence" "confidence of a statement" "" (0.5, 0.999) .or(0.95);
+    Offset "offset" "displacement of the middle" "" WIDE { default: Some(0.0) };
+    Confidence "confidence" "confidence of a statement" "" (0.5, 0.999) { default: Some(0.95) };
 
     [Course]
-    X "x" "displacement at the start" "m" START .or(0.0);
-    V "v" "velocity at the start" "m/s" START .or(0.0);
-    Duration "until" "end time" "s" (0.0, 1e6) .or(0.0);
-    DisturbingForce "disturbance" "bound on a disturbance" "N" (0.0, 1e6) .or(0.0);
+    X "x" "displacement at the start" "m" START { default: Some(0.0) };
+    V "v" "velocity at the start" "m/s" START { default: Some(0.0) };
+    Duration "until" "end time" "s" (0.0, 1e6) { default: Some(0.0) };
+    DisturbingForce "disturbance" "bound on a disturbance" "N" (0.0, 1e6) { default: Some(0.0) };
 
     [Setting]
-    Disturbance "disturbance" "bound on a disturbance" "" (0.0, FAR) .shown("w").or(0.0).step(0.01);
-    Until "until" "end time" "" (0.0, 1e9) .or(60.0).step(10.0);
-    Tolerance "tolerance" "relative error of a step" "" (1e-15, 1e-2) .or(1e-10);
-    Step "step" "length of a step" "" (1e-7, 1.0) .or(0.01);
-    Epsilon "epsilon" "velocity that smooths" "" (1e-12, 1e6) .or(1e-3);
+    Disturbance "disturbance" "bound on a disturbance" "" (0.0, FAR) { symbol: "w", default: Some(0.0), step: 0.01 };
+    Until "until" "end time" "" (0.0, 1e9) { default: Some(60.0), step: 10.0 };
+    Tolerance "tolerance" "relative error of a step" "" (1e-15, 1e-2) { default: Some(1e-10) };
+    Step "step" "length of a step" "" (1e-7, 1.0) { default: Some(0.01) };
+    Epsilon "epsilon" "velocity that smooths" "" (1e-12, 1e6) { default: Some(1e-3) };
 }
 
 impl Knob {

@@ -1,9 +1,9 @@
 //! What the table promises.
 
 use super::*;
-use crate::model::ParameterBox;
 use crate::model::belt::FrictionLaw;
 use crate::model::unit::Dimension;
+use crate::model::{Body, Modal, ParameterBox, Source};
 
 fn belt(law: FrictionLaw) -> Belt {
     Belt {
@@ -84,10 +84,11 @@ fn static_friction_that_is_not_given_is_that_of_the_law_at_rest_and_of_the_movin
     assert_eq!(refused, "no rest here; there are m, c, d1, d3, F, R, v0, mu_s, R_static, mu");
     let (friction, static_guide) = (1.0, None);
     let damping_ratio = vec![-0.1, 0.0];
-    let mut mode = Modal { frequency: 250.0, mass: 4.0, damping_ratio, friction, static_guide };
-    Knob::Ratio1.set_in_mode(&mut mode, 0.2).unwrap();
-    assert_eq!(mode.damping_ratio, [-0.1, 0.2]);
-    let refused = Knob::BeltSpeed.set_in_mode(&mut mode, 0.5).unwrap_err();
+    let mode = Modal { frequency: 250.0, mass: 4.0, damping_ratio, friction, static_guide };
+    let mut mode = Source::from(Body::Mode(mode));
+    mode.set(Knob::Ratio1, 0.2).unwrap();
+    assert_eq!([Knob::Ratio0, Knob::Ratio1].map(|ratio| mode.get(ratio)), [Some(-0.1), Some(0.2)]);
+    let refused = mode.set(Knob::BeltSpeed, 0.5).unwrap_err();
     assert_eq!(refused, "no v0 here; there are R, R_static, frequency, modal_mass, ratio0, ratio1");
 }
 
