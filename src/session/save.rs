@@ -19,14 +19,15 @@ use crate::flow::Problem;
 use crate::model::{Knob, State};
 use crate::numerics::decimal::shortest;
 use crate::portrait::kicks::RandomKick;
-use crate::scene::{MOST_PLOTS, Misread, PlotSetup, Point, Scene, Setting, find, misread};
+use crate::scene::{Misread, Point, Scene, Setting, find, misread};
 use crate::session::act::history::{restore, snapshot};
 use crate::session::read::completion::difference;
 use crate::session::settings::{DisplaySettings, NamedValue};
+use crate::session::state::history::check_number;
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{
     Before, Bookmark, Bookmarks, History, Instruction, Msg, Overlay, Pane, Plot, Prompt, Row,
-    ScreenSetup, Session, Setup, Snapshot, Uncertainty,
+    Session, Setup, Snapshot, Uncertainty,
 };
 
 /// The format that this program writes; it reads this and all earlier formats.
@@ -78,25 +79,9 @@ struct SavedSession {
     #[expect(dead_code, reason = "a file that has them is still read")]
     registers: IgnoredAny,
     #[serde(default)]
-    past: Vec<SavedChange>,
+    past: Vec<Before>,
     #[serde(default)]
-    future: Vec<SavedChange>,
-}
-
-/// A change that can be undone or redone: the state on its other side.
-#[derive(Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum SavedChange {
-    /// A motion alone, without a machine and known exactly: earlier versions wrote that.
-    Motion(Problem),
-    #[serde(alias = "motion-on-belt")]
-    Motions(Box<Setup>),
-    Plots(ScreenSetup),
-    Scene {
-        plots: Vec<PlotSetup>,
-        /// Without them.
-        show: Box<Snapshot>,
-    },
+    future: Vec<Before>,
 }
 
 /// The session as the text of a file. Fails with one line if the text cannot be made; no such session is known.
@@ -115,7 +100,7 @@ pub fn text(session: &Session) -> Result<String, String> {
         harmonics: session.harmonics,
         kicks: session.kicks,
         lines: session.lines.clone(),
-        present: without_plots(snapshot(session)),
+        present: snapshot(session),
         plots: session.plots.clone(),
         marks: of_marks(session, |setup| Some(setup.problem)),
         belts: of_marks(session, |setup| setup.setting.clone()),
@@ -128,8 +113,8 @@ pub fn text(session: &Session) -> Result<String, String> {
         left_doubt: left.as_ref().map(|setup| setup.doubt).unwrap_or_default(),
         left_beside: left.map(|setup| setup.others).unwrap_or_default(),
         registers: IgnoredAny,
-        past: session.history.past.iter().map(saved_change).collect(),
-        future: session.history.future.iter().map(saved_change).collect(),
+        past: session.history.past.clone(),
+        future: session.history.future.clone(),
     };
     let body = toml::to_string(&file).map_err(|error| format!("not saved: {error}"))?;
     Ok(format!("# A session of hopfscope; `hopfscope --open FILE` resumes it.\n{body}"))
@@ -141,29 +126,11 @@ fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<
     marks.filter_map(|(name, mark)| Some((*name, of(&mark.setup)?))).collect()
 }
 
-fn without_plots(mut snapshot: Snapshot) -> Snapshot {
-    snapshot.screen_setup.plots.clear();
-    snapshot
-}
-
-fn saved_change(before: &Before) -> SavedChange {
-    match before {
-        Before::Setup(setup) => SavedChange::Motions(setup.clone()),
-        Before::ScreenSetup(screen_setup) => SavedChange::Plots(screen_setup.clone()),
-        Before::Scene(snapshot) => SavedChange::Scene {
-            plots: snapshot.screen_setup.plots.clone(),
-            show: Box::new(without_plots(Snapshot::clone(snapshot))),
-        },
-    }
-}
-
 /// Changes a session to that of a file. Appearance, keys and size stay, and so do answers that fit. Fails with
 /// one line that says what is wrong; the session is then unchanged.
 pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
-    let file = read(text)?;
+    let mut file = read(text)?;
     let count = file.plots.len();
-    let plot_setups = file.plots.iter().map(plot_setup).collect();
-    let present = checked(file.present, plot_setups)?;
     if file.focus > count {
         return Err(format!("focus = {}, but there are {count} plots", file.focus));
     }
@@ -176,7 +143,8 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
         return Err(format!("harmonics = {}, not 1 to {MOST_HARMONICS}", file.harmonics));
     }
     let mark = |problem, others, setting, doubt| {
-        let setup = Setup { problem, others, setting, doubt }.checked()?;
+        let setup = Setup { problem, others, setting, doubt };
+        setup.check()?;
         Ok::<_, String>(Bookmark { setup, asked: Vec::new() })
     };
     let mut marks = Bookmarks::default();
@@ -189,21 +157,18 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     if let Some(left) = file.left {
         marks.left = Some(mark(left, file.left_beside, file.left_belt, file.left_doubt)?);
     }
-    let changes =
-        |changes: Vec<SavedChange>| changes.into_iter().map(before).collect::<Result<_, _>>();
-    let history = History { past: changes(file.past)?, future: changes(file.future)? };
-
-    let mut opened = Session::new(Arc::clone(&present.scene), session.size);
-    restore(&mut opened, present);
-    opened.plots = file.plots;
     let is_place = |at: &Point| at.x.is_finite() && at.y.is_finite();
-    opened.plots.iter_mut().for_each(|plot| plot.cursor = plot.cursor.filter(is_place));
+    file.plots.iter_mut().for_each(|plot| plot.cursor = plot.cursor.filter(is_place));
+
+    let mut opened = Session::new(Arc::clone(&file.present.scene), session.size);
+    restore(&mut opened, file.present, file.plots);
     opened.plot = file.plot - 1;
     opened.focus = file.focus.checked_sub(1).map_or(Pane::Parameters, Pane::Plot);
     (opened.selected, opened.marks) = (selected, marks);
     (opened.enlarged, opened.unfolded) = (file.enlarged, file.unfolded);
     (opened.harmonics, opened.kicks) = (file.harmonics, file.kicks);
-    (opened.lines, opened.history) = (file.lines, history);
+    opened.lines = file.lines;
+    opened.history = History { past: file.past, future: file.future };
     opened.answers = std::mem::take(&mut session.answers);
     opened.answers.ask(opened.asks());
     opened.answers.forget_others();
@@ -217,8 +182,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
 /// that says what is wrong.
 pub fn summary(text: &str) -> Result<String, String> {
     let file = read(text)?;
-    let plot_setups = file.plots.iter().map(plot_setup).collect();
-    let Snapshot { scene, setup, .. } = checked(file.present, plot_setups)?;
+    let Snapshot { scene, setup, .. } = file.present;
     let changed = difference(&Setup::of_scene(&scene), &setup);
     let marks = match file.marks.len() {
         0 => String::new(),
@@ -233,7 +197,8 @@ pub fn summary(text: &str) -> Result<String, String> {
     Ok(format!("{}{with} ({changes}{marks})", scene.name))
 }
 
-/// Parses the file, if its format is known.
+/// Reads the file, if its format is known; its marks are examined where they are used. Fails with one line that says
+/// what is wrong.
 fn read(text: &str) -> Result<SavedSession, String> {
     #[derive(Deserialize)]
     struct Head {
@@ -246,41 +211,14 @@ fn read(text: &str) -> Result<SavedSession, String> {
         Some(version @ (0 | VERSION..)) if version != VERSION => {
             Err(format!("a session of format {version}; this program reads up to {VERSION}"))
         }
-        Some(_) => misread::toml("", text).map_err(refused),
+        Some(_) => {
+            let file: SavedSession = misread::toml("", text).map_err(refused)?;
+            file.present.check()?;
+            check_number(&file.plots)?;
+            file.past.iter().chain(&file.future).try_for_each(Before::check)?;
+            Ok(file)
+        }
     }
-}
-
-fn plot_setup(plot: &Plot) -> PlotSetup {
-    let Plot { view, axes, window, family, .. } = *plot;
-    PlotSetup { view, axes, window: Some(window), family }
-}
-
-/// A state with these plots. Fails with one line if a number is outside its range.
-fn checked(saved: Snapshot, plots: Vec<PlotSetup>) -> Result<Snapshot, String> {
-    Setup::alone(saved.scene.problem).checked()?;
-    if !(1..=MOST_PLOTS).contains(&saved.scene.plots.len()) {
-        return Err(format!("a scene with {} plots", saved.scene.plots.len()));
-    }
-    let setup = saved.setup.checked()?;
-    let screen_setup = counted(ScreenSetup { plots, ..saved.screen_setup })?;
-    Ok(Snapshot { setup, screen_setup, ..saved })
-}
-
-/// The plots, if their number is allowed on a screen.
-fn counted(screen_setup: ScreenSetup) -> Result<ScreenSetup, String> {
-    match screen_setup.plots.len() {
-        1..=MOST_PLOTS => Ok(screen_setup),
-        count => Err(format!("{count} plots; there can be 1 to {MOST_PLOTS}")),
-    }
-}
-
-fn before(change: SavedChange) -> Result<Before, String> {
-    Ok(match change {
-        SavedChange::Motion(problem) => Before::Setup(Box::new(Setup::alone(problem).checked()?)),
-        SavedChange::Motions(setup) => Before::Setup(Box::new(setup.checked()?)),
-        SavedChange::Plots(screen_setup) => Before::ScreenSetup(counted(screen_setup)?),
-        SavedChange::Scene { plots, show } => Before::Scene(Box::new(checked(*show, plots)?)),
-    })
 }
 
 impl Session {

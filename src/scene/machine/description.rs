@@ -274,7 +274,7 @@ impl Setting {
     }
 
     /// Checks all numbers against their ranges. Fails with the first one that is outside.
-    pub fn checked(&self) -> Result<(), OutOfRange> {
+    pub fn check(&self) -> Result<(), OutOfRange> {
         self.0.iter().try_for_each(|(knob, value)| knob.check(*value).map(drop))
     }
 

@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use crate::fit::Unfit;
 use crate::model::Knob;
-use crate::scene::{Answered, Finding, Layer, Scene, Topic};
+use crate::scene::{Answered, Finding, Layer, PlotSetup, Scene, Topic};
 use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::set_up;
 use crate::session::read::completion::difference;
 use crate::session::read::wants::COMPARED;
 use crate::session::{
-    Before, Bookmark, Done, Pane, Playback, Row, ScreenSetup, Session, Setup, Snapshot, StepSizes,
+    Before, Bookmark, Done, Pane, Playback, Plot, Row, Session, Setup, Snapshot, StepSizes,
 };
 
 /// Undoes the last change.
@@ -53,28 +53,30 @@ fn present(session: &Session, other: &Before) -> Before {
     match other {
         Before::Setup(_) => Before::Setup(Box::new(session.setup())),
         Before::ScreenSetup(_) => Before::ScreenSetup(session.screen_setup()),
-        Before::Scene(_) => Before::Scene(Box::new(snapshot(session))),
+        Before::Scene { .. } => {
+            Before::Scene { plots: session.screen_setup().plots, show: Box::new(snapshot(session)) }
+        }
     }
 }
 
-/// Everything that a scene determines, as it is now.
+/// Everything that a scene determines but its plots, as it is now.
 pub(crate) fn snapshot(session: &Session) -> Snapshot {
     Snapshot {
         scene: Arc::clone(&session.scene),
         setup: session.setup(),
         steps: session.steps,
         layers: session.layers.clone(),
-        screen_setup: session.screen_setup(),
+        arrangement: session.arrangement,
     }
 }
 
-/// Everything that a scene determines, as it opens.
+/// Everything that a scene determines but its plots, as it opens.
 fn opening(scene: Arc<Scene>) -> Snapshot {
     Snapshot {
         setup: Setup::of_scene(&scene),
         steps: StepSizes::of_scene(&scene),
         layers: scene.layers.clone(),
-        screen_setup: ScreenSetup { plots: scene.plots.clone(), arrangement: scene.arrangement },
+        arrangement: scene.arrangement,
         scene,
     }
 }
@@ -90,34 +92,39 @@ fn bring_back(session: &mut Session, name: &str, state: Before) {
             let titles: Vec<_> =
                 screen_setup.plots.iter().map(|plot| plot.view.spec().title).collect();
             session.inform(format!("{name}: {}", titles.join(", ")));
-            set_up(session, &screen_setup);
+            set_up(session, screen_setup.arrangement, opened(&screen_setup.plots));
         }
-        Before::Scene(snapshot) => {
-            session.inform(format!("{name}: scene {}", snapshot.scene.name));
-            restore(session, *snapshot);
+        Before::Scene { plots, show } => {
+            session.inform(format!("{name}: scene {}", show.scene.name));
+            restore(session, *show, opened(&plots));
         }
     }
 }
 
+/// The plots as they were set up.
+fn opened(plots: &[PlotSetup]) -> Vec<Plot> {
+    plots.iter().map(Plot::opened).collect()
+}
+
 /// Makes this the present state.
-pub(crate) fn restore(session: &mut Session, snapshot: Snapshot) {
+pub(crate) fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot>) {
     session.scene = snapshot.scene;
     session.set_setup(snapshot.setup);
     session.steps = snapshot.steps;
     session.layers = snapshot.layers;
-    set_up(session, &snapshot.screen_setup);
+    set_up(session, snapshot.arrangement, plots);
     session.playback = Playback { pace: session.playback.pace, ..Playback::default() };
     session.held = None;
 }
 
 /// Opens a scene, as one change that can be undone.
 pub(crate) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
-    let before = snapshot(session);
-    let opened = opening(scene);
-    if before != opened {
-        session.history.record(Before::Scene(Box::new(before)));
+    let (plots, before) = (session.screen_setup().plots, snapshot(session));
+    let opens = opening(Arc::clone(&scene));
+    if before != opens || plots != scene.plots {
+        session.history.record(Before::Scene { plots, show: Box::new(before) });
     }
-    restore(session, opened);
+    restore(session, opens, opened(&scene.plots));
     session.unfolded = false;
     session.selected = Row::default();
     // The descriptions of scenes begin there.

@@ -1,14 +1,13 @@
 //! Commands that change what is on show: the view of a plot, the number of plots, how they share the screen, and
 //! which pane has the focus. Each change but that of the focus can be undone.
 
-use crate::scene::{LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
+use crate::scene::{Arrangement, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::settings::next_of;
-use crate::session::{Before, Done, Pane, Plot, ScreenSetup, Session};
+use crate::session::{Before, Done, Pane, Plot, Session};
 
 /// Replaces the plots and their arrangement.
-pub(crate) fn set_up(session: &mut Session, screen_setup: &ScreenSetup) {
-    session.arrangement = screen_setup.arrangement;
-    session.plots = screen_setup.plots.iter().map(Plot::opened).collect();
+pub(crate) fn set_up(session: &mut Session, arrangement: Arrangement, plots: Vec<Plot>) {
+    (session.arrangement, session.plots) = (arrangement, plots);
     let last = session.plots.len().saturating_sub(1);
     session.plot = session.plot.min(last);
     if let Pane::Plot(index) = session.focus {

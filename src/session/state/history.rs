@@ -6,22 +6,55 @@ use std::sync::Arc;
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use toml::Table;
 
-use crate::scene::{Arrangement, Layer, PlotSetup, Request, Scene, find};
+use crate::scene::{Arrangement, Layer, MOST_PLOTS, PlotSetup, Request, Scene, find};
 use crate::session::{Setup, StepSizes};
 
 /// The state before a change, limited to what the change affects.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Before {
     /// A number was changed. Undoing that leaves zoom and layers alone.
+    #[serde(rename = "motions", alias = "motion-on-belt", alias = "motion")]
+    #[serde(deserialize_with = "setup_or_motion")]
     Setup(Box<Setup>),
     /// A plot was added, removed or moved, or its view was changed.
+    #[serde(rename = "plots")]
     ScreenSetup(ScreenSetup),
     /// A scene was opened or reset, which sets everything that a scene determines.
-    Scene(Box<Snapshot>),
+    Scene { plots: Vec<PlotSetup>, show: Box<Snapshot> },
 }
 
-/// Everything that a scene determines.
+impl Before {
+    /// Fails with one line that names the first number that is not within its range.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        match self {
+            Before::Setup(setup) => setup.check(),
+            Before::ScreenSetup(screen_setup) => check_number(&screen_setup.plots),
+            Before::Scene { plots, show } => check_number(plots).and_then(|()| show.check()),
+        }
+    }
+}
+
+/// Reads a setup; earlier versions wrote a motion alone, without a machine and known exactly.
+fn setup_or_motion<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Box<Setup>, D::Error> {
+    let table = Table::deserialize(deserializer)?;
+    let is_motion = table.contains_key("parameters");
+    let alone = |table: Table| table.try_into().map(Setup::alone);
+    let read = if is_motion { alone(table) } else { table.try_into() };
+    read.map(Box::new).map_err(D::Error::custom)
+}
+
+/// Fails with one line if a screen cannot have so many plots.
+pub(crate) fn check_number<P>(plots: &[P]) -> Result<(), String> {
+    match plots.len() {
+        1..=MOST_PLOTS => Ok(()),
+        count => Err(format!("{count} plots; there can be 1 to {MOST_PLOTS}")),
+    }
+}
+
+/// Everything that a scene determines but its plots.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     #[serde(serialize_with = "by_name", deserialize_with = "named_or_whole")]
@@ -31,9 +64,17 @@ pub struct Snapshot {
     pub setup: Setup,
     pub steps: StepSizes,
     pub layers: BTreeSet<Layer>,
-    /// Plots and their arrangement.
-    #[serde(flatten)]
-    pub screen_setup: ScreenSetup,
+    /// How the plots share the screen.
+    pub arrangement: Arrangement,
+}
+
+impl Snapshot {
+    /// Fails with one line that names the first number that is not within its range.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        Setup::alone(self.scene.problem).check()?;
+        check_number(&self.scene.plots)?;
+        self.setup.check()
+    }
 }
 
 /// The plots, and how they share the screen.
@@ -41,8 +82,6 @@ pub struct Snapshot {
 pub struct ScreenSetup {
     /// How they share the screen.
     pub arrangement: Arrangement,
-    /// Saved beside the rest where they have more than their setup.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub plots: Vec<PlotSetup>,
 }
 
@@ -81,12 +120,12 @@ impl History {
     #[cfg(test)]
     pub fn forget_windows(&mut self) {
         for before in self.past.iter_mut().chain(&mut self.future) {
-            let screen_setup = match before {
+            let plots = match before {
                 Before::Setup(_) => continue,
-                Before::ScreenSetup(screen_setup) => screen_setup,
-                Before::Scene(snapshot) => &mut snapshot.screen_setup,
+                Before::ScreenSetup(screen_setup) => &mut screen_setup.plots,
+                Before::Scene { plots, .. } => plots,
             };
-            screen_setup.plots.iter_mut().for_each(|plot| plot.window = None);
+            plots.iter_mut().for_each(|plot| plot.window = None);
         }
     }
 

@@ -55,13 +55,13 @@ impl Setup {
         }
     }
 
-    /// The setup, if all its numbers are within their ranges. Fails with one line that names the first that is not.
-    pub fn checked(self) -> Result<Self, String> {
+    /// Fails with one line that names the first number that is not within its range.
+    pub fn check(&self) -> Result<(), String> {
         let accuracy = [Knob::Until, Knob::Tolerance, Knob::Step, Knob::Epsilon];
         for knob in Knob::MOTION.into_iter().chain(accuracy) {
             knob.check(self.problem.get(knob))?;
         }
-        self.setting.as_ref().map_or(Ok(()), Setting::checked)?;
+        self.setting.as_ref().map_or(Ok(()), Setting::check)?;
         let (count, most) = (self.others.len(), MOST_MOTIONS - 1);
         if count > most {
             return Err(format!("{count} motions beside another; there can be {most}"));
@@ -70,8 +70,7 @@ impl Setup {
             Knob::Q0.check(start.q)?;
             Knob::V0.check(start.v)?;
         }
-        self.doubt.checked()?;
-        Ok(self)
+        self.doubt.check()
     }
 }
 
@@ -119,7 +118,7 @@ impl Uncertainty {
     }
 
     /// Checks that no number is negative or infinite. Fails with one line that names the number.
-    fn checked(&self) -> Result<(), String> {
+    fn check(&self) -> Result<(), String> {
         let mut all = self.half_widths.iter().chain([&self.disturbance]);
         let wrong = all.find(|it| !(it.is_finite() && **it >= 0.0));
         wrong.map_or(Ok(()), |value| {
