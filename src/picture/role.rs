@@ -1,89 +1,78 @@
 //! What a part of a picture stands for, and how it is told apart without colour: roles, dashes, marks.
 
 use serde::{Deserialize, Serialize};
-use strum::IntoStaticStr;
+use strum::{IntoStaticStr, VariantArray};
 
-/// Makes [`Role`] and [`ROLES`] from one list: each role with its name in theme files, and its glyph in a plot
-/// without dots.
-macro_rules! roles {
-    ($($(#[$doc:meta])* $role:ident = $name:literal, $glyph:literal,)*) => {
-        /// What a part of the screen stands for, as far as its style goes.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-        #[serde(rename_all = "kebab-case")]
-        pub enum Role {
-            $($(#[$doc])* $role,)*
-        }
-
-        /// Name in theme files, and glyph in a plot without dots, of every role in order.
-        pub const ROLES: [(Role, &str, char); [$($name),*].len()] =
-            [$((Role::$role, $name, $glyph)),*];
-    };
-}
-
-roles! {
-    Text = "text", '*',
+/// What a part of the screen stands for, as far as its style goes.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray,
+)]
+#[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
+pub enum Role {
+    Text,
     /// Text of second rank: labels, units, explanations.
-    Quiet = "quiet", '.',
-    Title = "title", '*',
+    Quiet,
+    Title,
     /// Heading of the pane that the keys go to.
-    Focus = "focus", '*',
-    Selected = "selected", '*',
+    Focus,
+    Selected,
     /// A value that the last key changed.
-    Changed = "changed", '*',
+    Changed,
     /// Keys in footer and help.
-    Key = "key", '*',
+    Key,
     /// What needs attention: stale, busy, a limit reached.
-    Warning = "warning", '!',
-    Failure = "failure", '!',
+    Warning,
+    Failure,
     /// Axes, ticks and their labels.
-    Axis = "axis", '.',
-    Field = "field", '.',
+    Axis,
+    Field,
     /// Shading of the basin of attraction.
-    Basin = "basin", '.',
+    Basin,
     /// Borders of the bands of capture.
-    Bands = "bands", '-',
+    Bands,
     /// Motion of the point that is compared with.
-    Ghost = "ghost", ',',
+    Ghost,
     /// Its stable and its unstable cycles.
-    GhostStable = "ghost-stable", ',',
-    GhostUnstable = "ghost-unstable", ',',
+    GhostStable,
+    GhostUnstable,
     /// Circle of the Lyapunov estimate.
-    Lyapunov = "lyapunov", ':',
+    Lyapunov,
     /// The segment of equilibria.
-    Sticking = "sticking", '=',
+    Sticking,
     /// The motion on show; of several the newest.
-    Trajectory = "trajectory", '*',
+    Trajectory,
     /// Motions beside the one on show.
-    Beside = "beside", 'x',
-    Velocity = "velocity", 'v',
-    Energy = "energy", 'e',
-    Map = "map", '#',
-    Stable = "stable", '#',
+    Beside,
+    Velocity,
+    Energy,
+    Map,
+    Stable,
     /// Unstable cycles, and the separatrix.
-    Unstable = "unstable", 'o',
+    Unstable,
     /// What a map shades, the stronger the more dangerous.
-    Danger = "danger", '#',
+    Danger,
     /// Its other end: what is least dangerous.
-    Calm = "calm", '.',
+    Calm,
     /// What is survived for certain.
-    Safe = "safe", '.',
+    Safe,
     /// Work that feeds the motion, and work that brakes it.
-    Gain = "gain", '#',
-    Loss = "loss", '=',
-    Harmonic = "harmonic", '~',
-    Asymptote = "asymptote", '\'',
+    Gain,
+    Loss,
+    Harmonic,
+    Asymptote,
     /// Special points and their names.
-    Special = "special", '*',
+    Special,
     /// The current parameter value in the diagram.
-    Current = "current", '|',
+    Current,
     /// The cursor and its read-out.
-    Cursor = "cursor", '+',
+    Cursor,
 }
 
 impl Role {
     /// The name in theme files and figures.
     pub fn name(self) -> &'static str {
-        ROLES[self as usize].1
+        self.into()
     }
 }
 

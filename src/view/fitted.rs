@@ -11,7 +11,7 @@ use crate::words::{significant, with_unit};
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
 pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
     let (Row::Number(symbol), Some(found)) = (row, session.fitted()) else { return Vec::new() };
-    let (sign, error) = (look.symbols().plus_minus, found.error(symbol));
+    let (sign, error) = (&look.symbols().plus_minus, found.error(symbol));
     let told = match error {
         Some(error) => {
             let bare = format!("{sign}{}", significant(error, 2));

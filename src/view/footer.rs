@@ -154,7 +154,7 @@ fn remark(prompt: &Prompt, session: &Session, look: &Look) -> Vec<Span<'static>>
 /// The part of a text around its caret that fits into `width` columns, with marks where it is cut. Its words may be cut
 /// within, as in any editor: the caret stays where it is.
 fn around(input: &Input, width: usize, look: &Look) -> [Span<'static>; 3] {
-    let mark = look.symbols().more;
+    let mark = &look.symbols().more;
     let caret = input.before.chars().count();
     let mut letters: Vec<char> = input.text().chars().collect();
     if caret == letters.len() {

@@ -341,7 +341,7 @@ fn heading(title: &str, list: &List) -> String {
 }
 
 fn drawn(spans: Vec<Span<'static>>, selected: bool, look: &Look) -> Line<'static> {
-    let pointer = if selected { look.symbols().pointer } else { " " };
+    let pointer = if selected { &look.symbols().pointer } else { " " };
     let style = |span: Span<'static>| {
         if selected { span.patch_style(look.style(Role::Selected)) } else { span }
     };

@@ -1,19 +1,21 @@
 //! How things look: a theme, a set of glyphs and a depth of colour, resolved into one table of styles.
 //!
-//! Themes are data (`assets/themes/*.toml`): one line for each [`Role`], with one of the terminal's 16
-//! colours, attributes, and a finer colour for terminals that have more. Without colour the attributes
-//! remain, and every distinction that matters is also made by marker, dash or text.
+//! Symbols are data (`assets/glyphs.toml`), and so are themes (`assets/themes/*.toml`): one line for each [`Role`],
+//! with one of the terminal's 16 colours, attributes, and a finer colour for terminals that have more. Without colour
+//! the attributes remain, and every distinction that matters is also made by marker, dash or text.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::str::FromStr;
+use std::sync::LazyLock;
 
 use ratatui::style::{Color, Modifier, Style};
-use ratatui::symbols::border;
 use ratatui::text::Span;
+use serde::Deserialize;
+use strum::VariantArray;
 
 use crate::numerics::count::truncated;
-use crate::picture::{Mark, ROLES, Role};
+use crate::picture::{Mark, Role};
 use crate::session::settings::{self, Colors, Glyphs, Theme};
 
 /// The text of a theme that comes with the program.
@@ -26,22 +28,21 @@ fn text_of(theme: Theme) -> &'static str {
     }
 }
 
-/// Symbols, which exist as Unicode and as ASCII characters.
-#[derive(Clone, Copy, Debug)]
+/// The symbols of one set of glyphs.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Symbols {
     /// Marks the selected row.
-    pub pointer: &'static str,
-    pub plus_minus: &'static str,
+    pub pointer: String,
+    pub plus_minus: String,
     /// Separates remarks on a line.
-    pub dot: &'static str,
+    pub dot: String,
     /// A cut text continues.
-    pub more: &'static str,
+    pub more: String,
     /// Corner of an axis: vertical line, tick on it, corner, horizontal line, tick on it.
-    pub axis: [&'static str; 5],
+    pub axis: [String; 5],
     /// Marks, in the order of [`Mark`].
     marks: [char; 9],
-    /// Sides and corners of a box.
-    pub frame: border::Set<'static>,
     /// Direction of motion, from east counter-clockwise in eighths of a turn.
     pub arrows: [char; 8],
     pub shade: char,
@@ -49,40 +50,17 @@ pub struct Symbols {
     pub cross: [char; 3],
 }
 
-const RICH: Symbols = Symbols {
-    pointer: "▸",
-    plus_minus: "±",
-    dot: "·",
-    more: "…",
-    axis: ["│", "┤", "└", "─", "┴"],
-    marks: ['○', '■', '●', '○', '●', '○', '×', '◆', ':'],
-    frame: border::PLAIN,
-    arrows: ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'],
-    shade: '·',
-    cross: ['┼', '─', '│'],
-};
+/// The content of `assets/glyphs.toml`: symbols as Unicode and as ASCII characters, and the letters of curves.
+#[derive(Debug, Default, Deserialize)]
+struct GlyphSets {
+    rich: Symbols,
+    letters: Symbols,
+    curves: BTreeMap<String, char>,
+}
 
-const LETTERS: Symbols = Symbols {
-    pointer: ">",
-    plus_minus: "+-",
-    dot: "|",
-    more: "~",
-    axis: ["|", "+", "+", "-", "+"],
-    marks: ['S', 'X', '@', 'S', '#', 'o', 'x', '%', ':'],
-    frame: border::Set {
-        top_left: "+",
-        top_right: "+",
-        bottom_left: "+",
-        bottom_right: "+",
-        vertical_left: "|",
-        vertical_right: "|",
-        horizontal_top: "-",
-        horizontal_bottom: "-",
-    },
-    arrows: ['>', '/', '^', '\\', '<', '/', 'v', '\\'],
-    shade: '.',
-    cross: ['+', '-', '|'],
-};
+/// A test reads the file, so the empty sets never serve.
+static SETS: LazyLock<GlyphSets> =
+    LazyLock::new(|| toml::from_str(include_str!("../../assets/glyphs.toml")).unwrap_or_default());
 
 impl Symbols {
     pub fn mark(&self, mark: Mark) -> char {
@@ -95,10 +73,15 @@ impl Symbols {
 pub struct Look {
     /// How curves and symbols are drawn.
     pub glyphs: Glyphs,
-    styles: [Style; ROLES.len()],
+    styles: [Style; ROLES],
+    /// The letters of curves.
+    letters: [char; ROLES],
     /// Grounds of maps from the least to the most dangerous; none where the terminal has too few colours.
     ramp: Vec<Style>,
 }
+
+/// How many roles there are.
+const ROLES: usize = Role::VARIANTS.len();
 
 /// What has its finer colour wherever the terminal has one, since the sixteen have nothing like it.
 const FINE: [Role; 3] = [Role::Ghost, Role::GhostStable, Role::GhostUnstable];
@@ -111,7 +94,8 @@ impl Look {
         // A test reads every theme, so the plain look never serves.
         Look::from_text(text_of(theme), glyphs, [colors, fine]).unwrap_or(Look {
             glyphs,
-            styles: [Style::new(); ROLES.len()],
+            styles: [Style::new(); ROLES],
+            letters: [' '; ROLES],
             ramp: Vec::new(),
         })
     }
@@ -125,12 +109,14 @@ impl Look {
         };
         let lines: BTreeMap<String, String> =
             toml::from_str(text).map_err(|error| error.to_string())?;
-        let mut styles = [Style::new(); ROLES.len()];
-        let mut rgb = [None; ROLES.len()];
-        for (index, (role, name, _)) in ROLES.into_iter().enumerate() {
-            let words = lines.get(name).ok_or(name)?;
+        let mut styles = [Style::new(); ROLES];
+        let mut rgb = [None; ROLES];
+        let mut letters = [' '; ROLES];
+        for (index, role) in Role::VARIANTS.iter().enumerate() {
+            let words = lines.get(role.name()).ok_or(role.name())?;
+            letters[index] = *SETS.curves.get(role.name()).ok_or(role.name())?;
             let (style, fine_colour) = parsed(words)?;
-            let depth = if FINE.contains(&role) { fine } else { colors };
+            let depth = if FINE.contains(role) { fine } else { colors };
             (styles[index], rgb[index]) = (in_depth(style, fine_colour, depth), fine_colour);
         }
         let ends = [Role::Calm, Role::Danger].map(|role| rgb[role as usize]);
@@ -141,7 +127,7 @@ impl Look {
             }
             _ => Vec::new(),
         };
-        Ok(Look { glyphs, styles, ramp })
+        Ok(Look { glyphs, styles, letters, ramp })
     }
 
     /// The style of a place on a map: `part` grows from 0 to 1 with what is dangerous. Where there are colours
@@ -168,12 +154,12 @@ impl Look {
 
     /// The letter that draws the curves of a role where there are no dots.
     pub fn letter(&self, role: Role) -> char {
-        ROLES[role as usize].2
+        self.letters[role as usize]
     }
 
     /// The symbols of this set of glyphs.
     pub fn symbols(&self) -> &'static Symbols {
-        if self.glyphs == Glyphs::Ascii { &LETTERS } else { &RICH }
+        if self.glyphs == Glyphs::Ascii { &SETS.letters } else { &SETS.rich }
     }
 }
 
@@ -306,7 +292,7 @@ mod tests {
             let read = Look::from_text(text_of(theme), Glyphs::Braille, [Colors::Sixteen; 2]);
             assert!(read.is_ok(), "{name}: {read:?}");
             let lines: BTreeMap<String, String> = toml::from_str(text_of(theme)).unwrap();
-            assert_eq!(lines.len(), ROLES.len(), "{name}: each is that of a role");
+            assert_eq!(lines.len(), ROLES, "{name}: each is that of a role");
         }
     }
 
@@ -331,7 +317,8 @@ mod tests {
         for (index, one) in pens.iter().enumerate() {
             assert!(pens[..index].iter().all(|other| look.letter(*other) != look.letter(*one)));
         }
-        assert!(ROLES.iter().all(|(_, _, letter)| letter.is_ascii()));
+        assert!(look.letters.iter().all(char::is_ascii));
+        assert_eq!(SETS.curves.len(), ROLES);
     }
 
     #[test]
@@ -363,18 +350,19 @@ mod tests {
         let red = [Role::Unstable, Role::GhostUnstable];
         let green = [Role::Stable, Role::GhostStable];
         for (name, theme) in choices::<Theme>() {
-            for (role, text, _) in ROLES {
+            for role in Role::VARIANTS {
+                let text = role.name();
                 let lines: BTreeMap<String, String> = toml::from_str(text_of(theme)).unwrap();
                 let (style, fine) = parsed(&lines[text]).unwrap();
                 let is_red = matches!(style.fg, Some(Color::Indexed(1 | 9)));
                 let is_green = matches!(style.fg, Some(Color::Indexed(2 | 10)));
-                assert!(!is_red || red.contains(&role), "{name}: {text}");
-                assert!(!is_green || green.contains(&role), "{name}: {text}");
+                assert!(!is_red || red.contains(role), "{name}: {text}");
+                assert!(!is_green || green.contains(role), "{name}: {text}");
                 if let Some(hue) = fine.and_then(hue) {
                     let is_red = !(16.0..344.0).contains(&hue);
                     let is_green = (75.0..165.0).contains(&hue);
-                    assert_eq!(is_red, red.contains(&role), "{name}: {text} {hue}");
-                    assert_eq!(is_green, green.contains(&role), "{name}: {text} {hue}");
+                    assert_eq!(is_red, red.contains(role), "{name}: {text} {hue}");
+                    assert_eq!(is_green, green.contains(role), "{name}: {text} {hue}");
                 }
             }
         }

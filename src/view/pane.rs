@@ -4,6 +4,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
+use ratatui::symbols::line::HORIZONTAL;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
 
@@ -61,7 +62,7 @@ impl Surface<'_> {
         let height = usize::from(area.height);
         if rows.len() > height && height > 0 {
             rows.truncate(height);
-            let mark = self.look.symbols().more;
+            let mark = &self.look.symbols().more;
             if let Some(last) = rows.last_mut() {
                 let room = width.saturating_sub(mark.chars().count() + 1);
                 // As many words as fit.
@@ -78,7 +79,7 @@ impl Surface<'_> {
     pub fn title(&mut self, area: Rect, title: &str, names: &str, heading: &Heading) {
         let look = self.look;
         let role = if heading.focused { Role::Focus } else { Role::Title };
-        let pointer = if heading.focused { look.symbols().pointer } else { " " };
+        let pointer = if heading.focused { &look.symbols().pointer } else { " " };
         let width = usize::from(area.width);
         let mut right = Line::default();
         if let Some(mark) = heading.mark {
@@ -122,16 +123,14 @@ impl Surface<'_> {
     pub fn boxed(&mut self, area: Rect, heading: &str, remark: &str) -> Rect {
         let look = self.look;
         clear(area, self.buffer);
-        let frame = look.symbols().frame;
-        let rule = frame.horizontal_top;
         let room = usize::from(area.width.saturating_sub(4));
         let above = [
-            look.span(rule, Role::Axis),
+            look.span(HORIZONTAL, Role::Axis),
             Span::styled(cut(heading, room, look), Style::reset().patch(look.style(Role::Focus))),
         ];
-        let below = [look.span(cut(remark, room, look), Role::Quiet), look.span(rule, Role::Axis)];
+        let below =
+            [look.span(cut(remark, room, look), Role::Quiet), look.span(HORIZONTAL, Role::Axis)];
         Block::bordered()
-            .border_set(frame)
             .border_style(look.style(Role::Axis))
             .title_top(Line::from_iter(above))
             .title_bottom(Line::from_iter(below).right_aligned())
@@ -234,7 +233,7 @@ fn kept(text: &str, width: usize, mark: usize) -> usize {
 
 /// A text that fits into `width` columns; where it is cut, it ends with a mark, and numbers go whole.
 pub fn cut(text: &str, width: usize, look: &Look) -> String {
-    let mark = look.symbols().more;
+    let mark = &look.symbols().more;
     let kept = kept(text, width, mark.chars().count());
     if kept == text.chars().count() {
         return text.to_owned();

@@ -89,14 +89,14 @@ fn guide(area: Rect, session: &Session, screen: &mut Surface) {
 
 fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'static> {
     let selected = row == session.selected;
-    let pointer = if selected { look.symbols().pointer } else { " " };
+    let pointer = if selected { &look.symbols().pointer } else { " " };
     let role = if selected { Role::Selected } else { Role::Text };
     let name = row.name_in(&session.problem);
     let tail = tail(session, row, width, look);
     // Two blanks before the value and, where there is room, two behind it.
     let end = VALUES.min(usize::from(width).saturating_sub(tail.chars().count()));
     let room = (VALUES - 3).min(end.saturating_sub(3)).saturating_sub(name.len());
-    let sign = look.symbols().plus_minus;
+    let sign = &look.symbols().plus_minus;
     let text = |setup: &Setup| value(session, setup, row, room, sign);
     let (value, of_scene) = (text(&session.setup()), text(&Setup::of_scene(&session.scene)));
     let changed = value != of_scene;

@@ -136,7 +136,7 @@ fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
     };
     let widths: Vec<usize> = (0..names.len()).map(width).take_while(fits).collect();
     // Columns that are left out have a mark in place of their names.
-    let more = if widths.len() < names.len() { look.symbols().more } else { "" };
+    let more = if widths.len() < names.len() { &look.symbols().more } else { "" };
     let line = |row: &[String]| {
         let cells = row.iter().zip(&widths).map(|(text, width)| format!("{text:>width$} "));
         cells.collect::<Vec<_>>().concat()

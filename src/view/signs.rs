@@ -42,10 +42,16 @@ fn is_minus([early, before, after, late]: [char; 4]) -> bool {
     exponent || (begins && (number || (name && " ([".contains(before))))
 }
 
-/// Replaces what a terminal without Unicode cannot show, wherever the text came from.
+/// Replaces what a terminal without Unicode cannot show, wherever the text came from: the sides and corners of boxes by
+/// letters that look alike, all else by question marks.
 pub fn only_letters(buffer: &mut Buffer) {
     for cell in buffer.content.iter_mut().filter(|cell| !cell.symbol().is_ascii()) {
-        cell.set_char('?');
+        cell.set_char(match letter(cell) {
+            '─' => '-',
+            '│' => '|',
+            '┌' | '┐' | '└' | '┘' => '+',
+            _ => '?',
+        });
     }
 }
 

@@ -136,7 +136,7 @@ pub fn held_point(session: &Session, look: &Look, width: u16) -> Option<String> 
     // The present values stand in the parameter pane.
     let other = shown.get(held.variant).filter(|shown| !shown.present);
     let label = other.map_or("", |shown| shown.variant.label.as_str());
-    let line = |digits: &usize| point(name, label, &held, *digits, look.symbols().dot);
+    let line = |digits: &usize| point(name, label, &held, *digits, &look.symbols().dot);
     // The status line begins with a blank and a symbol.
     Some(pane::fitting(DIGITS.iter().map(line), usize::from(width).saturating_sub(4)))
 }

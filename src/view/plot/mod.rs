@@ -65,7 +65,7 @@ impl<'a> Canvas<'a> {
 
     fn axes(&self, rightward: &Ticks, upward: &Ticks, buffer: &mut Buffer) {
         let style = self.look.style(Role::Axis);
-        let [line, notch, corner, rule, stub] = self.look.symbols().axis;
+        let [line, notch, corner, rule, stub] = &self.look.symbols().axis;
         let Rect { x, y, width, height } = self.inner;
         let (left, bottom) = (x - 1, y + height);
         for row in y..bottom {
