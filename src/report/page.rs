@@ -29,43 +29,27 @@ impl Answer {
         provenance: &Provenance,
         sources: &[SourceFile],
     ) -> String {
-        let [name, subject] = &self.head;
-        let title = element("title", &xml(&format!("{name}: {kind}")));
-        let head = format!(
-            "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width\"/>\n{title}\n{}",
-            element("style", STYLE)
-        );
-        let above = [
-            element("p class=\"kind\"", &xml(kind)),
-            element("h1", &xml(name)),
-            element("p", &xml(subject)),
-        ];
-        let mut sections = vec![("", String::new())];
-        for part in self.parts {
-            match (part, sections.last_mut()) {
-                (Part::Heading(heading), _) => sections.push((heading, String::new())),
-                (part, Some((_, inside))) => *inside += &part_html(part),
-                (_, None) => {}
-            }
-        }
+        let sections = self.parts.chunk_by(|_, next| !matches!(next, Part::Heading(_)));
+        let mut sections: String = sections.map(section).collect();
         if !pictures.is_empty() {
             let pictures = pictures.iter().map(|picture| element("figure", picture));
             let pictures = element("div class=\"pictures\"", &pictures.collect::<String>());
-            sections.push(("Pictures", pictures));
+            sections += &element("section", &(element("h2", "Pictures") + &pictures));
         }
-        sections.push(("Origin", origin(provenance, sources)));
-        let sections: String = sections.into_iter().map(section).collect();
-        let body =
-            element("body", &element("main", &(element("header", &above.concat()) + &sections)));
-        let page = element(
-            "html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\"",
-            &(element("head", &head) + &body),
-        );
-        format!("<!DOCTYPE html>\n{page}")
+        let [name, subject] = self.head.map(|text| xml(&text));
+        format!(
+            include_str!("../../assets/page.html"),
+            kind = xml(kind),
+            name = name,
+            subject = subject,
+            style = STYLE,
+            sections = sections,
+            origin = origin(provenance, sources),
+        )
     }
 }
 
-/// What computed an answer, from which files, and room for a date and a signature on paper.
+/// What computed an answer, and from which files.
 fn origin(provenance: &Provenance, sources: &[SourceFile]) -> String {
     let mut facts = vec![("program", provenance.build()), ("command", provenance.command.clone())];
     if sources.is_empty() {
@@ -77,30 +61,27 @@ fn origin(provenance: &Provenance, sources: &[SourceFile]) -> String {
         facts.push(("SHA-256", source.sha256.clone()));
     }
     let fact = |(name, value): (&str, String)| element("dt", name) + &element("dd", &xml(&value));
-    let lines = ["Name", "Date", "Signature"].map(|line| element("span", line)).concat();
-    element("dl", &facts.into_iter().map(fact).collect::<String>())
-        + &element("p class=\"signature\"", &lines)
+    facts.into_iter().map(fact).collect()
 }
 
-/// A section with its heading; nothing if there is nothing in it.
-fn section((heading, parts): (&str, String)) -> String {
-    if parts.is_empty() {
-        return parts;
-    }
-    let heading = Some(heading).filter(|heading| !heading.is_empty());
-    let heading = heading.map(|heading| element("h2", heading)).unwrap_or_default();
-    element("section", &(heading + &parts))
+/// Parts below their heading as a section; nothing if there is nothing in it.
+fn section(parts: &[Part]) -> String {
+    let (headings, parts): (Vec<_>, Vec<_>) =
+        parts.iter().partition(|part| matches!(part, Part::Heading(_)));
+    let html = |parts: Vec<&Part>| parts.into_iter().map(part_html).collect::<String>();
+    let inside = html(parts);
+    if inside.is_empty() { inside } else { element("section", &(html(headings) + &inside)) }
 }
 
-fn part_html(part: Part) -> String {
+fn part_html(part: &Part) -> String {
     match part {
         Part::Heading(heading) => element("h2", heading),
         Part::Statement { text, holds } => {
-            let class = if holds { "statement" } else { "statement broken" };
-            element(&format!("p class=\"{class}\""), &xml(&text))
+            let class = if *holds { "statement" } else { "statement broken" };
+            element(&format!("p class=\"{class}\""), &xml(text))
         }
-        Part::Line(text) => element("p", &xml(&text)),
-        Part::Table(table) => table_html(&table),
+        Part::Line(text) => element("p", &xml(text)),
+        Part::Table(table) => table_html(table),
     }
 }
 
