@@ -114,6 +114,11 @@ impl ClaimResult {
     pub fn verdict(&self) -> Option<Verdict> {
         self.evidence.as_ref().ok().map(Evidence::verdict)
     }
+
+    /// What is certain, if anything is.
+    pub fn mark(&self) -> Option<Certainty> {
+        self.evidence.as_ref().ok()?.mark
+    }
 }
 
 /// The tests of claims, section by section.

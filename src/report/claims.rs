@@ -25,7 +25,7 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
         .file("sense", |it| found(it, |it| it.sense))
         .text("sense", |it| found(it, |it| claim::sense(it.sense)).unwrap_or("-".to_owned()))
         .text("verdict", claim::verdict)
-        .text("proof", |it| proof(it).unwrap_or("-").to_owned())
+        .text("proof", |it| it.mark().map_or("-", Certainty::name).to_owned())
         .file("cases", |it| found(it, |it| it.cases))
         .file("held", |it| found(it, |it| it.held))
         .number("paper", NUMBER, |it| found(it, |it| it.paper).flatten())
@@ -37,7 +37,7 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
         .file("verdict", |it| claim::name(it))
         .file("within", |it| it.verdict().and_then(Verdict::within))
         .file("scene", |it| it.claim.scene)
-        .file("proof", |it| proof(it))
+        .file("proof", |it| it.mark().map(Certainty::name))
         .file("lower", move |it| end(it, Interval::lower))
         .file("upper", move |it| end(it, Interval::upper))
         // Last in text, as its length varies.
@@ -52,11 +52,6 @@ pub fn claims(examined: &[ClaimResult], width: Option<usize>, seconds: f64) -> A
         .csv(&columns(), examined)
         .table(columns().table(examined).unbroken(width))
         .costing(&claim::summary(examined), Document::default(), seconds)
-}
-
-/// What is certain: `proved`, `refuted` or `enclosed`.
-fn proof(examined: &ClaimResult) -> Option<&'static str> {
-    found(examined, |evidence| evidence.mark).flatten().map(Certainty::name)
 }
 
 /// The claim, and where it was tested.

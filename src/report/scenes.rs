@@ -9,7 +9,7 @@ use crate::flow::Cost;
 use crate::scene::said::said_by;
 use crate::scene::{Scene, Topic};
 use crate::session::Keymap;
-use crate::session::wants::named;
+use crate::session::wants::consequence;
 use crate::words::number::count;
 
 /// A scene under one of its names.
@@ -98,7 +98,7 @@ pub fn costs(scenes: &[SceneCost]) -> Answer {
         .csv(&cost_columns(), scenes.iter().flat_map(each));
     scenes.iter().fold(answer, |answer, found| {
         let opening = singly(found, &found.opening);
-        let all = found.asked().map(|asked| AskedRow { found, asked, question: None });
+        let all = found.asked().map(|asked| AskedRow::new(found, asked, None));
         let formulas = format!("by formulas: {}", found.formulas.join(", "));
         answer
             .lines([format!("{}: {}", found.scene.name, found.scene.title)])
@@ -128,48 +128,49 @@ fn document(found: &SceneCost) -> Document {
         .with("steps", found.steps.iter().map(step).collect::<Vec<_>>())
 }
 
-/// What a scene asks at once, and of that a question or, without one, all of it.
+/// What a scene asks at once, and of that a question or, without one, all of it; with what that costs.
 struct AskedRow<'a> {
     found: &'a SceneCost,
     asked: &'a AskedTogether,
     question: Option<&'a QuestionCost>,
+    cost: Cost,
+    seconds: f64,
+}
+
+impl<'a> AskedRow<'a> {
+    fn new(
+        found: &'a SceneCost,
+        asked: &'a AskedTogether,
+        question: Option<&'a QuestionCost>,
+    ) -> Self {
+        let (cost, seconds) = sum(question.map_or(&asked.questions, std::slice::from_ref));
+        AskedRow { found, asked, question, cost, seconds }
+    }
+
+    fn what(&self) -> String {
+        match (self.question, self.asked.after) {
+            (Some(question), _) => question.topic.name().to_owned(),
+            (None, OPENING) => "all of it".to_owned(),
+            (None, number) => format!("a step of {number}"),
+        }
+    }
+
+    fn remark(&self) -> String {
+        let AskedTogether { after, questions, reused } = self.asked;
+        let anew = || questions.iter().map(|asked| asked.topic).collect::<Vec<_>>();
+        match self.question {
+            Some(question) => format!("for {}", question.layers.join(", ")),
+            None if *after == OPENING => String::new(),
+            None => consequence(reused, &anew()),
+        }
+    }
 }
 
 fn singly<'a>(
     found: &'a SceneCost,
     asked: &'a AskedTogether,
 ) -> impl Iterator<Item = AskedRow<'a>> {
-    let questions = asked.questions.iter().map(Some);
-    questions.map(move |question| AskedRow { found, asked, question })
-}
-
-fn cost(row: &AskedRow) -> (Cost, f64) {
-    sum(row.question.map_or(&row.asked.questions, std::slice::from_ref))
-}
-
-fn counts(row: &AskedRow) -> Cost {
-    let (counts, _) = cost(row);
-    counts
-}
-
-fn what(row: &AskedRow) -> String {
-    match (row.question, row.asked.after) {
-        (Some(question), _) => question.topic.name().to_owned(),
-        (None, OPENING) => "all of it".to_owned(),
-        (None, number) => format!("a step of {number}"),
-    }
-}
-
-fn remark(row: &AskedRow) -> String {
-    let AskedTogether { after, questions, reused } = row.asked;
-    if let Some(question) = row.question {
-        return format!("for {}", question.layers.join(", "));
-    }
-    let again: Vec<Topic> = questions.iter().map(|asked| asked.topic).collect();
-    let parts = [("recomputes", again.as_slice()), ("reuses", reused)].into_iter();
-    let parts = parts.filter(|(_, topics)| *after != OPENING && !topics.is_empty());
-    let parts = parts.map(|(verb, topics)| format!("{verb} {}", named(topics, ", ")));
-    parts.collect::<Vec<_>>().join("; ")
+    asked.questions.iter().map(|question| AskedRow::new(found, asked, Some(question)))
 }
 
 fn cost_columns<'a>() -> Columns<'a, AskedRow<'a>> {
@@ -177,13 +178,10 @@ fn cost_columns<'a>() -> Columns<'a, AskedRow<'a>> {
         .file("scene", |row: &AskedRow| row.found.scene.name.clone())
         .file("after", |row| row.asked.after)
         .file("question", |row| row.question.map(|asked| asked.topic))
-        .text("question", what)
-        .fields(&Cost::default(), |row| Some(counts(row)))
-        .text("evaluations", |row| count(counts(row).evaluations))
-        .text("steps", |row| count(counts(row).steps))
-        .number("seconds", Quantity::of("s", 2), |row| {
-            let (_, seconds) = cost(row);
-            seconds
-        })
-        .text("", remark)
+        .text("question", AskedRow::what)
+        .fields(&Cost::default(), |row| Some(row.cost))
+        .text("evaluations", |row| count(row.cost.evaluations))
+        .text("steps", |row| count(row.cost.steps))
+        .number("seconds", Quantity::of("s", 2), |row| row.seconds)
+        .text("", AskedRow::remark)
 }

@@ -11,8 +11,8 @@ use crate::paper::{Claim, ClaimResult, Verdict};
 use crate::picture::Role;
 use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
-use crate::scene::{Answered, Finding, Layer, Topic, letters};
-use crate::session::wants::{CostRow, Requirement, named};
+use crate::scene::{Answered, Finding, Layer, letters};
+use crate::session::wants::{CostRow, Requirement, consequence};
 use crate::session::{AnswerState, List, Listed, Overlay, PaletteRow, Session};
 use crate::words::number::count;
 use crate::words::{claim, duration, significant};
@@ -175,16 +175,6 @@ fn price(answered: &Answered) -> String {
     let cost = answered.result.as_ref().map(Finding::cost).unwrap_or_default();
     let (evaluations, steps) = (count(cost.evaluations), count(cost.steps));
     format!("{evaluations:>6} ev {steps:>6} steps {:>8}", duration(answered.seconds))
-}
-
-/// What a step recomputes and what it reuses.
-fn consequence(reused: &[Topic], anew: &[Topic]) -> String {
-    let part = |name: &str, topics: &[Topic]| {
-        (!topics.is_empty()).then(|| format!("{name} {}", named(topics, ", ")))
-    };
-    let parts = part("recomputes", anew).into_iter().chain(part("reuses", reused));
-    let parts: Vec<_> = parts.collect();
-    if parts.is_empty() { "nothing is asked".to_owned() } else { parts.join("; ") }
 }
 
 /// The claims of the paper, section by section, with their verdicts.

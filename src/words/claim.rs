@@ -1,14 +1,14 @@
 //! The verdicts on the claims of the paper.
 
 use super::number::significant;
-use crate::paper::{Certainty, ClaimResult, Evidence, POOR, Sense, Verdict};
+use crate::paper::{ClaimResult, POOR, Sense, Verdict};
 
 /// The name of the verdict if no number could be computed.
 const UNKNOWN: &str = "unknown";
 
 /// The name of the verdict in documents.
 pub fn name(examined: &ClaimResult) -> &'static str {
-    examined.evidence.as_ref().map_or(UNKNOWN, |evidence| Evidence::verdict(evidence).name())
+    examined.verdict().map_or(UNKNOWN, Verdict::name)
 }
 
 pub fn verdict(examined: &ClaimResult) -> String {
@@ -45,26 +45,26 @@ pub fn sense(sense: Sense) -> String {
 
 /// A line that counts the claims by verdict and by mark.
 pub fn summary(examined: &[ClaimResult]) -> String {
-    const NAMES: [(&str, &str); 6] = [
+    const NAMES: [(&str, &str); 9] = [
         ("agrees", "agree"),
         ("approximates", "hold approximately"),
         ("corrected", "hold when corrected"),
         ("in-part", "hold in part"),
         ("false", "are false"),
         (UNKNOWN, "could not be computed"),
+        ("proved", "proved"),
+        ("refuted", "refuted"),
+        ("enclosed", "enclosed"),
     ];
-    let count = |name: &str| examined.iter().filter(|one| self::name(one) == name).count();
-    let counts = NAMES.iter().map(|&(name, words)| (count(name), words));
-    let parts =
-        counts.filter(|(count, _)| *count > 0).map(|(count, words)| format!("{count} {words}"));
-    let marked = |mark: Certainty| {
-        let carries =
-            |one: &&ClaimResult| one.evidence.as_ref().is_ok_and(|it| it.mark == Some(mark));
+    let mut parts = Vec::new();
+    for (name, words) in NAMES {
+        let carries = |one: &&ClaimResult| {
+            self::name(one) == name || one.mark().is_some_and(|mark| mark.name() == name)
+        };
         let count = examined.iter().filter(carries).count();
-        (count > 0).then(|| format!("{count} {}", mark.name()))
-    };
-    let marks =
-        [Certainty::Proved, Certainty::Refuted, Certainty::Enclosed].into_iter().filter_map(marked);
-    let parts: Vec<_> = parts.chain(marks).collect();
+        if count > 0 {
+            parts.push(format!("{count} {words}"));
+        }
+    }
     format!("{} claims: {}", examined.len(), parts.join(", "))
 }

@@ -301,6 +301,15 @@ impl Session {
     }
 }
 
+/// What a step recomputes and what it reuses.
+pub fn consequence(reused: &[Topic], anew: &[Topic]) -> String {
+    let parts = [("recomputes", anew), ("reuses", reused)].into_iter();
+    let parts = parts.filter(|(_, topics)| !topics.is_empty());
+    let parts: Vec<_> =
+        parts.map(|(verb, topics)| format!("{verb} {}", named(topics, ", "))).collect();
+    if parts.is_empty() { "nothing is asked".to_owned() } else { parts.join("; ") }
+}
+
 /// The names of topics as they first occur, with a count for those that occur several times.
 pub fn named(topics: &[Topic], between: &str) -> String {
     let mut counted: Vec<(Topic, usize)> = Vec::new();
