@@ -5,7 +5,7 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::input::MACHINE;
-use super::{Certify, CommandCase, Failure, Output, SourceOptions, given, read, timed};
+use super::{Certify, CommandCase, Failure, Output, QuestionOptions, given, read, timed};
 use crate::branch::along::{Points, branch};
 use crate::branch::fold::{Boundary, BoundaryPoint, border};
 use crate::branch::machine::MachineBranch;
@@ -21,10 +21,6 @@ use crate::scan::sweep::{Spacing, Sweep};
 /// Follows the limit cycles along a parameter, with folds and other special points
 #[derive(Debug, Args)]
 pub struct BranchCommand {
-    #[command(flatten)]
-    source: SourceOptions,
-    #[command(flatten)]
-    output: Output,
     #[command(flatten)]
     certify: Certify,
     /// The parameter (D, D2, D3 or r, or a number of the machine), its range, and the number of points, which is
@@ -45,43 +41,39 @@ fn followed(subject: &Source, over: &Sweep) -> Result<MachineBranch, String> {
 }
 
 impl BranchCommand {
-    pub fn run(&self) -> Result<(), Failure> {
-        let case = self.source.portrayed()?;
-        let over = read("--over", &self.over, |text| self.source.numbers().over(text))?;
+    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+        let case = asked.source.portrayed()?;
+        let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
         let Sweep { symbol, count, .. } = over;
         if let Some(case) = case {
             let subject = &case.described.subject.source;
-            let (found, seconds) = timed(self.output.repeat, || followed(subject, &over));
+            let (found, seconds) = timed(asked.output.repeat, || followed(subject, &over));
             let (found, about) = (
                 found.map_err(Failure::Usage)?,
-                case.about().but(&[symbol]).told_as(self.output.format),
+                case.about().but(&[symbol]).told_as(asked.output.format),
             );
-            return self.output.print(report::of_machine(&about, symbol, &found, seconds));
+            return asked.output.print(report::of_machine(&about, symbol, &found, seconds));
         }
         if !symbol.is_parameter() {
             let line = format!("cycles do not depend on {symbol}; allowed: D, D2, D3, r");
             return Err(Failure::Usage(line));
         }
-        let problem = self.source.start.scene(None)?.problem;
+        let problem = asked.source.start.scene(None)?.problem;
         let (base, tolerance) = (&problem.parameters, problem.tolerance);
         let ends = range_of(&over);
         let follow =
             || branch(base, symbol, ends, Points::Even(count), tolerance, &Limits::PATIENT);
-        let (found, seconds) = self.output.timed("the branch could not be completed", follow)?;
+        let (found, seconds) = asked.output.timed("the branch could not be completed", follow)?;
         let certified = self.certify.ask(|| range(&ParameterBox::from(base), symbol, ends));
-        let about = About::oscillator(base).but(&[symbol]).told_as(self.output.format);
+        let about = About::oscillator(base).but(&[symbol]).told_as(asked.output.format);
         let certified = certified.as_ref();
-        self.output.print(report::branch(&about, &found, certified, tolerance, seconds))
+        asked.output.print(report::branch(&about, &found, certified, tolerance, seconds))
     }
 }
 
 /// Continues the fold `D_F` and the escape point `D_c` in a second parameter
 #[derive(Debug, Args)]
 pub struct BorderCommand {
-    #[command(flatten)]
-    source: SourceOptions,
-    #[command(flatten)]
-    output: Output,
     #[command(flatten)]
     certify: Certify,
     /// The second parameter (D2, D3 or r, or a number of the machine), its range, and the number of values
@@ -99,11 +91,11 @@ pub struct BorderCommand {
 }
 
 impl BorderCommand {
-    pub fn run(&self) -> Result<(), Failure> {
-        let case = self.source.portrayed()?;
-        let over = read("--over", &self.over, |text| self.source.numbers().over(text))?;
+    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+        let case = asked.source.portrayed()?;
+        let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
         if let Some(case) = case {
-            return self.of_machine(&case, &over);
+            return self.of_machine(&case, &over, &asked.output);
         }
         let Sweep { symbol, count, .. } = over;
         // It is located along D and does not depend on the start of a motion.
@@ -112,16 +104,16 @@ impl BorderCommand {
                 "the border is a value of D over another parameter, not over {symbol}: D2, D3 or r"
             )));
         }
-        let parameters = self.source.start.scene(None)?.problem.parameters;
+        let parameters = asked.source.start.scene(None)?.problem.parameters;
         let range = range_of(&over);
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
-        let (found, seconds) = self.output.timed("the boundary could not be completed", follow)?;
+        let (found, seconds) = asked.output.timed("the boundary could not be completed", follow)?;
         let certified = self.certify.ask(|| enclosed(&found));
         let about = About::oscillator(&parameters).but(&[symbol]);
-        self.output.print(report::border(&about, &found, certified.as_deref(), seconds))
+        asked.output.print(report::border(&about, &found, certified.as_deref(), seconds))
     }
 
-    fn of_machine(&self, case: &CommandCase, over: &Sweep) -> Result<(), Failure> {
+    fn of_machine(&self, case: &CommandCase, over: &Sweep, output: &Output) -> Result<(), Failure> {
         let along = given("--along", self.along.as_ref(), |text| MACHINE.over(text))?;
         let subject = &case.described.subject.source;
         let own = |Belt { belt_speed, .. }: &Belt| {
@@ -145,10 +137,10 @@ impl BorderCommand {
             Ok((value, followed(&subject.with(over.symbol, value)?, &along)?.special))
         };
         let follow = || (0..over.count).map(row).collect::<Result<Vec<_>, String>>();
-        let (found, seconds) = timed(self.output.repeat, follow);
+        let (found, seconds) = timed(output.repeat, follow);
         let found = found.map_err(Failure::Usage)?;
         let about = case.about().but(&[along.symbol, over.symbol]);
-        self.output.print(report::border_of_machine(&about, knobs, &found, seconds))
+        output.print(report::border_of_machine(&about, knobs, &found, seconds))
     }
 }
 

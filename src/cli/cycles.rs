@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Failure, Output, SourceOptions, input, print, timed, troubled, write};
+use super::{Failure, QuestionOptions, input, print, timed, troubled, write};
 use crate::accuracy::harmonic_error::HarmonicBalance;
 use crate::accuracy::harmonic_error::convergence;
 use crate::check::check;
@@ -16,7 +16,7 @@ use crate::portrait::proved::proved;
 use crate::proof::certificate::{certificate, text};
 use crate::proof::{ParameterBox, Proof, prove};
 use crate::report::proof::{boxed, certificate_table};
-use crate::report::{About, cycles as report};
+use crate::report::{About, Answer, cycles as report};
 use crate::runtime::{bounded, provenance_file};
 
 /// The harmonic balance with ever more harmonics, if asked for.
@@ -25,10 +25,6 @@ type Rungs = Option<Vec<HarmonicBalance>>;
 /// Finds every limit cycle, proves that there are no others, and names the border of the basin
 #[derive(Debug, Args)]
 pub struct CyclesCommand {
-    #[command(flatten)]
-    source: SourceOptions,
-    #[command(flatten)]
-    output: Output,
     /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors
     #[arg(long, value_name = "N", value_parser = harmonics, conflicts_with = "machine")]
     harmonics: Option<usize>,
@@ -46,27 +42,27 @@ fn harmonics(text: &str) -> Result<usize, String> {
 }
 
 impl CyclesCommand {
-    pub fn run(&self) -> Result<(), Failure> {
-        if let Some(case) = self.source.portrayed()? {
+    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+        if let Some(case) = asked.source.portrayed()? {
             // Fails where the friction law ends before all motions are known.
-            let (found, seconds) = case.portrait(&self.output)?;
-            self.output.print(report::of_machine(&case.about(), &found, seconds))?;
+            let (found, seconds) = case.portrait(&asked.output)?;
+            asked.output.print(report::of_machine(&case.about(), &found, seconds))?;
             return found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop)));
         }
-        let known = self.source.start.known()?;
+        let known = asked.source.start.known()?;
         if !known.is_point() {
-            return self.run_box(&known);
+            return asked.output.print(self.boxed(&known)?);
         }
-        let problem = self.source.start.scene(None)?.problem;
-        let (found, seconds) = timed(self.output.repeat, || self.find(&problem.parameters));
+        let problem = asked.source.start.scene(None)?.problem;
+        let (found, seconds) = timed(asked.output.repeat, || self.find(&problem.parameters));
         let (found, proof, rungs) = found?;
         self.certify(&proof)?;
         let about = About::oscillator(&problem.parameters);
-        self.output.print(report::cycles(&about, &found, &proof, rungs.as_deref(), seconds))
+        asked.output.print(report::cycles(&about, &found, &proof, rungs.as_deref(), seconds))
     }
 
-    /// Answers for all parameters in a box.
-    fn run_box(&self, known: &ParameterBox) -> Result<(), Failure> {
+    /// The answer for all parameters in a box.
+    fn boxed(&self, known: &ParameterBox) -> Result<Answer, Failure> {
         if self.harmonics.is_some() {
             return Err(Failure::usage(
                 "intervals of parameters: --harmonics has no place for them",
@@ -74,7 +70,7 @@ impl CyclesCommand {
         }
         let proof = prove(known, &[]);
         self.certify(&proof)?;
-        self.output.print(boxed(&proof))
+        Ok(boxed(&proof))
     }
 
     /// Writes the certificate, if asked for.

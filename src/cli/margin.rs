@@ -5,7 +5,7 @@ use clap::Args;
 use super::input::{self, WINDOW};
 use super::source::Portrayed;
 use super::{
-    Certify, CommandCase, Failure, Output, SourceOptions, given, number, read, timed, troubled,
+    Certify, CommandCase, Failure, Output, QuestionOptions, given, number, read, timed, troubled,
 };
 use crate::flow::{Limits, Subject};
 use crate::model::Parameters;
@@ -19,30 +19,26 @@ use crate::report::margin::{basin, kicks, margins};
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Debug, Args)]
 pub struct MarginCommand {
-    #[command(flatten)]
-    source: SourceOptions,
     /// Bound on the disturbing force, in the units of r; of a machine a force, such as "0.1 N"
     #[arg(long, value_name = "W", allow_hyphen_values = true)]
     disturbance: Option<String>,
-    #[command(flatten)]
-    output: Output,
 }
 
 impl MarginCommand {
-    pub fn run(&self) -> Result<(), Failure> {
-        let knob = self.source.numbers().disturbance;
+    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+        let knob = asked.source.numbers().disturbance;
         let bound = number("--disturbance", self.disturbance.as_ref(), knob)?;
-        if let Some(mut case) = self.source.portrayed()? {
+        if let Some(mut case) = asked.source.portrayed()? {
             let known = &mut case.described.subject.tolerances;
             known.disturbance = bound.unwrap_or(known.disturbance);
-            return self.of_machine(&case.checked()?);
+            return of_machine(&case.checked()?, &asked.output);
         }
-        let (known, bound) = (self.source.start.known()?, bound.unwrap_or(0.0));
+        let (known, bound) = (asked.source.start.known()?, bound.unwrap_or(0.0));
         let ask = || {
             let nominal = nominal(&known, &Limits::PATIENT)?;
             Ok((nominal, guaranteed(&known, bound, 0.0, &Limits::PATIENT)?))
         };
-        let timed = self.output.timed("the margin could not be computed", ask)?;
+        let timed = asked.output.timed("the margin could not be computed", ask)?;
         let ((nominal, certain), seconds) = timed;
         let mut cost = nominal.cost;
         if let Ok((worst, _)) = &certain {
@@ -50,36 +46,31 @@ impl MarginCommand {
         }
         let certain = certain.map(|(_, margin)| margin);
         let answer = margins(&About::boxed(&known), nominal.margin, certain, bound);
-        self.output.print(answer.cost(cost, seconds))
+        asked.output.print(answer.cost(cost, seconds))
     }
+}
 
-    /// Answers about a machine; what is known exactly has its own margin for certain.
-    fn of_machine(&self, case: &CommandCase) -> Result<(), Failure> {
-        let Subject { source, tolerances, .. } = &case.described.subject;
-        let (found, mut seconds) = case.portrait(&self.output)?;
-        let certain = match source.of_belt().filter(|_| !tolerances.is_none()) {
-            None => Ok(found.margin),
-            Some(belt) => {
-                let (certain, more) =
-                    timed(self.output.repeat, || machine::guaranteed(belt, tolerances));
-                seconds += more;
-                certain.map_err(troubled)?.map(|(_, margin)| margin)
-            }
-        };
-        let uncertain = source.of_belt().map(|belt| tolerances.intervals(belt));
-        let about = case.about().within(&uncertain.unwrap_or_default());
-        let answer = margins(&about, found.margin, certain, tolerances.disturbance);
-        self.output.print(answer.portrayed(&found, seconds))
-    }
+/// Answers about a machine; what is known exactly has its own margin for certain.
+fn of_machine(case: &CommandCase, output: &Output) -> Result<(), Failure> {
+    let Subject { source, tolerances, .. } = &case.described.subject;
+    let (found, mut seconds) = case.portrait(output)?;
+    let certain = match source.of_belt().filter(|_| !tolerances.is_none()) {
+        None => Ok(found.margin),
+        Some(belt) => {
+            let (certain, more) = timed(output.repeat, || machine::guaranteed(belt, tolerances));
+            seconds += more;
+            certain.map_err(troubled)?.map(|(_, margin)| margin)
+        }
+    };
+    let uncertain = source.of_belt().map(|belt| tolerances.intervals(belt));
+    let about = case.about().within(&uncertain.unwrap_or_default());
+    let answer = margins(&about, found.margin, certain, tolerances.disturbance);
+    output.print(answer.portrayed(&found, seconds))
 }
 
 /// Shows where the starts in a window end, and how large a kick is survived
 #[derive(Debug, Args)]
 pub struct BasinCommand {
-    #[command(flatten)]
-    source: SourceOptions,
-    #[command(flatten)]
-    output: Output,
     #[command(flatten)]
     certify: Certify,
     /// Displacements and velocities of the starts (default: -3:3,-3:3; of a machine one and a half times its largest
@@ -92,32 +83,27 @@ pub struct BasinCommand {
 }
 
 impl BasinCommand {
-    pub fn run(&self) -> Result<(), Failure> {
-        let numbers = self.source.numbers();
+    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+        let numbers = asked.source.numbers();
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
         let reach = window.unwrap_or(WINDOW).reach();
-        let Portrayed { about, portrait: found, seconds: before } =
-            self.source.portrait(&self.output, |_| reach)?;
+        let Portrayed { about, portrait: found, seconds: before } = asked.portrait(|_| reach)?;
         let usual = || if about.is_machine() { found.surroundings() } else { WINDOW };
         let window = window.unwrap_or_else(usual);
         let count = || found.count(&window, self.grid, &Limits::PATIENT);
-        let (counts, seconds) = self.output.timed("the starts could not be counted", count)?;
+        let (counts, seconds) = asked.output.timed("the starts could not be counted", count)?;
         // What is proved, is proved of the oscillator of the paper.
         let parameters = found.model.parameters().filter(|_| !about.is_machine());
         let enclose = |parameters: Parameters| proved_kicks(&parameters, &found);
         let certified = self.certify.ask(|| parameters.map(enclose)).flatten();
         let seconds = before + seconds;
-        self.output.print(basin(&about, &found, (&window, counts), certified.as_ref(), seconds))
+        asked.output.print(basin(&about, &found, (&window, counts), certified.as_ref(), seconds))
     }
 }
 
 /// Finds the share of random kicks that is lost, and how many in a row are survived
 #[derive(Debug, Args)]
 pub struct KicksCommand {
-    #[command(flatten)]
-    source: SourceOptions,
-    #[command(flatten)]
-    output: Output,
     /// Displacement and velocity of a kick, mean and standard deviation; with uniform: before them, mean and
     /// half width
     #[arg(
@@ -129,13 +115,12 @@ pub struct KicksCommand {
 }
 
 impl KicksCommand {
-    pub fn run(&self) -> Result<(), Failure> {
-        let law = read("--kicks", &self.law, |text| self.source.numbers().kicks(text))?;
-        let Portrayed { about, portrait, seconds: before } =
-            self.source.portrait(&self.output, |r| law.reach() + r)?;
+    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+        let law = read("--kicks", &self.law, |text| asked.source.numbers().kicks(text))?;
+        let Portrayed { about, portrait, seconds: before } = asked.portrait(|r| law.reach() + r)?;
         let follow = || repeated(&portrait, &law, &Limits::PATIENT);
-        let (found, seconds) = self.output.timed("the kicks could not be followed", follow)?;
+        let (found, seconds) = asked.output.timed("the kicks could not be followed", follow)?;
         let held = portrait.model.guide_static;
-        self.output.print(kicks(&about, &law, &found, held, before + seconds))
+        asked.output.print(kicks(&about, &law, &found, held, before + seconds))
     }
 }

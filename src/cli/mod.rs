@@ -39,7 +39,7 @@ pub(super) use crate::runtime::failure::Failure;
 pub(super) use input::{given, number, read};
 pub(super) use machine::{CommandCase, second, troubled};
 pub(super) use output::{Certify, Output, in_turn, print, timed, write};
-pub(super) use source::{SourceOptions, StartOptions};
+pub(super) use source::{QuestionOptions, SourceOptions, StartOptions};
 
 use crate::words::usage;
 
@@ -76,6 +76,16 @@ fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<(), Failure>
     Subcommand { name, options: C::augment_args, run: Box::new(run) }
 }
 
+/// A command that puts a question to an oscillator or a machine.
+fn question<C: Args + 'static>(
+    name: &'static str,
+    run: fn(&C, &QuestionOptions) -> Result<(), Failure>,
+) -> Subcommand {
+    let options = |command| C::augment_args(QuestionOptions::augment_args(command));
+    let run = move |given: &ArgMatches| run(&parsed(given)?, &parsed(given)?);
+    Subcommand { name, options, run: Box::new(run) }
+}
+
 /// The options of a command, of those that were given.
 fn parsed<C: Args>(given: &ArgMatches) -> Result<C, Failure> {
     C::from_arg_matches(given).map_err(|error| Failure::Usage(usage::line(&error)))
@@ -87,13 +97,13 @@ fn commands() -> [Subcommand; 22] {
         row("tour", explore::TourCommand::run),
         row("scenes", lists::ScenesCommand::run),
         row("keys", lists::KeysCommand::run),
-        row("trajectory", motion::TrajectoryCommand::run),
-        row("cycles", cycles::CyclesCommand::run),
-        row("branch", branch::BranchCommand::run),
-        row("border", branch::BorderCommand::run),
-        row("basin", margin::BasinCommand::run),
-        row("margin", margin::MarginCommand::run),
-        row("kicks", margin::KicksCommand::run),
+        question("trajectory", motion::TrajectoryCommand::run),
+        question("cycles", cycles::CyclesCommand::run),
+        question("branch", branch::BranchCommand::run),
+        question("border", branch::BorderCommand::run),
+        question("basin", margin::BasinCommand::run),
+        question("margin", margin::MarginCommand::run),
+        question("kicks", margin::KicksCommand::run),
         row("scan", scan::ScanCommand::run),
         row("merge", merge::MergeCommand::run),
         row("belt", belt::BeltCommand::run),
@@ -102,7 +112,7 @@ fn commands() -> [Subcommand; 22] {
         row("replay", replay::ReplayCommand::run),
         row("check", cycles::CheckCommand::run),
         row("paper", lists::PaperCommand::run),
-        row("trade", motion::TradeCommand::run),
+        question("trade", motion::TradeCommand::run),
         row("extremes", lists::ExtremesCommand::run),
         row("completions", shell::CompletionsCommand::run),
         row("man", shell::ManualCommand::run),

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{Certify, Failure, Output, SourceOptions, in_turn, number, second, timed, troubled};
+use super::{Certify, Failure, QuestionOptions, in_turn, number, second, timed, troubled};
 use crate::accuracy::trade::Trade;
 use crate::flow::{Detail, Limits, Outcome, Problem, Trajectory};
 use crate::model::{Knob, Model};
@@ -12,18 +12,6 @@ use crate::proof::motion::follow as enclosed;
 use crate::report::{About, motion};
 use crate::view::trade_plot::in_letters;
 
-/// Which motion, how far, and how the answer is printed.
-#[derive(Debug, Args)]
-struct MotionOptions {
-    #[command(flatten)]
-    source: SourceOptions,
-    #[command(flatten)]
-    output: Output,
-    /// Time at which to stop, 0 .. 1e9 (default: the scene's)
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    until: Option<String>,
-}
-
 /// The motion that is asked for.
 struct AskedMotion {
     about: About,
@@ -32,29 +20,30 @@ struct AskedMotion {
     model: Option<Model>,
 }
 
-impl MotionOptions {
-    /// The motion of the scene with this name, or of the scene or the machine among the options. That of a machine is
-    /// followed by the method and to the tolerance that are asked for or else its own.
-    fn asked(&self, named: Option<&str>) -> Result<AskedMotion, Failure> {
-        let numbers = self.source.numbers();
-        let mut case = self.source.case(named)?;
+impl AskedMotion {
+    /// The motion of the scene with this name, or of the scene or the machine among the options, until a time. That of a
+    /// machine is followed by the method and to the tolerance that are asked for or else its own.
+    fn new(
+        QuestionOptions { source, output }: &QuestionOptions,
+        named: Option<&str>,
+        until: Option<&String>,
+    ) -> Result<Self, Failure> {
+        let mut case = source.case(named)?;
         let motion = &mut case.described.subject.motion;
-        let end = number("--until", self.until.as_ref(), numbers.until)?;
+        let end = number("--until", until, source.numbers().until)?;
         motion.until = end.unwrap_or(motion.until);
         let case = case.checked()?;
         let (mut problem, model) = case.described.subject.problem().map_err(troubled)?;
         if model.is_some()
-            && let Some(way) = second(self.source.start.method)?
+            && let Some(way) = second(source.start.method)?
         {
             problem.method = way;
-            problem.tolerance = self.source.start.tol.unwrap_or(Knob::Tolerance.usual());
+            problem.tolerance = source.start.tol.unwrap_or(Knob::Tolerance.usual());
         }
-        let about = case.about().told_as(self.output.format);
+        let about = case.about().told_as(output.format);
         Ok(AskedMotion { about, problem, model })
     }
-}
 
-impl AskedMotion {
     /// Follows the motion, as a problem that may have another method or accuracy.
     fn follow(&self, problem: &Problem, energy: bool) -> Trajectory {
         let detail = Detail { energy, ..Detail::default() };
@@ -65,17 +54,19 @@ impl AskedMotion {
 /// Computes one motion: its turning points, how it ends, where its energy goes
 #[derive(Debug, Args)]
 pub struct TrajectoryCommand {
-    #[command(flatten)]
-    asked: MotionOptions,
+    /// Time at which to stop, 0 .. 1e9 (default: the scene's)
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    until: Option<String>,
     #[command(flatten)]
     certify: Certify,
 }
 
 impl TrajectoryCommand {
-    pub fn run(&self) -> Result<(), Failure> {
-        let (asked, output) = (self.asked.asked(None)?, &self.asked.output);
+    pub fn run(&self, question: &QuestionOptions) -> Result<(), Failure> {
+        let asked = AskedMotion::new(question, None, self.until.as_ref())?;
         let (problem, is_machine) = (&asked.problem, asked.model.is_some());
-        let (mut found, seconds) = timed(output.repeat, || asked.follow(problem, is_machine));
+        let (mut found, seconds) =
+            timed(question.output.repeat, || asked.follow(problem, is_machine));
         // The energy ledger of the oscillator only checks the motion and is no part of its cost, so it is computed in a
         // second run.
         if !is_machine && !matches!(found.outcome, Outcome::GaveUp { .. }) {
@@ -86,7 +77,7 @@ impl TrajectoryCommand {
             enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
         };
         let certified = (!is_machine).then(|| self.certify.ask(enclose)).flatten();
-        output.print(motion::motion(&asked.about, &found, certified.as_ref(), seconds))?;
+        question.output.print(motion::motion(&asked.about, &found, certified.as_ref(), seconds))?;
         match found.outcome {
             Outcome::GaveUp { tau, reason } if !is_machine => {
                 let until = problem.until;
@@ -103,13 +94,14 @@ pub struct TradeCommand {
     /// Scene whose motion is computed
     #[arg(value_name = "SCENE", conflicts_with_all = ["scene", "machine"])]
     named: Option<String>,
-    #[command(flatten)]
-    asked: MotionOptions,
+    /// Time at which to stop, 0 .. 1e9 (default: the scene's)
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    until: Option<String>,
 }
 
 impl TradeCommand {
-    pub fn run(&self) -> Result<(), Failure> {
-        let (asked, output) = (self.asked.asked(self.named.as_deref())?, &self.asked.output);
+    pub fn run(&self, question: &QuestionOptions) -> Result<(), Failure> {
+        let asked = AskedMotion::new(question, self.named.as_deref(), self.until.as_ref())?;
         let machine = asked.model.as_ref();
         let unmeasured = |reason| {
             if machine.is_some() {
@@ -120,12 +112,12 @@ impl TradeCommand {
         };
         let found = Trade::of(machine, &asked.problem, &Limits::PATIENT);
         let mut found = found.map_err(unmeasured)?;
-        let seconds = in_turn(output.repeat, found.rows.len(), |index| {
+        let seconds = in_turn(question.output.repeat, found.rows.len(), |index| {
             // A row that was given up used its whole budget; it is not repeated.
             let row = &found.rows[index];
             row.error().map(|_| asked.follow(&row.problem, false))
         });
         found.rows.iter_mut().zip(seconds).for_each(|(row, seconds)| row.seconds = seconds);
-        output.print(motion::trade(&asked.about, &found, &in_letters(&found)))
+        question.output.print(motion::trade(&asked.about, &found, &in_letters(&found)))
     }
 }

@@ -22,6 +22,15 @@ pub struct Portrayed {
     pub seconds: f64,
 }
 
+/// What every question is about, and how its answer is printed.
+#[derive(Debug, Args)]
+pub struct QuestionOptions {
+    #[command(flatten)]
+    pub source: SourceOptions,
+    #[command(flatten)]
+    pub output: Output,
+}
+
 /// What a command is about: the motion of a scene, or a machine.
 #[derive(Clone, Debug, Args)]
 pub struct SourceOptions {
@@ -31,6 +40,23 @@ pub struct SourceOptions {
     /// are then its own, such as --set "R=2 N", with a unit or in SI units
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "step", "epsilon"])]
     machine: Option<String>,
+}
+
+impl QuestionOptions {
+    /// All motions of what is asked about; of the oscillator of the paper a border that is not closed is followed as far as
+    /// a function of r says.
+    pub fn portrait(&self, reach: impl Fn(f64) -> f64) -> Result<Portrayed, Failure> {
+        let QuestionOptions { source, output } = self;
+        let (about, (portrait, seconds)) = if let Some(case) = source.portrayed()? {
+            (case.about(), case.portrait(output)?)
+        } else {
+            let parameters = source.start.scene(None)?.problem.parameters;
+            let reach = reach(parameters.r);
+            let ask = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
+            (About::oscillator(&parameters), output.timed("the basin could not be found", ask)?)
+        };
+        Ok(Portrayed { about, portrait, seconds })
+    }
 }
 
 impl SourceOptions {
@@ -54,24 +80,6 @@ impl SourceOptions {
             ));
         }
         Ok(Some(case.checked()?))
-    }
-
-    /// All motions of what is asked about; of the oscillator of the paper a border that is not closed is followed as far as
-    /// a function of r says.
-    pub fn portrait(
-        &self,
-        output: &Output,
-        reach: impl Fn(f64) -> f64,
-    ) -> Result<Portrayed, Failure> {
-        let (about, (portrait, seconds)) = if let Some(case) = self.portrayed()? {
-            (case.about(), case.portrait(output)?)
-        } else {
-            let parameters = self.start.scene(None)?.problem.parameters;
-            let reach = reach(parameters.r);
-            let ask = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
-            (About::oscillator(&parameters), output.timed("the basin could not be found", ask)?)
-        };
-        Ok(Portrayed { about, portrait, seconds })
     }
 
     /// The motion of the scene with this name, or what the options name, with the values set on the command line.
