@@ -44,21 +44,10 @@ pub(super) use source::{QuestionOptions, SourceOptions, StartOptions};
 use crate::words::usage;
 
 /// What the program is about, for the help text.
-const LONG_ABOUT: &str = "\
-Explorer of one oscillator, q'' + 2 D q' + D2 q'^2 + D3 q'^3 + q = friction within -r .. r: \
-how dry friction turns a Hopf bifurcation into a set of equilibria with a basin that one \
-must know.
-
-Without a command: the explorer in this terminal. With one: an answer on standard output.";
+const LONG_ABOUT: &str = include_str!("../../assets/about.txt");
 
 /// Commands for a first try, below the help text.
-const EXAMPLES: &str = "\
-Examples:
-  hopfscope                            the explorer: ? lists the keys, q leaves
-  hopfscope supercritical              the same, with a lesson; `hopfscope scenes` lists all
-  hopfscope tour                       a tour of the explorer
-  hopfscope cycles --set D=-0.3        the limit cycles and the basin at these numbers, as text
-  hopfscope figure fig17 --output fig17.svg";
+const EXAMPLES: &str = include_str!("../../assets/examples.txt");
 
 /// Runs a command with the options that were given.
 type Run = Box<dyn Fn(&ArgMatches) -> Result<(), Failure>>;
@@ -124,8 +113,8 @@ fn program() -> Command {
     let program = ExploreCommand::augment_args(Command::new("hopfscope"))
         .version(env!("CARGO_PKG_VERSION"))
         .about("Explorer of one oscillator: dry friction and the Hopf bifurcation")
-        .long_about(LONG_ABOUT)
-        .after_help(EXAMPLES)
+        .long_about(LONG_ABOUT.trim_end())
+        .after_help(EXAMPLES.trim_end())
         .args_conflicts_with_subcommands(true);
     commands()
         .into_iter()

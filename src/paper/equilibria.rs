@@ -1,14 +1,15 @@
 //! Sections 4 and 5.1: the set of equilibria, what Lyapunov's method says about its basin, and the cycle of the piecewise
 //! linear oscillator, which borders it.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
-use super::measure::{ClaimCase, at_rest, oscillator};
+use super::measure::{ClaimCase, at_rest, missing, oscillator};
 use super::{Certain, Check, Evidence, Known, always, tends, worst};
 use crate::closed_form::lyapunov::{self, Disk};
+use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Outcome, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
-use crate::numerics::{Interval, atan, atan2, exp, hypot, sin, sin_cos};
+use crate::numerics::{Interval, atan, exp, hypot, sin, sin_cos};
 use crate::portrait::proved::proved_kicks;
 use crate::portrait::{Border, Portrait};
 use crate::proof::motion::ProvedFate;
@@ -76,41 +77,38 @@ pub(super) const CHECKS: &[Check] = &[
     worst("circle of radius r", |it| Ok(Evidence::at_most(it.r, least_kick(it)?))),
     worst("duration of a swing", |it| {
         let [_, tau] = it.half_swing(at_rest(it.more))?;
-        Ok(Evidence::equal(PI / LinearSwing::of(it).omega, tau))
+        Ok(Evidence::equal(0.5 * closed_form(it)?.period, tau))
     }),
     worst("centre with a false sign", |it| shifted(it, 1.0)),
     worst("velocity on the way", |it| {
-        let swing = LinearSwing::of(it);
-        let tau = 0.4 * PI / swing.omega;
+        let LinearCycle { d, period, .. } = closed_form(it)?;
+        let (omega, tau) = (TAU / period, 0.2 * period);
         let [_, velocity] = it.state_at(at_rest(it.more), tau)?;
-        let (d, a, b) = (swing.d, -1.0, -swing.d / swing.omega);
-        let (sine, cosine) = sin_cos(swing.omega * tau);
-        let formula = -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
+        let (a, b) = (-1.0, -d / omega);
+        let (sine, cosine) = sin_cos(omega * tau);
+        let formula = -(a * d - b * omega) * cosine - (b * d + a * omega) * sine;
         let at = format!("{}, at tau = {tau:.4}", it.place);
         Ok(Evidence::equal(formula * exp(-d * tau), velocity).at(at))
     }),
     worst("end of a swing", |it| {
         let [end, _] = it.half_swing(at_rest(it.more))?;
-        Ok(Evidence::equal(LinearSwing::of(it).growth, end.plus(it.r)))
+        Ok(Evidence::equal(growth(&closed_form(it)?), end.plus(it.r)))
     }),
     worst("clearance", |it| {
-        let (cycle, swing) = (it.smallest()?, LinearSwing::of(it));
+        let (cycle, formula) = (it.smallest()?, closed_form(it)?);
         // An exponential has as many times the relative error of its exponent, 70 at D = -0.999.
-        let exponent = 1.0 + PI * swing.d.abs() / swing.omega;
+        let exponent = 1.0 + 0.5 * formula.log_multiplier;
         let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
         let bounds = cycle.bounds.map(|it| it.clearance);
         let computed = Known::relative(cycle.clearance, error).within(bounds);
-        Ok(Evidence::equal(swing.clearance(), computed))
+        Ok(Evidence::equal(formula.clearance, computed))
     }),
     worst("border over the angle", on_the_curve),
-    worst("A_q", |it| {
-        let LinearSwing { growth, .. } = LinearSwing::of(it);
-        Ok(Evidence::equal((growth + 1.0) / (growth - 1.0), it.smallest()?.extent()))
-    }),
+    worst("A_q", |it| Ok(Evidence::equal(closed_form(it)?.q_max, it.smallest()?.extent()))),
     worst("A_v", |it| {
-        let swing = LinearSwing::of(it);
-        let printed = Evidence::equal(swing.printed_velocity(), it.smallest()?.speed());
-        Ok(printed.corrected(swing.largest_velocity()))
+        let formula = closed_form(it)?;
+        let printed = Evidence::equal(printed_velocity(&formula), it.smallest()?.speed());
+        Ok(printed.corrected(formula.v_max))
     }),
     worst("scale of friction", |it| {
         let cycle = |r: f64| it.of(Parameters { r, ..**it }).smallest();
@@ -194,57 +192,42 @@ fn least_kick(it: &ClaimCase) -> Result<Known, Reason> {
     Ok(Known::relative(least, POINTS.1).within(bounds))
 }
 
-/// What the formulas of a half swing are made of, in units of friction.
-struct LinearSwing {
-    d: f64,
-    /// Frequency `omega_d`.
-    omega: f64,
-    /// `e^(-pi D/omega_d)`.
-    growth: f64,
+/// The cycle by (30), (32) and (33) as it should read.
+fn closed_form(it: &Parameters) -> Result<LinearCycle, Reason> {
+    LinearCycle::new(it.d, it.r).ok_or(missing("a limit cycle"))
 }
 
-impl LinearSwing {
-    fn of(parameters: &Parameters) -> Self {
-        let d = parameters.d;
-        let omega = (1.0 - d * d).sqrt();
-        LinearSwing { d, omega, growth: exp(-PI * d / omega) }
-    }
+/// `e^(-pi D/omega_d)`, by which the clearance grows in a half swing.
+fn growth(cycle: &LinearCycle) -> f64 {
+    exp(0.5 * cycle.log_multiplier)
+}
 
-    fn clearance(&self) -> f64 {
-        2.0 / (self.growth - 1.0)
-    }
+/// (33) as it stands in the paper, in units of friction.
+fn printed_velocity(cycle: &LinearCycle) -> f64 {
+    let LinearCycle { d, clearance, period, .. } = *cycle;
+    let omega = TAU / period;
+    let angle = atan(omega / d);
+    clearance * exp(-d * PI) / omega * exp(-d / omega * angle) * sin(omega + angle)
+}
 
-    /// (33) as it stands in the paper.
-    fn printed_velocity(&self) -> f64 {
-        let LinearSwing { d, omega, growth } = *self;
-        let angle = atan(omega / d);
-        2.0 * exp(-d * PI) / (omega * (growth - 1.0)) * exp(-d / omega * angle) * sin(omega + angle)
-    }
-
-    /// (33) as it should read: the maximum of (31).
-    fn largest_velocity(&self) -> f64 {
-        let angle = atan2(self.omega, self.d);
-        self.clearance() * exp(-self.d / self.omega * angle)
-    }
-
-    /// (31), on the upper half.
-    fn curve(&self, angle: f64) -> State {
-        let LinearSwing { d, omega, growth } = *self;
-        let grown = 2.0 / (growth - 1.0) * exp(-d / omega * angle);
-        let (sine, cosine) = sin_cos(angle);
-        State { q: -1.0 - grown * (cosine + d / omega * sine), v: grown / omega * sine }
-    }
+/// (31), on the upper half, in units of friction.
+fn curve(cycle: &LinearCycle, angle: f64) -> State {
+    let LinearCycle { d, clearance, period, .. } = *cycle;
+    let omega = TAU / period;
+    let grown = clearance * exp(-d / omega * angle);
+    let (sine, cosine) = sin_cos(angle);
+    State { q: -1.0 - grown * (cosine + d / omega * sine), v: grown / omega * sine }
 }
 
 /// Both coordinates of (31) against the motion that starts at the turning point of the cycle.
 fn on_the_curve(it: &ClaimCase) -> Result<Evidence, Reason> {
     const ANGLE: f64 = 2.0;
-    let swing = LinearSwing::of(it);
-    let start = at_rest(swing.curve(0.0).q);
-    let state = it.state_at(start, ANGLE / swing.omega)?;
+    let formula = closed_form(it)?;
+    let start = at_rest(-formula.q_max);
+    let state = it.state_at(start, ANGLE * formula.period / TAU)?;
     // The start is rounded, and near D = -1 its clearance is a small fraction of it.
-    let rounded = 4.0 * f64::EPSILON * swing.growth * swing.clearance().max(1.0);
-    let State { q, v } = swing.curve(ANGLE);
+    let rounded = 4.0 * f64::EPSILON * growth(&formula) * formula.clearance.max(1.0);
+    let State { q, v } = curve(&formula, ANGLE);
     Evidence::worst([("q", q, state[0]), ("v", v, state[1])].map(|(name, formula, known)| {
         let known = Known { error: known.error + rounded, ..known };
         Ok(Evidence::equal(formula, known).at(format!("{name} at {}", it.place)))

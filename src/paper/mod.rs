@@ -41,15 +41,18 @@ pub struct Claim {
     test: &'static Test,
 }
 
+/// What is asked in a case, or why there is no answer.
+type Ask<T> = fn(&ClaimCase) -> Result<T, Reason>;
+
 /// How a claim is put to the test: a formula is evaluated, and the same thing computed otherwise.
 #[derive(Debug)]
 enum Test {
     /// By numbers, of which those of the worst case decide.
-    Worst(fn(&ClaimCase) -> Result<Evidence, Reason>),
+    Worst(Ask<Evidence>),
     /// By whether it holds in each case.
-    Always(fn(&ClaimCase) -> Result<Certain<bool>, Reason>),
+    Always(Ask<Certain<bool>>),
     /// By a formula and what it approaches, in one case and in the next one, which is nearer to the limit.
-    Tends(fn(&ClaimCase) -> Result<(f64, Known), Reason>),
+    Tends(Ask<(f64, Known)>),
 }
 
 impl Test {
@@ -74,21 +77,15 @@ impl Test {
 /// How a claim is tested, by the name that the table has for it.
 type Check = (&'static str, Test);
 
-const fn worst(name: &'static str, compare: fn(&ClaimCase) -> Result<Evidence, Reason>) -> Check {
+const fn worst(name: &'static str, compare: Ask<Evidence>) -> Check {
     (name, Test::Worst(compare))
 }
 
-const fn always(
-    name: &'static str,
-    holds: fn(&ClaimCase) -> Result<Certain<bool>, Reason>,
-) -> Check {
+const fn always(name: &'static str, holds: Ask<Certain<bool>>) -> Check {
     (name, Test::Always(holds))
 }
 
-const fn tends(
-    name: &'static str,
-    compare: fn(&ClaimCase) -> Result<(f64, Known), Reason>,
-) -> Check {
+const fn tends(name: &'static str, compare: Ask<(f64, Known)>) -> Check {
     (name, Test::Tends(compare))
 }
 
