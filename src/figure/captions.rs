@@ -3,10 +3,9 @@
 
 use super::elements::{self, Anchor};
 use super::paper::{Frame, PLOT, Spot, ink};
-use super::{MarkedPoint, Outline, Panel};
+use super::{Outline, Panel};
 use crate::numerics::{count::real, elementary::hypot};
 use crate::picture::{Caption, Dash, along};
-use crate::scene::Point;
 
 /// Width of a letter and height of a line, in pixels.
 const LETTER: f64 = 5.6;
@@ -72,11 +71,10 @@ impl Surroundings {
             thin.partition(|it| it.style == Some(Dash::Sparse));
         let spots = |curve: &Outline| followed(&curve.points, frame);
         let guides = panel.guides.iter().map(|guide| followed(guide, frame));
-        let mark = |mark: &MarkedPoint| frame.spot(Point { x: mark.x, y: mark.y });
         Surroundings {
             curves: curves.into_iter().map(spots).collect(),
             guides: guides.chain(sparse.into_iter().map(spots)).collect(),
-            marks: panel.marks.iter().map(mark).collect(),
+            marks: panel.marks.iter().map(|mark| frame.spot(mark.at)).collect(),
         }
     }
 

@@ -121,10 +121,8 @@ fn with_edges<S: Serializer>(areas: &[Outline], serializer: S) -> Result<S::Ok, 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MarkedPoint {
     pub name: picture::Text,
-    /// Along the horizontal axis.
-    pub x: f64,
-    /// Along the vertical axis.
-    pub y: f64,
+    #[serde(flatten)]
+    pub at: Point,
     /// Whether an arrow at the edge of the plot stands for it if it lies above or below.
     #[serde(skip)]
     pub at_edge: bool,
@@ -213,9 +211,8 @@ impl Panel {
 
     fn marks(&mut self, marks: &Marks) {
         let &Marks { mark, role, at_edge, .. } = marks;
-        for at in &marks.at {
-            let name = marks.name.clone();
-            let mark = MarkedPoint { name, x: at.x, y: at.y, at_edge, mark, role };
+        for &at in &marks.at {
+            let mark = MarkedPoint { name: marks.name.clone(), at, at_edge, mark, role };
             if !self.marks.contains(&mark) {
                 self.marks.push(mark);
             }

@@ -68,8 +68,8 @@ fn rows<'a>(panel: u32, shown: &'a Panel) -> Vec<PointRow<'a>> {
             add(PointRow { kind, number, name, role, style, ..plain }, points);
         }
     }
-    for (number, MarkedPoint { name, role, x, y, .. }) in (1..).zip(&shown.marks) {
-        add(PointRow { kind: "mark", number, name, role: role.name(), ..plain }, &[[*x, *y]]);
+    for (number, MarkedPoint { name, role, at, .. }) in (1..).zip(&shown.marks) {
+        add(PointRow { kind: "mark", number, name, role: role.name(), ..plain }, &[(*at).into()]);
     }
     rows
 }

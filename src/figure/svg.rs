@@ -109,10 +109,10 @@ fn polyline(out: &mut String, points: &[[f64; 2]], attributes: &str, frame: Fram
     let mut commands = String::new();
     let mut down = false;
     for (index, [x, y]) in points.iter().enumerate() {
-        let seen = |[x, y]: &[f64; 2]| near(*x, *y, frame);
+        let seen = |point: &[f64; 2]| near(*point, frame);
         let neighbour = index.checked_sub(1).map(|before| &points[before]);
         let beside = neighbour.is_some_and(seen) || points.get(index + 1).is_some_and(seen);
-        if !(x.is_finite() && y.is_finite()) || !(near(*x, *y, frame) || beside) {
+        if !(x.is_finite() && y.is_finite()) || !(near([*x, *y], frame) || beside) {
             down = false;
             continue;
         }
@@ -133,7 +133,7 @@ fn drawable(frame: Frame, point: [f64; 2]) -> Spot {
 }
 
 /// Whether a point lies within a few sizes of the plot.
-fn near(x: f64, y: f64, frame: Frame) -> bool {
+fn near([x, y]: [f64; 2], frame: Frame) -> bool {
     let window = frame.window;
     (-3.0..=4.0).contains(&window.x.fraction(x)) && (-3.0..=4.0).contains(&window.y.fraction(y))
 }
@@ -175,15 +175,14 @@ fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
 
 fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {
     let (_, color) = ink(mark.role);
-    let at = Point { x: mark.x, y: mark.y };
-    if let Some((at, above)) = Marks::edge(at, frame.window).filter(|_| mark.at_edge) {
+    if let Some((at, above)) = Marks::edge(mark.at, frame.window).filter(|_| mark.at_edge) {
         let (x, y) = frame.spot(at);
         let down = if above { 8 } else { -8 };
         path(out, &format!("M{x:.2} {y:.2}l-4 {down}h8z"), &format!("fill=\"{color}\""));
         return;
     }
-    let (x, y) = frame.spot(at);
-    if x.is_finite() && y.is_finite() && near(mark.x, mark.y, frame) {
+    let (x, y) = frame.spot(mark.at);
+    if x.is_finite() && y.is_finite() && near(mark.at.into(), frame) {
         spot(out, mark.mark, (x, y), color);
     }
 }

@@ -7,7 +7,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::numerics::Interval;
+use crate::numerics::{Interval, real};
 
 /// An approximation that is off by more than this does not count as one. More would let
 /// a fold that D2 moves by an eighth pass as one that D2 does not move.
@@ -294,30 +294,20 @@ impl Evidence {
     pub fn always<E>(
         cases: impl IntoIterator<Item = Result<(impl fmt::Display, Certain<bool>), E>>,
     ) -> Result<Self, E> {
-        let (mut holds, mut all, mut place) = (0_u32, 0_u32, String::new());
-        let (mut certain, mut refuted) = (true, false);
-        for case in cases {
-            let (case, answer) = case?;
-            all += 1;
-            holds += u32::from(answer.value);
-            certain &= answer.certain;
-            refuted |= answer.certain && !answer.value;
-            if !answer.value && place.is_empty() {
-                place = format!("first fails at {case}");
-            }
-        }
-        let computed = Known::exact(f64::from(holds));
-        let (cases, held) = (all as usize, holds as usize);
-        let mark =
-            if refuted { Some(Certainty::Refuted) } else { certain.then_some(Certainty::Proved) };
-        let mark = mark.filter(|_| all > 0);
-        Ok(Evidence {
-            place,
-            cases,
-            held,
-            mark,
-            ..Self::new(Sense::Always, f64::from(all), computed)
-        })
+        let answers = cases.into_iter().collect::<Result<Vec<_>, E>>()?;
+        let (cases, held) =
+            (answers.len(), answers.iter().filter(|(_, answer)| answer.value).count());
+        let failing = answers.iter().find(|(_, answer)| !answer.value);
+        let place = failing.map(|(case, _)| format!("first fails at {case}"));
+        let is_refuted = answers.iter().any(|(_, answer)| answer.certain && !answer.value);
+        let is_proved = held == cases && answers.iter().all(|(_, answer)| answer.certain);
+        let mark = match (is_refuted, is_proved && cases > 0) {
+            (true, _) => Some(Certainty::Refuted),
+            (false, true) => Some(Certainty::Proved),
+            (false, false) => None,
+        };
+        let numbers = Self::new(Sense::Always, real(cases), Known::exact(real(held)));
+        Ok(Evidence { place: place.unwrap_or_default(), cases, held, mark, ..numbers })
     }
 
     /// The same, but the paper is silent: its formula is one of ours.
@@ -338,20 +328,14 @@ impl Evidence {
     /// Of several cases of one claim, the one that misses most; first of all one that the corrected formula
     /// misses too. Fails with the first error among them.
     pub fn worst<E>(each: impl IntoIterator<Item = Result<Self, E>>) -> Result<Self, E> {
-        let mut worst = Self::new(Sense::Always, 0.0, Known::exact(0.0));
-        let (mut cases, mut held, mut mark) = (0, 0, Some(Certainty::Proved));
-        for evidence in each {
-            let evidence = evidence?;
-            let is_first = cases == 0;
-            cases += evidence.cases;
-            held += evidence.held;
-            mark = Certainty::and(mark, evidence.mark);
-            let order =
-                |it: &Self| (it.corrected.is_some_and(|value| !it.holds(value)), it.strain());
-            if is_first || order(&evidence) > order(&worst) {
-                worst = evidence;
-            }
-        }
+        let all = each.into_iter().collect::<Result<Vec<_>, E>>()?;
+        let cases = all.iter().map(|it| it.cases).sum();
+        let held = all.iter().map(|it| it.held).sum();
+        let mark = all.iter().map(|it| it.mark).fold(Some(Certainty::Proved), Certainty::and);
+        let order = |it: &Self| (it.corrected.is_some_and(|value| !it.holds(value)), it.strain());
+        let worse = |one: Self, next: Self| if order(&next) > order(&one) { next } else { one };
+        let none = || Self::new(Sense::Always, 0.0, Known::exact(0.0));
+        let worst = all.into_iter().reduce(worse).unwrap_or_else(none);
         Ok(Evidence { cases, held, mark, ..worst })
     }
 

@@ -2,7 +2,6 @@
 //! row. The aligned table, the comma-separated values and the objects of a document follow.
 
 use std::borrow::Borrow;
-use std::rc::Rc;
 
 use csv::Writer;
 use serde::Serialize;
@@ -118,30 +117,29 @@ impl<'a, R: 'a> Columns<'a, R> {
         self,
         name: &'static str,
         quantity: Quantity,
-        value: impl Fn(&R) -> V + 'a,
+        value: impl Fn(&R) -> V + Copy + 'a,
     ) -> Self {
-        let value = Rc::new(move |row: &R| value(row).into());
-        let exact = Rc::clone(&value);
-        let text = move |row: &R| quantity.text(value(row));
-        self.file(name, move |row| exact(row)).text(title(name), text)
+        self.file(name, move |row| value(row).into())
+            .text(title(name), move |row| quantity.text(value(row)))
     }
 
     /// Words, counts or marks.
-    pub fn word<V: Serialize>(self, name: &'static str, value: impl Fn(&R) -> V + 'a) -> Self {
-        let value = Rc::new(move |row: &R| json::value(&value(row)));
-        let exact = Rc::clone(&value);
-        self.file(name, move |row| exact(row)).text(title(name), move |row| match value(row) {
+    pub fn word<V: Serialize>(
+        self,
+        name: &'static str,
+        value: impl Fn(&R) -> V + Copy + 'a,
+    ) -> Self {
+        self.file(name, value).text(title(name), move |row| match json::value(&value(row)) {
             Value::Null => "-".to_owned(),
             value => cell(&value),
         })
     }
 
     /// Both ends of an interval that is proved, as `name_lower` and `name_upper`; in text its certain digits.
-    pub fn bounds(self, name: &str, value: impl Fn(&R) -> Option<Interval> + 'a) -> Self {
-        let value = Rc::new(value);
-        let (ends, field) = (Rc::clone(&value), name.to_owned());
+    pub fn bounds(self, name: &str, value: impl Fn(&R) -> Option<Interval> + Copy + 'a) -> Self {
+        let field = name.to_owned();
         self.together(ENDS.map(|end| format!("{name}_{end}")).to_vec(), move |row| {
-            let value = ends(row);
+            let value = value(row);
             let cells = value.map_or(vec![], |it| vec![it.lower().into(), it.upper().into()]);
             (cells, Document::default().with(&field, value.map(bounds)))
         })

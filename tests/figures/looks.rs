@@ -12,7 +12,7 @@ fn figures_have_no_two_panels_alike_and_no_circles_that_belong_to_nothing() {
             };
             assert!(drawn.panels[..index].iter().find(alike).is_none(), "{scene}: panel {index}");
             for start in panel.marks.iter().filter(|mark| mark.name == "start") {
-                let begins = |curve: &Outline| curve.points.first() == Some(&[start.x, start.y]);
+                let begins = |curve: &Outline| curve.points.first() == Some(&start.at.into());
                 let on = |curve: &&Outline| begins(curve) || curve.role.name() == "energy";
                 assert!(panel.curves.iter().any(|it| on(&it)), "{scene}: {start:?} starts nothing");
             }

@@ -356,7 +356,7 @@ fn the_path_of_a_belt_is_that_of_its_machines_at_other_speeds() {
         .iter()
         .filter_map(|mark| {
             let speed = mark.name.strip_prefix("v0 = ")?.strip_suffix(" m/s")?.parse().ok()?;
-            assert_eq!([mark.x, mark.y], at(speed), "{}", mark.name);
+            assert_eq!(<[f64; 2]>::from(mark.at), at(speed), "{}", mark.name);
             Some(speed)
         })
         .collect();

@@ -49,8 +49,8 @@ fn extents_of_the_basin_are_those_of_the_formulas() {
         assert!((v / linear_extents(*d, 0.1).1 - 1.0).abs() < 1e-12);
     }
     // The mark at the current value is not on a chord either: A_q at D = -0.4.
-    let mark = drawn.panels[0].marks.iter().find(|mark| mark.x == -0.4).unwrap();
-    assert!((mark.y / linear_extents(-0.4, 0.1).0 - 1.0).abs() < 1e-9, "{}", mark.y);
+    let mark = drawn.panels[0].marks.iter().find(|mark| mark.at.x == -0.4).unwrap();
+    assert!((mark.at.y / linear_extents(-0.4, 0.1).0 - 1.0).abs() < 1e-9, "{}", mark.at.y);
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn amplitudes_are_those_of_the_reference_cycles() {
         if is("D", -0.3) && is("D2", 0.0) && is("D3", 0.5) && is("r", 0.1) {
             let q_max = cycle["q_max"].as_f64().unwrap();
             let found = |mark: f64| (mark / q_max - 1.0).abs() < 1e-8;
-            assert!(drawn.panels[1].marks.iter().any(|mark| found(mark.y)), "{q_max}");
+            assert!(drawn.panels[1].marks.iter().any(|mark| found(mark.at.y)), "{q_max}");
             checked += 1;
         }
     }
