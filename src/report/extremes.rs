@@ -2,13 +2,11 @@
 //! its limit cycles, and a summary.
 
 use super::cycle_numbers::cycle_fields;
-use super::{Answer, Columns, Quantity, Table};
-use crate::accuracy::extremes::sets::{
-    BUDGET as BUDGET_OF_SET, LatticeCycle, SetAnswer, SetVerdict,
-};
+use super::{Answer, Columns, Document, Quantity, Table};
+use crate::accuracy::extremes::sets::{BUDGET as BUDGET_OF_SET, LatticeCycle, SetVerdict};
 use crate::accuracy::extremes::verdict::{BUDGET, METHODS};
 use crate::accuracy::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
-use crate::flow::{Method, Outcome};
+use crate::flow::{Method, Outcome, Reason};
 use crate::model::Parameters;
 use crate::words::number::exact as short;
 use crate::words::{significant, stability};
@@ -18,25 +16,15 @@ const FEW: Quantity = Quantity::pure(4);
 
 /// The answers of all methods, and the extremes that have a name.
 pub fn extremes(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64) -> Answer {
-    let columns = parameter_columns(|it: &MethodsVerdict| it.case.parameters)
-        .text("start", |it| it.case.start.to_string())
-        .text("answer", |it| it.answers[0].outcome.word().to_owned())
-        .text("tau", |it| FEW.text(it.answers[0].outcome.tau()))
-        .text("q", |it| FEW.text(it.answers[0].outcome.state().map(|at| at.0)))
-        .text("v", |it| FEW.text(it.answers[0].outcome.state().map(|at| at.1)))
-        .text("evaluations", |it| it.answers[0].cost.evaluations.to_string())
-        .text("sensitive", |it| significant(it.sensitivity, 2));
-    let columns = METHODS.into_iter().fold(columns, |columns, method| {
-        let name = method.spec().name;
-        columns.text(name, move |it| it.answer(method).map_or_else(String::new, mark))
-    });
-    let answers = verdicts.iter().flat_map(|it| it.answers.iter().map(move |answer| (it, answer)));
+    let rows = verdicts.iter().flat_map(|it| it.answers.iter().map(move |answer| (it, answer)));
+    let first = verdicts.iter().map(|it| (it, &it.answers[0]));
+    let columns = method_columns();
     Answer::default()
         .with("tolerance", tolerance)
         .with("budget", BUDGET)
         .with("motions", verdicts)
         .with("named", named)
-        .csv(&method_columns(), answers)
+        .csv(&columns, rows)
         .lines([format!(
             "Below the name of a method: digits lost of those that the tolerance {tolerance:e} asks for,\n\
              or why there is no number: gave up within {BUDGET} evaluations, wrong (contradicts the \
@@ -44,33 +32,36 @@ pub fn extremes(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: 
              Sensitive: digits by which the answer magnifies a change of the damping (where a digit was \
              lost)."
         )])
-        .table(columns.table(verdicts).unbroken(None))
+        .table(columns.table(first).unbroken(None))
         .table(summary(verdicts))
         .table(named_columns().table(named))
 }
 
-/// The columns of files, one row for each motion and method.
-fn method_columns<'a>() -> Columns<'a, (&'a MethodsVerdict, &'a MethodAnswer)> {
-    type MethodRow<'a> = (&'a MethodsVerdict, &'a MethodAnswer);
-    let reason = |outcome: Outcome| match outcome {
-        Outcome::GaveUp { reason, .. } => Some(reason.to_string()),
-        _ => None,
-    };
-    parameter_columns(|(verdict, _): &MethodRow| verdict.case.parameters)
-        .file("start", |(verdict, _)| verdict.case.start.to_string())
+/// A motion, and what a method answered.
+type MethodRow<'a> = (&'a MethodsVerdict, &'a MethodAnswer);
+
+/// The columns of answers; text has those of the first method alone, and how well the others did.
+fn method_columns<'a>() -> Columns<'a, MethodRow<'a>> {
+    let columns = parameter_columns(|(verdict, _): &MethodRow| verdict.case.parameters)
+        .word("start", |(verdict, _)| verdict.case.start)
         .file("q0", |(verdict, _)| verdict.case.initial.q)
         .file("v0", |(verdict, _)| verdict.case.initial.v)
         .file("method", |(_, answer)| answer.method)
-        .file("answer", |(_, answer)| answer.outcome.word())
-        .file("tau", |(_, answer)| answer.outcome.tau())
-        .file("q", |(_, answer)| answer.outcome.state().map(|at| at.0))
-        .file("v", |(_, answer)| answer.outcome.state().map(|at| at.1))
-        .file("reason", move |(_, answer)| reason(answer.outcome))
+        .word("answer", |(_, answer)| answer.outcome.word())
+        .number("tau", FEW, |(_, answer)| answer.outcome.tau())
+        .number("q", FEW, |(_, answer)| answer.outcome.state().map(|at| at.0))
+        .number("v", FEW, |(_, answer)| answer.outcome.state().map(|at| at.1))
+        .file("reason", |(_, answer)| answer.outcome.answered().err().map(|it| it.to_string()))
         .file("digits_lost", |(_, answer)| answer.digits_lost)
         .file("sensitivity", |(verdict, _)| verdict.sensitivity)
         .file("contradicts", |(_, answer)| answer.contradicts)
-        .file("evaluations", |(_, answer)| answer.cost.evaluations)
+        .word("evaluations", |(_, answer)| answer.cost.evaluations)
         .file("steps", |(_, answer)| answer.cost.steps)
+        .text("sensitive", |(verdict, _)| significant(verdict.sensitivity, 2));
+    METHODS.into_iter().fold(columns, |columns, method| {
+        let cell = move |(verdict, _): &MethodRow| verdict.answer(method).map(mark);
+        columns.text(method.spec().name, move |row| cell(row).unwrap_or_default())
+    })
 }
 
 /// The columns of parameters; text has them in the order of the lattice.
@@ -139,9 +130,17 @@ pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer {
         let none = verdict.cycles().is_empty().then_some(None);
         cycles.chain(none).map(move |cycle| (verdict, cycle))
     });
+    let sets = verdicts.iter().map(|SetVerdict { parameters, answer, cost }| {
+        let kind = if answer.is_ok() { "found" } else { "gave-up" };
+        let answer = Document::default()
+            .with("kind", kind)
+            .with_any("cycles", answer.as_ref().ok())
+            .with_any("reason", answer.as_ref().err());
+        Document::default().with("parameters", parameters).with("answer", answer).with("cost", cost)
+    });
     Answer::default()
         .with("budget", BUDGET_OF_SET)
-        .with("sets", verdicts)
+        .with("sets", sets.collect::<Vec<_>>())
         .csv(&set_columns(), rows.clone())
         .lines([format!(
             "Every limit cycle by amplitude, or why the search gave up within {BUDGET_OF_SET} evaluations of a half \
@@ -156,15 +155,12 @@ pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer {
 type SetRow<'a> = (&'a SetVerdict, Option<&'a LatticeCycle>);
 
 fn set_columns<'a>() -> Columns<'a, SetRow<'a>> {
-    let kind = |(verdict, cycle): &SetRow| match &verdict.answer {
-        SetAnswer::GaveUp { .. } => "gave-up",
-        SetAnswer::Found { .. } if cycle.is_none() => "none",
-        SetAnswer::Found { .. } => "cycle",
+    let kind = |(verdict, cycle): &SetRow| match (&verdict.answer, cycle) {
+        (Err(_), _) => "gave-up",
+        (Ok(_), None) => "none",
+        (Ok(_), Some(_)) => "cycle",
     };
-    let reason = |(verdict, _): &SetRow| match &verdict.answer {
-        SetAnswer::GaveUp { reason } => Some(reason.to_string()),
-        SetAnswer::Found { .. } => None,
-    };
+    let reason = |(verdict, _): &SetRow| verdict.answer.as_ref().err().map(Reason::to_string);
     let shown = |(_, cycle): &SetRow, value: fn(&LatticeCycle) -> f64| FEW.text(cycle.map(value));
     parameter_columns(|(verdict, _): &SetRow| verdict.parameters)
         .word("answer", kind)
@@ -182,24 +178,17 @@ const CLOSED: f64 = 1e-11;
 
 /// How often each answer occurred.
 fn sets_summary(verdicts: &[SetVerdict]) -> Table {
-    let gave_up = |it: &&SetVerdict| matches!(it.answer, SetAnswer::GaveUp { .. });
-    let with = |count: usize| {
-        verdicts.iter().filter(|it| !gave_up(it) && it.cycles().len() == count).count()
-    };
-    let residuals = || verdicts.iter().flat_map(SetVerdict::cycles).map(|found| found.residual);
-    let most = verdicts.iter().filter(|it| !gave_up(it)).map(|it| it.cost.evaluations).max();
-    let open = residuals().filter(|&residual| residual > CLOSED).count();
-    let counts = [
-        ("sets", verdicts.len()),
-        ("none", with(0)),
-        ("one", with(1)),
-        ("two", with(2)),
-        ("gave up", verdicts.iter().filter(gave_up).count()),
-        ("not closed to 1e-11", open),
-    ];
-    let counts = counts.map(|(title, count)| (title, count.to_string()));
-    let evaluations = ("evaluations", format!("<= {}", most.unwrap_or(0)));
-    let all = counts.into_iter().chain([evaluations]);
-    let (titles, cells) = all.map(|(title, cell)| (title.to_owned(), cell)).unzip();
-    Table::new(titles, vec![cells])
+    let answered = || verdicts.iter().filter(|it| it.answer.is_ok());
+    let with = |count: usize| answered().filter(|it| it.cycles().len() == count).count();
+    let open = || verdicts.iter().flat_map(SetVerdict::cycles).filter(|it| it.residual > CLOSED);
+    let most = || answered().map(|it| it.cost.evaluations).max().unwrap_or(0);
+    Columns::default()
+        .word("sets", |()| verdicts.len())
+        .word("none", |()| with(0))
+        .word("one", |()| with(1))
+        .word("two", |()| with(2))
+        .word("gave up", |()| verdicts.len() - answered().count())
+        .word("not closed to 1e-11", |()| open().count())
+        .text("evaluations", |()| format!("<= {}", most()))
+        .table([()])
 }

@@ -27,37 +27,19 @@ pub struct LatticeCycle {
     pub residual: f64,
 }
 
-/// What the search answered.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case", tag = "kind")]
-pub enum SetAnswer {
-    /// All cycles, by amplitude.
-    Found {
-        /// They.
-        cycles: Vec<LatticeCycle>,
-    },
-    /// No answer.
-    GaveUp {
-        /// Why.
-        reason: Reason,
-    },
-}
-
 /// The parameters of a place of the lattice and what the search for cycles answered there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SetVerdict {
     pub parameters: Parameters,
-    pub answer: SetAnswer,
+    /// All cycles, by amplitude, or why the search gave up.
+    pub answer: Result<Vec<LatticeCycle>, Reason>,
     pub cost: Cost,
 }
 
 impl SetVerdict {
     /// The cycles; none where it gave up.
     pub fn cycles(&self) -> &[LatticeCycle] {
-        match &self.answer {
-            SetAnswer::Found { cycles } => cycles,
-            SetAnswer::GaveUp { .. } => &[],
-        }
+        self.answer.as_deref().unwrap_or_default()
     }
 }
 
@@ -70,16 +52,13 @@ pub fn sets(thin: bool) -> impl Iterator<Item = Parameters> {
 pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
     let limits = limits.up_to(BUDGET);
     let mut equation = Equation::new(parameters, STEP, &limits);
-    let answer = match all_closings(&mut equation) {
-        Err(reason) => SetAnswer::GaveUp { reason },
-        Ok(closings) => {
-            let cycle = |closing: &Closing| LatticeCycle {
-                cycle: closing.describe(parameters, equation.side),
-                residual: residual(closing, parameters, &limits),
-            };
-            SetAnswer::Found { cycles: closings.iter().map(cycle).collect() }
-        }
+    let closings = all_closings(&mut equation);
+    let side = equation.side;
+    let cycle = |closing: &Closing| LatticeCycle {
+        cycle: closing.describe(parameters, side),
+        residual: residual(closing, parameters, &limits),
     };
+    let answer = closings.map(|found| found.iter().map(cycle).collect());
     SetVerdict { parameters: *parameters, answer, cost: equation.cost() }
 }
 
