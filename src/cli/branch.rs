@@ -9,13 +9,13 @@ use super::{Certify, CommandCase, Failure, Output, QuestionOptions, given, read,
 use crate::branch::along::{Points, branch};
 use crate::branch::fold::{Boundary, BoundaryPoint, border};
 use crate::branch::machine::MachineBranch;
-use crate::flow::Limits;
+use crate::flow::{Limits, Problem};
 use crate::model::{Belt, Knob, Source};
 use crate::proof::ParameterBox;
 use crate::proof::bifurcation::{enclose_escape, enclose_fold};
 use crate::proof::range::{change_near, range};
+use crate::report::branch as report;
 use crate::report::proof::BorderProof;
-use crate::report::{About, branch as report};
 use crate::scan::sweep::{Spacing, Sweep};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
@@ -42,30 +42,26 @@ fn followed(subject: &Source, over: &Sweep) -> Result<MachineBranch, String> {
 
 impl BranchCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
-        let case = asked.source.portrayed()?;
+        let case = asked.source.exact()?;
         let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
         let Sweep { symbol, count, .. } = over;
-        if let Some(case) = case {
-            let subject = &case.described.subject.source;
-            let (found, seconds) = timed(asked.output.repeat, || followed(subject, &over));
-            let (found, about) = (
-                found.map_err(Failure::Usage)?,
-                case.about().but(&[symbol]).told_as(asked.output.format),
-            );
+        let about = case.about().but(&[symbol]).told_as(asked.output.format);
+        let Some(problem) = case.described.subject.paper() else {
+            let source = &case.described.subject.source;
+            let (found, seconds) = timed(asked.output.repeat, || followed(source, &over));
+            let found = found.map_err(Failure::Usage)?;
             return asked.output.print(report::of_machine(&about, symbol, &found, seconds));
-        }
+        };
         if !symbol.is_parameter() {
             let line = format!("cycles do not depend on {symbol}; allowed: D, D2, D3, r");
             return Err(Failure::Usage(line));
         }
-        let problem = asked.source.start.scene(None)?.problem;
         let (base, tolerance) = (&problem.parameters, problem.tolerance);
         let ends = range_of(&over);
         let follow =
             || branch(base, symbol, ends, Points::Even(count), tolerance, &Limits::PATIENT);
         let (found, seconds) = asked.output.timed("the branch could not be completed", follow)?;
         let certified = self.certify.ask(|| range(&ParameterBox::from(base), symbol, ends));
-        let about = About::oscillator(base).but(&[symbol]).told_as(asked.output.format);
         let certified = certified.as_ref();
         asked.output.print(report::branch(&about, &found, certified, tolerance, seconds))
     }
@@ -92,11 +88,11 @@ pub struct BorderCommand {
 
 impl BorderCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
-        let case = asked.source.portrayed()?;
+        let case = asked.source.exact()?;
         let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
-        if let Some(case) = case {
+        let Some(Problem { parameters, .. }) = case.described.subject.paper() else {
             return self.of_machine(&case, &over, &asked.output);
-        }
+        };
         let Sweep { symbol, count, .. } = over;
         // It is located along D and does not depend on the start of a motion.
         if !matches!(symbol, Knob::D2 | Knob::D3 | Knob::R) {
@@ -104,12 +100,11 @@ impl BorderCommand {
                 "the border is a value of D over another parameter, not over {symbol}: D2, D3 or r"
             )));
         }
-        let parameters = asked.source.start.scene(None)?.problem.parameters;
         let range = range_of(&over);
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
         let (found, seconds) = asked.output.timed("the boundary could not be completed", follow)?;
         let certified = self.certify.ask(|| enclosed(&found));
-        let about = About::oscillator(&parameters).but(&[symbol]);
+        let about = case.about().but(&[symbol]);
         asked.output.print(report::border(&about, &found, certified.as_deref(), seconds))
     }
 

@@ -45,7 +45,7 @@ impl CyclesCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
         if let Some(case) = asked.source.portrayed()? {
             // Fails where the friction law ends before all motions are known.
-            let (found, seconds) = case.portrait(&asked.output)?;
+            let (found, seconds) = case.portrait(&asked.output, 0.0)?;
             asked.output.print(report::of_machine(&case.about(), &found, seconds))?;
             return found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop)));
         }
@@ -57,7 +57,7 @@ impl CyclesCommand {
         let (found, seconds) = timed(asked.output.repeat, || self.find(&problem.parameters));
         let (found, proof, rungs) = found?;
         self.certify(&proof)?;
-        let about = About::oscillator(&problem.parameters);
+        let about = About::boxed(&known);
         asked.output.print(report::cycles(&about, &found, &proof, rungs.as_deref(), seconds))
     }
 

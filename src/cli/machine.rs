@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::{Failure, Output, timed};
 use crate::flow::machine::stepped::ALLOWED;
-use crate::flow::{Method, Problem, Reason, Subject};
+use crate::flow::{Limits, Method, Problem, Reason, Subject};
 use crate::model::unit::WithTolerance;
 use crate::model::{Body, Group, Knob};
 use crate::portrait::Portrait;
@@ -76,9 +76,15 @@ impl CommandCase {
         About::new(name, title, &subject.source)
     }
 
-    /// All of its motions, and the median time to find them.
-    pub fn portrait(&self, output: &Output) -> Result<(Portrait, f64), Failure> {
-        let (found, seconds) = timed(output.repeat, || self.described.subject.source.portrait());
+    /// All of its motions, and the median time to find them; of the oscillator of the paper a border that is not closed is
+    /// followed as far as `reach`.
+    pub fn portrait(&self, output: &Output, reach: f64) -> Result<(Portrait, f64), Failure> {
+        let subject = &self.described.subject;
+        if let Some(Problem { parameters, .. }) = subject.paper() {
+            let find = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
+            return output.timed("the basin could not be found", find);
+        }
+        let (found, seconds) = timed(output.repeat, || subject.source.portrait());
         Ok((found.map_err(troubled)?, seconds))
     }
 

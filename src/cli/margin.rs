@@ -3,12 +3,11 @@
 use clap::Args;
 
 use super::input::{self, WINDOW};
-use super::source::Portrayed;
 use super::{
     Certify, CommandCase, Failure, Output, QuestionOptions, given, number, read, timed, troubled,
 };
 use crate::flow::{Limits, Subject};
-use crate::model::Parameters;
+use crate::model::{Knob, Parameters};
 use crate::portrait::guarantee::machine;
 use crate::portrait::guarantee::oscillator::{guaranteed, nominal};
 use crate::portrait::kicks::repeated::repeated;
@@ -53,7 +52,7 @@ impl MarginCommand {
 /// Answers about a machine; what is known exactly has its own margin for certain.
 fn of_machine(case: &CommandCase, output: &Output) -> Result<(), Failure> {
     let Subject { source, tolerances, .. } = &case.described.subject;
-    let (found, mut seconds) = case.portrait(output)?;
+    let (found, mut seconds) = case.portrait(output, 0.0)?;
     let certain = match source.of_belt().filter(|_| !tolerances.is_none()) {
         None => Ok(found.margin),
         Some(belt) => {
@@ -86,8 +85,9 @@ impl BasinCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
         let numbers = asked.source.numbers();
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
+        let case = asked.source.exact()?;
         let reach = window.unwrap_or(WINDOW).reach();
-        let Portrayed { about, portrait: found, seconds: before } = asked.portrait(|_| reach)?;
+        let (about, (found, before)) = (case.about(), case.portrait(&asked.output, reach)?);
         let usual = || if about.is_machine() { found.surroundings() } else { WINDOW };
         let window = window.unwrap_or_else(usual);
         let count = || found.count(&window, self.grid, &Limits::PATIENT);
@@ -117,10 +117,12 @@ pub struct KicksCommand {
 impl KicksCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
         let law = read("--kicks", &self.law, |text| asked.source.numbers().kicks(text))?;
-        let Portrayed { about, portrait, seconds: before } = asked.portrait(|r| law.reach() + r)?;
+        let case = asked.source.exact()?;
+        let r = case.described.subject.source.get(Knob::R).unwrap_or(0.0);
+        let (portrait, before) = case.portrait(&asked.output, law.reach() + r)?;
         let follow = || repeated(&portrait, &law, &Limits::PATIENT);
         let (found, seconds) = asked.output.timed("the kicks could not be followed", follow)?;
         let held = portrait.model.guide_static;
-        asked.output.print(kicks(&about, &law, &found, held, before + seconds))
+        asked.output.print(kicks(&case.about(), &law, &found, held, before + seconds))
     }
 }

@@ -6,21 +6,12 @@ use clap::Args;
 
 use super::input::{self, MACHINE, Numbers, OSCILLATOR};
 use super::{CommandCase, Failure, Output, read, second};
-use crate::flow::{Limits, METHODS, Method};
+use crate::flow::{METHODS, Method};
 use crate::model::unit::WithTolerance;
 use crate::model::{Knob, ParameterBox};
-use crate::portrait::Portrait;
-use crate::report::About;
 use crate::runtime::standard::tell;
 use crate::scene::library::PLAIN;
 use crate::scene::{Scene, find};
-
-/// What is asked about, all of its motions, and the median time to find them.
-pub struct Portrayed {
-    pub about: About,
-    pub portrait: Portrait,
-    pub seconds: f64,
-}
 
 /// What every question is about, and how its answer is printed.
 #[derive(Debug, Args)]
@@ -40,23 +31,6 @@ pub struct SourceOptions {
     /// are then its own, such as --set "R=2 N", with a unit or in SI units
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "step", "epsilon"])]
     machine: Option<String>,
-}
-
-impl QuestionOptions {
-    /// All motions of what is asked about; of the oscillator of the paper a border that is not closed is followed as far as
-    /// a function of r says.
-    pub fn portrait(&self, reach: impl Fn(f64) -> f64) -> Result<Portrayed, Failure> {
-        let QuestionOptions { source, output } = self;
-        let (about, (portrait, seconds)) = if let Some(case) = source.portrayed()? {
-            (case.about(), case.portrait(output)?)
-        } else {
-            let parameters = source.start.scene(None)?.problem.parameters;
-            let reach = reach(parameters.r);
-            let ask = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
-            (About::oscillator(&parameters), output.timed("the basin could not be found", ask)?)
-        };
-        Ok(Portrayed { about, portrait, seconds })
-    }
 }
 
 impl SourceOptions {
@@ -80,6 +54,11 @@ impl SourceOptions {
             ));
         }
         Ok(Some(case.checked()?))
+    }
+
+    /// What a question about all motions is put to, if that takes no intervals.
+    pub fn exact(&self) -> Result<CommandCase, Failure> {
+        self.portrayed()?.map_or_else(|| self.case(None), Ok)
     }
 
     /// The motion of the scene with this name, or what the options name, with the values set on the command line.

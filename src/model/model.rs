@@ -60,7 +60,7 @@ pub struct Lines {
 }
 
 /// The whole model of a machine.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     /// Natural frequency, in 1/s.
     pub omega_0: f64,

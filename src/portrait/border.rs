@@ -10,9 +10,10 @@ use crate::model::{Parameters, State};
 use crate::numerics::{hypot, maximum};
 
 /// What borders the basin of rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Border {
     /// Nothing: everything comes to rest.
+    #[default]
     None,
     /// An unstable limit cycle.
     Cycle,

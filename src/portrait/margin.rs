@@ -67,13 +67,6 @@ impl Margin {
         Margin { displacement: size, impulse: size, from_rest }
     }
 
-    /// From the sizes of the kicks, which are infinite where every kick is survived.
-    #[must_use]
-    pub fn of_sizes(sizes: &Kicks<f64>) -> Self {
-        let finite = |size: &f64| Some(*size).filter(|size| size.is_finite());
-        sizes.each(finite, finite)
-    }
-
     /// The margin with functions of its displacements and of its impulses in their place: in other units, or
     /// rounded.
     #[must_use]

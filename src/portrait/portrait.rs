@@ -30,7 +30,7 @@ pub(crate) struct Gap {
 }
 
 /// All possible motions of a machine.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Portrait {
     /// Its model.
     pub model: Model,
@@ -78,25 +78,10 @@ impl PartialEq for Portrait {
 }
 
 impl Portrait {
-    /// The portrait of a model of which nothing is known yet.
+    /// The portrait of a model all of whose motions come to rest, as far as is known yet.
     pub(crate) fn blank(model: &Model) -> Self {
-        Portrait {
-            model: model.clone(),
-            cycles: Vec::new(),
-            neutral: false,
-            border: Border::None,
-            reach: None,
-            margin: Margin::ENDLESS,
-            landmarks: None,
-            stop: None,
-            known: f64::INFINITY,
-            unresolved: Vec::new(),
-            cost: Cost::default(),
-            borders: Vec::new(),
-            fates: Vec::new(),
-            followed: f64::INFINITY,
-            gaps: Vec::new(),
-        }
+        let (model, all) = (model.clone(), f64::INFINITY);
+        Portrait { model, known: all, followed: all, ..Portrait::default() }
     }
 
     /// The border of the basin, if one was traced.
@@ -145,11 +130,13 @@ impl Portrait {
         let lowest = one.0.min(one.1).min(other.0).min(other.1);
         let impulse = if gap > 0.0 { mass * lowest } else { 0.0 };
         let Reach { displacement: (right, left), velocity: (up, down) } = reach;
-        Margin::of_sizes(&Kicks {
+        let finite = |size: &f64| Some(*size).filter(|size| size.is_finite());
+        let sizes = Kicks {
             displacement: right.min(left),
             impulse: mass * up.min(down),
             from_rest: RestKicks { displacement: gap, impulse },
-        })
+        };
+        sizes.each(finite, finite)
     }
 
     /// Radius of the disk that Lyapunov's method proves to be captured (equation 24), as a fraction of the true margin:

@@ -10,7 +10,7 @@ use super::columns::{Columns, Quantity};
 use super::json::{self, Document};
 use super::table::Table;
 use crate::flow::Cost;
-use crate::model::{Body, Group, Interval, Knob, ParameterBox, Parameters, Source};
+use crate::model::{Body, Group, Interval, Knob, ParameterBox, Source};
 use crate::words::number::exact;
 use crate::words::{duration, with_unit};
 
@@ -227,11 +227,6 @@ pub struct About {
 }
 
 impl About {
-    /// The oscillator of the paper.
-    pub fn oscillator(parameters: &Parameters) -> Self {
-        About::boxed(&ParameterBox::from(parameters))
-    }
-
     /// The oscillator of the paper at all parameters in a box.
     pub fn boxed(known: &ParameterBox) -> Self {
         let numbers = Knob::PARAMETERS.into_iter().zip(known.numbers());

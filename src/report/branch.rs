@@ -253,9 +253,13 @@ mod tests {
     use super::*;
     use crate::branch::SpecialKind;
     use crate::closed_form::piecewise_linear::LinearCycle;
-    use crate::model::{Parameters, Side};
+    use crate::model::{Body, Parameters, Side};
     use crate::portrait::closing::pair::Closing;
     use crate::report::Format;
+
+    fn oscillator(parameters: Parameters) -> About {
+        About::new("", "", &Body::Paper(parameters).into())
+    }
 
     #[test]
     fn a_branch_ends_where_two_cycles_meet_or_where_one_grazes_the_rest() {
@@ -267,7 +271,7 @@ mod tests {
             let cost = crate::flow::Cost::default();
             let vague = vec![-1.4, -1.2];
             let found = Branch { parameter: Knob::D, pieces: Vec::new(), special, vague, cost };
-            let about = About::oscillator(&Parameters { d: -1.5, d2: 0.0, d3: 10.0, r: 1.0 });
+            let about = oscillator(Parameters { d: -1.5, d2: 0.0, d3: 10.0, r: 1.0 });
             super::branch(&about, &found, None, 1e-6, 0.0).told(Format::Table)
         };
         assert!(end(-1e-6).contains("fold") && !end(-1e-6).contains("grazing"));
@@ -284,7 +288,7 @@ mod tests {
             vague: vec![-1.5],
             cost: crate::flow::Cost::default(),
         };
-        let about = About::oscillator(&Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 1.0 });
+        let about = oscillator(Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 1.0 });
         let expected = r#""parameter":"D","points":[],"special":[{"kind":"escape","value":0.1,"q_max":null}],"vague":[-1.5],"cost":{"evaluations":0,"steps":0,"rejected":0,"seconds":null}}"#;
         let told = super::branch(&about, &branch, None, 1e-6, f64::NAN).told(Format::Json);
         assert!(told.ends_with(&format!(",{expected}\n")), "{told}");
