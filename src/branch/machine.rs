@@ -248,7 +248,7 @@ fn test_functions(model: &Model, landmarks: Option<&Landmarks>) -> TestFunctions
         |kind, q_max, number: Option<f64>| Some(TestFunction { number: number?, kind, q_max });
     let unheld = model.guide_static <= 0.0;
     let hopf = function(SpecialKind::Hopf, None, unheld.then_some(model.damping));
-    let Some(&Landmarks { lines, grazing, released, low_left, beyond }) = landmarks else {
+    let Some(&Landmarks { lines, touch, grazing, released, low_left, beyond }) = landmarks else {
         return [hopf, None, None, None, None];
     };
     let mut flow = Flow::new(model);
@@ -260,7 +260,7 @@ fn test_functions(model: &Model, landmarks: Option<&Landmarks>) -> TestFunctions
     // What comes to rest on the left would have turned where the guide lets go.
     let held = -model.guide_static;
     let of = |right: f64, left: Option<f64>| if right > 0.0 { left.unwrap_or(held) } else { held };
-    let after_touch = of(grazing.image, left(grazing.image.max(model.guide_static)));
+    let after_touch = of(grazing.x, left(grazing.x.max(model.guide_static)));
     let after_release = released.map(|right| of(right, left(right)));
     // The next left turning points of the orbit that touches the line, as if it slipped, and of the one that the belt
     // releases, less the last one.
@@ -271,13 +271,13 @@ fn test_functions(model: &Model, landmarks: Option<&Landmarks>) -> TestFunctions
     let jumps = lines.release > lines.fold;
     // A touch of an unstable cycle is where the stick-slip cycle ends.
     let ends = !jumps && grazing.log_slope > 0.0;
-    let touch = if ends { SpecialKind::Annihilation } else { SpecialKind::Grazing };
+    let at_touch = if ends { SpecialKind::Annihilation } else { SpecialKind::Grazing };
     // What is released comes to the lower end of the stick band, or to where motions do not stick any more.
     let overtaking = after_release.filter(|_| rides).map(|left| left - low_left);
     let unsticking = released.filter(|_| rides).zip(beyond).map(|(right, beyond)| right - beyond);
     [
         hopf,
-        function(touch, grazing.right, Some(touching)),
+        function(at_touch, touch, Some(touching)),
         function(SpecialKind::Annihilation, released, jumps.then_some(ending)),
         function(SpecialKind::Overtaking, released, overtaking),
         function(SpecialKind::Unsticking, released, unsticking),

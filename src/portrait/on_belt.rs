@@ -1,7 +1,7 @@
 //! Where a motion of the oscillator of the paper reaches the speed of the belt, which is not a part of its equation.
 
-use crate::flow::Trajectory;
-use crate::model::{HalfPlane, Parameters, Side, State};
+use crate::flow::{Sample, Trajectory};
+use crate::model::{HalfPlane, Side, State};
 use crate::numerics::{Hermite, TO_ROUNDING, bisect};
 
 /// Time and displacement where a motion first reaches a velocity; `None` where it does not.
@@ -19,20 +19,17 @@ pub fn first_at(motion: &Trajectory, velocity: f64) -> Option<(f64, f64)> {
         let h = to.tau - from.tau;
         // Both ends of the pair belong to the half swing between them.
         let side = if from.v + to.v >= 0.0 { Side::Upper } else { Side::Lower };
-        let slope = |q, v| h * acceleration(parameters, side, q, v);
-        let curve =
-            Hermite { values: (from.v, to.v), slopes: (slope(from.q, from.v), slope(to.q, to.v)) };
+        // In the frame of the half plane, dry friction included.
+        let (field, sign) = (HalfPlane::new(parameters, side), side.sign());
+        let slope = |at: Sample| {
+            h * sign * field.acceleration(side.position(at.q, parameters.r), sign * at.v)
+        };
+        let curve = Hermite { values: (from.v, to.v), slopes: (slope(from), slope(to)) };
         let mut peaks = curve.extrema().into_iter().flatten().chain([1.0]);
         let peak = peaks.find(|peak| curve.at(*peak) >= velocity)?;
         let (_, part) = bisect(0.0, peak, TO_ROUNDING, |part| curve.at(part) >= velocity);
         Some((from.tau + part * h, from.q + part * (to.q - from.q)))
     })
-}
-
-/// Acceleration on one side of `v = 0`, dry friction included.
-fn acceleration(parameters: &Parameters, side: Side, q: f64, v: f64) -> f64 {
-    let field = HalfPlane::new(parameters, side);
-    side.sign() * field.acceleration(side.position(q, parameters.r), side.sign() * v)
 }
 
 #[cfg(test)]

@@ -63,9 +63,20 @@ impl Portrait {
         reach: f64,
         limits: &Limits,
     ) -> Result<Self, Reason> {
+        Self::by_closings(&Model::of_paper(parameters)?, parameters, reach, limits)
+    }
+
+    /// The portrait of what the oscillator with these parameters is in other units, from all pairs of half swings that
+    /// close.
+    fn by_closings(
+        model: &Model,
+        parameters: &Parameters,
+        reach: f64,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
         let mut equation = Equation::new(parameters, STEP, limits);
-        let closings = all_closings(&mut equation)?;
-        let mut portrait = Self::around(parameters, &closings, reach, limits)?;
+        let found = all_closings(&mut equation)?;
+        let mut portrait = Self::around(model, parameters, &found, reach, limits)?;
         portrait.cost += equation.cost();
         Ok(portrait)
     }
@@ -76,15 +87,6 @@ impl Portrait {
     /// # Errors
     /// [`Reason`] if a border cannot be traced.
     pub fn around(
-        parameters: &Parameters,
-        found: &[Closing],
-        reach: f64,
-        limits: &Limits,
-    ) -> Result<Self, Reason> {
-        Self::of_closings(&Model::of_paper(parameters)?, parameters, found, reach, limits)
-    }
-
-    fn of_closings(
         model: &Model,
         parameters: &Parameters,
         found: &[Closing],
@@ -154,17 +156,12 @@ fn without_belt(model: &Model) -> Option<Portrait> {
     if is_centre(&parameters) || (node && model.holds_more_at_rest()) {
         return None;
     }
-    let mut equation = Equation::new(&parameters, STEP, &Limits::PATIENT);
-    let found = all_closings(&mut equation).ok()?;
-    let least = found.iter().map(|closing| closing.first.value.min(closing.second.value));
-    let held = |clearance: f64| model.guide + clearance <= model.guide_static;
-    if model.holds_more_at_rest() && least.into_iter().any(held) {
+    let reach = picture_reach(parameters.d2);
+    let mut portrait = Portrait::by_closings(model, &parameters, reach, &Limits::PATIENT).ok()?;
+    let held = |cycle: &Cycle| cycle.q_max.min(-cycle.q_min) <= model.guide_static;
+    if model.holds_more_at_rest() && portrait.cycles.iter().any(held) {
         return None;
     }
-    let reach = picture_reach(parameters.d2);
-    let limits = &Limits::PATIENT;
-    let mut portrait = Portrait::of_closings(model, &parameters, &found, reach, limits).ok()?;
-    portrait.cost += equation.cost();
     portrait.border = match portrait.border {
         _ if !portrait.has_basin() => Border::NoBasin,
         // It comes out of the node that is the end of what the guide holds.

@@ -12,14 +12,11 @@
 //! below `z_c` and below it near the sticking set, so there is a cycle between. It reaches infinity where
 //! `B = z_c` (lemma 20).
 
-use super::ball::StartBox;
 use super::count::{Count, Sign, SignedGap, sign_at};
-use super::field::{FieldBox, ParameterBox};
-use super::funnel::Funnel;
+use super::field::ParameterBox;
 use super::map::{MapDirection, ProvedMap};
 use super::range::bracket;
-use super::swing::{Passage, swing};
-use crate::model::{Knob, Side};
+use crate::model::Knob;
 use crate::numerics::{Interval, powi};
 
 /// A fold of limit cycles.
@@ -115,35 +112,27 @@ pub fn enclose_escape(parameters: &ParameterBox, symbol: Knob, near: f64) -> Opt
 
 /// Whether the half swing after one from infinity returns; `None` where that is not certain.
 fn returns_from_infinity(parameters: &ParameterBox) -> Option<bool> {
-    let d2 = parameters.d2;
-    let (strong, weak) = if d2.lower() > 0.0 {
-        (Side::Upper, Side::Lower)
-    } else if d2.upper() < 0.0 {
-        (Side::Lower, Side::Upper)
-    } else {
-        return None;
+    let ParameterBox { d2, d3, r, .. } = *parameters;
+    // The half swing on which D2 brakes.
+    let strong = match (d2.upper() < 0.0, d2.lower() > 0.0) {
+        (true, _) => 0,
+        (_, true) => 1,
+        _ => return None,
     };
-    if parameters.d3 != Interval::point(0.0) || !(parameters.r.lower() >= 0.0) {
+    if d3 != Interval::point(0.0) || !(r.lower() >= 0.0) {
         return None;
     }
-    let funnel = Funnel::new(&FieldBox::new(parameters, strong), &mut 0)?;
+    let ProvedMap { gap, forward, mut effort, .. } = ProvedMap::new(parameters);
+    let funnel = forward[strong].funnel(&mut effort)?;
     let bounds = [funnel.least(), funnel.greatest()];
     if !bounds.iter().all(|it| it.is_finite()) {
         return None;
     }
-    let start = Interval::new(bounds[0], bounds[1]) - parameters.r.twice();
-    if start.upper() <= 0.0 {
-        return Some(true);
-    }
-    let field = FieldBox::new(parameters, weak);
-    let run = |field: &FieldBox, from: f64| {
-        swing(field, &StartBox::at_rest(Interval::point(from)), false)
-    };
-    // Either the nearest start escapes under the strongest damping, or the farthest start returns under the weakest.
-    if start.lower() > 0.0 && run(&field.strongest(), start.lower()) == Passage::Never {
+    let next = forward[1 - strong].image(Interval::new(bounds[0], bounds[1]) - gap, &mut effort);
+    if next.lower() == f64::INFINITY {
         return Some(false);
     }
-    matches!(run(&field.weakest(), start.upper()), Passage::Arrives(_)).then_some(true)
+    (next.upper() < f64::INFINITY).then_some(true)
 }
 
 /// An interval near a guess in which a verdict changes: at its ends the verdict is certain and different.

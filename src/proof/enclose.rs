@@ -41,18 +41,6 @@ impl Enclosure {
             ..self
         }
     }
-
-    /// Whether it attracts, if that is certain.
-    #[must_use]
-    pub fn stable(&self) -> Option<bool> {
-        if self.multiplier.upper() < 1.0 {
-            Some(true)
-        } else if self.multiplier.lower() > 1.0 {
-            Some(false)
-        } else {
-            None
-        }
-    }
 }
 
 /// Encloses the only cycle with a clearance in `within`, which must exist; `guess` is near it.
@@ -233,7 +221,7 @@ mod tests {
             }
             let found = enclose(&mut map, at, Interval::new(0.9 * at, 1.1 * at), false).unwrap();
             assert!(found.multiplier.intersection(m.square()).is_some(), "{}", found.multiplier);
-            assert!(found.multiplier.width() < 1e-9 && found.stable() == Some(false));
+            assert!(found.multiplier.width() < 1e-9 && found.multiplier.lower() > 1.0);
         }
     }
 

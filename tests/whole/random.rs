@@ -122,7 +122,7 @@ fn no_contact_is_too_shallow_to_be_seen() {
     for name in ["bstab-1.5", "guide-only", "graze-slip"] {
         let model = Model::new(&machine(name)).unwrap();
         let mut flow = Flow::new(&model);
-        let touch = flow.landmarks().unwrap().unwrap().grazing.right.unwrap();
+        let touch = flow.landmarks().unwrap().unwrap().touch.unwrap();
         for power in 3..13 {
             for sign in [-1.0, 1.0] {
                 let x = touch * (1.0 + sign * powi(10.0, -power));
@@ -141,7 +141,7 @@ fn what_comes_to_ride_on_the_belt_leaves_it_as_one() {
         let Ok(model) = Model::new(&any_machine(&mut chance)) else { continue };
         let mut flow = Flow::new(&model);
         let Ok(Some(marks)) = flow.landmarks() else { continue };
-        let (Some(touch), Some(released)) = (marks.grazing.right, marks.released) else { continue };
+        let (Some(touch), Some(released)) = (marks.touch, marks.released) else { continue };
         let end = marks.beyond.unwrap_or(3.0 * touch).min(3.0 * touch);
         for part in [1e-9, 0.1, 0.5, 0.999] {
             let x = touch + part * (end - touch);

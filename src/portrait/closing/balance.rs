@@ -40,7 +40,7 @@ pub fn weighed_closing(
     let unit = exponent(start.value);
     let limits = equation.limits;
     let forward = equation.map(0, Direction::Forward);
-    let d2 = times_power(forward.field().d2, unit);
+    let d2 = times_power(forward.field.d2, unit);
     let (first, gained_first) = weigh(forward, start, unit, &limits)?;
     if !first.arrives() {
         return Ok(None);
@@ -70,7 +70,7 @@ fn weigh(
     measure: i32,
     limits: &Limits,
 ) -> Result<(HalfSwing, f64), Reason> {
-    let HalfPlane { d, d2, d3 } = map.field().in_units(measure);
+    let HalfPlane { d, d2, d3 } = map.field.in_units(measure);
     let mut gained = 0.0;
     // Every part of the swing counts: none may be skipped by a closed form.
     let skipped = std::mem::replace(&mut map.linear_below, 0.0);

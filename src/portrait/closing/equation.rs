@@ -126,7 +126,7 @@ impl<'a> Equation<'a> {
 
     /// The same equation, each integration step within another relative tolerance.
     pub fn again(&self, tolerance: f64) -> Self {
-        let fields = [0, 1].map(|index| *self.maps[0][index].field());
+        let fields = [0, 1].map(|index| self.maps[0][index].field);
         let map = |field| HalfMap::new(field, tolerance);
         Self::on_fields(&self.parameters, self.side, fields, &self.limits, map)
     }
@@ -135,7 +135,7 @@ impl<'a> Equation<'a> {
     pub fn is_of_one_motion(&self) -> bool {
         let sides = [self.side, self.side.opposite()];
         let own = sides.map(|side| HalfPlane::new(&self.parameters, side));
-        own.iter().zip(&self.maps[0]).all(|(own, map)| own == map.field())
+        own.iter().zip(&self.maps[0]).all(|(own, map)| *own == map.field)
     }
 
     /// Whether to find the largest speeds.
@@ -152,7 +152,7 @@ impl<'a> Equation<'a> {
 
     /// Relative error of an integration step.
     pub fn tolerance(&self) -> f64 {
-        self.maps[0][0].tolerance()
+        self.maps[0][0].tolerance
     }
 
     /// What all swings so far cost.

@@ -130,10 +130,10 @@ impl HalfSwing {
 /// The half-swing map of one field.
 #[derive(Clone, Debug)]
 pub struct HalfMap {
-    field: HalfPlane,
+    pub field: HalfPlane,
     stepper: Auto,
     /// Relative error of a step.
-    tolerance: f64,
+    pub tolerance: f64,
     /// States smaller than this move linearly: all others are integrated step by step.
     pub linear_below: f64,
     /// Whether to find the largest velocity of each swing, and the errors of its numbers.
@@ -152,15 +152,6 @@ impl HalfMap {
         // A node that repels has no part worth skipping.
         let linear_below = if field.d > -1.0 { linear_below } else { 0.0 };
         HalfMap { field, stepper, tolerance, linear_below, fastest: false, steps: 0, swings: 0 }
-    }
-
-    /// Relative error of a step.
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance
-    }
-
-    pub fn field(&self) -> &HalfPlane {
-        &self.field
     }
 
     /// What the swings so far cost.

@@ -77,7 +77,7 @@ impl Equation<'_> {
         /// Maximum number of evaluations of one swing, and what one costs in units of one in doubles.
         const BUDGET: u64 = 20_000;
         const COSTLIER: u64 = 100;
-        let field = *self.map(index, direction).field();
+        let field = self.map(index, direction).field;
         let limits = Limits { evaluations: BUDGET, interrupted: self.limits.interrupted };
         let mut cost = Cost::default();
         let found = half_swing(field, start, GRAIN, &mut cost, &limits);

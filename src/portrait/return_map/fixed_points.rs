@@ -1,6 +1,6 @@
 //! The limit cycles of a machine: the fixed points of the return map, each found and described.
 
-use super::machine_return::{Grazing, Image, Landmarks};
+use super::machine_return::{Image, Landmarks};
 use crate::flow::machine::curve::MachineCurve;
 use crate::flow::{Flow, Reason};
 use crate::model::{ContactState, Model, Phase};
@@ -35,15 +35,18 @@ impl Flow<'_> {
         let x = unit * exp(u);
         let lost = |f| Ok(Node::of_growth(u, f, 0.0));
         match self.returned(x) {
-            Ok(Some(image)) => {
-                let slope = exp(image.log_slope) * x / image.x - 1.0;
-                Ok(Node::of_growth(u, ln(image.x / x), slope))
-            }
+            Ok(Some(image)) => Ok(growth_to(u, x, &image)),
             Ok(None) => lost(-FAR),
             Err(Reason::Escapes) => lost(FAR),
             Err(stop) => Err(stop),
         }
     }
+}
+
+/// The growth at `u = ln(x/unit)` where the return map leads from `x` to this image.
+fn growth_to(u: f64, x: f64, image: &Image) -> Node {
+    let growth = if image.x > 0.0 { ln(image.x / x) } else { -FAR };
+    Node::of_growth(u, growth, exp(image.log_slope) * x / image.x - 1.0)
 }
 
 /// The right turning points at which the return map changes, by amplitude: its fixed points, and where it jumps or catches.
@@ -66,9 +69,9 @@ pub(crate) fn fixed_points(
 /// Jumps of the return map: where a touch becomes a ride, and where the mirror band ends.
 fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
     let Some(marks) = landmarks else { return Vec::new() };
-    let mut found: Vec<f64> = marks.grazing.right.into_iter().collect();
+    let mut found: Vec<f64> = marks.touch.into_iter().collect();
     if marks.lines.release > marks.lines.fold {
-        found.extend(marks.beyond.filter(|beyond| Some(*beyond) != marks.grazing.right));
+        found.extend(marks.beyond.filter(|beyond| Some(*beyond) != marks.touch));
     }
     found.retain(|x| *x > model.guide_static);
     found
@@ -76,7 +79,7 @@ fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
 
 /// A power of two beyond all special lengths of the machine, so that results do not depend on their unit.
 fn unit(model: &Model, marks: Option<&Landmarks>) -> f64 {
-    let marks = marks.into_iter().flat_map(|it| [it.grazing.right, it.released, it.beyond]);
+    let marks = marks.into_iter().flat_map(|it| [it.touch, it.released, it.beyond]);
     let lengths = [model.guide_static, model.pull, model.speed].into_iter();
     let lengths = lengths.chain(marks.flatten()).chain(model.velocities());
     let largest = lengths.filter(|x| x.is_finite()).fold(0.0, f64::max);
@@ -130,17 +133,17 @@ impl FixedPointSearch<'_, '_> {
             smallest = x;
         }
         smallest = beyond(smallest);
-        let grazing = marks.map(|marks| &marks.grazing);
-        let touch = grazing.and_then(|grazing| Some((grazing, grazing.right?)));
-        let touches_before = touch.is_some_and(|(_, touch)| touch > held && touch <= smallest);
+        // The motion that touches the belt's line, as if it slipped.
+        let touch = marks.and_then(|marks| Some((marks.touch?, marks.grazing)));
+        let touches_before = touch.is_some_and(|(touch, _)| touch > held && touch <= smallest);
         if held > 0.0 && slips && !touches_before && innermost.is_none() {
             let grows = self.growth_at(smallest)?.value > 0.0;
             self.divides.extend(grows.then_some((caught, Divide::Capture)));
         }
         // Where motions only slip: up to the one that touches the belt's line.
-        if slips && touch.is_none_or(|(_, touch)| touch > smallest) {
+        if slips && touch.is_none_or(|(touch, _)| touch > smallest) {
             let last = match touch {
-                Some((grazing, touch)) => self.touching(grazing, touch),
+                Some((touch, image)) => growth_to(ln(touch / self.unit), touch, &image),
                 None => self.farthest(smallest)?,
             };
             let first = self.growth_at(smallest)?;
@@ -152,7 +155,7 @@ impl FixedPointSearch<'_, '_> {
         }
         // Where they are released by the belt, and where they overtake it.
         let released = marks.and_then(|marks| marks.released);
-        if let Some(released) = released.filter(|x| touch.is_some_and(|(_, touch)| *x >= touch)) {
+        if let Some(released) = released.filter(|x| touch.is_some_and(|(touch, _)| *x >= touch)) {
             match self.flow.returned(released) {
                 Ok(Some(image)) if image.sticks_from.is_some() => {
                     self.divides.push((released, Divide::Cycle(image)));
@@ -178,13 +181,6 @@ impl FixedPointSearch<'_, '_> {
             self.portrait.known = self.portrait.known.max(self.turn(last.at));
         }
         Ok(())
-    }
-
-    /// The growth at the right turning point of the motion that touches the belt's line, as if it slipped.
-    fn touching(&self, grazing: &Grazing, touch: f64) -> Node {
-        let Grazing { image, log_slope, .. } = *grazing;
-        let growth = if image > 0.0 { ln(image / touch) } else { -FAR };
-        Node::of_growth(ln(touch / self.unit), growth, exp(log_slope) * touch / image - 1.0)
     }
 
     /// The right turning point below which every motion comes to rest; without friction of the guide, a point

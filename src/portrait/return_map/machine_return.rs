@@ -28,6 +28,11 @@ pub struct Image {
 }
 
 impl Image {
+    /// The image by a motion that only slips.
+    fn slipping(x: f64, left: f64, log_slope: f64) -> Self {
+        Image { x, left, log_slope, sticks_from: None, overtakes_from: None }
+    }
+
     /// Whether the motion only slips, below the speed of the belt.
     pub fn slips(&self) -> bool {
         self.sticks_from.is_none() && self.overtakes_from.is_none()
@@ -111,38 +116,24 @@ impl Flow<'_> {
             end => end?,
         };
         let before = self.right_before(end.x, &mut add)?;
-        Ok(before.map(|before| Image {
-            x: before.x,
-            left: end.x,
-            log_slope: divergence - end.log_ratio - before.log_ratio,
-            sticks_from: None,
-            overtakes_from: None,
+        Ok(before.map(|before| {
+            let log_slope = divergence - end.log_ratio - before.log_ratio;
+            Image::slipping(before.x, end.x, log_slope)
         }))
     }
 }
 
 // The special motions at the belt's line: those that touch it, are released by it, or overtake it.
 
-/// The orbit that touches the belt's line, as if it continued to slip.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grazing {
-    /// Left turning point before the contact.
-    pub left: f64,
-    /// Right turning point before that; `None` if no motion comes from one.
-    pub right: Option<f64>,
-    /// Right turning point after the contact.
-    pub image: f64,
-    /// Logarithm of the derivative of the return map there, from below.
-    pub log_slope: f64,
-}
-
 /// The places at which the return map changes its form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landmarks {
     /// The places on the belt's line.
     pub lines: Lines,
-    /// The orbit that touches the line.
-    pub grazing: Grazing,
+    /// Right turning point of the orbit that touches the line; `None` if no motion comes from one.
+    pub touch: Option<f64>,
+    /// The image by that orbit, as if it continued to slip; the derivative is that from below.
+    pub grazing: Image,
     /// Right turning point after a release from the belt; `None` if the mass then comes to rest at once.
     pub released: Option<f64>,
     /// Left turning point from which the lower end of the stick band is reached.
@@ -158,23 +149,23 @@ impl Flow<'_> {
     pub fn landmarks(&mut self) -> Result<Option<Landmarks>, Reason> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };
-        let grazing = self.grazing(&lines)?;
+        let (touch, grazing) = self.grazing(&lines)?;
         let start = (lines.release, model.speed);
         let released = self.next_turn(ContactState::Sticks, start, &mut |_| {})?;
         let released = released.map(|turn| turn.x);
         let low_left =
             self.settling_arc(Phase::Between, (lines.low, model.speed), true, &mut |_| {})?.x;
         let beyond = self.beyond(&lines, low_left)?;
-        Ok(Some(Landmarks { lines, grazing, released, low_left, beyond }))
+        Ok(Some(Landmarks { lines, touch, grazing, released, low_left, beyond }))
     }
 
-    fn grazing(&mut self, lines: &Lines) -> Result<Grazing, Reason> {
-        let (guide, speed) = (self.model.guide, self.model.speed);
+    /// The right turning point of the orbit that touches the line, and its image.
+    fn grazing(&mut self, lines: &Lines) -> Result<(Option<f64>, Image), Reason> {
+        let (guide, start) = (self.model.guide, (lines.fold, self.model.speed));
         let mut divergence = 0.0;
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
-        let left = self.settling_arc(Phase::Between, (lines.fold, speed), true, &mut add)?.x;
+        let left = self.settling_arc(Phase::Between, start, true, &mut add)?.x;
         // If overdamped, it comes to rest without another turn.
-        let start = (lines.fold, speed);
         let after = self.settling_arc(Phase::Between, start, false, &mut add)?.x;
         let left = left.min(-self.model.guide_static);
         let before = match self.right_before(left, &mut add) {
@@ -185,7 +176,7 @@ impl Flow<'_> {
         let between = (left + guide) / (after + guide);
         let log_slope =
             if after > -guide { divergence - ratio + ln(between.abs()) } else { f64::NEG_INFINITY };
-        Ok(Grazing { left, right: before.map(|before| before.x), image: after, log_slope })
+        Ok((before.map(|before| before.x), Image::slipping(after, left, log_slope)))
     }
 
     /// The right turning point beyond which motions overtake the belt instead of riding on it.
@@ -232,11 +223,11 @@ impl Flow<'_> {
         let mut curve = MachineCurve::default();
         let mut end = self.settling_arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;
         let (mut left, mut before) = (end.x, 0);
-        if let Some(Landmarks { lines, grazing, .. }) = landmarks.filter(|_| end.is_on_belt()) {
+        if let Some(Landmarks { lines, touch, .. }) = landmarks.filter(|_| end.is_on_belt()) {
             if jumps && end.x > lines.release {
                 end = self.arc(Phase::Above, (end.x, speed), true, &mut curve.keeper())?;
             }
-            let touches = !jumps || Some(x) == grazing.right;
+            let touches = !jumps || Some(x) == *touch;
             let corner = if touches { lines.fold } else { lines.low };
             curve.steps.push(MachineStep::ride(corner, end.x, speed));
             before = if jumps { curve.steps.len() } else { 0 };

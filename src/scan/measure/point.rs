@@ -5,7 +5,7 @@ use super::table::{CYCLES, Measure, Value};
 use crate::branch::escape::escape_point;
 use crate::branch::fold::fold;
 use crate::flow::{Detail, Problem, Reason, Subject};
-use crate::model::{Body, Parameters, State};
+use crate::model::{Body, Model, Parameters, State};
 use crate::numerics::Interval;
 use crate::portrait::guarantee::certain::guaranteed;
 use crate::portrait::kicks::repeated::repeated;
@@ -105,7 +105,8 @@ impl Cells<'_> {
         let reach = |measure, reach| if self.asks(measure) { reach } else { 0.0 };
         let reach = reach(Measure::Stability, conditions.window.reach())
             .max(reach(Measure::Lost, conditions.kicks.reach()));
-        let portrait = Portrait::around(parameters, inner.as_slice(), reach, self.limits)?;
+        let model = Model::of_paper(parameters)?;
+        let portrait = Portrait::around(&model, parameters, inner.as_slice(), reach, self.limits)?;
         self.cost += portrait.cost;
         self.around_rest(&portrait);
         Ok(())
