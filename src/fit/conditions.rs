@@ -63,35 +63,28 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
         )
     });
     let enough = FEWEST.min(real(margins.draws.len())).max(real(margins.question.needed()));
-    let mut all = vec![
-        state("residuals", !whiteness.systematic, kind),
-        state(
-            "outliers",
-            run < RUN,
-            format!("{} left out, at most {run} in a row", estimate.count(Dropped::Outlier)),
-        ),
-        state("rivals", other.is_none(), others),
-        state("freedom", freedom >= FREEDOM, format!("{freedom:.1} degrees of freedom")),
-        state(
-            "draws",
-            margins.effective >= enough,
-            format!("{:.0} effective draws", margins.effective),
-        ),
-    ];
-    all.push(zero(estimate));
-    if estimate.noise.deviation > 0.0 {
-        let detail = format!("{ratio:.2} times the noise of neighbouring differences");
-        all.insert(1, state("noise", ratio <= HIDDEN, detail));
-    }
-    if let Some(off) = estimate.repeated {
+    let noise = format!("{ratio:.2} times the noise of neighbouring differences");
+    let out = format!("{} left out, at most {run} in a row", estimate.count(Dropped::Outlier));
+    let draws = format!("{:.0} effective draws", margins.effective);
+    let repetition = |off: f64| {
         let detail = if off.is_finite() {
             format!("a motion simulated from the answer is fitted within {off:.1} standard errors")
         } else {
             "a motion simulated from the answer cannot be fitted".to_owned()
         };
-        all.push(state("repetition", off <= IMPOSSIBLE, detail));
-    }
-    all
+        state("repetition", off <= IMPOSSIBLE, detail)
+    };
+    let all = [
+        Some(state("residuals", !whiteness.systematic, kind)),
+        (estimate.noise.deviation > 0.0).then(|| state("noise", ratio <= HIDDEN, noise)),
+        Some(state("outliers", run < RUN, out)),
+        Some(state("rivals", other.is_none(), others)),
+        Some(state("freedom", freedom >= FREEDOM, format!("{freedom:.1} degrees of freedom"))),
+        Some(state("draws", margins.effective >= enough, draws)),
+        Some(zero(estimate)),
+        estimate.repeated.map(repetition),
+    ];
+    all.into_iter().flatten().collect()
 }
 
 /// Whether the zero stays, or drifts as is fitted. A drift too small to be seen is for caution.
@@ -166,22 +159,20 @@ fn simulated(estimate: &Estimate) -> Record {
     let residuals = &estimate.residuals;
     let half = residuals.len() / 2;
     let deviation = estimate.covariance.deviation;
-    let mut noise = |index: usize| {
-        if estimate.whiteness.white {
+    let change = |(index, residual): (usize, &f64)| {
+        let noise = if estimate.whiteness.white {
             deviation * chance.normal()
         } else {
             -residuals[(index + half) % residuals.len()]
-        }
-    };
-    let fitted =
-        |measured: &[f64], from: usize, scale: f64, noise: &mut dyn FnMut(usize) -> f64| {
-            let value = |(index, value): (usize, &f64)| {
-                value + scale * (noise(from + index) - residuals[from + index])
-            };
-            measured.iter().enumerate().map(value).collect::<Vec<f64>>()
         };
+        noise - residual
+    };
+    let changes: Vec<f64> = residuals.iter().enumerate().map(change).collect();
     let Record { t, x, peaks, .. } = &estimate.data;
-    let displacements = fitted(x, 0, 1.0, &mut noise);
-    let times = peaks.map_or(t.clone(), |ratio| fitted(t, x.len(), ratio, &mut noise));
-    Record { t: times, x: displacements, ..estimate.data.clone() }
+    let (of_x, of_t) = changes.split_at(x.len());
+    let changed = |measured: &[f64], changes: &[f64], scale: f64| -> Vec<f64> {
+        measured.iter().zip(changes).map(|(value, change)| value + scale * change).collect()
+    };
+    let times = peaks.map_or(t.clone(), |ratio| changed(t, of_t, ratio));
+    Record { t: times, x: changed(x, of_x, 1.0), ..estimate.data.clone() }
 }

@@ -155,14 +155,14 @@ pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
                 let mean = around.iter().sum::<f64>() / real(around.len());
                 *within &= (mean - limit).abs() > CLOSE * noise.deviation;
             }
-            let near: Vec<bool> = x.iter().map(|x| (x - limit).abs() <= clear).collect();
-            let order: Vec<usize> = (0..x.len()).collect();
-            for pass in [order.clone(), order.into_iter().rev().collect()] {
-                let mut beside = false;
-                for index in pass {
-                    beside = x[index] == limit || (beside && near[index]);
-                    within[index] &= !beside;
+            let near = |x: &f64| (x - limit).abs() <= clear;
+            let mut from = 0;
+            for stretch in x.chunk_by(|one, next| near(one) && near(next)) {
+                let to = from + stretch.len();
+                if stretch.contains(&limit) {
+                    within[from..to].fill(false);
                 }
+                from = to;
             }
         }
     }

@@ -10,6 +10,7 @@
 //! `(x_k + 2 x_{k+1} + x_{k+2})/4 = offset - (2/3) D2 A^2`.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -28,20 +29,21 @@ pub struct Extreme {
 
 /// The record averaged over a window of time, which allows gaps and uneven sampling.
 pub fn smoothed(t: &[f64], x: &[f64], window: f64) -> Vec<f64> {
-    let (mut from, mut to, mut sum) = (0, 0, 0.0);
-    let mut out = Vec::with_capacity(x.len());
-    for &time in t {
-        while to < t.len() && t[to] <= time + 0.5 * window {
-            sum += x[to];
-            to += 1;
-        }
-        while t[from] < time - 0.5 * window {
-            sum -= x[from];
-            from += 1;
-        }
-        out.push(sum / real(to - from));
-    }
-    out
+    let mut sums = vec![0.0];
+    sums.extend(x.iter().scan(0.0, |sum, x| {
+        *sum += x;
+        Some(*sum)
+    }));
+    let mean = |time: &f64| {
+        let Range { start, end } = within(t, *time, 0.5 * window);
+        (sums[end] - sums[start]) / real(end - start)
+    };
+    t.iter().map(mean).collect()
+}
+
+/// The samples within `reach` of a time.
+fn within(t: &[f64], time: f64, reach: f64) -> Range<usize> {
+    t.partition_point(|t| *t < time - reach)..t.partition_point(|t| *t <= time + reach)
 }
 
 /// The record without isolated jumps, by medians of five samples.
@@ -55,15 +57,13 @@ pub fn without_jumps(x: &[f64]) -> Vec<f64> {
 /// through the samples around it. The first corner is left out.
 pub fn turning_points(t: &[f64], x: &[f64], period: f64, hysteresis: f64) -> Vec<Extreme> {
     let smooth = smoothed(t, x, period / 12.0);
-    let corners = zigzag(&smooth, hysteresis);
-    let mut found: Vec<Extreme> = Vec::new();
-    for corner in corners {
-        let extreme = parabola(t, x, corner, period / 9.0)
-            .or_else(|| swing(t, x, corner, period))
-            .unwrap_or(Extreme { t: t[corner], x: smooth[corner] });
-        found.push(extreme);
-    }
-    without_bursts(found, 0.3 * period)
+    let refined = |corner: usize| {
+        let vertex = parabola(t, x, corner, period / 9.0);
+        let turn = vertex.or_else(|| swing(t, x, corner, period));
+        turn.unwrap_or(Extreme { t: t[corner], x: smooth[corner] })
+    };
+    let corners = zigzag(&smooth, hysteresis).into_iter();
+    without_bursts(corners.map(refined).collect(), 0.3 * period)
 }
 
 /// Removes pairs of turning points that are closer than `least`: jumps back and forth are not swings.
@@ -137,12 +137,11 @@ fn fitted(
     reach: f64,
     functions: impl Fn(f64) -> [f64; 3],
 ) -> Option<[f64; 3]> {
-    let from = t.partition_point(|&t| t < middle - reach);
-    let to = t.partition_point(|&t| t <= middle + reach);
-    if to - from < 5 {
+    let range = within(t, middle, reach);
+    if range.len() < 5 {
         return None;
     }
-    let samples = t[from..to].iter().zip(&x[from..to]);
+    let samples = t[range.clone()].iter().zip(&x[range]);
     least_squares(samples.map(|(t, x)| (functions((t - middle) / reach), *x)))
 }
 
@@ -178,12 +177,9 @@ pub fn dominant_frequency(t: &[f64], x: &[f64]) -> Option<f64> {
 /// The record at evenly spaced times, by linear interpolation.
 fn resampled(t: &[f64], x: &[f64], count: usize) -> Vec<f64> {
     let (first, last) = (t[0], t[t.len() - 1]);
-    let mut after = 1;
     let at = |index: usize| {
         let time = first + (last - first) * real(index) / real(count);
-        while after + 1 < t.len() && t[after] < time {
-            after += 1;
-        }
+        let after = t.partition_point(|t| *t < time).clamp(1, t.len() - 1);
         let step = t[after] - t[after - 1];
         let part = if step > 0.0 { (time - t[after - 1]) / step } else { 0.0 };
         x[after - 1] + part * (x[after] - x[after - 1])
