@@ -2,7 +2,7 @@
 
 use hopfscope::fit::{DRAWS, Dropped, MarginQuestion, Margins, conditions, margins};
 use hopfscope::flow::Limits;
-use hopfscope::model::Parameters;
+use hopfscope::model::{Model, Parameters};
 use hopfscope::portrait::Portrait;
 use hopfscope::portrait::closing::all::all_closings;
 use hopfscope::portrait::closing::equation::Equation;
@@ -54,7 +54,9 @@ fn true_margin(truth: &[f64; 6], reach: f64) -> Option<f64> {
     let parameters = Parameters { d: truth[2], d2: truth[3], d3: truth[4], r: truth[5] };
     let mut equation = Equation::new(&parameters, f64::EPSILON, &Limits::PATIENT);
     let closings = all_closings(&mut equation).ok()?;
-    Portrait::around(&parameters, &closings, reach, &Limits::PATIENT).ok()?.margin.displacement
+    let model = Model::of_paper(&parameters).ok()?;
+    let found = Portrait::around(&model, &parameters, &closings, reach, &Limits::PATIENT).ok()?;
+    found.margin.displacement
 }
 
 /// The outcomes of the records with these numbers, of each kind.
