@@ -9,6 +9,7 @@ use super::{
     Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, StartKind, Task,
     UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, left_over, whiteness,
 };
+use crate::model::State;
 use crate::numerics::{cos, sin};
 
 /// A minimum that competes with the best one.
@@ -42,6 +43,8 @@ pub struct Estimate {
     pub intervals: [ProfileInterval; UNKNOWNS],
     /// Measured minus computed, for each measured number; those of times of peaks in units of displacement.
     pub residuals: Vec<f64>,
+    /// The state of the fitted motion for each of them.
+    pub states: Vec<State>,
     /// For each residual why it does not count. The residuals are those of the record without what lies outside the motion
     /// or the scale.
     pub left_out: Vec<Option<Dropped>>,
@@ -181,6 +184,7 @@ fn assessed(task: &Task, found: &[Optimum]) -> Option<(Estimate, Option<Optimum>
         covariance,
         intervals,
         residuals: best.seen.residuals.iter().map(|it| it.value).collect(),
+        states: best.seen.residuals.iter().map(|it| it.at).collect(),
         left_out: task.dropped.to_vec(),
         half_swings: best.seen.turns.len(),
         rests: best.seen.rests,
@@ -314,7 +318,8 @@ pub fn held(estimate: &Estimate, numbers: &[(usize, f64)], runs: &Runs) -> Resul
         covariance,
         // The ends are not computed; it is assumed that the likelihood is quadratic where it was before.
         intervals: estimate.intervals.map(|it| ProfileInterval { lower: None, upper: None, ..it }),
-        residuals: optimum.seen.residuals.iter().map(|residual| residual.value).collect(),
+        residuals: optimum.seen.residuals.iter().map(|it| it.value).collect(),
+        states: optimum.seen.residuals.iter().map(|it| it.at).collect(),
         half_swings,
         rests: optimum.seen.rests,
         rivals: vec![Rival { half_swings, delta_chi2: 0.0, p: optimum.p }],

@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::{
     Curves, D, D2, D3, Dropped, Estimate, Extent, Inertia, LAST, MarginQuestion, Margins, NAMES,
     NameSpec, OFFSET, OMEGA0, PlotPoint, Q0, R, Record, Signal, StartKind, averaged,
-    length_in_metres, parameters, rate,
+    length_in_metres, parameters, rate, row_of,
 };
 use crate::flow::Problem;
 use crate::model::belt::Units;
@@ -193,21 +193,26 @@ impl Fitted {
         }
     }
 
+    /// The place of a number of the oscillator among the unknowns of the fit.
+    fn place(&self, symbol: Knob) -> Option<usize> {
+        match symbol {
+            Knob::Q0 => Some(Q0),
+            Knob::V0 => (self.estimate.start == StartKind::Moving).then_some(LAST),
+            _ => row_of(symbol).map(|row| row.place),
+        }
+    }
+
     /// Whether a number is held, by hand or by the choice with which the record was opened.
     #[must_use]
     pub fn holds(&self, symbol: Knob) -> bool {
-        place(symbol).is_some_and(|place| !self.estimate.free[place])
+        self.place(symbol).is_some_and(|place| !self.estimate.free[place])
     }
 
     /// Standard error of a number; `None` where it was not estimated.
     #[must_use]
     pub fn error(&self, symbol: Knob) -> Option<f64> {
-        let place = if symbol == Knob::V0 && self.estimate.start == StartKind::Moving {
-            LAST
-        } else {
-            place(symbol)?
-        };
-        self.estimate.free[place].then(|| self.estimate.covariance.error(place))
+        let place = self.place(symbol).filter(|place| self.estimate.free[*place])?;
+        Some(self.estimate.covariance.error(place))
     }
 }
 
@@ -216,8 +221,7 @@ fn points(record: &Record, estimate: &Estimate) -> Vec<RecordPoint> {
     let p = &estimate.p;
     let data = &estimate.data;
     let (origin, _) = estimate.start.beginning(p, &data.t);
-    let states = data.states(estimate.start, p, estimate.reach).into_iter();
-    let mut fitted = states.zip(estimate.residuals.iter().copied());
+    let mut fitted = estimate.states.iter().copied().zip(estimate.residuals.iter().copied());
     let all = record.t.iter().zip(&record.x).zip(&estimate.dropped);
     all.map(|((&t, &x), &dropped)| {
         let is_outside = dropped.is_some_and(Dropped::is_outside);
@@ -233,12 +237,6 @@ fn points(record: &Record, estimate: &Estimate) -> Vec<RecordPoint> {
         RecordPoint { t, x, residual, tau: p[OMEGA0] * (t - origin), q, v, dropped }
     })
     .collect()
-}
-
-/// Index of a parameter of the oscillator among the unknowns of the fit.
-fn place(symbol: Knob) -> Option<usize> {
-    let named = NAMES.iter().find(|row| row.knob == symbol).map(|row| row.place);
-    named.or((symbol == Knob::Q0).then_some(Q0))
 }
 
 /// An estimated number in SI units.

@@ -91,7 +91,7 @@ pub(crate) use {
     },
     observation::{Bound, Region, Seen, drift},
     posterior::{Drawn, FEWEST, drawn},
-    question::{Loss, UnknownsMatrix, assigned, direction, listed, placed, reach},
+    question::{Loss, UnknownsMatrix, assigned, direction, listed, placed, reach, row_of},
     record::decoded,
     samples::of_kind,
     search::{FittedDrift, LeftDrift, drift_of_swings, released_before, without_drift},

@@ -62,10 +62,12 @@ fn zero(p: &Unknowns, [slope, bend]: [f64; 2]) -> f64 {
 }
 
 /// A residual, with the derivatives of the computed value.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
     /// Measured minus computed.
     pub value: f64,
+    /// The state of the computed motion.
+    pub at: State,
     /// Derivatives of the computed value.
     pub by: Unknowns,
 }
@@ -128,42 +130,24 @@ impl Record {
         }
     }
 
-    /// The number of samples before the motion, its first state, and the dimensionless times of the others since then.
-    fn begun(&self, start: StartKind, p: &Unknowns) -> (usize, State, Vec<f64>) {
-        let t = &self.t;
-        let (origin, start) = start.beginning(p, t);
-        let held = t.partition_point(|&t| t < origin);
-        (held, start, t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect())
-    }
-
-    /// Displacement and velocity over `omega0` at each sample; none for peaks, or if the motion escapes.
-    pub fn states(&self, start: StartKind, p: &Unknowns, reach: f64) -> Vec<State> {
-        if self.has_peaks() {
-            return Vec::new();
-        }
-        let (held, start, times) = self.begun(start, p);
-        let mut states = vec![State { q: p[Q0], v: 0.0 }; held];
-        let way = Way { reach, ..Way::default() };
-        let followed = follow(&parameters(p), start, &times, way, |_, point| {
-            states.push(State { q: point.q, v: point.v });
-        });
-        if followed.is_ok() { states } else { Vec::new() }
-    }
-
     fn samples(&self, begin: StartKind, p: &Unknowns, way: Way) -> Result<Seen, MotionLost> {
         let Record { t, x, .. } = self;
-        let (held, start, times) = self.begun(begin, p);
+        // Before the motion begins the mass is held.
+        let (origin, start) = begin.beginning(p, t);
+        let held = t.partition_point(|&t| t < origin);
+        let times: Vec<f64> = t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect();
         let order = way.signal.order();
         let scale = way.signal.scale(p[OMEGA0]);
         let mut residuals = Vec::with_capacity(x.len());
-        let mut push = |index: usize, mut by: Unknowns, motion: f64| {
+        let mut push = |index: usize, at: State, mut by: Unknowns, motion: f64| {
             let drift = drift(t, t[index]);
             (by[OFFSET], by[SLOPE], by[BEND]) = (1.0, drift[0], drift[1]);
-            residuals.push(Residual { value: x[index] - zero(p, drift) - motion, by });
+            residuals.push(Residual { value: x[index] - zero(p, drift) - motion, at, by });
         };
         let still = if way.signal.is_displacement() { 1.0 } else { 0.0 };
         for index in 0..held {
-            push(index, still * direction(Q0), still * p[Q0]);
+            let at = State { q: p[Q0], v: 0.0 };
+            push(index, at, still * direction(Q0), still * p[Q0]);
         }
         let moving = begin == StartKind::Moving;
         let followed = follow(&parameters(p), start, &times, way, |index, point| {
@@ -173,7 +157,8 @@ impl Record {
             if !moving {
                 by[LAST] = -scale * p[OMEGA0] * point.rate;
             }
-            push(held + index, by, scale * point.signal);
+            let at = State { q: point.q, v: point.v };
+            push(held + index, at, by, scale * point.signal);
         })?;
         let region = followed.rests.then_some(followed.turns.len());
         Ok(Seen { residuals, turns: followed.turns, rests: followed.rests, region })
@@ -205,13 +190,16 @@ fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Seen, Moti
         let mut by = turn.q_by;
         // The motion begins at a turning point, without a velocity that could vary.
         (by[OFFSET], by[LAST]) = (1.0, 0.0);
-        residuals.push(Residual { value: x - p[OFFSET] - turn.q, by });
+        let at = State { q: turn.q, v: 0.0 };
+        residuals.push(Residual { value: x - p[OFFSET] - turn.q, at, by });
     }
     for (turn, t) in turns.iter().zip(&data.t) {
         let mut by = turn.tau_by / (p[OMEGA0] * ratio);
         by[OMEGA0] = -turn.tau / (p[OMEGA0] * p[OMEGA0] * ratio);
         by[LAST] = 1.0 / ratio;
-        residuals.push(Residual { value: (t - p[LAST] - turn.tau / p[OMEGA0]) / ratio, by });
+        let at = State { q: turn.q, v: 0.0 };
+        let value = (t - p[LAST] - turn.tau / p[OMEGA0]) / ratio;
+        residuals.push(Residual { value, at, by });
     }
     // What follows the last peak is not seen.
     let rests = followed.rests && followed.turns.len() + 1 < x.len();

@@ -167,6 +167,11 @@ pub const NAMES: [NameSpec; 6] = [
     row(Knob::R, R, "L"),
 ];
 
+/// The row of this number.
+pub fn row_of(symbol: Knob) -> Option<&'static NameSpec> {
+    NAMES.iter().find(|row| row.knob == symbol)
+}
+
 /// The row with this name.
 pub fn named(name: &str) -> Option<&'static NameSpec> {
     NAMES.iter().find(|row| row.name == name)

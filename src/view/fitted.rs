@@ -1,7 +1,7 @@
 //! What a fitted record says in the pane: numbers with their errors, in physical units where these are known.
 
 use super::{Look, pane};
-use crate::fit::{Fitted, OMEGA0, named, rows};
+use crate::fit::{Fitted, OMEGA0, row_of, rows};
 use crate::model::Knob;
 use crate::session::{Row, Session};
 use crate::words::fit::signed;
@@ -12,10 +12,12 @@ use crate::words::{significant, with_unit};
 pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
     let (Row::Number(symbol), Some(found)) = (row, session.fitted()) else { return Vec::new() };
     let (sign, error) = (&look.symbols().plus_minus, found.error(symbol));
+    let (spec, length) = (row_of(symbol), found.unit());
     let told = match error {
         Some(error) => {
             let bare = format!("{sign}{}", significant(error, 2));
-            vec![in_unit(&bare, &unit(symbol, found.unit())), bare]
+            let unit = spec.map_or_else(|| length.to_owned(), |spec| spec.unit(length));
+            vec![in_unit(&bare, if length.is_empty() { "" } else { &unit }), bare]
         }
         None if found.holds(symbol) => vec!["held".to_owned()],
         None => return Vec::new(),
@@ -24,7 +26,7 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
         let error = error.map(|error| format!("{sign}{}", with_unit(error, 2, unit)));
         format!("{} {}", with_unit(value, 4, unit), error.as_deref().unwrap_or("held"))
     };
-    let place = named(symbol.spec().name).map(|row| row.place);
+    let place = spec.map(|spec| spec.place);
     let mut physical = rows(found).into_iter();
     let physical = physical.find(|row| row.unknown.is_some() && row.unknown == place);
     let physical = if let Some(row) = physical {
@@ -40,15 +42,6 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
         scale.map(|(one, unit)| with_error(value * one, error.map(|error| error * one), unit))
     };
     physical.into_iter().chain(told).collect()
-}
-
-/// The unit in which a number of the record stands; nothing where the record names no unit of length.
-fn unit(symbol: Knob, length: &str) -> String {
-    let row = match symbol {
-        Knob::R | Knob::Q0 | Knob::V0 => return length.to_owned(),
-        _ => named(symbol.spec().name),
-    };
-    row.filter(|_| !length.is_empty()).map_or_else(String::new, |row| row.unit(length))
 }
 
 /// Where the smallest shift from rest that is not survived lies with 95 %, with numbers held how much worse the fit is,
