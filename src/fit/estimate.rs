@@ -1,7 +1,9 @@
 //! The estimate from a record: the best motion with its uncertainty; refits of it with some numbers held at new values, and
 //! the contours along which the loss has then risen.
 
-use nalgebra::{Matrix2, Vector2};
+use std::f64::consts::TAU;
+
+use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::{
@@ -10,7 +12,7 @@ use super::{
     UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, left_over, whiteness,
 };
 use crate::model::State;
-use crate::numerics::{cos, sin};
+use crate::numerics::sin_cos;
 
 /// A minimum that competes with the best one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -216,24 +218,19 @@ fn intervals(
     for (number, optimum) in found.iter().enumerate() {
         let memory = &whiteness.autocorrelation;
         let Some(covariance) = Covariance::at(task, optimum, memory) else { continue };
-        let task = task.around(&optimum.seen);
-        let mut profile = Profile {
-            task: &task,
-            optimum,
-            covariance: &covariance,
-            least: optimum.cost - CHOSEN * (optimum.cost - found[0].cost),
-            variance,
-            lower: None,
-        };
-        for place in task.columns() {
+        let (covariance, task) = (&covariance, &task.around(&optimum.seen));
+        let least = optimum.cost - CHOSEN * (optimum.cost - found[0].cost);
+        for unknown in task.columns() {
+            let mut profile =
+                Profile { task, optimum, covariance, unknown, least, variance, lower: None };
             // If the model leaves something out there is no likelihood, and a profile would be meaningless.
             let one = if whiteness.systematic {
-                Some(profile.straight(place)).filter(|_| number == 0)
+                Some(profile.straight()).filter(|_| number == 0)
             } else {
-                profile.interval(place)
+                profile.interval()
             };
-            lower = profile.lower.take().or(lower);
-            let interval = &mut intervals[place];
+            lower = profile.lower.or(lower);
+            let interval = &mut intervals[unknown];
             *interval = match one {
                 Some(one) if number == 0 => one,
                 Some(one) => interval.joined(one),
@@ -286,9 +283,9 @@ fn stretches(samples: impl Iterator<Item = (f64, bool)>) -> Vec<LeftOut> {
 impl Estimate {
     /// What was estimated, with these unknowns held. The loss is that of the samples that count.
     pub fn task<'a>(&'a self, held: &[usize], runs: &'a Runs<'a>) -> Task<'a> {
-        let task = Task::new(&self.data, self.start, self.free, self.reach, runs);
-        held.iter()
-            .fold(Task { dropped: &self.left_out, ..task }, |task, place| task.holding(*place))
+        let (start, free, reach, dropped) = (self.start, self.free, self.reach, &self.left_out[..]);
+        let task = Task { start, free, reach, dropped, ..Task::new(&self.data, runs) };
+        held.iter().fold(task, |task, place| task.holding(*place))
     }
 
     /// The loss that corresponds to one unit of chi-squared. It is larger for correlated noise, with which larger
@@ -297,6 +294,32 @@ impl Estimate {
         let task = self.task(&[], runs);
         let cost = task.cost(&task.evaluated(&self.p, false)?);
         Some(cost / self.covariance.freedom * self.covariance.inflation(R))
+    }
+
+    /// The contour around the estimate along which chi-squared has risen by `rise`, in the plane of two free unknowns.
+    /// It is cut off at r = 0.
+    pub fn contour(&self, places: [usize; 2], rise: f64, runs: &Runs) -> Option<Vec<[f64; 2]>> {
+        /// Number of directions in which the contour is located.
+        const DIRECTIONS: u32 = 24;
+        let [one, other] = places;
+        let covariance = &self.covariance.matrix;
+        let plane = covariance.select_rows(&places).select_columns(&places);
+        let root = plane.cholesky()?.l();
+        let task = self.task(&places, runs);
+        let cost = task.cost(&task.evaluated(&self.p, false)?);
+        let unit = self.unit(runs)?;
+        let mut points = Vec::new();
+        for index in 0..DIRECTIONS {
+            let (sine, cosine) = sin_cos(TAU * f64::from(index) / f64::from(DIRECTIONS));
+            let step = rise.sqrt() * &root * Vector2::new(cosine, sine);
+            // The linear model predicts the other unknowns.
+            let along = self.covariance.following(&[(one, step[0]), (other, step[1])]);
+            if let Some(at) = risen(&task, &self.p, along, (cost, rise * unit)) {
+                points.push([self.p[one] + at * step[0], self.p[other] + at * step[1]]);
+            }
+        }
+        points.extend(points.first().copied());
+        Some(points)
     }
 }
 
@@ -341,37 +364,6 @@ pub fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
 
 /// Rises of chi-squared whose contours contain two unknowns with a probability of 68 and 95 %.
 pub const RISES: [f64; 2] = [2.3, 6.0];
-
-/// The contour around the estimate along which chi-squared has risen by `rise`, in the plane of two free unknowns.
-/// It is cut off at r = 0.
-pub fn contour(
-    estimate: &Estimate,
-    places: [usize; 2],
-    rise: f64,
-    runs: &Runs,
-) -> Option<Vec<[f64; 2]>> {
-    /// Number of directions in which the contour is located.
-    const DIRECTIONS: u32 = 24;
-    let of = |one: usize, other: usize| estimate.covariance.of(one, other);
-    let [one, other] = places;
-    let plane = Matrix2::new(of(one, one), of(one, other), of(other, one), of(other, other));
-    let root = plane.cholesky()?;
-    let task = estimate.task(&places, runs);
-    let cost = task.cost(&task.evaluated(&estimate.p, false)?);
-    let unit = estimate.unit(runs)?;
-    let mut points = Vec::new();
-    for index in 0..DIRECTIONS {
-        let angle = std::f64::consts::TAU * f64::from(index) / f64::from(DIRECTIONS);
-        let step = rise.sqrt() * root.l() * Vector2::new(cos(angle), sin(angle));
-        // The linear model predicts the other unknowns.
-        let along = estimate.covariance.following(&[(one, step[0]), (other, step[1])]);
-        if let Some(at) = risen(&task, &estimate.p, along, (cost, rise * unit)) {
-            points.push([estimate.p[one] + at * step[0], estimate.p[other] + at * step[1]]);
-        }
-    }
-    points.extend(points.first().copied());
-    Some(points)
-}
 
 /// The distance from a point along a direction at which the loss, `cost` at the point, has risen by `rise`; `None` if
 /// the motion escapes before.

@@ -80,7 +80,7 @@ pub(crate) use {
     cells::{ColumnHeader, Header, cells, clock_seconds, lines, read, seconds_in, separator},
     conditions::repeated,
     curves::{Curves, Extent, PlotPoint, memory},
-    estimate::{LeftOut, RISES, contour, held, judged, left_out},
+    estimate::{LeftOut, RISES, held, judged, left_out},
     fitted::{Combination, combination, rows},
     guess::{Beginning, Guess, guess, period_of},
     margin::MarginSpread,
@@ -102,7 +102,7 @@ pub(crate) use {
         smoothed, turning_points, without_jumps,
     },
     uncertainty::{Covariance, Profile, ProfileInterval, left_over, ratio_of_kinds},
-    valley::{WIDE, by_cost, through_the_valley},
+    valley::{WIDE, by_cost, closest},
 };
 
 /// Number of motions after which a fit gives up. A record of this oscillator takes about a hundred, one with a

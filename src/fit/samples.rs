@@ -76,8 +76,9 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     let loss = Loss { name, scale: 3.0 * noise.deviation };
     let reach = reach(&swinging);
     let data = cut(0..x.len());
-    let task = Task::new(&data, beginnings[0].start, free, reach, runs);
-    let mut task = Task { loss, noise: noise.deviation, ..task };
+    let start = beginnings[0].start;
+    let blank = Task::new(&data, runs);
+    let mut task = Task { start, free, reach, loss, noise: noise.deviation, ..blank };
     let lost = || runs.ended().unwrap_or(Unfit::NoMotion);
     let mut found = task.search(&beginnings).ok_or_else(lost)?;
     let swings = drift_of_swings(&t, &extremes).map(|drift| drift / factor);
@@ -87,7 +88,7 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
         let p = &found[0].p;
         extremes = guessed([p[SLOPE], p[BEND]]).map_or(extremes, |guess| guess.extremes);
     }
-    if beginnings[0].start == StartKind::Release && !task.explains(&found[0]) {
+    if start == StartKind::Release && !task.explains(&found[0]) {
         let other = released_before(&task, &held, &noise, &extremes);
         found = other.filter(|other| other[0].cost < found[0].cost).unwrap_or(found);
     }
@@ -315,10 +316,9 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
         return Err(Unfit::TooFew { measured, unknowns });
     }
     let of = |ratio: f64| Record { peaks: Some(ratio), ..record.clone() };
-    let reach = reach(x);
     let mut data = of(ratio);
     let lost = || runs.ended().unwrap_or(Unfit::NoMotion);
-    let plain = Task::new(record, StartKind::Release, free, reach, runs);
+    let plain = Task { free, reach: reach(x), ..Task::new(record, runs) };
     let mut found = Task { data: &data, ..plain }.search(&starts).ok_or_else(lost)?;
     for _ in 0..ROUNDS {
         let task = Task { data: &data, ..plain };

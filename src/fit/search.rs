@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::{
     BEND, Beginning, Covariance, D2, D3, Extreme, Guess, LAST, LinearResiduals, Loss, LossName,
     NAMES, Noise, OFFSET, OMEGA0, Optimum, Q0, R, Record, SLOPE, StartKind, Task, UNKNOWNS,
-    Unknowns, WIDE, Way, autocorrelations, by_cost, drift, follow, guess, middle_of, parameters,
-    placed, robust, through_the_valley,
+    Unknowns, WIDE, Way, autocorrelations, by_cost, closest, drift, follow, guess, middle_of,
+    parameters, placed, robust,
 };
 use crate::model::State;
 use crate::numerics::{pow, powi, real};
@@ -92,11 +92,11 @@ impl Task<'_> {
         let fewer = self.holding(D2).holding(D3);
         let guesses = guesses.into_iter().map(|guess| self.without(guess, &[D2, D3])).collect();
         let beginning = Beginning { start: self.start, certain: true, guesses };
-        let closest = fewer.ranked(&[beginning]).into_iter().next();
-        let Some(found) = closest.and_then(|(_, guess, _)| fewer.solve(guess)) else {
+        let best = fewer.ranked(&[beginning]).into_iter().next();
+        let Some(found) = best.and_then(|(_, guess, _)| fewer.solve(guess)) else {
             return Vec::new();
         };
-        let through = through_the_valley(&fewer, &found, WIDE, &[]).into_iter();
+        let through = closest(fewer.through_the_valley(&found, WIDE), &[]).into_iter();
         let optima = through.filter_map(|guess| fewer.solve(guess)).chain([found]).collect();
         let minima = fewer.valleys(optima).into_iter().take(MOST);
         minima.filter_map(|minimum| self.solve(minimum.p)).collect()

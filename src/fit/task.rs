@@ -168,16 +168,12 @@ pub fn longest_run(flags: impl Iterator<Item = bool>) -> usize {
 }
 
 impl<'a> Task<'a> {
-    /// All unknowns and residuals of a record, of which nothing else is known.
-    pub fn new(
-        data: &'a Record,
-        start: StartKind,
-        free: [bool; UNKNOWNS],
-        reach: f64,
-        runs: &'a Runs<'a>,
-    ) -> Self {
-        let (loss, dropped, noise, horizon) = (Loss::LINEAR, &[][..], 0.0, usize::MAX);
-        Task { runs, data, start, reach, free, loss, dropped, noise, horizon, within: None }
+    /// All unknowns and residuals of a record that begins with a release, of which nothing else is known.
+    pub fn new(data: &'a Record, runs: &'a Runs<'a>) -> Self {
+        let (start, free, within) = (StartKind::Release, [true; UNKNOWNS], None);
+        let (reach, horizon, noise) = (f64::MAX, usize::MAX, 0.0);
+        let (loss, dropped) = (Loss::LINEAR, &[][..]);
+        Task { runs, data, start, reach, free, loss, dropped, noise, horizon, within }
     }
 
     /// The same for a motion that begins in this way.

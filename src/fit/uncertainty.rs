@@ -291,6 +291,8 @@ pub struct Profile<'a> {
     pub optimum: &'a Optimum,
     /// Its covariance.
     pub covariance: &'a Covariance,
+    /// The place of the unknown.
+    pub unknown: usize,
     /// The loss of the lowest minimum of all regions.
     pub least: f64,
     /// A unit of chi-squared there.
@@ -309,11 +311,10 @@ struct ProfilePoint {
 }
 
 impl Profile<'_> {
-    /// The interval of an unknown, open where a lower minimum was found; `None` if the loss is too high everywhere in this
-    /// region.
-    pub fn interval(&mut self, unknown: usize) -> Option<ProfileInterval> {
-        let z = self.deviations(unknown);
-        let white = self.covariance.inflation(unknown);
+    /// The interval, open where a lower minimum was found; `None` if the loss is too high everywhere in this region.
+    pub fn interval(&mut self) -> Option<ProfileInterval> {
+        let z = self.deviations();
+        let white = self.covariance.inflation(self.unknown);
         let rise = z * z * white * self.variance;
         let left = 1.0 - (self.optimum.cost - self.least) / rise;
         if left <= 0.0 || self.task.runs.has_ended() {
@@ -321,17 +322,17 @@ impl Profile<'_> {
         }
         // The error in this region if the noise is that of the lowest minimum.
         let part = (self.variance / self.covariance.variance).sqrt();
-        let error = part * self.covariance.error(unknown);
+        let error = part * self.covariance.error(self.unknown);
         let reach = left.sqrt() * z * error;
         let mut ends = [None; 2];
         let mut quadratic = true;
         for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
-            if self.rises_by(unknown, sign * reach, left * rise) {
-                *end = Some(self.optimum.p[unknown] + sign * reach);
+            if self.rises_by(sign * reach, left * rise) {
+                *end = Some(self.optimum.p[self.unknown] + sign * reach);
                 continue;
             }
             quadratic = false;
-            *end = self.sought(unknown, sign, reach, rise);
+            *end = self.sought(sign, reach, rise);
             if self.lower.is_some() {
                 return Some(ProfileInterval::default());
             }
@@ -340,43 +341,41 @@ impl Profile<'_> {
     }
 
     /// Half the width of a 95 % interval in standard errors.
-    fn deviations(&self, unknown: usize) -> f64 {
-        deviation_of_95_percent(self.covariance.independent(unknown))
+    fn deviations(&self) -> f64 {
+        deviation_of_95_percent(self.covariance.independent(self.unknown))
     }
 
     /// The interval by the standard error alone, without a profile.
-    pub fn straight(&self, unknown: usize) -> ProfileInterval {
-        let center = self.optimum.p[unknown];
-        let reach = self.deviations(unknown) * self.covariance.error(unknown);
-        let least = if unknown == R { 0.0 } else { f64::NEG_INFINITY };
+    pub fn straight(&self) -> ProfileInterval {
+        let center = self.optimum.p[self.unknown];
+        let reach = self.deviations() * self.covariance.error(self.unknown);
+        let least = if self.unknown == R { 0.0 } else { f64::NEG_INFINITY };
         let lower = Some((center - reach).max(least));
         ProfileInterval { lower, upper: Some(center + reach), quadratic: true }
     }
 
     /// Whether the loss rises as a quadratic one would, if the unknown is moved and all others follow freely.
-    fn rises_by(&self, unknown: usize, by: f64, rise: f64) -> bool {
-        let along = self.covariance.following(&[(unknown, 1.0)]);
+    fn rises_by(&self, by: f64, rise: f64) -> bool {
+        let along = self.covariance.following(&[(self.unknown, 1.0)]);
         let p = self.optimum.p + by * along;
         // Friction cannot be negative: r ends at 0, and unknowns that depend on r have a kink there.
         if p[R] < 0.0 && self.task.free[R] {
             return false;
         }
-        let seen = self.task.evaluated(&p, false);
-        seen.is_some_and(|seen| {
-            let risen = self.task.cost(&seen) - self.optimum.cost;
-            let same = seen.region == self.optimum.seen.region;
-            same && (risen / rise - 1.0).abs() <= QUADRATIC
-        })
+        let Some(seen) = self.task.evaluated(&p, false) else { return false };
+        let risen = self.task.cost(&seen) - self.optimum.cost;
+        let same = seen.region == self.optimum.seen.region;
+        same && (risen / rise - 1.0).abs() <= QUADRATIC
     }
 
     /// The end on one side, by refits that start from each other: further out until the loss has risen enough,
     /// then between the two closest points. `None` if the end is not found.
-    fn sought(&mut self, unknown: usize, sign: f64, reach: f64, rise: f64) -> Option<f64> {
+    fn sought(&mut self, sign: f64, reach: f64, rise: f64) -> Option<f64> {
         /// Accuracy of the rise at an end, and the smallest at which an end may be taken.
         const EXACT: f64 = 0.03;
         const NEARLY: f64 = 0.8;
-        let center = self.optimum.p[unknown];
-        let is_least = unknown == R && sign < 0.0;
+        let center = self.optimum.p[self.unknown];
+        let is_least = self.unknown == R && sign < 0.0;
         let farthest = if is_least { center } else { FARTHEST * reach };
         if farthest <= 0.0 {
             return Some(center);
@@ -386,7 +385,7 @@ impl Profile<'_> {
         let mut outside: Option<(f64, f64)> = None;
         let mut step = reach.min(farthest);
         for _ in 0..REFITS {
-            let found = self.refitted(unknown, center + sign * step, &inside, rise);
+            let found = self.refitted(center + sign * step, &inside, rise);
             if self.lower.is_some() || self.task.runs.has_ended() {
                 return None;
             }
@@ -416,18 +415,12 @@ impl Profile<'_> {
     }
 
     /// The best point with the unknown at a value; `None` if no descent from a known point leads there.
-    fn refitted(
-        &mut self,
-        unknown: usize,
-        value: f64,
-        from: &ProfilePoint,
-        rise: f64,
-    ) -> Option<ProfilePoint> {
+    fn refitted(&mut self, value: f64, from: &ProfilePoint, rise: f64) -> Option<ProfilePoint> {
         /// Fall of the loss, as a fraction of the rise at the end, that shows that the minimum was none.
         const LOWER: f64 = 0.02;
-        let by = value - from.optimum.p[unknown];
-        let guess = self.task.followed(&from.optimum, unknown, by)?;
-        let optimum = self.task.holding(unknown).solve_roughly(guess)?;
+        let by = value - from.optimum.p[self.unknown];
+        let guess = self.task.followed(&from.optimum, self.unknown, by)?;
+        let optimum = self.task.holding(self.unknown).solve_roughly(guess)?;
         if optimum.cost < self.optimum.cost - LOWER * rise {
             self.lower = Some(optimum);
             return None;

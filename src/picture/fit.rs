@@ -7,8 +7,7 @@ use super::{
     Dash, Item, LineStyle, Mark, Marks, Picture, Role, cycle_mark, cycle_name, cycle_role,
 };
 use crate::fit::{
-    D, D3, Dropped, Fitted, PlotPoint, Q0, R, RISES, Runs, Signal, contour, memory as memory_of,
-    parameters,
+    D, D3, Dropped, Fitted, PlotPoint, Q0, R, RISES, Runs, Signal, memory as memory_of, parameters,
 };
 use crate::flow::Limits;
 use crate::model::Parameters;
@@ -170,7 +169,7 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
     let r = with_unit("r", fitted.unit());
     let mut picture = Picture::new("D and r together", "D", r, Window::default());
     for (rise, name) in RISES.into_iter().zip(LINES) {
-        let contour = contour(estimate, [D, R], rise, &Runs::new(&|| false));
+        let contour = estimate.contour([D, R], rise, &Runs::new(&|| false));
         if let Some(contour) = contour.filter(|it| !it.is_empty()) {
             picture.curve(name, contour);
         }
