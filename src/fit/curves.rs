@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{
     Estimate, Margins, OFFSET, OMEGA0, Q0, Way, autocorrelations, averaged, follow, parameters,
-    rate,
+    range, rate,
 };
 use crate::model::{Parameters, State};
 use crate::numerics::{real, truncated};
@@ -108,7 +108,7 @@ fn damping(estimate: &Estimate, margins: &Margins, farthest: f64) -> Damping {
         .collect();
     let exact: Vec<PlotPoint> = amplitudes.iter().filter_map(|&a| exact(&parameters, a)).collect();
     let own = |a: f64| averaged(&parameters, a);
-    let computed = exact.iter().filter(|it| it[0] >= smallest).map(|it| it[1]);
+    let computed = exact.iter().filter(|it| it[0] >= smallest && it[1].is_finite()).map(|it| it[1]);
     let [low, high] =
         covering(&computed.collect::<Vec<_>>(), measured.iter().map(|it| it[1]).collect());
     let room = 0.15 * (high - low).max(f64::MIN_POSITIVE);
@@ -124,18 +124,14 @@ fn damping(estimate: &Estimate, margins: &Margins, farthest: f64) -> Damping {
 /// Heights that are worth seeing: zero, all those computed, and those measured, except for single ones far from all
 /// others, which would flatten the rest.
 fn covering(computed: &[f64], mut measured: Vec<f64>) -> [f64; 2] {
-    let around = |ends: [f64; 2], values: &[f64]| {
-        let finite = values.iter().filter(|it| it.is_finite());
-        finite.fold(ends, |[low, high], it| [low.min(*it), high.max(*it)])
-    };
     measured.retain(|it| it.is_finite());
     measured.sort_by(f64::total_cmp);
     let trim = measured.len().div_ceil(10);
     let usual = measured.get(trim..measured.len().saturating_sub(trim)).unwrap_or_default();
-    let [low, high] = around(around([0.0; 2], computed), usual);
+    let (low, high) = range(&[&[0.0], computed, usual].concat());
     let far = high - low;
     measured.retain(|it| (low - far..=high + far).contains(it));
-    around([low, high], &measured)
+    range(&[&[low, high], &measured[..]].concat()).into()
 }
 
 /// The standard error of a measured decrement. Each half peak-to-peak value has the error of two turning points,

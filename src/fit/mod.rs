@@ -77,8 +77,6 @@ pub use {
 
 // What other rings use of it, and its files of each other.
 pub(crate) use {
-    cells::{ColumnHeader, Header, cells, clock_seconds, lines, read, seconds_in, separator},
-    conditions::repeated,
     curves::{Curves, Extent, PlotPoint, memory},
     estimate::{LeftOut, RISES, held, judged, left_out},
     fitted::{Combination, combination, rows},
@@ -124,6 +122,6 @@ pub fn estimate(
     if found.whiteness.systematic {
         return Ok(found);
     }
-    let repeated = Some(repeated(&found, question, &Runs::new(interrupted))?);
+    let repeated = Some(conditions::repeated(&found, question, &Runs::new(interrupted))?);
     Ok(Estimate { repeated, ..found })
 }

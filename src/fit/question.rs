@@ -237,11 +237,9 @@ impl Choice {
     /// nor set are held at zero. `omega0` and the offset are free unless set, since every record depends on
     /// them.
     pub fn held(&self, row: &NameSpec) -> Option<f64> {
-        if let Some((_, value)) = self.held.iter().find(|(held, _)| *held == row) {
-            return Some(*value);
-        }
-        let needed = row.place < D;
-        (!needed && !self.is_wanted(row)).then_some(0.0)
+        let set = self.held.iter().find(|(held, _)| *held == row).map(|(_, value)| *value);
+        let is_needed = row.place < D;
+        set.or((!is_needed && !self.is_wanted(row)).then_some(0.0))
     }
 
     /// Whether an estimate of this number is asked for.

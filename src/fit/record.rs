@@ -7,10 +7,10 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{
-    ColumnHeader, Header, Signal, SignalUnit, cells, clock_seconds, lines, measure, read,
-    seconds_in, separator,
+use super::cells::{
+    ColumnHeader, Header, cells, clock_seconds, lines, read, seconds_in, separator,
 };
+use super::{Signal, SignalUnit, measure};
 
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -151,7 +151,7 @@ impl SortedOut<'_> {
         let Record { t, signal, .. } = self.task.data;
         if *signal == Signal::Acceleration {
             // The jumps move as the fit improves.
-            self.leave_out(2, renew, |_, best| beside_jumps(best, t))?;
+            self.leave_out(2, renew, |_, best, _| beside_jumps(best, t))?;
         }
         if loss != LossName::Auto {
             return Some(());
@@ -159,27 +159,30 @@ impl SortedOut<'_> {
         // If the search used a robust loss, even an unchanged selection is fitted again.
         self.is_due = self.task.loss.is_robust();
         self.task.loss = Loss::LINEAR;
-        let before = self.dropped.clone();
-        self.leave_out(4, polish, |_, best| outliers(&before, best))?;
+        self.leave_out(4, polish, |_, best, before| outliers(best, before))?;
         // If no motion fits, it is not known where the mass rests.
         if self.task().comes_near(&self.found[0]) {
-            let before = self.dropped.clone();
-            let why = |task: &Task, best: &Optimum| alike_at_rest(task, best, noise, &before);
             // Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
-            self.leave_out(2, renew, why)?;
+            self.leave_out(2, renew, |task, best, before| {
+                let variance = mean_square(&task.values(&best.seen));
+                let enough = noise.readings_at_rest(variance);
+                alike_at_rest(before, &all_but_some(task, best, enough))
+            })?;
         }
         Some(())
     }
 
-    /// Leaves out what `why` says of the best minimum and fits again, until nothing changes. `None` as [`Refit`].
+    /// Leaves out what `why` says of the best minimum and of what was left out before, and fits again, until nothing
+    /// changes. `None` as [`Refit`].
     fn leave_out(
         &mut self,
         rounds: usize,
         refit: Refit,
-        why: impl Fn(&Task, &Optimum) -> Vec<Option<Dropped>>,
+        why: impl Fn(&Task, &Optimum, &[Option<Dropped>]) -> Vec<Option<Dropped>>,
     ) -> Option<()> {
+        let before = self.dropped.clone();
         for _ in 0..rounds {
-            let now = why(&self.task(), &self.found[0]);
+            let now = why(&self.task(), &self.found[0], &before);
             if now == self.dropped && !self.is_due {
                 break;
             }
@@ -208,17 +211,10 @@ fn beside_jumps(best: &Optimum, t: &[f64]) -> Vec<Option<Dropped>> {
 }
 
 /// Beside what was left out before the readings of a mass at rest that only repeat the rounding error of others.
-fn alike_at_rest(
-    task: &Task,
-    best: &Optimum,
-    noise: &Noise,
-    before: &[Option<Dropped>],
-) -> Vec<Option<Dropped>> {
-    let variance = mean_square(&task.values(&best.seen));
-    let alike = all_but_some(task, best, noise.readings_at_rest(variance));
-    let why = |(before, alike): (&Option<Dropped>, bool)| match before {
+fn alike_at_rest(before: &[Option<Dropped>], alike: &[bool]) -> Vec<Option<Dropped>> {
+    let why = |(before, alike): (&Option<Dropped>, &bool)| match before {
         Some(Dropped::Jump) => *before,
-        _ if alike => Some(Dropped::Alike),
+        _ if *alike => Some(Dropped::Alike),
         _ => *before,
     };
     before.iter().zip(alike).map(why).collect()
@@ -248,7 +244,7 @@ fn all_but_some(task: &Task, best: &Optimum, enough: f64) -> Vec<bool> {
 }
 
 /// Beside what was left out before the samples that cannot belong to the motion.
-fn outliers(before: &[Option<Dropped>], best: &Optimum) -> Vec<Option<Dropped>> {
+fn outliers(best: &Optimum, before: &[Option<Dropped>]) -> Vec<Option<Dropped>> {
     /// A model that leaves out more than this fraction of the record does not describe it.
     const MOST: f64 = 0.15;
     let values: Vec<f64> = best.seen.residuals.iter().map(|it| it.value).collect();
