@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use strum::IntoStaticStr;
+
 use super::paper::Spot;
 use crate::words::printable::xml;
 
@@ -24,7 +26,8 @@ pub(super) fn circle(out: &mut String, (x, y): Spot, radius: f64, attributes: &s
 }
 
 /// What a spot is of the text that is written there.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub(super) enum Anchor {
     Start,
     Middle,
@@ -33,12 +36,7 @@ pub(super) enum Anchor {
 
 /// Writes a text on its base line, of which a spot is the start, the middle or the end.
 pub(super) fn text(out: &mut String, (x, y): Spot, anchor: Anchor, attributes: &str, text: &str) {
-    let anchor = match anchor {
-        Anchor::Start => "start",
-        Anchor::Middle => "middle",
-        Anchor::End => "end",
-    };
-    let text = xml(text);
+    let (anchor, text): (&str, _) = (anchor.into(), xml(text));
     let _ = writeln!(
         out,
         "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\" {attributes}>{text}</text>"

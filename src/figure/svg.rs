@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::elements::{Anchor, circle, path, rectangle, text};
 use super::paper::{self, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot, ink, shading, stroke};
 use super::{Figure, MarkedPoint, Outline, Panel, areas::loops, captions, data::remarks, map};
-use crate::numerics::{hypot, real, truncated};
+use crate::numerics::{atan2, hypot, real, truncated};
 use crate::picture::legend::distinct;
 use crate::picture::{Dash, LegendEntry, LegendSample, Mark, Marks, ScanMap, Ticks, passes};
 use crate::scene::Point;
@@ -152,10 +152,8 @@ fn shade(out: &mut String, areas: &[Outline], frame: Frame) {
     path(out, &commands, &format!("{} fill-rule=\"evenodd\"", shading(*role)));
 }
 
+/// An arrow about a point of the world, which points a way in the world.
 fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
-    /// Half the length of an arrow, and the size of its head.
-    const HALF: f64 = 6.0;
-    const TIP: f64 = 3.0;
     let across = way.x * PLOT.0 / frame.window.x.width();
     let down = -way.y * PLOT.1 / frame.window.y.width();
     let length = hypot(across, down);
@@ -163,14 +161,10 @@ fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
         return;
     }
     let (x, y) = frame.spot(at);
-    let (ux, uy) = (across / length, down / length);
-    let (tx, ty) = (x + HALF * ux, y + HALF * uy);
-    let wing = |side: f64| (tx - TIP * (ux + 0.6 * side * uy), ty - TIP * (uy - 0.6 * side * ux));
-    let ((ax, ay), (bx, by)) = (wing(1.0), wing(-1.0));
-    let (fx, fy) = (x - HALF * ux, y - HALF * uy);
-    let commands =
-        format!("M{fx:.2} {fy:.2}L{tx:.2} {ty:.2}M{ax:.2} {ay:.2}L{tx:.2} {ty:.2}L{bx:.2} {by:.2}");
-    path(out, &commands, "stroke=\"#a8a8a8\" stroke-width=\"0.7\"");
+    let angle = atan2(down, across).to_degrees();
+    let turned = format!("transform=\"translate({x:.2} {y:.2}) rotate({angle:.1})\"");
+    let attributes = format!("{turned} stroke=\"#a8a8a8\" stroke-width=\"0.7\"");
+    path(out, "M-6 0H6M3 1.8L6 0L3 -1.8", &attributes);
 }
 
 fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {

@@ -1,12 +1,10 @@
 //! An answer, made in the form that is asked for, and what it is about: the oscillator of the paper without units, or a
 //! machine in SI units.
 
-use std::borrow::Borrow;
-
 use clap::ValueEnum;
 use serde::Serialize;
 
-use super::columns::{Columns, Quantity};
+use super::columns::{Columns, Quantity, Rows};
 use super::json::{self, Document};
 use super::table::Table;
 use crate::flow::Cost;
@@ -82,12 +80,7 @@ impl Answer {
     }
 
     /// With these rows as a field of its document.
-    pub(super) fn with_rows<R>(
-        self,
-        name: &str,
-        columns: &Columns<R>,
-        rows: impl IntoIterator<Item: Borrow<R>>,
-    ) -> Self {
+    pub(super) fn with_rows<R>(self, name: &str, columns: &Columns<R>, rows: impl Rows<R>) -> Self {
         let objects = self.makes(Format::Json).then(|| columns.objects(rows));
         self.with_any(name, objects)
     }
@@ -111,21 +104,13 @@ impl Answer {
     }
 
     /// With these rows in files.
-    pub(super) fn csv<R>(
-        self,
-        columns: &Columns<R>,
-        rows: impl IntoIterator<Item: Borrow<R>>,
-    ) -> Self {
+    pub(super) fn csv<R>(self, columns: &Columns<R>, rows: impl Rows<R>) -> Self {
         let csv = if self.makes(Format::Csv) { columns.csv(rows) } else { String::new() };
         Answer { csv, ..self }
     }
 
     /// With these rows for reading.
-    pub(super) fn table_of<R>(
-        self,
-        columns: &Columns<R>,
-        rows: impl IntoIterator<Item: Borrow<R>>,
-    ) -> Self {
+    pub(super) fn table_of<R>(self, columns: &Columns<R>, rows: impl Rows<R>) -> Self {
         if self.makes(Format::Table) { self.table(columns.table(rows)) } else { self }
     }
 
@@ -136,11 +121,7 @@ impl Answer {
     }
 
     /// With these rows in files and for reading.
-    pub(super) fn rows<R>(
-        self,
-        columns: &Columns<R>,
-        rows: impl IntoIterator<Item: Borrow<R>> + Clone,
-    ) -> Self {
+    pub(super) fn rows<R>(self, columns: &Columns<R>, rows: impl Rows<R> + Clone) -> Self {
         self.csv(columns, rows.clone()).table_of(columns, rows)
     }
 
