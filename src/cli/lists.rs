@@ -133,7 +133,7 @@ impl ExtremesCommand {
             let named = if format == Format::Csv { Vec::new() } else { named(limits) };
             extremes(&verdicts, &named, self.tol)
         };
-        print(&sourced(format, &answer.told(format)))
+        print(&sourced(answer, format))
     }
 }
 

@@ -52,7 +52,7 @@ impl Output {
     /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other
     /// file.
     pub fn print(&self, answer: Answer) -> Result<(), Failure> {
-        let content = sourced(self.format, &answer.told(self.format));
+        let content = sourced(answer, self.format);
         let Some(path) = &self.write else { return print(&content) };
         let keep = Some("--write replaces nothing");
         new_file::write(path, content.as_bytes(), Readers::Usual, keep)?;
@@ -64,11 +64,9 @@ impl Output {
 }
 
 /// The answer in printable characters; with its provenance if it is a JSON document.
-pub fn sourced(format: Format, answer: &str) -> String {
-    match format {
-        Format::Json => provenance_file::of_process().within(answer),
-        Format::Table | Format::Csv => printable::lines(answer).into_owned(),
-    }
+pub fn sourced(answer: Answer, format: Format) -> String {
+    let told = answer.from(&provenance_file::of_process()).told(format);
+    printable::lines(&told).into_owned()
 }
 
 /// Number of columns of the terminal to which the output goes; `None` if it goes elsewhere.

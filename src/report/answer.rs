@@ -10,6 +10,7 @@ use super::table::Table;
 use crate::flow::Cost;
 use crate::model::{Body, Group, Interval, Knob, ParameterBox, Source};
 use crate::words::number::exact;
+use crate::words::provenance::Provenance;
 use crate::words::{duration, with_unit};
 
 /// The form of an answer.
@@ -157,6 +158,11 @@ impl Answer {
     pub(super) fn costing(self, line: &str, counted: Document, seconds: f64) -> Self {
         let cost = Some(format!("{line}, {}", duration(seconds)));
         Answer { cost, ..self.with("cost", counted.with("seconds", seconds)) }
+    }
+
+    /// With where it comes from, as a field of its document; a list has no place for it.
+    pub fn from(self, provenance: &Provenance) -> Self {
+        self.with("provenance", provenance)
     }
 
     /// The answer in a form.
@@ -308,4 +314,21 @@ impl About {
 pub(super) fn interval((knob, interval): &(Knob, Interval)) -> String {
     let end = |value| with_unit(value, 12, knob.spec().unit);
     format!("{knob} in {} .. {}", end(interval.lower()), end(interval.upper()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_document_says_last_where_it_comes_from_and_a_list_stays_as_it_is() {
+        let own = Provenance::of(&["cycles".to_owned()]);
+        let told = |answer: Answer| answer.from(&own).told(Format::Json);
+        let document = told(Answer::default().with("a", [1.0]).cost(Cost::default(), 0.0));
+        let read: serde_json::Value = serde_json::from_str(&document).unwrap();
+        assert_eq!(read["provenance"]["command"], "hopfscope cycles", "{document}");
+        let names: Vec<&String> = read.as_object().unwrap().keys().collect();
+        assert_eq!(names, ["a", "cost", "provenance"]);
+        assert_eq!(told(Answer::default().list(vec![])), "[]\n");
+    }
 }

@@ -2,8 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::printable;
-
 /// What computed an output, and how to compute it again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Provenance {
@@ -83,22 +81,6 @@ impl Provenance {
         }
     }
 
-    /// Adds the field `provenance` to a JSON object; returns any other document unchanged.
-    ///
-    /// # Panics
-    /// Never: a struct of strings can always be written.
-    pub fn within(&self, document: &str) -> String {
-        let Some(fields) = document.strip_suffix("}\n").filter(|it| it.starts_with('{')) else {
-            return document.to_owned();
-        };
-        let own = match serde_json::to_string(self) {
-            Ok(own) => printable::json(&own).into_owned(),
-            Err(error) => unreachable!("strings cannot be written: {error}"),
-        };
-        let comma = if fields == "{" { "" } else { "," };
-        format!("{fields}{comma}\"provenance\":{own}}}\n")
-    }
-
     /// The program and its version, with the revision if it is known.
     pub fn build(&self) -> String {
         let revision = self.revision.as_ref().map(|revision| format!(" ({revision})"));
@@ -164,19 +146,6 @@ mod tests {
         assert_eq!(line, r"hopfscope scan --over D=-0.9:0:200 'a b' 'it'\''s' ''");
         let torn = Provenance { command: "hopfscope 'a".to_owned(), ..Provenance::of(&[]) };
         assert_eq!(torn.arguments(), None);
-    }
-
-    #[test]
-    fn a_document_keeps_its_fields_and_says_where_it_comes_from() {
-        let own = Provenance::of(&["cycles".to_owned()]);
-        for document in ["{\"a\":[1.0,{\"b\":null}]}\n", "{}\n"] {
-            let told: serde_json::Value = serde_json::from_str(&own.within(document)).unwrap();
-            assert_eq!(told["provenance"]["command"], "hopfscope cycles", "{told}");
-            let mut plain = told.clone();
-            plain.as_object_mut().unwrap().remove("provenance");
-            assert_eq!(plain.to_string() + "\n", document);
-        }
-        assert_eq!(own.within("[1]\n"), "[1]\n");
     }
 
     #[test]
