@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Failure, QuestionOptions, input, print, timed, troubled, write};
-use crate::accuracy::harmonic_error::HarmonicBalance;
-use crate::accuracy::harmonic_error::convergence;
+use crate::accuracy::harmonic_error::{HarmonicBalance, convergence};
 use crate::check::check;
 use crate::closed_form::harmonics::MOST;
 use crate::flow::{Limits, Reason};

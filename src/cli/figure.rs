@@ -15,8 +15,7 @@ use crate::runtime::provenance_file;
 use crate::scene::Scene;
 use crate::scene::machine::NO_BELT;
 use crate::session::{Session, Size};
-use crate::view::screen;
-use crate::view::{self, Look};
+use crate::view::{self, Look, screen};
 
 /// Writes the plots of a scene as SVG, PNG, CSV or JSON, or draws them in the terminal
 #[derive(Debug, Args)]

@@ -12,9 +12,8 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Problem, Reason};
 use crate::model::Belt;
 use crate::model::belt::{FrictionLaw, ReducedBelt};
-use crate::numerics::elementary::{exp, ln, powi};
 use crate::numerics::interval::PI;
-use crate::numerics::root::try_bisect;
+use crate::numerics::{exp, ln, powi, try_bisect};
 use crate::portrait::on_belt::first_at;
 
 pub(super) const CHECKS: &[Check] = &[

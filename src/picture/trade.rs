@@ -8,8 +8,7 @@ use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::{METHODS, Method, MethodSpec};
 use crate::scene::{Layer, Point};
 use crate::session::Session;
-use crate::words::number::count;
-use crate::words::significant;
+use crate::words::{count, significant};
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.axes("evaluations", "error");

@@ -9,9 +9,8 @@ use super::json::{self, Document};
 use super::table::Table;
 use crate::flow::Cost;
 use crate::model::{Body, Group, Interval, Knob, ParameterBox, Source};
-use crate::words::number::exact;
 use crate::words::provenance::Provenance;
-use crate::words::{duration, with_unit};
+use crate::words::{duration, exact, with_unit};
 
 /// The form of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

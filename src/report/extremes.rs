@@ -8,8 +8,7 @@ use crate::accuracy::extremes::verdict::{BUDGET, METHODS};
 use crate::accuracy::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
 use crate::flow::{Method, Outcome, Reason};
 use crate::model::Parameters;
-use crate::words::number::exact as short;
-use crate::words::{significant, stability};
+use crate::words::{exact as short, significant, stability};
 
 /// Few digits of what has more in files.
 const FEW: Quantity = Quantity::pure(4);

@@ -10,12 +10,10 @@ use crate::flow::{
     Crossing, Leg, METHODS, Method, MethodSpec, Outcome, Problem, Sample, Trajectory,
 };
 use crate::model::{ContactState, Knob, Ledger, State, Work};
-use crate::numerics::Interval;
-use crate::numerics::elementary::{log10, pow};
+use crate::numerics::{Interval, log10, pow};
 use crate::proof::motion::{ProvedMotion, ProvedPoint};
 use crate::words::motion::{Writing, sentence};
-use crate::words::number::{count, exact};
-use crate::words::{counted, duration, significant};
+use crate::words::{count, counted, duration, exact, significant};
 
 /// A point of a motion, its start, an arrival at `v = 0` or its end: what it is, `tau`, `q` and `v` as far as they are
 /// known, and what is proved of them.

@@ -14,8 +14,7 @@ use crate::scene::said::said_by;
 use crate::scene::{Answered, Finding, Layer, letters};
 use crate::session::wants::{CostRow, Requirement, consequence};
 use crate::session::{AnswerState, List, Listed, Overlay, PaletteRow, Session};
-use crate::words::number::count;
-use crate::words::{claim, duration, significant};
+use crate::words::{claim, count, duration, significant};
 
 /// Columns of keys in the help.
 const KEYS: usize = 16;

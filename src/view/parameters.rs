@@ -15,8 +15,7 @@ use crate::portrait::proved::compare;
 use crate::portrait::{Border, Cycle, Drawing};
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
-use crate::words::number::exact;
-use crate::words::{cycles as cycles_in_words, significant, with_unit};
+use crate::words::{cycles as cycles_in_words, exact, significant, with_unit};
 
 /// Columns up to the end of the values.
 const VALUES: usize = 17;

@@ -11,8 +11,7 @@ use crate::scene::Topic;
 use crate::session::Session;
 use crate::session::wants::named;
 use crate::words::motion::swings;
-use crate::words::number::count;
-use crate::words::{duration, significant};
+use crate::words::{count, duration, significant};
 
 /// Draws the title line: what the scene is, and its name.
 pub fn title(area: Rect, session: &Session, screen: &mut Surface) {

@@ -8,7 +8,7 @@ pub mod printable;
 pub mod provenance;
 pub mod usage;
 
-pub use number::{duration, significant, with_unit};
+pub use number::{count, duration, exact, significant, with_unit};
 
 use std::borrow::Cow;
 

@@ -1,8 +1,6 @@
 //! How motions end.
 
-use super::counted;
-use super::number::significant;
-use super::number::with_unit;
+use super::{counted, significant, with_unit};
 use crate::flow::{Fate, Outcome, Trajectory};
 use crate::model::belt::Units;
 use crate::portrait::Cycle;
