@@ -22,8 +22,11 @@ use crate::runtime::provenance_file;
 use crate::scene::machine::library::{TEXTBOOK, machines};
 
 /// Analyses a mass on a belt in physical units
+///
+/// Its cycles, slipping and sticking, the border of what comes to rest and the margins up to it, and by how much the cubic
+/// expansion of friction is wrong about them.
 #[derive(Debug, Args)]
-#[command(long_about = long_about())]
+#[command(after_long_help = known())]
 pub struct BeltCommand {
     /// Machine file, or the name of a built-in machine
     #[arg(value_name = "FILE", default_value = TEXTBOOK)]
@@ -65,17 +68,10 @@ pub struct BeltCommand {
     output: Output,
 }
 
-fn long_about() -> String {
-    let known: Vec<String> = machines()
-        .iter()
-        .map(|machine| format!("  {:9} {}", machine.name, machine.title))
-        .collect();
-    format!(
-        "Analyses a mass on a belt in physical units: its cycles, slipping and sticking, the border of \
-         what comes to rest and the margins up to it, and by how much the cubic expansion of friction is wrong \
-         about them.\n\nMachines of the program:\n{}",
-        known.join("\n")
-    )
+fn known() -> String {
+    let known = machines().iter();
+    let known = known.map(|machine| format!("\n  {:9} {}", machine.name, machine.title));
+    format!("Machines of the program:{}", known.collect::<String>())
 }
 
 impl BeltCommand {

@@ -113,7 +113,7 @@ fn session(scene: Arc<Scene>, looks: Looks, config: Config) -> Session {
 
 /// The file of the last session.
 fn last() -> Result<PathBuf, Failure> {
-    let path = Memory::open().map(|memory| memory.last()).filter(|path| path.exists());
+    let path = Memory::open().map(|memory| memory.last).filter(|path| path.exists());
     path.ok_or_else(|| {
         Failure::Usage("there is no last session; a session without changes is not kept".to_owned())
     })
@@ -160,10 +160,10 @@ pub fn go(
         let welcome = welcome(&session, memory).map(|text| Notice { error: false, text });
         session.notice = welcome.or(session.notice);
     }
-    let files = Files { copies: memory.as_ref().map(Memory::copies), may_play_write };
+    let files =
+        Files { copies: memory.as_ref().map(|memory| memory.copies.clone()), may_play_write };
     let mouse = session.display.mouse;
-    let keep = memory.as_ref().map(Memory::keep);
-    let last = memory.as_ref().map(Memory::last);
+    let (keep, last) = memory.map(|memory| (memory.keep, memory.last)).unzip();
     let replay = (!play.is_empty()).then(|| Script::of(play.to_vec()));
     let options = Options { replay, started, recorder, record, keep, last, mouse, files };
     let ended = explore(session, environment, options)

@@ -86,9 +86,6 @@ fn one_of<T: NamedValue>(name: &str) -> Result<T, String> {
 /// Prefix of the file names of interrupted sessions.
 const INTERRUPTED: &str = "interrupted-";
 
-/// File name of the last session.
-const LAST: &str = "last.toml";
-
 /// A path from the environment, if the variable is set and not empty.
 fn variable(name: &str) -> Option<PathBuf> {
     std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)
@@ -105,12 +102,18 @@ fn own_settings() -> Option<PathBuf> {
     Some(base("XDG_CONFIG_HOME", ".config")?.join("hopfscope/config.toml"))
 }
 
-/// The directory in which the program keeps its state.
+/// What the program remembers, in the directory in which it keeps its state.
 #[derive(Clone, Debug)]
 pub struct Memory {
     folder: PathBuf,
     /// Whether the directory did not exist before: this is the first start.
     pub is_new: bool,
+    /// The file that holds the last copy.
+    pub copies: PathBuf,
+    /// The file in which this process saves its session if it is interrupted.
+    pub keep: PathBuf,
+    /// The file of the session that was left or put aside last.
+    pub last: PathBuf,
 }
 
 impl Memory {
@@ -119,22 +122,9 @@ impl Memory {
         let folder = base("XDG_STATE_HOME", ".local/state")?.join("hopfscope");
         let is_new = !folder.exists();
         std::fs::create_dir_all(&folder).ok()?;
-        Some(Memory { folder, is_new })
-    }
-
-    /// The file that holds the last copy.
-    pub fn copies(&self) -> PathBuf {
-        self.folder.join("copy.txt")
-    }
-
-    /// The file in which this process saves its session if it is interrupted.
-    pub fn keep(&self) -> PathBuf {
-        self.folder.join(format!("{INTERRUPTED}{}.toml", std::process::id()))
-    }
-
-    /// The file of the session that was left or put aside last.
-    pub fn last(&self) -> PathBuf {
-        self.folder.join(LAST)
+        let keep = folder.join(format!("{INTERRUPTED}{}.toml", std::process::id()));
+        let (copies, last) = (folder.join("copy.txt"), folder.join("last.toml"));
+        Some(Memory { folder, is_new, copies, keep, last })
     }
 
     /// The files of interrupted sessions that have not been put aside since, with the times at which they
