@@ -25,7 +25,7 @@ type Rungs = Option<Vec<HarmonicBalance>>;
 #[derive(Debug, Args)]
 pub struct CyclesCommand {
     /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors
-    #[arg(long, value_name = "N", value_parser = harmonics, conflicts_with = "machine")]
+    #[arg(long, value_name = "N", value_parser = |text: &str| input::whole(text, 1..=MOST), conflicts_with = "machine")]
     harmonics: Option<usize>,
     /// Writes the proof, step by step, for `hopfscope check`, and its provenance to FILE.provenance
     #[arg(long, value_name = "FILE", conflicts_with = "machine")]
@@ -33,11 +33,6 @@ pub struct CyclesCommand {
     /// Replaces a file that holds something else
     #[arg(long, requires = "certificate")]
     force: bool,
-}
-
-/// A number of harmonics.
-fn harmonics(text: &str) -> Result<usize, String> {
-    input::whole(text, 1..=MOST)
 }
 
 impl CyclesCommand {

@@ -3,10 +3,10 @@
 
 use std::f64::consts::PI;
 
-use super::harmonic::found_fold;
-use super::measure::{ClaimCase, at_rest, missing};
+use super::harmonic::{approached, found_fold};
+use super::measure::{ClaimCase, at_rest};
 use super::{Certain, Check, Evidence, Known, always, tends, worst};
-use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
+use crate::closed_form::harmonic::mean as harmonic_mean;
 use crate::flow::Reason;
 use crate::model::Parameters;
 use crate::numerics::elementary::{ln, log2};
@@ -36,11 +36,8 @@ pub(super) const CHECKS: &[Check] = &[
         Ok(Evidence::equal(asymptotes(it)[1], computed))
     }),
     tends("asymptotes of the mean", |it| {
-        let (found, [first, second]) = (amplitudes(it), asymptotes(it));
-        let (formula, solution) =
-            if it.more == 1.0 { (first, found.first()) } else { (second, found.last()) };
-        let solution = solution.ok_or(missing("a stationary amplitude"))?;
-        Ok((formula, Known::relative(harmonic_mean(it.d2, solution.amplitude), 1e-14)))
+        let (formula, root) = approached(it, asymptotes(it))?;
+        Ok((formula, Known::relative(harmonic_mean(it.d2, root), 1e-14)))
     }),
     // Of the dampings, those of Fig. 13 are -0.7 and -0.2; its friction with the D2 of Fig. 14, the only one that the paper
     // names.

@@ -233,11 +233,17 @@ fn large(parameters: &Parameters) -> f64 {
     (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt()
 }
 
-/// `A_n`, and the solution of (42) that approaches it as abs(D) grows to 1: the smallest for n = 1, the largest for n = 2.
+/// `A_n`, and the solution of (42) that approaches it as abs(D) grows to 1.
 fn asymptote(it: &ClaimCase) -> Result<(f64, Known), Reason> {
+    let (formula, root) = approached(it, [small(it), large(it)])?;
+    Ok((formula, Known::relative(root, 1e-14)))
+}
+
+/// Of two formulas that with n, and the solution of (42) that approaches `A_n`: the smallest for n = 1, the largest for n = 2.
+pub(super) fn approached(it: &ClaimCase, [first, second]: [f64; 2]) -> Result<(f64, f64), Reason> {
     let found = amplitudes(it);
     let (formula, root) =
-        if it.more == 1.0 { (small(it), found.first()) } else { (large(it), found.last()) };
+        if it.more == 1.0 { (first, found.first()) } else { (second, found.last()) };
     let root = root.ok_or(missing("a stationary amplitude"))?;
-    Ok((formula, Known::relative(root.amplitude, 1e-14)))
+    Ok((formula, root.amplitude))
 }

@@ -157,12 +157,10 @@ pub fn examine_all(limits: &Limits) -> Result<Vec<ClaimResult>, Reason> {
 pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult, Reason> {
     let lines = if claim.cases.is_empty() { &[""] } else { claim.cases.as_slice() };
     let cases: Vec<_> = lines.iter().flat_map(|line| ClaimCase::all(line, limits)).collect();
-    match Reason::tolerated(claim.test.run(&cases))? {
-        Ok(evidence) if claim.section == UNSAID => {
-            Ok(ClaimResult { claim, evidence: Ok(evidence.unsaid()) })
-        }
-        evidence => Ok(ClaimResult { claim, evidence }),
-    }
+    let evidence = Reason::tolerated(claim.test.run(&cases))?;
+    let is_said = claim.section != UNSAID;
+    let evidence = evidence.map(|found| if is_said { found } else { found.unsaid() });
+    Ok(ClaimResult { claim, evidence })
 }
 
 #[cfg(test)]
