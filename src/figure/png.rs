@@ -6,12 +6,7 @@ use std::fmt::Write;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 use roxmltree::{Document, Node};
-use skrifa::instance::{LocationRef, Size};
-use skrifa::outline::DrawSettings;
-use skrifa::outline::pen::SvgPen;
-use skrifa::raw::model::glyph::outline::TransformSink;
-use skrifa::raw::types::Matrix;
-use skrifa::{FontRef, GlyphId, MetadataProvider};
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 /// Dots of a PNG along a pixel of the vector picture, which is a 96th of an inch: 288 to the inch.
 const SCALE: f32 = 3.0;
@@ -42,13 +37,13 @@ fn failed(why: impl std::fmt::Display) -> String {
 /// The SVG with its texts as paths, so that painting it takes no fonts.
 fn outlined(svg: &str) -> Result<String, String> {
     let document = Document::parse(svg).map_err(failed)?;
-    let [upright, slanted] = FONTS.map(FontRef::new);
+    let [upright, slanted] = FONTS.map(|font| Face::parse(font, 0));
     let (upright, slanted) = (upright.map_err(failed)?, slanted.map_err(failed)?);
     let mut out = String::with_capacity(2 * svg.len());
     let mut copied = 0;
     for text in document.descendants().filter(|node| node.has_tag_name("text")) {
         let italic = text.attribute("font-style") == Some("italic");
-        let path = outline(&text, if italic { &slanted } else { &upright })?;
+        let path = outline(&text, if italic { &slanted } else { &upright });
         out.push_str(&svg[copied..text.range().start]);
         let _ = write!(out, "<path d=\"{path}\"");
         for painted in text.attributes().filter(|it| !SETTING.contains(&it.name())) {
@@ -61,34 +56,70 @@ fn outlined(svg: &str) -> Result<String, String> {
     Ok(out)
 }
 
-/// The letters of a text element as the data of a path. Fails with one line if the font is damaged.
-fn outline(text: &Node, font: &FontRef) -> Result<SvgPen, String> {
+/// The letters of a text element as the data of a path.
+fn outline(text: &Node, font: &Face) -> String {
     let number = |name| text.attribute(name).and_then(|it| it.parse().ok()).unwrap_or(0.0);
     let size = text.ancestors().find_map(|node| node.attribute("font-size")?.parse().ok());
-    let (size, whole) = (Size::new(size.unwrap_or(12.0)), LocationRef::default());
-    let (places, metrics) = (font.charmap(), font.glyph_metrics(size, whole));
+    let scale = size.unwrap_or(12.0) / f32::from(font.units_per_em());
     let letters = text.text().unwrap_or_default().chars();
     let glyphs: Vec<GlyphId> =
-        letters.map(|letter| places.map(letter).unwrap_or_default()).collect();
-    let step = |glyph: &GlyphId| metrics.advance_width(*glyph).unwrap_or(0.0);
+        letters.map(|letter| font.glyph_index(letter).unwrap_or_default()).collect();
+    let step = |glyph: &GlyphId| scale * f32::from(font.glyph_hor_advance(*glyph).unwrap_or(0));
     let width: f32 = glyphs.iter().map(step).sum();
     let before = match text.attribute("text-anchor") {
         Some("middle") => width / 2.0,
         Some("end") => width,
         _ => 0.0,
     };
-    let mut left = number("x") - before;
-    let mut path = SvgPen::with_precision(3);
+    let mut letter =
+        Letter { scale, left: number("x") - before, base: number("y"), path: String::new() };
     for glyph in glyphs {
-        if let Some(shape) = font.outline_glyphs().get(glyph) {
-            // Letters grow upwards, the picture downwards.
-            let upright = Matrix::from_elements([1.0, 0.0, 0.0, -1.0, left, number("y")]);
-            let mut placed = TransformSink::new(&mut path, upright);
-            shape.draw(DrawSettings::unhinted(size, whole), &mut placed).map_err(failed)?;
-        }
-        left += step(&glyph);
+        // A glyph without an outline is a space.
+        let _ = font.outline_glyph(glyph, &mut letter);
+        letter.left += step(&glyph);
     }
-    Ok(path)
+    letter.path
+}
+
+/// A letter that is written to the data of a path: where it stands, and the size of a unit of its font.
+struct Letter {
+    scale: f32,
+    left: f32,
+    base: f32,
+    path: String,
+}
+
+impl Letter {
+    /// Adds a command of a path with its points. Letters grow upwards, the picture downwards.
+    fn add(&mut self, command: char, points: &[(f32, f32)]) {
+        self.path.push(command);
+        for &(x, y) in points {
+            let (x, y) = (self.left + self.scale * x, self.base - self.scale * y);
+            let _ = write!(self.path, "{x:.3} {y:.3} ");
+        }
+    }
+}
+
+impl OutlineBuilder for Letter {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.add('M', &[(x, y)]);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.add('L', &[(x, y)]);
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.add('Q', &[(x1, y1), (x, y)]);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.add('C', &[(x1, y1), (x2, y2), (x, y)]);
+    }
+
+    fn close(&mut self) {
+        self.add('Z', &[]);
+    }
 }
 
 #[cfg(test)]
