@@ -4,7 +4,7 @@
 //! the process to the first full picture, and from a key to the resulting picture; the bytes of a key and of a
 //! changed cell; and the time after 500 keys at once until the picture is right.
 
-#[path = "../tests/support/mod.rs"]
+#[path = "../tests/pty/support.rs"]
 mod support;
 
 use std::time::{Duration, Instant};

@@ -1,6 +1,8 @@
 //! What scripts rely on: documents, their numbers, and exit codes.
 
+mod docs;
 mod files;
+mod fuzz;
 mod keys;
 mod outside;
 mod page;

@@ -2,11 +2,20 @@
 
 #![expect(clippy::cast_precision_loss, reason = "indices of grids are small")]
 
+mod borders;
 mod branches;
+mod claims;
+#[path = "../data/mod.rs"]
+mod data;
+#[path = "../explorer/mod.rs"]
+mod explorer;
 mod extremes;
+mod guarantee;
+mod interrupts;
 mod kicks_at_extremes;
 mod precision;
 mod properties;
+mod references;
 mod stiff;
 
 use hopfscope::accuracy::extremes::sets::{LatticeCycle, SetVerdict, judge_set, sets};

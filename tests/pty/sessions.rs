@@ -1,14 +1,12 @@
 //! Sessions in a real terminal: kept when interrupted, offered at the next start, written and opened, and the
 //! first line that a new user sees.
 
-mod support;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use rustix::process::Signal;
-use support::{Answers, PROGRAM, QUIET, Terminal};
+use crate::support::{Answers, PROGRAM, QUIET, Terminal};
 
 /// The explorer, with its own folder for kept sessions, once its first picture is complete.
 fn explorer(arguments: &[&str], memory: &Path) -> Terminal {

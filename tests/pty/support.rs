@@ -3,7 +3,7 @@
 //! Everything waits for a condition with a deadline, never for a fixed time. The emulator answers requests for
 //! the cursor position like a terminal, unless a test wants it slow or silent.
 
-// Each test program compiles this file and uses only a part of it.
+// The benchmark compiles this file, too, and uses only a part of it.
 #![allow(dead_code)]
 
 use std::io::{Read, Write};

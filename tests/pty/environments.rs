@@ -1,13 +1,11 @@
 //! The explorer in every environment: locales, `NO_COLOR`, kinds of terminals, no terminal, and terminals whose
 //! size changes or that it has to give back for a while.
 
-mod support;
-
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use support::{Answers, PROGRAM, QUIET, TITLE, Terminal};
+use crate::support::{Answers, PROGRAM, QUIET, TITLE, Terminal};
 
 /// The parameters of all sequences that set colours and attributes.
 fn attributes(written: &[u8]) -> BTreeSet<u8> {

@@ -3,13 +3,11 @@
 //! In a `console` block each line that begins with `$ hopfscope` is run, and the lines below it must match its
 //! output; a line `..` stands for any number of lines.
 
-mod program;
-
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use program::run;
+use crate::program::run;
 
 /// Every page, with name and text.
 fn pages() -> Vec<(String, String)> {

@@ -1,8 +1,6 @@
 //! Motions and cycles against reference values with at least twelve digits, computed independently.
 
-mod data;
-
-use data::references;
+use crate::data::references;
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem, Trajectory};
 use hopfscope::model::{Parameters, State};
@@ -23,7 +21,7 @@ struct Motion {
 }
 
 fn motions() -> Vec<Motion> {
-    serde_json::from_str(include_str!("data/trajectories.json")).unwrap()
+    serde_json::from_str(include_str!("../data/trajectories.json")).unwrap()
 }
 
 impl Motion {

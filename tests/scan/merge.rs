@@ -1,12 +1,10 @@
 //! `hopfscope merge` and `scan --plan`: parts that make up the whole, or what they lack.
 
-mod program;
-
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use program::{Ran, command};
+use crate::program::{Ran, command};
 use serde_json::Value;
 
 /// A scan of 60 rows.
@@ -321,13 +319,13 @@ fn with_a_kill(engine: &str, line: &str) {
 }
 
 #[test]
-#[ignore = "needs Snakemake: cargo test --test merge -- --ignored snakemake"]
+#[ignore = "needs Snakemake: cargo test --test scan -- --ignored snakemake"]
 fn snakemake_computes_the_whole_though_a_job_is_killed() {
     with_a_kill("snakemake", "snakemake --snakefile recipe --cores 2");
 }
 
 #[test]
-#[ignore = "needs GNU parallel: cargo test --test merge -- --ignored parallel"]
+#[ignore = "needs GNU parallel: cargo test --test scan -- --ignored parallel"]
 fn gnu_parallel_computes_the_whole_though_a_job_is_killed() {
     with_a_kill("parallel", "sh recipe");
 }

@@ -36,7 +36,7 @@ fn every_file_meets_its_expectations() {
 
 #[test]
 fn every_keystroke_file_of_the_handbook_plays() {
-    let page = include_str!("../docs/explorer.md");
+    let page = include_str!("../../docs/explorer.md");
     let blocks: Vec<&str> =
         page.split("```keys\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
     assert!(!blocks.is_empty());
@@ -62,7 +62,7 @@ const READ: [(&str, &[&str]); 8] = [
 
 #[test]
 fn a_newcomer_reads_a_verdict_on_every_screen_of_every_size() {
-    let script = parse(include_str!("../assets/replays/newcomer.keys")).unwrap();
+    let script = parse(include_str!("../../assets/replays/newcomer.keys")).unwrap();
     for (width, height) in [(80, 24), (120, 40), (200, 60)] {
         let session = Session::new(plain(), Size { width, height });
         let played = play(session, Environment::default(), script.clone(), false);

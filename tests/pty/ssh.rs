@@ -4,9 +4,7 @@
 //! line of modems and mobile networks: 64 kbit/s, a round trip of 150 ms, and an unbounded queue. Needs `sshd`,
 //! `ssh` and `ssh-keygen`, so it is left out of a plain `cargo test`:
 //!
-//!     cargo test --test ssh -- --ignored
-
-mod support;
+//!     cargo test --test pty ssh -- --ignored
 
 use std::fs;
 use std::io::{Read, Write};
@@ -17,7 +15,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use support::{Answers, Terminal};
+use crate::support::{Answers, Terminal};
 use tempfile::TempDir;
 
 /// Bytes per second on the line: 64 kbit/s.
@@ -95,7 +93,7 @@ fn server() -> Server {
             .stdin(Stdio::null())
             .spawn()
             .unwrap();
-        support::poll("an SSH server", || listens() || process.try_wait().unwrap().is_some());
+        crate::support::poll("an SSH server", || listens() || process.try_wait().unwrap().is_some());
         if listens() {
             return Server { process, files, address };
         }
@@ -247,5 +245,5 @@ fn a_connection_that_breaks_leaves_no_process_behind() {
     assert!(running());
     // Ends the client, and with it the connection.
     drop(terminal);
-    support::poll("end of the explorer", || !running());
+    crate::support::poll("end of the explorer", || !running());
 }

@@ -30,7 +30,7 @@ struct Row {
 }
 
 fn rows() -> Vec<Row> {
-    serde_json::from_str(include_str!("data/borders.json")).expect("a table of borders")
+    serde_json::from_str(include_str!("../data/borders.json")).expect("a table of borders")
 }
 
 fn same(one: f64, other: f64, within: f64) -> bool {

@@ -1,5 +1,10 @@
 //! Each scene fulfils the promises of its texts, under the keys that they name.
 
+mod costs;
+#[path = "../explorer/mod.rs"]
+mod explorer;
+mod replays;
+
 use hopfscope::closed_form::harmonic::amplitudes;
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Reason};

@@ -1,5 +1,7 @@
 //! `hopfscope scan`: rows, files that survive a kill, parts that make up the whole.
 
+mod merge;
+#[path = "../program/mod.rs"]
 mod program;
 
 use std::fs;

@@ -1,9 +1,7 @@
 //! Guaranteed margins: no bounded disturbance and no parameters of the box lead out of them, and the worst
 //! disturbance leads out from just beyond.
 
-mod explorer;
-
-use explorer::{Trial, refuses, reopened};
+use crate::explorer::{Trial, refuses, reopened};
 use hopfscope::flow::Limits;
 use hopfscope::model::{Body, Interval, Knob, ParameterBox, Parameters, State, Tolerances};
 use hopfscope::numerics::elementary::sin;

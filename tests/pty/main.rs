@@ -1,5 +1,9 @@
 //! The explorer in a real terminal: what a user sees, how many bytes it writes, how it ends.
 
+mod environments;
+mod runtime;
+mod sessions;
+mod ssh;
 mod support;
 
 use std::collections::BTreeSet;

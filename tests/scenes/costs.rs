@@ -1,10 +1,8 @@
 //! Cost of answers, counted in evaluations; the bounds are a few per cent above the need.
 
-mod explorer;
-
 use std::sync::Arc;
 
-use explorer::Trial;
+use crate::explorer::Trial;
 use hopfscope::branch::Branch;
 use hopfscope::branch::along::{Points, branch};
 use hopfscope::branch::chart::{Plane, Resolution, chart};

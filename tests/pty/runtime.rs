@@ -3,8 +3,6 @@
 //!
 //! The application runs in a separate process: this test program, started again in a pty.
 
-mod support;
-
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -18,7 +16,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::widgets::Widget;
 use rustix::process::Signal;
-use support::{Answers, Terminal};
+use crate::support::{Answers, Terminal};
 
 /// Counts right arrows and has each count confirmed by the worker.
 #[derive(Default)]
@@ -111,7 +109,7 @@ fn machinery() {
 /// The command that starts the application.
 fn program() -> Vec<String> {
     let this = std::env::current_exe().unwrap().to_str().unwrap().to_owned();
-    let arguments = ["--exact", "machinery", "--ignored", "--nocapture"];
+    let arguments = ["--exact", "runtime::machinery", "--ignored", "--nocapture"];
     std::iter::once(this).chain(arguments.map(str::to_owned)).collect()
 }
 
