@@ -125,7 +125,8 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
                 .named(full_name(name.get_ref()))
                 .ok_or_else(|| unknown(name, "command", keymap.commands().map(|row| row.name)))?;
             if !found.keys.iter().any(|(context, _)| *context == known) {
-                let places: Vec<_> = found.keys.iter().map(|(context, _)| context.name()).collect();
+                let places: Vec<_> =
+                    found.keys.iter().map(|(context, _)| context.spec().name).collect();
                 let message = format!("{} applies in {}", found.name, places.join(", "));
                 return Err(Complaint { at: name.span(), message });
             }
@@ -162,7 +163,7 @@ fn follows(read: &BTreeMap<Spanned<String>, Keys>, command: &Command) -> bool {
         (Some((_, everywhere)), Some((_, walk))) => everywhere == walk,
         _ => false,
     };
-    let walk = read.iter().filter(|(context, _)| context.get_ref() == Context::Walk.name());
+    let walk = read.iter().filter(|(context, _)| context.get_ref() == Context::Walk.spec().name);
     let said = walk.flat_map(|(_, commands)| commands.keys());
     alike && said.into_iter().all(|name| name.get_ref() != command.name)
 }

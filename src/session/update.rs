@@ -277,7 +277,7 @@ fn missing(session: &Session, place: Context) -> String {
         None if place == Context::Walk => {
             session.with_keys("needs a branch: {walk} on a diagram takes hold of one")
         }
-        None => format!("works only {}", place.title().to_lowercase()),
+        None => format!("works only {}", place.spec().title.to_lowercase()),
     }
 }
 

@@ -191,7 +191,7 @@ fn step(session: &Session, row: Row) -> Option<String> {
     if row == Row::Tolerance {
         return session.problem.quality().map(|quality| quality.name.to_owned());
     }
-    Some(format!("step {}", exact(session.steps.of_row(row)?.value(), STEP - "step ".len())))
+    Some(format!("step {}", exact(session.steps.of(row.stepped()?).value(), STEP - "step ".len())))
 }
 
 /// A number in this many columns, exact if that is possible. Where numbers have units, one that is not was

@@ -132,9 +132,10 @@ fn work(session: &Session, look: &Look, shorter: usize) -> String {
         format!("{} {evaluations}", count(motion.cost.evaluations)),
     ];
     parts.extend((shorter < SHORTEST).then(|| duration(seconds)));
-    let why = session.unmeasured();
+    let measured = session.measured();
+    let why = measured.and_then(Result::err);
     let why = why.map(|why| UNMEASURED[shorter.saturating_sub(1)][why as usize]);
-    if let Some((deviation, reference)) = session.measured() {
+    if let Some(Ok((deviation, reference))) = measured {
         let least = deviation.error.max(reference.error);
         let measured = if full { "measured error" } else { "measured" };
         parts.push(format!("{measured} {}", significant(least, 2)));

@@ -88,8 +88,8 @@ pub fn half_width(session: &mut Session, count: i32) -> Done {
 /// Makes the step size of the selected row larger or smaller.
 pub fn step_size(session: &mut Session, larger: bool) -> Done {
     let row = session.selected;
-    let size = session.steps.of_row_mut(row);
-    let size = size.ok_or_else(|| format!("{} has no step size", row.name()))?;
+    let knob = row.stepped().ok_or_else(|| format!("{} has no step size", row.name()))?;
+    let size = session.steps.of_mut(knob);
     *size = if larger { size.larger() } else { size.smaller() };
     Ok(())
 }
@@ -98,15 +98,12 @@ pub fn step_size(session: &mut Session, larger: bool) -> Done {
 pub fn reset_row(session: &mut Session) {
     let row = session.selected;
     let (of_scene, present) = (Setup::of_scene(&session.scene), session.setup());
-    let steps = StepSizes::of_scene(&session.scene);
-    if let (Some(size), Some(wanted)) = (session.steps.of_row_mut(row), steps.of_row(row)) {
-        *size = wanted;
-    }
     let mut reset = present;
     match row {
         Row::Method => reset.problem.method = of_scene.problem.method,
         Row::Tolerance => reset.problem = reset.problem.with_setting(of_scene.problem.setting()),
         Row::Number(knob) => {
+            *session.steps.of_mut(knob) = StepSizes::of_scene(&session.scene).of(knob);
             let follows = session.scene.recording.is_some() && Knob::MOTION.contains(&knob);
             let half = if follows { 0.0 } else { of_scene.doubt.half_width(knob) };
             reset.doubt = reset.doubt.with_half_width(knob, half).unwrap_or(reset.doubt);

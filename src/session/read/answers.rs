@@ -188,20 +188,8 @@ impl Session {
         self.answers.failure(&self.request(topic, plot)?)
     }
 
-    /// The error of the motion on show, and its reference.
-    ///
-    /// `None` until both are computed, and if there is no error: [`Session::unmeasured`] then says why.
-    pub fn measured(&self) -> Option<(Deviation, &Reference)> {
-        self.comparison()?.ok()
-    }
-
-    /// Why the motion on show has no measured error; `None` while it may still get one.
-    pub fn unmeasured(&self) -> Option<NoErrorReason> {
-        self.comparison()?.err()
-    }
-
-    /// The comparison of the motion on show with its reference; `None` until both are computed.
-    fn comparison(&self) -> Option<Result<(Deviation, &Reference), NoErrorReason>> {
+    /// The error of the motion on show, and its reference, or why there is no error; `None` until both are computed.
+    pub fn measured(&self) -> Option<Result<(Deviation, &Reference), NoErrorReason>> {
         let stale = |topic| self.is_stale(topic, self.plot);
         if !self.measures() || stale(Topic::Reference) {
             return None;

@@ -143,7 +143,7 @@ impl Session {
     /// The heading under which a row stands.
     pub fn heading(&self, row: PaletteRow) -> &'static str {
         let PaletteRow::Command(command) = row else { return row.texts()[3] };
-        self.place_of(command).map_or("", Context::title)
+        self.place_of(command).map_or("", |place| place.spec().title)
     }
 
     /// The distance of a row's context from the pane in focus.

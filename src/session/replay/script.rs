@@ -78,13 +78,7 @@ impl Instruction {
             Msg::Key(key) => Some(Instruction::Key { key: *key, count: 1 }),
             Msg::Paste(text) | Msg::Say(text, _) if text.is_empty() => None,
             Msg::Say(text, _) => Some(Instruction::Give(Msg::Say(text.clone(), None))),
-            Msg::Pointed(_)
-            | Msg::Paste(_)
-            | Msg::Elapsed { .. }
-            | Msg::Resize { .. }
-            | Msg::Run(_)
-            | Msg::Start(_) => Some(Instruction::Give(message.clone())),
-            Msg::Read { .. } | Msg::Answered(_) | Msg::Written(_) | Msg::Told(_) => None,
+            _ => written(message).map(|_| Instruction::Give(message.clone())),
         }
     }
 
@@ -147,7 +141,7 @@ impl fmt::Display for Instruction {
                 let name = key.strip_prefix('<').and_then(|name| name.strip_suffix('>'));
                 write!(out, "<{}*{count}>", name.unwrap_or(&key))
             }
-            Instruction::Give(message) => out.write_str(&written(message)),
+            Instruction::Give(message) => out.write_str(&written(message).unwrap_or_default()),
             Instruction::Wait => write!(out, "<wait>"),
             Instruction::Async => write!(out, "<async>"),
             Instruction::Expect(text) => write!(out, "<expect {}>", quoted(text)),
@@ -159,9 +153,9 @@ impl fmt::Display for Instruction {
     }
 }
 
-/// A message as it is written in a file; nothing for one that results from other steps.
-fn written(message: &Msg) -> String {
-    match message {
+/// A message as it is written in a file; `None` for one that results from other steps.
+fn written(message: &Msg) -> Option<String> {
+    Some(match message {
         Msg::Pointed(Pointed { gesture, place }) => {
             // Positions refer to the plots, not to the screen, so that a file has the same effect at every size.
             let gesture: &str = gesture.into();
@@ -181,8 +175,10 @@ fn written(message: &Msg) -> String {
             let names: String = names.iter().flat_map(|knob| [" ", knob.spec().name]).collect();
             format!("<start{names}>")
         }
-        _ => String::new(),
-    }
+        Msg::Key(_) | Msg::Read { .. } | Msg::Answered(_) | Msg::Written(_) | Msg::Told(_) => {
+            return None;
+        }
+    })
 }
 
 /// Text in quotes on one line, with exactly the escapes that the parser knows.

@@ -158,7 +158,7 @@ impl Keymap {
         }
         let taken = contexts.iter().find_map(|at| Some((*at, self.bound(*at, key)?)));
         if let Some((context, bound)) = taken.filter(|(_, bound)| *bound != command) {
-            let (bound, context) = (bound.name, context.name());
+            let (bound, context) = (bound.name, context.spec().name);
             return Err(format!(
                 "{key} already means {bound}; give that other keys in [keys.{context}] first"
             ));
@@ -310,23 +310,14 @@ pub fn contexts() -> impl Iterator<Item = ContextSpec> {
 }
 
 impl Context {
-    fn spec(self) -> ContextSpec {
+    /// The description of this context.
+    pub fn spec(self) -> ContextSpec {
         if let Context::View(view) = self {
             let others = if view == View::Scan { PANE } else { PLOT };
             return row(self, view.spec().name, view.spec().heading, others);
         }
         let own = |row: &&ContextSpec| row.context == self;
         *OTHERS.iter().find(own).expect("every other context has its row")
-    }
-
-    /// The name in settings files.
-    pub fn name(self) -> &'static str {
-        self.spec().name
-    }
-
-    /// A heading for the keys of this context.
-    pub fn title(self) -> &'static str {
-        self.spec().title
     }
 
     /// Whether characters that are no commands are typed into a line.

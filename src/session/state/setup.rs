@@ -273,7 +273,7 @@ enum SavedSteps {
 
 impl From<StepSizes> for BTreeMap<&'static str, StepSize> {
     fn from(steps: StepSizes) -> Self {
-        Row::all().filter_map(|row| Some((row.name(), steps.of_row(row)?))).collect()
+        Row::all().filter_map(|row| Some((row.name(), steps.of(row.stepped()?)))).collect()
     }
 }
 
@@ -281,7 +281,7 @@ impl From<SavedSteps> for StepSizes {
     fn from(saved: SavedSteps) -> Self {
         let mut steps = StepSizes::default();
         let mut put = |knob: Knob, step: Option<StepSize>| {
-            steps.0[knob as usize] = step.unwrap_or(steps.0[knob as usize]);
+            *steps.of_mut(knob) = step.unwrap_or(steps.of(knob));
         };
         match saved {
             SavedSteps::Named(named) => Row::all()
@@ -316,14 +316,9 @@ impl StepSizes {
         self.0[knob as usize]
     }
 
-    /// The step of a row; `None` for the method, which is no number, and for the tolerance.
-    pub fn of_row(&self, row: Row) -> Option<StepSize> {
-        row.stepped().map(|knob| self.of(knob))
-    }
-
-    /// The step of a row, mutable.
-    pub fn of_row_mut(&mut self, row: Row) -> Option<&mut StepSize> {
-        row.stepped().map(|knob| &mut self.0[knob as usize])
+    /// The step of a number, mutable.
+    pub fn of_mut(&mut self, knob: Knob) -> &mut StepSize {
+        &mut self.0[knob as usize]
     }
 
     /// The steps with which a scene opens.

@@ -8,9 +8,7 @@ use super::strange::any_key;
 use super::{Trial, answered};
 use crate::model::Knob;
 use crate::scene::{Request, Topic, library};
-use crate::session::{
-    Effect, Kept, Msg, Notice, Purpose, Row, Session, Setup, StepSizes, save, update,
-};
+use crate::session::{Effect, Kept, Msg, Notice, Purpose, Session, Setup, StepSizes, save, update};
 
 /// Everything of a session that its file holds.
 fn essence(session: &Session) -> impl PartialEq + use<> {
@@ -161,16 +159,11 @@ fn steps_are_saved_by_name_and_those_of_former_sessions_in_the_order_of_the_tabl
     let listed = r#"{"parameters": [0.02, 0.05, 0.05, 0.01, 0.05, 0.2], "until": 5, "belt": 0.05,
         "machine": [0.1, 50.0, 0.2, 2.0, 5.0, 0.5], "disturbance": 0.001}"#;
     let steps: StepSizes = serde_json::from_str(listed).unwrap();
-    let rows = [
-        Row::default(),
-        Row::Number(Knob::V0),
-        Row::Number(Knob::Until),
-        Row::BELT,
-        Row::Number(Knob::Disturbance),
-    ];
-    let machine = [Knob::Mass, Knob::Friction].map(Row::Number);
-    let found = rows.into_iter().chain(machine).map(|row| steps.of_row(row).unwrap().value());
-    assert_eq!(found.collect::<Vec<_>>(), [0.02, 0.2, 5.0, 0.05, 0.001, 0.1, 0.5]);
+    let motion = [Knob::D, Knob::V0, Knob::Until, Knob::BeltSpeed, Knob::Disturbance];
+    let found = motion.map(|knob| steps.of(knob).value());
+    assert_eq!(found, [0.02, 0.2, 5.0, 0.05, 0.001]);
+    let machine = [Knob::Mass, Knob::Friction].map(|knob| steps.of(knob).value());
+    assert_eq!(machine, [0.1, 0.5]);
     let named = serde_json::to_value(steps).unwrap();
     assert_eq!(
         (&named["D"], &named["belt"], &named["m"]),
@@ -178,8 +171,7 @@ fn steps_are_saved_by_name_and_those_of_former_sessions_in_the_order_of_the_tabl
     );
     assert_eq!(serde_json::from_value::<StepSizes>(named).unwrap(), steps);
     let few: StepSizes = serde_json::from_str(r#"{"D": 0.5}"#).unwrap();
-    assert_eq!(few.of_row(Row::default()).unwrap().value(), 0.5);
-    assert_eq!(few.of_row(Row::Number(Knob::Until)).unwrap().value(), 10.0);
+    assert_eq!([Knob::D, Knob::Until].map(|knob| few.of(knob).value()), [0.5, 10.0]);
 }
 
 #[test]
