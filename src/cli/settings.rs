@@ -9,8 +9,9 @@ use clap::Args;
 use super::Failure;
 use crate::runtime::bounded;
 use crate::session::config::{Config, parse};
-use crate::session::settings::{Colors, DisplaySettings, Glyphs, NamedValue, Theme, choices};
-use crate::words;
+use crate::session::settings::{
+    Colors, DisplaySettings, Glyphs, NamedValue, Theme, choices, named,
+};
 
 /// Which settings file is read.
 #[derive(Clone, Debug, Args)]
@@ -43,15 +44,15 @@ impl Settings {
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Looks {
     #[arg(long, value_name = "KIND",
-          value_parser = one_of::<Glyphs>, help = help::<Glyphs>("Characters that dots are drawn with"))]
+          value_parser = named::<Glyphs>, help = help::<Glyphs>("Characters that dots are drawn with"))]
     glyphs: Option<Glyphs>,
 
     #[arg(long, value_name = "DEPTH",
-          value_parser = one_of::<Colors>, help = help::<Colors>("Colour depth"))]
+          value_parser = named::<Colors>, help = help::<Colors>("Colour depth"))]
     color: Option<Colors>,
 
     #[arg(long, value_name = "NAME",
-          value_parser = one_of::<Theme>, help = help::<Theme>("Colour theme"))]
+          value_parser = named::<Theme>, help = help::<Theme>("Colour theme"))]
     theme: Option<Theme>,
 
     /// Lets the mouse start motions and zoom instead of selecting text
@@ -77,10 +78,6 @@ impl Looks {
 fn help<T: NamedValue>(what: &str) -> String {
     let names: Vec<_> = choices::<T>().map(|row| row.0).collect();
     format!("{what}: {}", names.join(", "))
-}
-
-fn one_of<T: NamedValue>(name: &str) -> Result<T, String> {
-    words::one_of("", name, choices())
 }
 
 /// Prefix of the file names of interrupted sessions.

@@ -14,7 +14,7 @@ use crate::session::act::{
     values, walk,
 };
 use crate::session::read::completion;
-use crate::session::settings::{Colors, Glyphs, Theme, choices};
+use crate::session::settings::{Colors, Glyphs, Theme, choices, named};
 use crate::session::state::keymap::CommandAction::{self, Act, Choose, Line, Move, Toggle, Try};
 use crate::session::state::keymap::{COMMANDS, contexts};
 use crate::session::{
@@ -174,11 +174,11 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     (":record", Line(completion::nothing, |s, rest| files::record(s, rest, false))),
     (":record!", Line(completion::nothing, |s, rest| files::record(s, rest, true))),
     (":play", Line(completion::nothing, |s, rest| files::ask(s, rest, Purpose::Play))),
-    (":theme", Line(|_, _| completion::all(choices::<Theme>().map(|row| row.0)), |s, name| values::choice(name).map(|it| s.display.theme = it))),
+    (":theme", Line(|_, _| completion::all(choices::<Theme>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.theme = it))),
     (":units", Line(completion::switch, |s, state| values::is_on("units", state).map(|on| s.display.dimensionless = !on))),
     (":equal", Line(completion::switch, |s, state| values::is_on("equal units", state).map(|on| s.display.stretched = !on))),
-    (":glyphs", Line(|_, _| completion::all(choices::<Glyphs>().map(|row| row.0)), |s, name| values::choice(name).map(|it| s.display.glyphs = it))),
-    (":color", Line(|_, _| completion::all(choices::<Colors>().map(|row| row.0)), |s, name| values::choice(name).map(|it| s.display.colors = it))),
+    (":glyphs", Line(|_, _| completion::all(choices::<Glyphs>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.glyphs = it))),
+    (":color", Line(|_, _| completion::all(choices::<Colors>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.colors = it))),
 ];
 
 /// All commands, in the order in which the help lists them.

@@ -11,32 +11,39 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::numerics::similar::most_similar;
-use crate::scene::library::names;
 use crate::scene::misread::Complaint;
-use crate::scene::{Misread, misread};
-use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, choices};
+use crate::scene::{Misread, find, misread};
+use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, named};
 use crate::session::state::keymap::contexts;
 use crate::session::state::keymap::full_name;
 use crate::session::{Command, Context, Key, Keymap};
-use crate::words;
 
 /// The content of a settings file; whatever is missing keeps its default.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Config {
     /// The scene to open unless another is named.
+    #[serde(deserialize_with = "scene")]
     pub scene: Option<String>,
     /// The characters that form the dots of plots.
+    #[serde(deserialize_with = "by_name")]
     pub glyphs: Option<Glyphs>,
     /// Colour depth.
+    #[serde(rename = "color", deserialize_with = "by_name")]
     pub colors: Option<Colors>,
+    #[serde(deserialize_with = "by_name")]
     pub theme: Option<Theme>,
     /// Whether the terminal reports the mouse.
     pub mouse: bool,
+    /// The keys that differ from those by default, by context, until [`Config::keymap`] is made of them.
+    keys: BTreeMap<Spanned<String>, Keys>,
     /// The keys of all commands.
+    #[serde(skip)]
     pub keymap: Keymap,
 }
 
@@ -45,20 +52,6 @@ type Given<'a> = (Context, &'static Command, &'a Spanned<Vec<Spanned<String>>>);
 
 /// The keys of commands, by command name.
 type Keys = BTreeMap<Spanned<String>, Spanned<Vec<Spanned<String>>>>;
-
-/// The file as it is written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SettingsFile {
-    scene: Option<Spanned<String>>,
-    glyphs: Option<Spanned<String>>,
-    color: Option<Spanned<String>>,
-    theme: Option<Spanned<String>>,
-    #[serde(default)]
-    mouse: bool,
-    #[serde(default)]
-    keys: BTreeMap<Spanned<String>, Keys>,
-}
 
 /// Commands that must have a key, because there is no other way out.
 const INDISPENSABLE: [&str; 2] = ["quit", "back"];
@@ -69,32 +62,24 @@ const FORMER_CONTEXTS: [&str; 1] = ["form"];
 /// Reads a settings file; `file` is its name in error messages. Fails with [`Misread`], which names the place
 /// of the first mistake and what is allowed there.
 pub fn parse(file: &str, text: &str) -> Result<Config, Misread> {
-    let read: SettingsFile = misread::toml(file, text)?;
-    config(&read).map_err(|complaint| complaint.in_file(file, text))
+    let mut config: Config = misread::toml(file, text)?;
+    let keymap = keymap(&std::mem::take(&mut config.keys));
+    config.keymap = keymap.map_err(|complaint| complaint.in_file(file, text))?;
+    Ok(config)
 }
 
-fn config(read: &SettingsFile) -> Result<Config, Complaint> {
-    let scene = read.scene.as_ref().map(|given| {
-        let known = names().find(|name| name == given.get_ref());
-        known.map(str::to_owned).ok_or_else(|| unknown(given, "scene", names()))
-    });
-    Ok(Config {
-        scene: scene.transpose()?,
-        glyphs: one_of(read.glyphs.as_ref())?,
-        colors: one_of(read.color.as_ref())?,
-        theme: one_of(read.theme.as_ref())?,
-        mouse: read.mouse,
-        keymap: keymap(&read.keys)?,
-    })
+/// Reads the name of a scene.
+fn scene<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<String>, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    find(&name).map(|_| Some(name)).map_err(D::Error::custom)
 }
 
-/// The value with this name.
-fn one_of<T: NamedValue>(given: Option<&Spanned<String>>) -> Result<Option<T>, Complaint> {
-    let find = |given: &Spanned<String>| {
-        let refused = |message| Complaint { at: given.span(), message };
-        words::one_of("", given.get_ref(), choices()).map_err(refused)
-    };
-    given.map(find).transpose()
+/// Reads a value by its name.
+fn by_name<'de, D: Deserializer<'de>, T: NamedValue>(
+    deserializer: D,
+) -> Result<Option<T>, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    named(&name).map(Some).map_err(D::Error::custom)
 }
 
 /// A complaint about an unknown name, with the most similar known one.
@@ -115,11 +100,10 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
     let mut given: Vec<Given> = Vec::new();
     let former = |context: &Spanned<String>| FORMER_CONTEXTS.contains(&context.get_ref().as_str());
     for (context, commands) in read.iter().filter(|(context, _)| !former(context)) {
-        let names = || contexts().map(|row| row.name);
         let known = contexts()
             .find(|row| row.name == context.get_ref())
             .map(|row| row.context)
-            .ok_or_else(|| unknown(context, "context", names()))?;
+            .ok_or_else(|| unknown(context, "context", contexts().map(|row| row.name)))?;
         for (name, keys) in commands {
             let found = keymap
                 .named(full_name(name.get_ref()))

@@ -7,7 +7,6 @@ use crate::portrait::kicks::RandomKick;
 use crate::scene::{Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find, machine};
 use crate::session::act::{general, history, parameters, plots, screen_setup};
 use crate::session::read::completion::{properties, rows};
-use crate::session::settings::{NamedValue, choices};
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{Done, Framing, Pane, Row, Session};
 use crate::words::one_of;
@@ -160,11 +159,6 @@ pub fn letter(text: &str) -> Result<char, String> {
         (Some(letter @ 'a'..='z'), None) => Ok(letter),
         _ => Err(format!("{text:?} is not a letter from a to z")),
     }
-}
-
-/// The value with this name. Fails with a line that names all.
-pub(crate) fn choice<T: NamedValue>(name: &str) -> Result<T, String> {
-    one_of("", name, choices())
 }
 
 /// Whether a setting is to be on. Fails with a line if that is not said.

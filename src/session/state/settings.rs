@@ -2,6 +2,8 @@
 
 use strum::{IntoStaticStr, VariantArray};
 
+use crate::words::one_of;
+
 /// The characters that form the dots of plots.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, IntoStaticStr, VariantArray)]
 #[strum(serialize_all = "lowercase")]
@@ -77,6 +79,11 @@ impl<T: VariantArray + Copy + PartialEq + Into<&'static str>> NamedValue for T {
 /// All values with their names.
 pub fn choices<T: NamedValue>() -> impl Iterator<Item = (&'static str, T)> {
     T::VARIANTS.iter().map(|value| ((*value).into(), *value))
+}
+
+/// The value with this name. Fails with one line that names all.
+pub fn named<T: NamedValue>(name: &str) -> Result<T, String> {
+    one_of("", name, choices())
 }
 
 /// The value that follows `current`, and its name; the first one after the last.
