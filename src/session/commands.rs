@@ -18,7 +18,8 @@ use crate::session::settings::{Colors, Glyphs, Theme, choices, named};
 use crate::session::state::keymap::CommandAction::{self, Act, Choose, Line, Move, Toggle, Try};
 use crate::session::state::keymap::{COMMANDS, contexts};
 use crate::session::{
-    Command, Context, Effect, Input, Key, Keymap, Letter as Ask, Pending, Purpose, Session, Size,
+    Command, Context, Effect, Input, Key, Keymap, Letter as Ask, List, Pending, Purpose, Session,
+    Size,
 };
 
 /// What commands do: by the name that their line ends with, which is that of the command where the line does not say
@@ -73,7 +74,7 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("help", Act(|s, _| lists::open(s, Everything))),
     ("palette", Act(|s, _| {
             lists::open(s, Everything);
-            lists::search(s);
+            lists::with(s, |list| list.searching = true);
         })),
     ("prompt", Act(|s, _| prompt::open(s, ""))),
     ("scenes", Act(|s, _| lists::open(s, Scenes))),
@@ -124,11 +125,11 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("quit", Act(|s, _| general::quit(s))),
 
     ("list-by", Move(|s, [by, _]| lists::move_by(s, by as isize))),
-    ("search", Act(|s, _| lists::search(s))),
+    ("search", Act(|s, _| lists::with(s, |list| list.searching = true))),
     ("choose", Choose(prompt::choose)),
     ("toggle-letter", Act(lists::toggle_letter)),
     ("search-done", Choose(prompt::search_done)),
-    ("search-drop", Act(|s, _| lists::search_drop(s))),
+    ("search-drop", Act(|s, _| lists::with(s, |list| *list = List::default()))),
     ("search-delete", Act(|s, _| lists::search_with(s, |it| _ = it.pop()))),
     ("search-clear", Act(|s, _| lists::search_with(s, String::clear))),
 

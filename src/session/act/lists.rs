@@ -28,9 +28,7 @@ pub fn toggle_letter(session: &mut Session, key: Key) {
     };
     if let Some(Overlay::List(Listed::Layers, list)) = &session.overlay {
         let place = session.layer_rows(list).iter().position(|row| row.layer == layer);
-        if let (Some(place), Some(list)) = (place, session.list_mut()) {
-            list.selected = place;
-        }
+        with(session, |list| list.selected = place.unwrap_or(list.selected));
     }
     toggle(session, layer);
 }
@@ -39,29 +37,20 @@ pub fn toggle_letter(session: &mut Session, key: Key) {
 pub fn move_by(session: &mut Session, by: isize) {
     let Some(Overlay::List(listed, list)) = &session.overlay else { return };
     let last = session.rows_of(*listed, list).len().saturating_sub(1);
-    if let Some(list) = session.list_mut() {
-        list.selected = list.selected.saturating_add_signed(by).min(last);
-    }
+    with(session, |list| list.selected = list.selected.saturating_add_signed(by).min(last));
 }
 
-/// Directs typed characters to the search.
-pub fn search(session: &mut Session) {
-    if let Some(list) = session.list_mut() {
-        list.searching = true;
-    }
-}
-
-/// Ends the search and shows all rows.
-pub fn search_drop(session: &mut Session) {
-    if let Some(list) = session.list_mut() {
-        *list = List::default();
+/// Changes the open list, if there is one.
+pub fn with(session: &mut Session, change: impl FnOnce(&mut List)) {
+    if let Some(Overlay::List(_, list)) = &mut session.overlay {
+        change(list);
     }
 }
 
 /// Changes the text of the search.
 pub fn search_with(session: &mut Session, change: impl FnOnce(&mut String)) {
-    if let Some(list) = session.list_mut() {
+    with(session, |list| {
         change(&mut list.search);
         list.selected = 0;
-    }
+    });
 }

@@ -6,7 +6,7 @@ use crate::paper::Claim;
 use crate::scene::find;
 use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
-use crate::session::act::lists::search_with;
+use crate::session::act::lists;
 use crate::session::act::screen_setup::show_from_list;
 use crate::session::act::values::belt;
 use crate::session::read::completion::completion;
@@ -119,15 +119,13 @@ pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) {
 /// Types a text into the open line, if there is one; what is not printable is dropped.
 pub fn insert(session: &mut Session, text: &str) {
     let visible = text.chars().filter(|char| is_printable(*char));
-    search_with(session, |search| search.extend(visible.clone()));
+    lists::search_with(session, |search| search.extend(visible.clone()));
     with(session, |input| input.before.extend(visible));
 }
 
 /// Ends the search and keeps the rows found; in a picker, picks the selected one at once.
 pub fn search_done(session: &mut Session) -> Result<Option<NextCommand>, String> {
-    if let Some(list) = session.list_mut() {
-        list.searching = false;
-    }
+    lists::with(session, |list| list.searching = false);
     match session.overlay {
         Some(Overlay::List(Listed::Scenes | Listed::Views, _)) => choose(session),
         _ => Ok(None),

@@ -9,7 +9,7 @@ use crate::scene::library::SceneGroup;
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, LayerSpec, Machine, Scene, VIEWS, View, ViewSpec, library};
 use crate::session::state::keymap::contexts;
-use crate::session::{Code, Command, Context, Kept, Key, List, Listed, Overlay, Session};
+use crate::session::{Code, Command, Context, Kept, Key, List, Listed, Session};
 
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {
@@ -205,10 +205,6 @@ impl Session {
     pub fn interrupted_rows(&self, list: &List) -> Vec<(usize, &Kept)> {
         let all = self.interrupted.iter().enumerate();
         all.filter(|(_, kept)| list.matches(&[&kept.when, &kept.what])).collect()
-    }
-
-    pub(crate) fn list_mut(&mut self) -> Option<&mut List> {
-        self.overlay.as_mut().and_then(Overlay::list_mut)
     }
 }
 

@@ -32,15 +32,6 @@ pub enum Listed {
 }
 
 impl Overlay {
-    pub fn list(&self) -> Option<&List> {
-        if let Overlay::List(_, list) = self { Some(list) } else { None }
-    }
-
-    /// The list, if it is one.
-    pub fn list_mut(&mut self) -> Option<&mut List> {
-        if let Overlay::List(_, list) = self { Some(list) } else { None }
-    }
-
     /// Whether this is another kind of overlay than `other`, whatever both contain.
     pub fn differs(&self, other: &Self) -> bool {
         match (self, other) {

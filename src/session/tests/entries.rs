@@ -1,8 +1,8 @@
 //! Typed and pasted values.
 
-use super::Trial;
 use super::facts::refuses;
-use crate::session::{Effect, Overlay};
+use super::{Trial, open_list};
+use crate::session::Effect;
 
 #[test]
 fn a_value_is_typed_from_its_first_digit_or_edited_after_enter() {
@@ -57,7 +57,7 @@ fn pasted_text_goes_into_the_open_line_or_opens_one() {
         ("<enter>", "D -0.3"),
         ("?/<paste \"undo\">", "open Palette"),
     ]);
-    let list = trial.session.overlay.as_ref().and_then(Overlay::list).unwrap();
+    let list = open_list(&trial.session).unwrap();
     let names: Vec<_> = trial.session.palette_rows(list).iter().map(|row| row.name()).collect();
     assert_eq!(names[..2], ["undo", "redo"]);
 }

@@ -1,6 +1,6 @@
 //! Facts about a session, so that a test is a table of keys and facts.
 
-use super::Trial;
+use super::{Trial, open_list};
 use crate::model::{Group, Knob};
 use crate::scene::LAYERS;
 use crate::session::{Overlay, Pane, Session};
@@ -107,7 +107,7 @@ fn overlay(session: &Session, name: &str) -> Option<String> {
         "open" => open,
         "typed" => typed.unwrap_or_default(),
         "refused" => refused.unwrap_or_default(),
-        "list" => overlay.and_then(Overlay::list).map_or(0, |list| list.selected).to_string(),
+        "list" => open_list(session).map_or(0, |list| list.selected).to_string(),
         _ => return None,
     })
 }

@@ -27,7 +27,7 @@ mod walk;
 use std::sync::Arc;
 
 use super::replay::{Action, Player, parse};
-use super::{Effect, Msg, Overlay, Session, Size, update};
+use super::{Effect, List, Msg, Overlay, Session, Size, update};
 use crate::accuracy::harmonic_error::HarmonicBalance;
 use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade::{Trade, TradePoint};
@@ -54,6 +54,11 @@ struct Trial {
 
 /// Number of evaluations that each made-up answer claims.
 const COST: u64 = 100;
+
+/// The list that is open.
+fn open_list(session: &Session) -> Option<&List> {
+    if let Some(Overlay::List(_, list)) = &session.overlay { Some(list) } else { None }
+}
 
 impl Trial {
     /// A session that has just opened a scene and shows it.

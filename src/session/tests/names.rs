@@ -1,10 +1,10 @@
 //! Commands by their names: the palette and the command line.
 
-use super::Trial;
 use super::facts::refuses;
+use super::{Trial, open_list};
 use crate::scene::View;
 use crate::session::read::completion::completion;
-use crate::session::{Effect, List, Overlay, run_line};
+use crate::session::{Effect, List, run_line};
 
 #[test]
 fn the_palette_runs_a_command_in_the_pane_that_it_belongs_to() {
@@ -141,7 +141,7 @@ fn old_lines_come_back_and_the_new_one_is_not_lost() {
 fn the_palette_finds_what_has_all_the_words() {
     let mut trial = Trial::open("plain");
     trial.press("<space>mark<space>go");
-    let list = trial.session.overlay.as_ref().and_then(Overlay::list).expect("the palette");
+    let list = open_list(&trial.session).expect("the palette");
     let rows = trial.session.palette_rows(list);
     let names: Vec<_> = rows.iter().map(|row| row.name()).collect();
     assert_eq!(names[0], "go-to-mark");
@@ -209,7 +209,7 @@ fn scenes_views_layers_and_claims_are_run_from_the_palette() {
 fn words_that_are_no_command_are_looked_for_in_the_list_of_everything() {
     let mut trial = Trial::open("supercritical");
     trial.goes(&[(": animate", "open Palette")]);
-    let list = trial.session.overlay.as_ref().and_then(Overlay::list);
+    let list = open_list(&trial.session);
     assert_eq!(list.unwrap().search, "animate");
     trial.goes(&[("<enter>", "open none")]);
     assert!(trial.session.playback.playing, "{}", trial.notice());
