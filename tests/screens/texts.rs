@@ -50,7 +50,7 @@ fn a_step_is_called_one_and_plus_minus_is_an_error() {
         for scene in ["plain", "fig01", "benchmark"] {
             let mut session = settled(scene, width, height, "");
             for _ in 0..session.rows().len() {
-                let step = session.steps.of_row(session.selected);
+                let step = session.selected.stepped();
                 let pane = pane(&session);
                 let selected = pane.lines().skip(2).find(|line| line.starts_with('\u{25b8}'));
                 let selected = selected.unwrap_or_else(|| panic!("{pane}"));
