@@ -9,8 +9,8 @@ use super::input::{self, MACHINE, page_file, tolerance};
 use super::{CommandCase, Failure, Output, second, timed, troubled, write};
 use crate::figure::panels;
 use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Reason, Subject};
+use crate::model::Knob;
 use crate::model::unit::WithTolerance;
-use crate::model::{Knob, Source, Tolerances};
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Kick, Portrait, StartWindow, friction_for};
 use crate::report::About;
@@ -118,7 +118,7 @@ impl BeltCommand {
         let certain = uncertain.map(|belt| guaranteed(belt, tolerances)).transpose()?;
         let portrait = source.portrait()?;
         let model = &portrait.model;
-        let fate = portrait.told_fate(x, v, usize::MAX)?;
+        let fate = portrait.fate(x, v)?;
         let rests = (fate == Fate::Rest)
             .then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v), limits));
         let rest = rests.transpose()?;
@@ -131,11 +131,15 @@ impl BeltCommand {
             let tolerance = self.tol.unwrap_or(Knob::Tolerance.usual());
             follow(Problem { method, tolerance, ..problem }, false)
         });
+        let designed = |(kick, wanted)| -> Result<_, Reason> {
+            let (needed, _) = friction_for(source, tolerances, kick, wanted, limits)?;
+            Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed }))
+        };
         Ok(MachineAnswer {
             about,
             subject,
             rest_share: self.share(&portrait),
-            design: self.designed(source, tolerances)?,
+            design: self.design.map(designed).transpose()?.flatten(),
             portrait,
             motion,
             fate,
@@ -151,17 +155,6 @@ impl BeltCommand {
         let StartWindow { q: (from, to), v } = self.window?;
         let steady = if self.elongation { portrait.model.pull } else { 0.0 };
         Some(portrait.rest_share((from - steady, to - steady), v).map(|share| share.part))
-    }
-
-    /// The friction needed for the margin, if asked for.
-    fn designed(
-        &self,
-        subject: &Source,
-        known: &Tolerances,
-    ) -> Result<Option<DesignAnswer>, Reason> {
-        let Some((kick, wanted)) = self.design else { return Ok(None) };
-        let (needed, _) = friction_for(subject, known, kick, wanted, &Limits::PATIENT)?;
-        Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed }))
     }
 }
 

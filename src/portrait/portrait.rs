@@ -179,7 +179,7 @@ impl Portrait {
         ((high * self.model.omega_0).abs(), (low * self.model.omega_0).abs())
     }
 
-    /// The fate of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
+    /// The fate of a motion that starts at displacement `x` (m) with velocity `v` (m/s): unknown where it leaves the law.
     ///
     /// # Errors
     /// [`Reason`] if it does not reach its next right turning point, or if a border cannot be traced to where it starts.
@@ -187,19 +187,11 @@ impl Portrait {
         self.fate_within(x, v, usize::MAX)
     }
 
-    /// The same for a motion that is told of: unknown where it leaves the law. One that starts beyond [`Self::known`] is
-    /// followed for so many half swings at `most`.
+    /// The same, if a motion that starts beyond [`Self::known`] is followed for so many half swings at `most`.
     ///
     /// # Errors
-    /// As for [`Self::fate`], for other reasons.
-    pub fn told_fate(&self, x: f64, v: f64, most: usize) -> Result<Fate, Reason> {
-        self.fate_within(x, v, most).or_else(|stop| match stop {
-            Reason::BeyondLaw { .. } => Ok(Fate::Unknown(stop)),
-            stop => Err(stop),
-        })
-    }
-
-    fn fate_within(&self, x: f64, v: f64, most: usize) -> Result<Fate, Reason> {
+    /// As for [`Self::fate`], and if it takes more.
+    pub fn fate_within(&self, x: f64, v: f64, most: usize) -> Result<Fate, Reason> {
         let y = self.model.scaled_velocity(v);
         if self.model.place(x, y) == ContactState::Rests {
             return Ok(Fate::Rest);
@@ -211,6 +203,7 @@ impl Portrait {
         match self.followed_fate(x, y, most) {
             Err(Reason::Settles) => Ok(Fate::Rest),
             Err(Reason::Escapes) => Ok(Fate::Escapes),
+            Err(stop @ Reason::BeyondLaw { .. }) => Ok(Fate::Unknown(stop)),
             fate => fate,
         }
     }

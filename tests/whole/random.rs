@@ -72,6 +72,9 @@ fn any_start_ends_where_its_motion_goes() {
         for _ in 0..3 {
             let (x, v) = (6.0 * chance.even() - 3.0, 4.0 * chance.even() - 2.0);
             let Ok(fate) = found.fate(x, v) else { continue };
+            if let Fate::Unknown(Reason::BeyondLaw { .. }) = fate {
+                continue;
+            }
             let motion = follow_by_series(&model, (x, v), 400.0);
             let ledger = motion.ledger.unwrap();
             assert!(ledger.imbalance().abs() < 1e-11, "{belt:?}: {ledger:?}");

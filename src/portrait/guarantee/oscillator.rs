@@ -131,17 +131,6 @@ impl TwoSided {
 /// Relative error of a clearance, of rounding and of steps, where the closing equation is not flat.
 const NOISE: f64 = 1e-12;
 
-/// Why nothing is certain, if so.
-fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
-    let (d, r) = (known.d.lower(), known.r.lower());
-    let worst = TwoSided::worst(known, disturbance).upper;
-    if disturbance > 0.0 && worst.r <= 0.0 {
-        Some(Uncertain::Disturbance { disturbance, friction: r, unit: "" })
-    } else {
-        (d <= -1.0).then_some(Uncertain::Repels { d })
-    }
-}
-
 /// What the innermost border at the middle of a box parts, undisturbed.
 ///
 /// # Errors
@@ -169,17 +158,25 @@ pub fn guaranteed(
     reach: f64,
     limits: &Limits,
 ) -> Result<Result<(Portrait, Margin), Uncertain>, Reason> {
-    if let Some(reason) = uncertain(known, disturbance) {
-        return Ok(Err(reason));
+    let (d, friction) = (known.d.lower(), known.r.lower());
+    let worst = TwoSided::worst(known, disturbance);
+    if disturbance > 0.0 && worst.upper.r <= 0.0 {
+        return Ok(Err(Uncertain::Disturbance { disturbance, friction, unit: "" }));
     }
-    let (worst, error) = TwoSided::worst(known, disturbance).portrait(reach, limits)?;
+    if d <= -1.0 {
+        return Ok(Err(Uncertain::Repels { d }));
+    }
+    let (worst, error) = worst.portrait(reach, limits)?;
     if error > 0.5 {
         return Err(Reason::NoConvergence {
             sought: "the border of the worst system",
             change: error,
         });
     }
-    let margin = rounded_down(&worst, farthest_rest(known, disturbance), error);
+    // How far out the mass may rest before the kick: at the smallest friction, because the gap to the border only grows
+    // with it, and on the side to which the disturbance pushes.
+    let pushed = if disturbance > 0.0 { (friction + disturbance).next_up() } else { friction };
+    let margin = rounded_down(&worst, pushed, error);
     Ok(Ok((worst, margin)))
 }
 
@@ -196,13 +193,6 @@ pub fn hopeful(
     let best = TwoSided::best(known, disturbance);
     let found = (best.upper.d > -1.0).then(|| best.portrait(reach, limits)).transpose()?;
     Ok(found.map(|(best, _)| best))
-}
-
-/// How far out a mass may rest before the kick: at the smallest friction, because the gap to the border only grows
-/// with it, and on the side to which the disturbance pushes.
-fn farthest_rest(known: &ParameterBox, disturbance: f64) -> f64 {
-    let r = known.r.lower();
-    if disturbance > 0.0 { (r + disturbance).next_up() } else { r }
 }
 
 /// The margin within a border whose clearances have this relative error, rounded down.

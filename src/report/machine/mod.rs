@@ -110,6 +110,7 @@ pub fn page(
 }
 
 /// A number of the answer: what it is, its value without units and in its SI unit, and that unit.
+#[derive(Default)]
 struct QuantityRow {
     what: String,
     dimensionless: Option<f64>,
@@ -167,12 +168,8 @@ fn of_belt(answer: &MachineAnswer) -> Vec<QuantityRow> {
 /// One row for each further number, in SI units.
 fn rows(answer: &MachineAnswer) -> Vec<QuantityRow> {
     let mut rows = Vec::new();
-    let physical = |what: &str, physical, unit| QuantityRow {
-        what: what.to_owned(),
-        dimensionless: None,
-        physical,
-        unit,
-    };
+    let named = |what: &str| QuantityRow { what: what.to_owned(), ..QuantityRow::default() };
+    let physical = |what: &str, physical, unit| QuantityRow { physical, unit, ..named(what) };
     if let Some(certain) = answer.certain {
         let Margin { displacement, impulse, from_rest } = certain.unwrap_or(Margin::ENDLESS);
         rows.extend([
@@ -189,12 +186,11 @@ fn rows(answer: &MachineAnswer) -> Vec<QuantityRow> {
             physical(&what, (number.value)(cycle), number.unit)
         }));
     }
-    rows.extend(answer.rest_share.map(|share| QuantityRow {
-        what: "rest share of the window".to_owned(),
-        dimensionless: share,
-        physical: None,
-        unit: "",
-    }));
+    rows.extend(
+        answer
+            .rest_share
+            .map(|share| QuantityRow { dimensionless: share, ..named("rest share of the window") }),
+    );
     let least = |it: DesignAnswer| physical("R for the margin", it.needed.least(), "N");
     rows.extend(answer.design.map(least));
     rows
