@@ -6,6 +6,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use crate::support::{Answers, Terminal};
 use hopfscope::flow::{Cost, Limits, Reason};
 use hopfscope::model::{Parameters, State};
 use hopfscope::runtime::workers::Tell;
@@ -16,7 +17,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::widgets::Widget;
 use rustix::process::Signal;
-use crate::support::{Answers, Terminal};
 
 /// Counts right arrows and has each count confirmed by the worker.
 #[derive(Default)]

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use rustix::process::Signal;
 use crate::support::{Answers, PROGRAM, QUIET, Terminal};
+use rustix::process::Signal;
 
 /// The explorer, with its own folder for kept sessions, once its first picture is complete.
 fn explorer(arguments: &[&str], memory: &Path) -> Terminal {

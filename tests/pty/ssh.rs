@@ -93,7 +93,9 @@ fn server() -> Server {
             .stdin(Stdio::null())
             .spawn()
             .unwrap();
-        crate::support::poll("an SSH server", || listens() || process.try_wait().unwrap().is_some());
+        crate::support::poll("an SSH server", || {
+            listens() || process.try_wait().unwrap().is_some()
+        });
         if listens() {
             return Server { process, files, address };
         }
