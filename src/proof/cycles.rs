@@ -1,7 +1,5 @@
 //! All limit cycles for given parameters, proved: their number, and bounds of their characteristics.
 
-use serde::Serialize;
-
 use super::count::Count;
 pub use super::count::ProvedCycle;
 use super::enclose::{affine_cycle, enclose};
@@ -10,8 +8,7 @@ use super::map::ProvedMap;
 use crate::numerics::{Interval, exponent};
 
 /// Why there are no cycles, or only one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Theorem {
     /// The first integral for D2 alone changes monotonically on every motion (lemma 13): no cycle.
     OneWay,
@@ -62,16 +59,24 @@ impl Proof {
 #[must_use]
 pub fn prove(parameters: &ParameterBox, hints: &[f64]) -> Proof {
     let (local, unit) = in_own_units(parameters);
-    let hints: Vec<f64> =
-        hints.iter().map(|&hint| scaled(Interval::point(hint), -unit).middle()).collect();
-    let mut proof = prove_in_units(&local, &hints);
-    proof.parameters = *parameters;
-    for cycle in &mut proof.cycles {
-        cycle.within = scaled(cycle.within, unit);
-        cycle.enclosure = cycle.enclosure.map(|it| it.times_power(unit));
+    let theorem = theorem(&local);
+    let mut map = ProvedMap::new(&local);
+    let Count { mut cycles, open } = counted(theorem, &mut map);
+    for cycle in &mut cycles {
+        let ProvedCycle { within, stable, .. } = *cycle;
+        let middle = if within.is_finite() { within.middle() } else { 1.0 };
+        let mut hints = hints.iter().map(|hint| scaled(Interval::point(*hint), -unit).middle());
+        let guess = hints.find(|hint| within.contains(*hint)).unwrap_or(middle);
+        let enclosure = match theorem {
+            Some(Theorem::Affine) => affine_cycle(&local),
+            _ => enclose(&mut map, guess, within, stable),
+        };
+        let enclosure = enclosure.filter(|it| it.clearance.intersection(within).is_some());
+        cycle.within = scaled(within, unit);
+        cycle.enclosure = enclosure.map(|it| it.times_power(unit));
     }
-    proof.open = proof.open.iter().map(|gap| scaled(*gap, unit)).collect();
-    proof
+    let open = open.iter().map(|gap| scaled(*gap, unit)).collect();
+    Proof { parameters: *parameters, theorem, cycles, open, swings: map.effort.swings }
 }
 
 /// Whether each cycle attracts, smallest cycle first, or `None` where their number is not proved; and the
@@ -90,23 +95,6 @@ fn in_own_units(parameters: &ParameterBox) -> (ParameterBox, i32) {
     let unit = if parameters.r.lower() > 0.0 { exponent(parameters.r.middle()) } else { 0 };
     let unit = if unit.abs() > 300 { unit } else { 0 };
     (parameters.in_units_of(unit), unit)
-}
-
-fn prove_in_units(parameters: &ParameterBox, hints: &[f64]) -> Proof {
-    let theorem = theorem(parameters);
-    let mut map = ProvedMap::new(parameters);
-    let Count { mut cycles, open } = counted(theorem, &mut map);
-    for cycle in &mut cycles {
-        let ProvedCycle { within, stable, .. } = *cycle;
-        let hint = hints.iter().copied().find(|&hint| within.contains(hint));
-        let guess = hint.unwrap_or(if within.is_finite() { within.middle() } else { 1.0 });
-        let enclosure = match theorem {
-            Some(Theorem::Affine) => affine_cycle(parameters),
-            _ => enclose(&mut map, guess, within, stable),
-        };
-        cycle.enclosure = enclosure.filter(|it| it.clearance.intersection(within).is_some());
-    }
-    Proof { parameters: *parameters, theorem, cycles, open, swings: map.effort.swings }
 }
 
 /// Counts cycles by the theorem, or by the return map.

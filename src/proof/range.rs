@@ -15,6 +15,12 @@ pub struct RangePiece {
     pub cycles: Option<Vec<bool>>,
 }
 
+impl RangePiece {
+    fn open(low: f64, high: f64) -> Self {
+        RangePiece { over: Interval::new(low, high), cycles: None }
+    }
+}
+
 /// A range of a parameter, decided piece by piece.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Range {
@@ -80,14 +86,12 @@ pub fn range(base: &ParameterBox, symbol: Knob, (low, high): (f64, f64)) -> Rang
     /// Halvings of a part.
     const HALVINGS: u32 = 10;
     let mut asked = Inquiry::new(base, symbol, MOST_STEPS);
-    let mut pieces = Vec::new();
-    let mut from = low;
-    for part in 1..=PARTS {
-        let to = low + (high - low) * f64::from(part) / f64::from(PARTS);
-        let to = if part == PARTS { high } else { to };
-        pieces.push(RangePiece { over: Interval::new(from, to), cycles: None });
-        from = to;
-    }
+    let end = |part: i32| match part {
+        PARTS => high,
+        _ => low + (high - low) * f64::from(part) / f64::from(PARTS),
+    };
+    let piece = |part: i32| RangePiece::open(end(part), end(part + 1));
+    let mut pieces: Vec<_> = (0..PARTS).map(piece).collect();
     // The widest parts first: where the work ends, what is open is about as wide everywhere.
     for halvings in 0..=HALVINGS {
         for piece in pieces.iter_mut().filter(|piece| piece.cycles.is_none()) {
@@ -128,8 +132,7 @@ fn halves(piece: RangePiece) -> Vec<RangePiece> {
     if piece.cycles.is_some() || middle == low || middle == high {
         return vec![piece];
     }
-    let part = |low, high| RangePiece { over: Interval::new(low, high), cycles: None };
-    vec![part(low, middle), part(middle, high)]
+    vec![RangePiece::open(low, middle), RangePiece::open(middle, high)]
 }
 
 /// Narrows an interval at whose ends these verdicts are certain, as long as the verdict in its middle is one of both;

@@ -28,19 +28,13 @@ pub(super) struct ProvedRow<'a> {
 impl<'a> ProvedRow<'a> {
     /// Every cycle that was found.
     pub(super) fn found(found: &'a [Cycle], proof: &Proof) -> Vec<Self> {
-        let enclosure = |cycle| matching(proof, cycle).and_then(|proved| proved.enclosure);
         let row = |cycle: &'a Cycle| ProvedRow {
             stable: Some(cycle.stable),
             cycle: Some(cycle),
-            enclosure: enclosure(cycle),
+            enclosure: matching(proof, cycle).and_then(|proved| proved.enclosure),
             open: None,
         };
         found.iter().map(row).collect()
-    }
-
-    fn proved(cycle: &ProvedCycle) -> Self {
-        let ProvedCycle { stable, enclosure, .. } = *cycle;
-        ProvedRow { stable: Some(stable), enclosure, ..ProvedRow::default() }
     }
 
     /// Where a number is proved to lie; of an open interval, the clearance.
@@ -150,7 +144,12 @@ fn sentences(found: usize, proof: &Proof, parameters: &str) -> Vec<String> {
 
 /// The cycles that exist for all parameters in a box.
 pub fn boxed(proof: &Proof) -> Answer {
-    let rows: Vec<_> = proof.cycles.iter().map(ProvedRow::proved).collect();
+    let row = |cycle: &ProvedCycle| ProvedRow {
+        stable: Some(cycle.stable),
+        enclosure: cycle.enclosure,
+        ..ProvedRow::default()
+    };
+    let rows: Vec<_> = proof.cycles.iter().map(row).collect();
     with_proof(Answer::new("", About::boxed(&proof.parameters).heading()), &rows, proof)
 }
 
