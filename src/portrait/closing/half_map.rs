@@ -130,6 +130,7 @@ impl HalfSwing {
 /// The half-swing map of one field.
 #[derive(Clone, Debug)]
 pub struct HalfMap {
+    /// Its field.
     pub field: HalfPlane,
     stepper: Auto,
     /// Relative error of a step.
