@@ -23,8 +23,8 @@ use crate::scene::machine::library::{TEXTBOOK, machines};
 
 /// Analyses a mass on a belt in physical units
 ///
-/// Its cycles, slipping and sticking, the border of what comes to rest and the margins up to it, and by how much the cubic
-/// expansion of friction is wrong about them.
+/// Tells its cycles, slipping and sticking, the border of what comes to rest and the margins up to it, and by how much the
+/// cubic expansion of friction is wrong about them.
 #[derive(Debug, Args)]
 #[command(after_long_help = known())]
 pub struct BeltCommand {

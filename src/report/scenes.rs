@@ -157,11 +157,11 @@ impl<'a> AskedRow<'a> {
 
     fn remark(&self) -> String {
         let AskedTogether { after, questions, reused } = self.asked;
-        let anew = || questions.iter().map(|asked| asked.topic).collect::<Vec<_>>();
+        let anew: Vec<Topic> = questions.iter().map(|asked| asked.topic).collect();
         match self.question {
             Some(question) => format!("for {}", question.layers.join(", ")),
             None if *after == OPENING => String::new(),
-            None => consequence(reused, &anew()),
+            None => consequence(reused, &anew),
         }
     }
 }
