@@ -29,9 +29,10 @@ use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
 use crate::view;
 
+mod play;
 mod playing;
 
-use playing::Playing;
+use play::Playing;
 
 /// How long a frame waits for the worker before it shows the old answers, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);

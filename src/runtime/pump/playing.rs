@@ -8,51 +8,13 @@ use std::path::Path;
 
 use ratatui::layout::Size;
 
+use super::play::{Pause, Playing};
 use super::{Application, Files, Pump, Step};
 use crate::runtime::application::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
-use crate::session::replay::{Action, Player, Script, ScriptError};
+use crate::session::replay::{Action, Script, ScriptError};
 use crate::session::{Code, Effect, Key, Msg, Notice};
 use crate::view;
-
-/// Why a replay is paused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pause {
-    Not,
-    /// A caption waits to be read.
-    Caption,
-    /// The user asked for it.
-    Wished,
-}
-
-/// A file that is being played.
-#[derive(Debug)]
-pub(super) struct Playing {
-    player: Player,
-    /// The player at its beginning, to start over.
-    start: Player,
-    /// Number of captions to skip on the way to the wanted one.
-    passed: usize,
-    /// Whether keys had their usual effect since the present caption was shown.
-    tried: bool,
-    pause: Pause,
-    /// Why the first file that it asked for was not written.
-    unwritten: Option<String>,
-}
-
-impl Playing {
-    pub(super) fn new(script: Script) -> Self {
-        let (player, pause) = (Player::new(script), Pause::Not);
-        let start = player.clone();
-        Playing { player, start, passed: 0, tried: false, pause, unwritten: None }
-    }
-
-    /// Plays everything again up to the caption after so many.
-    fn again(&mut self, passed: usize) {
-        self.player = self.start.clone();
-        (self.passed, self.pause, self.tried) = (passed, Pause::Not, false);
-    }
-}
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
 const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
