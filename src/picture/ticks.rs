@@ -67,17 +67,9 @@ impl Scale {
     }
 }
 
-/// Digits within a decade, and every how many decades they are labelled; the finest first.
-const DECADES: [(&[i64], usize); 8] = [
-    (&[1, 2, 5], 1),
-    (&[1], 1),
-    (&[1], 2),
-    (&[1], 3),
-    (&[1], 5),
-    (&[1], 10),
-    (&[1], 20),
-    (&[1], 100),
-];
+/// Every how many decades are labelled, the finest first; and before these, digits within each decade.
+const DECADES: [usize; 7] = [1, 2, 3, 5, 10, 20, 100];
+const DIGITS_WITHIN: [i64; 3] = [1, 2, 5];
 
 /// Maximum number of ticks that are ever considered: more than any screen can label.
 const MOST: f64 = 60.0;
@@ -102,8 +94,10 @@ impl Ticks {
             Scale::Logarithmic => "",
             Scale::NegativeLogarithmic => "-",
         };
-        let decades = DECADES.iter().map(|(digits, every)| decades(axis, sign, digits, *every));
-        let fitting = decades.into_iter().find(|ticks| fit(ticks));
+        let within = std::iter::once((&DIGITS_WITHIN[..], 1));
+        let decades = within.chain(DECADES.map(|every| (&DIGITS_WITHIN[..1], every)));
+        let mut decades = decades.map(|(digits, every)| self::decades(axis, sign, digits, every));
+        let fitting = decades.find(|ticks| fit(ticks));
         if let Some(ticks) = fitting.filter(|ticks| ticks.len() > 1) {
             return Ticks { base: None, ticks };
         }

@@ -86,18 +86,7 @@ pub fn statement(session: &Session, width: usize) -> Option<String> {
 pub const UNRELIABLE: &str = "Not to be relied on";
 
 /// Shorter words for those of a statement that say the same, in the order in which they are used.
-const SHORTER: [(&str, &str); 10] = [
-    (", as a condition fails (", " ("),
-    (", provided that no other force acts", ", if no other force acts"),
-    (", with 95 % confidence, ", ", 95 %: "),
-    ("rom any rest position", "rom rest"),
-    ("a sudden change of position below", "a shift below"),
-    (" is survived, ", " survived, "),
-    ("an impulse below", "impulses below"),
-    ("a change of velocity below", "velocities below"),
-    (", whatever a force of at most ", ", against "),
-    (", if no other force acts", ", undisturbed"),
-];
+const SHORTER: &str = include_str!("../../assets/shorter.txt");
 
 /// A statement in at most so many columns, if that is possible.
 fn shortened(text: &str, width: usize) -> String {
@@ -112,7 +101,7 @@ fn shortened(text: &str, width: usize) -> String {
         Some((sentence, _)) => format!("Extrapolated: {}", sentence.replacen("From", "from", 1)),
     };
     short.truncate(short.trim_end_matches('.').len());
-    for (long, brief) in SHORTER {
+    for (long, brief) in SHORTER.lines().filter_map(|line| line.split_once('|')) {
         if fits(&short) {
             break;
         }

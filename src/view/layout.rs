@@ -4,7 +4,7 @@
 //! would be smaller than [`SMALLEST_PLOT`], the last one without focus first; below 20 rows the second
 //! status line; below 60 x 16 everything, and a message says what is needed.
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Constraint, Layout as Split, Rect};
 
 use crate::scene::Arrangement;
 use crate::session::{Session, Size};
@@ -42,7 +42,6 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
     if width < SMALLEST.0 || height < SMALLEST.1 {
         return None;
     }
-    let band = |y: u16, rows: u16| Rect { y: screen.y + y, height: rows, ..screen };
     let designed = Size { width, height }.tells_margin();
     let status = if designed { 2 } else { 1 };
     let legend = match height {
@@ -50,18 +49,13 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
         TALL.. => 2,
         _ => 1,
     };
-    let body = band(1, height - 2 - status - legend);
+    let rows = [1, height - 2 - status - legend, legend, status, 1].map(Constraint::Length);
+    let [title, body, legend, status, footer] = Split::vertical(rows).areas(screen);
     let column =
         COLUMNS.iter().find(|(least, _)| width >= *least).map_or(23, |(_, columns)| *columns);
     let rest = Rect { x: body.x + column + 1, width: width - column - 1, ..body };
-    Some(Layout {
-        title: band(0, 1),
-        parameters: Rect { width: column, ..body },
-        plots: plots(rest, session),
-        legend: band(height - 1 - status - legend, legend),
-        status: band(height - 1 - status, status),
-        footer: band(height - 1, 1),
-    })
+    let parameters = Rect { width: column, ..body };
+    Some(Layout { title, parameters, plots: plots(rest, session), legend, status, footer })
 }
 
 /// The places of the plots, of which as many are shown as are large enough.

@@ -259,15 +259,9 @@ pub fn fitted(line: Line<'static>, width: usize, look: &Look) -> Line<'static> {
 
 /// The first of some texts that fits into this width, the last if none does.
 pub fn fitting(texts: impl IntoIterator<Item = String>, width: usize) -> String {
-    let mut last = String::new();
-    for text in texts {
-        let fits = text.chars().count() <= width;
-        last = text;
-        if fits {
-            break;
-        }
-    }
-    last
+    let texts: Vec<String> = texts.into_iter().collect();
+    let fitting = texts.iter().find(|text| text.chars().count() <= width);
+    fitting.or(texts.last()).cloned().unwrap_or_default()
 }
 
 /// What is left of an area below so many rows.
