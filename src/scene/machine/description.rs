@@ -211,15 +211,28 @@ fn rest_of(total: f64, part: f64) -> f64 {
 
 /// The speed of a belt and the other numbers of a machine that were changed, in SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Written")]
+#[serde(try_from = "Written", into = "Written")]
 pub struct Setting(BTreeMap<Knob, f64>);
 
-/// A setting as it is read: all changed numbers by name; earlier versions wrote a speed alone.
-#[derive(Deserialize)]
+/// A setting as it is saved: a speed alone, or all changed numbers by name.
+#[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 enum Written {
     Speed(f64),
     Numbers(BTreeMap<String, f64>),
+}
+
+impl From<Setting> for Written {
+    fn from(setting: Setting) -> Self {
+        let numbers = setting.0;
+        match numbers.get(&Knob::BeltSpeed) {
+            Some(speed) if numbers.len() == 1 => Written::Speed(*speed),
+            _ => {
+                let named = numbers.into_iter().map(|(knob, value)| (knob.to_string(), value));
+                Written::Numbers(named.collect())
+            }
+        }
+    }
 }
 
 impl TryFrom<Written> for Setting {
