@@ -311,7 +311,8 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
     if measured <= unknowns {
         return Err(Unfit::TooFew { measured, unknowns });
     }
-    let mut data = Record { peaks: Some(ratio), ..record.clone() };
+    let of = |ratio: f64| Record { peaks: Some(ratio), ..record.clone() };
+    let mut data = of(ratio);
     let lost = || runs.ended().unwrap_or(Unfit::NoMotion);
     let plain = Task { free, reach: reach(x), ..Task::new(record, runs) };
     let mut found = Task { data: &data, ..plain }.search(&starts).ok_or_else(lost)?;
@@ -322,7 +323,7 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
             break;
         }
         ratio = next;
-        data.peaks = Some(ratio);
+        data = of(ratio);
         Task { data: &data, ..plain }.polish(&mut found).ok_or_else(lost)?;
     }
     let dropped = vec![None; data.residuals()];

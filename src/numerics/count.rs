@@ -1,4 +1,4 @@
-//! Conversion between counts and real numbers.
+//! Conversion between counts and real numbers, and counting things once.
 
 /// A count as a double. Exact below `2^53`, which no count here reaches.
 #[expect(clippy::cast_precision_loss, reason = "counts are below 2^53")]
@@ -21,4 +21,15 @@ pub const fn reciprocals<const N: usize>() -> [f64; N] {
         k += 1;
     }
     table
+}
+
+/// Each of some things once, in the order in which they first appear.
+pub fn distinct<T: PartialEq>(all: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for thing in all {
+        if !found.contains(&thing) {
+            found.push(thing);
+        }
+    }
+    found
 }

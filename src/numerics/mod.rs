@@ -2,7 +2,7 @@
 //!
 //! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`scalar`] says what both have in
 //!   common with doubles, [`scaling`] multiplies by powers of two without error, [`sum`] compensates rounding,
-//!   [`mod@count`] converts between counts and real numbers, [`random`] simulates noise.
+//!   [`mod@count`] converts between counts and real numbers, and leaves out repetitions, [`random`] simulates noise.
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
 //!   integrates, [`polynomial`] evaluates and interpolates by cubics, [`spline`] smooths measured points.
 //! - Texts: [`mod@decimal`] writes numbers and steps from one round number to the next, [`similar`] finds the name that was
@@ -24,7 +24,7 @@ pub(crate) mod sum;
 pub(crate) mod table;
 pub mod twofold;
 
-pub(crate) use count::{real, reciprocals, truncated};
+pub(crate) use count::{distinct, real, reciprocals, truncated};
 pub(crate) use decimal::{StepSize, brief, decade, decimal, shortest};
 pub(crate) use elementary::{
     asin, atan, atan2, cbrt, cos, erfc, exp, exp_m1, exp2, hypot, ln, ln_1p, log2, log10, pow,

@@ -26,10 +26,9 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let beside = session.layers.contains(&Layer::Extents) && velocity != label;
     let label: Text = if beside { format!("{label}, {velocity}").into() } else { label.into() };
     let window = diagram.window;
-    picture.axes(name, label);
     picture.varied = vec![abscissa];
     picture.cursor = held(session, index).or(picture.cursor);
-    picture.reading = picture.cursor.map(|at| picture.coordinates(at));
+    picture.axes(name, label);
     let shows = |layer| session.layers.contains(&layer);
     let current = session.value(abscissa);
     let all = session.shown(index);

@@ -9,7 +9,6 @@ use crate::session::Session;
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.axes("Re", "Im");
     picture.varied = vec![Knob::D];
-    picture.reading = picture.cursor.map(|at| picture.coordinates(at));
     if session.layers.contains(&Layer::Locus) {
         locus(picture);
         for shown in session.shown(index) {

@@ -288,8 +288,10 @@ impl<'a> Picture<'a> {
         Picture { title, x, y, window, ..Picture::default() }
     }
 
+    /// Names the axes; under these names the cursor reads its coordinates, where a view says nothing else.
     pub fn axes(&mut self, x: impl Into<Text>, y: impl Into<Text>) {
         (self.x, self.y) = (x.into(), y.into());
+        self.reading = self.cursor.map(|at| self.coordinates(at));
     }
 
     pub fn add_to_title(&mut self, remark: &str) {

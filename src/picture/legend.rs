@@ -39,18 +39,12 @@ pub fn distinct(entries: impl Iterator<Item = LegendEntry>) -> Vec<LegendEntry> 
 }
 
 fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
+    let told = |sample, role, text: &str| LegendEntry { sample, role, text: text.to_owned() };
     let sample = match item {
         Item::Marks(Marks { mark, role, brief, .. }) => {
-            return Some(LegendEntry {
-                sample: LegendSample::Point(*mark),
-                role: *role,
-                text: (*brief).to_owned(),
-            });
+            return Some(told(LegendSample::Point(*mark), *role, brief));
         }
-        Item::Arrows(role, _) => {
-            let text = "flow".to_owned();
-            return Some(LegendEntry { sample: LegendSample::Arrow, role: *role, text });
-        }
+        Item::Arrows(role, _) => return Some(told(LegendSample::Arrow, *role, "flow")),
         Item::Curve(_, points) if matches!(points[..], [from, to] if from == to) => {
             LegendSample::Spot
         }
@@ -63,6 +57,5 @@ fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
         Item::Texture(_) | Item::Caption(_) => return None,
     };
     let line = item.seen(picture.window)?;
-    let text = line.brief.unwrap_or(&line.name).to_owned();
-    Some(LegendEntry { sample, role: line.role, text })
+    Some(told(sample, line.role, line.brief.unwrap_or(&line.name)))
 }

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::{cells, ln, pow};
+use crate::numerics::{cells, distinct, ln, pow};
 use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
 use crate::scene::views::named;
@@ -171,15 +171,10 @@ impl ScanMap {
 
     /// The words that stand for cells, each once.
     pub fn words(&self) -> Vec<&'static str> {
-        let mut words = Vec::new();
-        for cell in self.values.iter().flatten() {
-            if let MapCell::Word(word) = cell
-                && !words.contains(word)
-            {
-                words.push(*word);
-            }
-        }
-        words
+        distinct(self.values.iter().flatten().filter_map(|cell| match cell {
+            MapCell::Word(word) => Some(*word),
+            MapCell::Number(_) => None,
+        }))
     }
 }
 

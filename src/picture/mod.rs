@@ -31,7 +31,7 @@ pub use items::{
 };
 pub use legend::{LegendEntry, LegendSample};
 pub use map::{Danger, Dangerous, MapCell, ScanMap};
-pub use role::{Dash, Mark, Role, cycle_mark, cycle_name, cycle_role};
+pub use role::{Dash, Mark, Role, cycle_mark, cycle_name, cycle_role, end_mark};
 pub use ticks::{Scale, Tick, Ticks};
 
 use crate::fit::Fitted;

@@ -5,7 +5,9 @@
 //! set, markers, cursor. Formulas show the present parameters; computed layers show the last answer, and the title
 //! says when that is stale.
 
-use super::{Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_name, ellipse};
+use super::{
+    Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_name, ellipse, end_mark,
+};
 use crate::closed_form::lyapunov;
 use crate::fit::{Fitted, Signal};
 use crate::flow::{Outcome, Problem, Sample, Trajectory};
@@ -24,7 +26,6 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         let model = if session.draws_whole() { "whole model" } else { "cubic expansion" };
         picture.add_to_title(model);
     }
-    picture.reading = picture.cursor.map(|at| picture.coordinates(at));
     let shows = |layer| session.layers.contains(&layer);
     let shown = session.shown(index);
 
@@ -144,7 +145,7 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
 }
 
 /// The kind of a cycle in the words of the legend, and as its own caption where it is not a plain slip.
-fn kind(cycle: &Cycle) -> (&'static str, &'static str) {
+pub(super) fn kind(cycle: &Cycle) -> (&'static str, &'static str) {
     match (cycle.stable, cycle.sticks(), cycle.overtakes) {
         (_, true, false) => ("stick-slip cycle", "stick-slip"),
         (_, true, true) => ("overtaking stick-slip cycle", "stick-slip, overtaking"),
@@ -304,7 +305,9 @@ fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMo
             && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))
         {
             let role = if family { Role::Trajectory } else { motion(session, place).role };
-            end(picture, found, role);
+            if let (Some(mark), Some(at)) = (end_mark(&found.outcome), found.outcome.state()) {
+                picture.mark(mark, at, role);
+            }
         }
     }
     let problems =
@@ -317,14 +320,6 @@ fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMo
         if let Some(number) = session.number(place).filter(|_| !family) {
             picture.caption(Point::from(*initial), number.to_string(), role);
         }
-    }
-}
-
-fn end(picture: &mut Picture, motion: &Trajectory, role: Role) {
-    match motion.outcome {
-        Outcome::Captured { q, .. } => picture.mark(Mark::Rest, [q, 0.0], role),
-        Outcome::Moving { q, v, .. } => picture.mark(Mark::Head, [q, v], role),
-        Outcome::Escaped { .. } | Outcome::GaveUp { .. } => {}
     }
 }
 

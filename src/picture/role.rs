@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use strum::{IntoStaticStr, VariantArray};
 
+use crate::flow::Outcome;
+
 /// What a part of the screen stands for, as far as its style goes.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray,
@@ -118,6 +120,15 @@ impl Mark {
     /// The name in files.
     pub fn name(self) -> &'static str {
         self.into()
+    }
+}
+
+/// How the end of a motion is marked, where it has one.
+pub fn end_mark(outcome: &Outcome) -> Option<Mark> {
+    match outcome {
+        Outcome::Captured { .. } => Some(Mark::Rest),
+        Outcome::Moving { .. } => Some(Mark::Head),
+        Outcome::Escaped { .. } | Outcome::GaveUp { .. } => None,
     }
 }
 

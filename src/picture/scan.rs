@@ -20,11 +20,12 @@ pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {
 /// The curve over one parameter, or the map over two.
 pub fn draw(picture: &mut Picture, session: &Session) {
     let Some(scanned) = &session.scanned else { return };
-    picture.cursor = scanned.place(scanned.at);
     picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
     let names: Vec<&str> = picture.varied.iter().map(|knob| knob.spec().name).collect();
     let upward = names.get(1).copied().unwrap_or_else(|| measured(scanned));
     picture.axes(names[0], upward);
+    // The lines below the plot say what stands at the cursor.
+    (picture.cursor, picture.reading) = (scanned.place(scanned.at), None);
     picture.map = ScanMap::of(scanned);
     if let Some(name) = picture.map.as_ref().map(|map| map.name.clone()) {
         picture.add_to_title(&name);

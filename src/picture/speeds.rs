@@ -2,7 +2,7 @@
 //! where it is stable and dashed where it is not, stick-slip in thick ones, overtaking dotted; and where a
 //! stable state ends, the jump to the one that is left.
 
-use super::Picture;
+use super::{Picture, phase_plane};
 use crate::branch::{Jump, Special};
 use crate::portrait::{Border, Cycle, Portrait};
 use crate::scene::{Layer, Point};
@@ -20,19 +20,12 @@ const KINDS: [&str; 5] = [
 
 /// The one of [`KINDS`] to which a cycle belongs.
 fn kind(cycle: &Cycle) -> &'static str {
-    match (cycle.sticks(), cycle.overtakes, cycle.stable) {
-        (true, ..) => "branch of stick-slip cycles",
-        (_, false, true) => "stable slip cycle",
-        (_, false, false) => "unstable slip cycle",
-        (_, true, true) => "stable overtaking cycle",
-        (_, true, false) => "unstable overtaking cycle",
-    }
+    if cycle.sticks() { "branch of stick-slip cycles" } else { phase_plane::kind(cycle).0 }
 }
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.axes("v0 [m/s]", "x_max [m]");
     picture.add_to_title("whole model");
-    picture.reading = picture.cursor.map(|at| picture.coordinates(at));
     if let Some(running) = session.running() {
         picture.upright("present speed", running.machine.belt.belt_speed);
     }

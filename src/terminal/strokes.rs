@@ -12,6 +12,7 @@ use ratatui::layout::{Position, Size};
 use unicode_width::UnicodeWidthStr;
 
 use super::pen::Pen;
+use crate::numerics::distinct;
 use crate::words::printable::is_printable;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -225,12 +226,7 @@ pub fn draw(shown: &Buffer, picture: &Buffer, hand: TerminalState) -> (String, T
 
 /// The strokes grouped by pen, in the order in which the pens first appear; strokes of blanks form a group too.
 fn pen_by_pen(strokes: &[Stroke]) -> Vec<&Stroke> {
-    let mut pens: Vec<Option<Pen>> = Vec::new();
-    for stroke in strokes {
-        if !pens.contains(&stroke.pen) {
-            pens.push(stroke.pen);
-        }
-    }
+    let pens = distinct(strokes.iter().map(|stroke| stroke.pen));
     let mut sorted: Vec<&Stroke> = strokes.iter().collect();
     sorted.sort_by_key(|stroke| pens.iter().position(|pen| *pen == stroke.pen));
     sorted

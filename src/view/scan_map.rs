@@ -6,7 +6,7 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 use super::{Look, Surface, pane, plot::Canvas};
-use crate::numerics::count::{real, truncated};
+use crate::numerics::{distinct, real, truncated};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Dangerous, MapCell, Role, ScanMap};
 use crate::scene::Point;
@@ -83,12 +83,8 @@ fn of_word(danger: Option<f64>, look: &Look) -> Style {
 
 /// What the signs of a map mean where there is no number; of a curve, its gaps.
 pub fn without_numbers(scanned: &ScanOnShow, width: usize) -> String {
-    let mut meanings: Vec<&str> = Vec::new();
-    for meaning in (0..scanned.rows.len()).filter_map(|index| nothing(scanned, index)) {
-        if !meanings.contains(&meaning) {
-            meanings.push(meaning);
-        }
-    }
+    let meanings = (0..scanned.rows.len()).filter_map(|index| nothing(scanned, index));
+    let meanings = distinct(meanings);
     let sign = |meaning: &&str| match *meaning {
         _ if !scanned.is_grid() => format!("gap: {meaning}"),
         meaning => format!("{} {meaning}", sign_of_nothing(meaning)),

@@ -4,9 +4,8 @@
 use ratatui::layout::Rect;
 
 use super::{Look, Surface, fitted::UNRELIABLE, keys, margin, pane, verdict};
-use crate::flow::Outcome;
 use crate::flow::trajectory::choice;
-use crate::picture::{Mark, Role};
+use crate::picture::{Role, end_mark};
 use crate::scene::Topic;
 use crate::session::Session;
 use crate::session::wants::named;
@@ -107,13 +106,9 @@ const UNMEASURED: [[&str; 3]; SHORTEST] = [
 
 /// The mark at the end of the motion in the phase plane.
 fn symbol(session: &Session, look: &Look) -> String {
-    let mark = match session.trajectory().map(|found| found.outcome) {
-        _ if session.contact().is_some() => return String::new(),
-        Some(Outcome::Captured { .. }) => Mark::Rest,
-        Some(Outcome::Moving { .. }) => Mark::Head,
-        _ => return String::new(),
-    };
-    format!("{} ", look.symbols().mark(mark))
+    let motion = session.trajectory().filter(|_| session.contact().is_none());
+    let mark = motion.and_then(|found| end_mark(&found.outcome));
+    mark.map_or_else(String::new, |mark| format!("{} ", look.symbols().mark(mark)))
 }
 
 /// How the motion was computed while the dial is in use, what it cost, and its error: the measured one, else that of

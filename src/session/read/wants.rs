@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::branch::chart::Plane;
 use crate::flow::Problem;
 use crate::model::{Belt, Knob};
-use crate::numerics::elementary::{exp2, hypot, log2};
+use crate::numerics::{distinct, exp2, hypot, log2};
 use crate::scene::{Axes, Finding, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::{AnswerState, Framing, List, Listed, Overlay, Pane, Row, Session};
 
@@ -59,19 +59,13 @@ impl Session {
             .chain(self.refit_request(false))
             .chain(claims.then_some(Request::Claims))
             .chain(each.map(|each| each.1));
-        let mut asked = Vec::new();
         let proof = || self.request(Topic::Proof, self.plot);
         let proof = needed.iter().any(|(topic, _)| *topic == Topic::Cycles).then(proof).flatten();
         // The distribution of the margin is drawn, and the second status line tells of it.
         let spread = self.on_show().any(|plot| self.plots[plot].view == View::Spread);
         let told = self.size.tells_margin() && !self.measures();
         let drawn = (spread || told).then(|| self.refit_request(true)).flatten();
-        for request in all.chain(last).chain(proof).chain(drawn).chain(self.scan_request()) {
-            if !asked.contains(&request) {
-                asked.push(request);
-            }
-        }
-        asked
+        distinct(all.chain(last).chain(proof).chain(drawn).chain(self.scan_request()))
     }
 
     /// The questions of one plot.
