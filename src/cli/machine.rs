@@ -123,7 +123,7 @@ impl CommandCase {
     pub fn scene(&self) -> Result<Option<Arc<Scene>>, Failure> {
         let Ok(machine) = Machine::try_from(self.described.clone()) else { return Ok(None) };
         let refused = |why| Failure::Usage(format!("{}: {why}", self.described.name));
-        let scaled = ScaledMachine::new(machine).map_err(refused)?;
+        let scaled = ScaledMachine::try_from(machine).map_err(refused)?;
         Ok(Some(Arc::new(scaled.scene())))
     }
 }

@@ -92,7 +92,7 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
     };
     let moving = || {
         let guess = |averaged: &Unknowns| {
-            let (cosine, sine) = first_state(t, &cleaned, &unknowns(averaged, 0.0, 0.0), period)?;
+            let [cosine, sine] = first_state(t, &cleaned, averaged[OFFSET], period)?;
             let is_velocity = signal == Signal::Velocity;
             let (q0, v0) = if is_velocity { (-sine, cosine) } else { (cosine, sine) };
             Some(unknowns(averaged, q0, v0))
@@ -253,12 +253,11 @@ fn excited_again(t: &[f64], x: &[f64], extremes: &[Extreme]) -> Option<usize> {
 
 /// Displacement and velocity at the first sample, from an undamped oscillation fitted to the first third of a
 /// period.
-fn first_state(t: &[f64], x: &[f64], p: &Unknowns, period: f64) -> Option<(f64, f64)> {
+fn first_state(t: &[f64], x: &[f64], offset: f64, period: f64) -> Option<[f64; 2]> {
     let to = t.partition_point(|&time| time <= t[0] + period / 3.0).max(3).min(t.len());
     let row = |(time, x): (&f64, &f64)| {
-        let (sine, cosine) = sin_cos(p[OMEGA0] * (time - t[0]));
-        ([cosine, sine], x - p[OFFSET])
+        let (sine, cosine) = sin_cos(2.0 * PI / period * (time - t[0]));
+        ([cosine, sine], x - offset)
     };
-    let [q, v] = least_squares(t[..to].iter().zip(x).map(row))?;
-    Some((q, v))
+    least_squares(t[..to].iter().zip(x).map(row))
 }

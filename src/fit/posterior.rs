@@ -36,10 +36,8 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     const MOST: f64 = 1e7;
     let is_bent = |place: usize| estimate.free[place] && !estimate.intervals[place].quadratic;
     let quadratic = ![D, D2, D3, R].into_iter().any(is_bent);
-    let interrupted = || Err(Reason::Interrupted);
-    let Some(frame) = PosteriorFrame::of(estimate, &Runs::new(limits.interrupted)) else {
-        return interrupted();
-    };
+    let frame = PosteriorFrame::of(estimate, &Runs::new(limits.interrupted));
+    let frame = frame.ok_or(Reason::Interrupted)?;
     if quadratic || estimate.whiteness.systematic {
         // Negative friction is physically impossible and counts as zero.
         let draw = |index: usize| {
@@ -58,7 +56,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
             .map(|index| frame.draws(&frame.errors(index), limits))
             .collect();
         if (limits.interrupted)() {
-            return interrupted();
+            return Err(Reason::Interrupted);
         }
         for (found, computed) in found {
             points.extend(found);

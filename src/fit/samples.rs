@@ -311,8 +311,7 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
     if measured <= unknowns {
         return Err(Unfit::TooFew { measured, unknowns });
     }
-    let of = |ratio: f64| Record { peaks: Some(ratio), ..record.clone() };
-    let mut data = of(ratio);
+    let mut data = Record { peaks: Some(ratio), ..record.clone() };
     let lost = || runs.ended().unwrap_or(Unfit::NoMotion);
     let plain = Task { free, reach: reach(x), ..Task::new(record, runs) };
     let mut found = Task { data: &data, ..plain }.search(&starts).ok_or_else(lost)?;
@@ -323,7 +322,7 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
             break;
         }
         ratio = next;
-        data = of(ratio);
+        data.peaks = Some(ratio);
         Task { data: &data, ..plain }.polish(&mut found).ok_or_else(lost)?;
     }
     let dropped = vec![None; data.residuals()];

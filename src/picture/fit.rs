@@ -36,7 +36,7 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     if let Some(times) = Span::covering(fitted.points.iter().map(|it| it.t)) {
         picture.window.x = times.scaled(times.center(), 1.06);
     }
-    let apart = fitted.points.iter().filter_map(|it| Some((at(it.t, it.x), it.dropped?)));
+    let apart = fitted.points.iter().filter_map(|it| Some(([it.t, it.x].into(), it.dropped?)));
     mark_dropped(&mut picture, apart);
     Some(picture)
 }
@@ -51,7 +51,7 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     picture.window = around(&picture)?;
     let apart = fitted.points.iter().filter_map(|it| {
         let why = it.dropped.filter(|why| matches!(why, Dropped::Outlier | Dropped::Jump))?;
-        Some((at(it.t, it.residual), why))
+        Some(([it.t, it.residual].into(), why))
     });
     mark_dropped(&mut picture, apart);
     Some(picture)
@@ -91,7 +91,7 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
     }
     picture.curve("averaged", found.averaged.iter().copied());
     picture.curve("exact", found.exact.iter().copied());
-    let measured: Vec<Point> = found.measured.iter().map(|&[x, y, _]| at(x, y)).collect();
+    let measured: Vec<Point> = found.measured.iter().map(|&[x, y, _]| Point { x, y }).collect();
     let beyond = measured.iter().filter(|at| !extent.contains(**at)).count();
     let name = match beyond {
         0 => "measured".to_owned(),
@@ -175,7 +175,7 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
         }
     }
     picture.window = around(&picture)?;
-    let marks = Marks::new(Mark::Stable, Role::Special, vec![at(p[D], p[R])]);
+    let marks = Marks::new(Mark::Stable, Role::Special, vec![[p[D], p[R]].into()]);
     picture.items.push(Item::Marks(Marks { name: "estimate".into(), ..marks }));
     Some(picture)
 }
@@ -220,10 +220,6 @@ pub fn mark_dropped(picture: &mut Picture, samples: impl Iterator<Item = (Point,
             picture.items.push(Item::Marks(marks));
         }
     }
-}
-
-fn at(x: f64, y: f64) -> Point {
-    Point { x, y }
 }
 
 fn points(places: &[PlotPoint]) -> Vec<Point> {

@@ -259,7 +259,7 @@ plots = [
     #[test]
     fn a_machine_is_opened_with_its_own_words_and_numbers() {
         for machine in machines() {
-            let scaled = ScaledMachine::new(machine.clone()).unwrap();
+            let scaled = ScaledMachine::try_from(machine.clone()).unwrap();
             let scene = scaled.clone().scene();
             assert_eq!((&scene.title, &scene.watch), (&machine.title, &machine.watch));
             assert_eq!((scene.problem, &scene.terms), (scaled.problem(), &scaled.terms()));

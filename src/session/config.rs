@@ -19,8 +19,7 @@ use crate::numerics::similar::most_similar;
 use crate::scene::misread::Complaint;
 use crate::scene::{Misread, find, misread};
 use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, named};
-use crate::session::state::keymap::contexts;
-use crate::session::state::keymap::full_name;
+use crate::session::state::keymap::{contexts, full_name};
 use crate::session::{Command, Context, Key, Keymap};
 
 /// The content of a settings file; whatever is missing keeps its default.

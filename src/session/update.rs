@@ -11,8 +11,7 @@ use crate::scene::{Answered, Request};
 use crate::session::act::screen_setup::focus_on;
 use crate::session::act::{answers, files, general, history, plots, prompt, values, walk};
 use crate::session::read::completion::names;
-use crate::session::read::contexts;
-use crate::session::read::contexts::{elsewhere, place};
+use crate::session::read::contexts::{self, elsewhere, place};
 use crate::session::replay::script::parse;
 use crate::session::state::keymap::full_name;
 use crate::session::{

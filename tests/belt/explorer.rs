@@ -79,7 +79,7 @@ fn few_cells_change_from_frame_to_frame() {
 #[test]
 fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
     let machine = hopfscope::scene::machine::library::find("textbook").unwrap();
-    let scene = ScaledMachine::new(machine.clone()).unwrap().scene();
+    let scene = ScaledMachine::try_from(machine.clone()).unwrap().scene();
     let (session, text) = screen(scene.clone(), "");
     assert_eq!(session.contact(), None);
     for words in ["1 N", "1 mm", "2 s", "margin from rest: 1.249 mm, 0.1448 N s", "belt"] {

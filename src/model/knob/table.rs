@@ -4,8 +4,7 @@
 //! machine or a mode, where it stands; of a motion see `Problem::own` and `Parameters::part`. The pane, the command
 //! line, the files of scenes, machines and sessions, scans, charts and all that is said about a wrong value read it.
 
-use crate::model::belt::friction::Belt;
-use crate::model::belt::friction::FrictionLaw;
+use crate::model::belt::friction::{Belt, FrictionLaw};
 use crate::model::modal::Modal;
 
 /// What a number belongs to. Names are different within a group, and within [`Group::SOURCE`].
@@ -280,11 +279,6 @@ impl Knob {
 
     /// The four numbers of equation (4).
     pub const PARAMETERS: [Self; 4] = [Knob::D, Knob::D2, Knob::D3, Knob::R];
-
-    /// The numbers that a mass on a belt and its friction law can have, in the order of the table.
-    pub fn of_machines() -> impl Iterator<Item = Self> + Clone {
-        Group::Machine.knobs().chain(Group::Law.knobs())
-    }
 
     /// Whether it is a number of a mass on a belt or its friction law.
     #[must_use]

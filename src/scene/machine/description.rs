@@ -91,8 +91,10 @@ pub struct ScaledMachine {
 impl TryFrom<Machine> for ScaledMachine {
     type Error = Reason;
 
+    /// Computes the dimensionless form of a machine. Fails with [`Reason`] where there is none.
     fn try_from(machine: Machine) -> Result<Self, Reason> {
-        ScaledMachine::new(machine)
+        let reduced = machine.belt.reduce()?;
+        Ok(ScaledMachine { machine, reduced })
     }
 }
 
@@ -103,12 +105,6 @@ impl From<ScaledMachine> for Machine {
 }
 
 impl ScaledMachine {
-    /// Computes the dimensionless form of a machine. Fails with [`Reason`] where there is none.
-    pub fn new(machine: Machine) -> Result<Self, Reason> {
-        let reduced = machine.belt.reduce()?;
-        Ok(ScaledMachine { machine, reduced })
-    }
-
     /// The motion of the machine at its own belt speed.
     pub fn problem(&self) -> Problem {
         Problem {
@@ -132,7 +128,7 @@ impl ScaledMachine {
     pub fn at(machine: &Machine, speed: f64) -> Result<Self, String> {
         let mut machine = machine.clone();
         machine.belt.belt_speed = Knob::BeltSpeed.check(speed)?;
-        ScaledMachine::new(machine).map_err(|refused| refused.to_string())
+        ScaledMachine::try_from(machine).map_err(|refused| refused.to_string())
     }
 
     /// Whether these parameters equal those of the machine at this speed, to the last bit.
@@ -290,7 +286,7 @@ impl Setting {
             set.belt.static_guide = set.belt.static_guide.map(|at_rest| at_rest.max(moving));
         }
         Model::new(&set.belt).map_err(|refused| refused.to_string())?;
-        ScaledMachine::new(set).map_err(|refused| refused.to_string())
+        ScaledMachine::try_from(set).map_err(|refused| refused.to_string())
     }
 }
 
@@ -302,7 +298,7 @@ mod tests {
     #[test]
     fn a_machine_written_down_comes_back_as_it_was() {
         for machine in machines() {
-            let scaled = ScaledMachine::new(machine.clone()).unwrap();
+            let scaled = ScaledMachine::try_from(machine.clone()).unwrap();
             let text = serde_json::to_string(&scaled).unwrap();
             assert_eq!(
                 serde_json::from_str::<ScaledMachine>(&text).unwrap(),
@@ -318,7 +314,7 @@ mod tests {
     #[test]
     fn numbers_mean_the_quantities_of_the_machine() {
         for machine in machines() {
-            let scaled = ScaledMachine::new(machine.clone()).unwrap();
+            let scaled = ScaledMachine::try_from(machine.clone()).unwrap();
             let problem = scaled.problem();
             for (symbol, expected) in [
                 (Knob::D, machine.belt.damping),
@@ -363,11 +359,11 @@ mod tests {
     #[test]
     fn another_speed_is_another_machine_with_the_same_start_in_metres() {
         for machine in machines() {
-            let own = ScaledMachine::new(machine.clone()).unwrap();
+            let own = ScaledMachine::try_from(machine.clone()).unwrap();
             let speed = 1.25 * machine.belt.belt_speed;
             let mut faster = machine.clone();
             faster.belt.belt_speed = speed;
-            let faster = ScaledMachine::new(faster).unwrap();
+            let faster = ScaledMachine::try_from(faster).unwrap();
             let running = ScaledMachine::at(machine, speed).unwrap();
             let moved = own.brought_to(&running, own.problem());
             assert_eq!(moved, faster.problem(), "{}", machine.name);

@@ -67,11 +67,6 @@ impl<'a> Section<'a> {
     }
 }
 
-/// Whether a text describes a mode: only modes have a modal mass.
-pub fn is_mode(text: &str) -> bool {
-    text.lines().any(|line| line.trim_start().starts_with("modal_mass"))
-}
-
 /// The numbers of a machine without those of its friction, or those of a mode without its damping ratio.
 fn numbers(is_mode: bool) -> impl Iterator<Item = Knob> + Clone {
     let mode = [Knob::Frequency, Knob::ModalMass, Knob::Friction];

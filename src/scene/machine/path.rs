@@ -70,7 +70,7 @@ mod tests {
     #[test]
     fn a_path_leads_through_the_machine_as_it_is_and_within_its_law() {
         for machine in machines() {
-            let scaled = ScaledMachine::new(machine.clone()).unwrap();
+            let scaled = ScaledMachine::try_from(machine.clone()).unwrap();
             let (path, own) = (scaled.path(), machine.belt.belt_speed);
             assert!(path.windows(2).all(|pair| pair[0].0 < pair[1].0), "{}", machine.name);
             let (low, high) = machine.belt.law.range();
@@ -87,7 +87,7 @@ mod tests {
     #[test]
     fn a_path_ends_where_friction_does() {
         let machine = machines().iter().find(|machine| machine.name == "straight").unwrap();
-        let path = ScaledMachine::new(machine.clone()).unwrap();
+        let path = ScaledMachine::try_from(machine.clone()).unwrap();
         let path = path.path();
         // mu = 0.5 - 0.4 v
         assert!(path.iter().all(|(speed, parameters)| parameters.is_some() == (*speed < 1.25)));
@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn milestones_are_the_numbers_that_one_would_type() {
         let machine = machines().iter().find(|machine| machine.name == "textbook").unwrap();
-        let scaled = ScaledMachine::new(machine.clone()).unwrap();
+        let scaled = ScaledMachine::try_from(machine.clone()).unwrap();
         let speeds: Vec<f64> = scaled.milestones().into_iter().map(|(speed, _)| speed).collect();
         assert_eq!(speeds[..5], [0.01, 0.1, 1.0, 0.02, 0.05]);
         assert!(

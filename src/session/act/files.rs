@@ -4,15 +4,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::question::Opened;
 use crate::question::record::{RecordOptions, apart};
-use crate::scene::machine::NO_BELT;
-use crate::scene::machine::file::{self, is_mode};
-use crate::scene::{Recording, ScaledMachine};
+use crate::scene::machine::file;
+use crate::scene::{Machine, Recording, ScaledMachine};
 use crate::session::act::{history, lists, prompt};
-use crate::session::replay;
-use crate::session::save;
-use crate::session::{Done, Effect, Listed, Overlay, Purpose, Script, Session};
+use crate::session::{Done, Effect, Listed, Overlay, Purpose, Script, Session, replay, save};
 
 /// The built-in tour.
 const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
@@ -102,7 +98,8 @@ pub(crate) fn read(
             session.effects.push(Effect::PutAside(path.to_owned()));
         }
         Purpose::Fit(words) => {
-            let opened = opened(path, &words, &text).map_err(of_file)?;
+            let options = RecordOptions::of_words(&words).map_err(of_file)?;
+            let opened = options.opened(path, text.as_bytes()).map_err(of_file)?;
             history::open_scene(session, Arc::new(Recording::from(opened).scene()));
         }
         Purpose::Machine => return open_machine(session, path, text, None),
@@ -125,9 +122,6 @@ fn open_machine(
 ) -> Done {
     let file = path.display().to_string();
     let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    if is_mode(&text) {
-        return Err(format!("{file}: {NO_BELT}"));
-    }
     let mut wanted = None;
     let found = file::parse(&title, &file, &text, |name| {
         table.cloned().unwrap_or_else(|| {
@@ -140,8 +134,9 @@ fn open_machine(
         session.effects.push(Effect::Read { path: table, purpose });
         return Ok(());
     }
-    let machine = found.map_err(|error| error.to_string())?.try_into()?;
-    let scaled = ScaledMachine::new(machine).map_err(|error| format!("{file}: {error}"))?;
+    let described = found.map_err(|error| error.to_string())?;
+    let machine = Machine::try_from(described).map_err(|why| format!("{file}: {why}"))?;
+    let scaled = ScaledMachine::try_from(machine).map_err(|why| format!("{file}: {why}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
     session.warn_of_units();
     Ok(())
@@ -217,9 +212,4 @@ pub fn fit(session: &mut Session, rest: &str) -> Done {
     let (file, words) = apart(rest);
     RecordOptions::of_words(words)?;
     ask(session, file, Purpose::Fit(words.to_owned()))
-}
-
-/// Reads the record. Fails with one line that says what is wrong, where, and what is allowed.
-pub(crate) fn opened(path: &Path, words: &str, text: &str) -> Result<Opened, String> {
-    RecordOptions::of_words(words)?.opened(path, text.as_bytes())
 }

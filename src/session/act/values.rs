@@ -64,7 +64,7 @@ pub fn scene(session: &mut Session, name: &str) -> Done {
 /// Opens a built-in machine.
 pub fn belt(session: &mut Session, name: &str) -> Done {
     let machine = machine::library::find(name)?.clone();
-    let scaled = ScaledMachine::new(machine).map_err(|error| format!("{name}: {error}"))?;
+    let scaled = ScaledMachine::try_from(machine).map_err(|error| format!("{name}: {error}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
     Ok(())
 }

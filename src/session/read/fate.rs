@@ -8,8 +8,7 @@ use crate::model::parameters::rests;
 use crate::model::{Parameters, State};
 use crate::portrait::{Border, Cycle, Drawing, Portrait};
 use crate::scene::Topic;
-use crate::scene::said;
-use crate::scene::said::TextCondition;
+use crate::scene::said::{self, TextCondition};
 use crate::session::{Course, Session, Setup};
 
 /// The fate of a motion.

@@ -213,7 +213,8 @@ impl Row {
     /// All rows, from top to bottom.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
         let others = [Knob::Disturbance, Knob::Q0, Knob::V0, Knob::Until];
-        let rest = Knob::of_machines().filter(|knob| !FIRST_OF_MACHINE.contains(knob));
+        let of_machines = Group::Machine.knobs().chain(Group::Law.knobs());
+        let rest = of_machines.filter(|knob| !FIRST_OF_MACHINE.contains(knob));
         let machine = FIRST_OF_MACHINE.into_iter().chain(rest);
         let numbers = machine.chain(Knob::PARAMETERS).chain(others);
         numbers.map(Row::Number).chain([Row::Method, Row::Tolerance])
@@ -323,10 +324,12 @@ impl StepSizes {
 
     /// The steps with which a scene opens.
     pub fn of_scene(scene: &Scene) -> Self {
+        let r = scene.problem.parameters.r;
         StepSizes::from_each(|knob| {
             let usual = scene.steps.get(&knob).copied().unwrap_or(knob.spec().step);
             match (knob, &scene.machine) {
-                (Knob::Disturbance, _) => step_of_disturbance(scene),
+                // A tenth of the friction, rounded to a step size.
+                (Knob::Disturbance, _) if r > 0.0 => 0.1 * r,
                 (knob, Some(scaled)) if knob.is_of_machine() => usual * size(scaled, knob),
                 _ => usual,
             }
@@ -340,10 +343,4 @@ fn size(scaled: &ScaledMachine, knob: Knob) -> f64 {
     let size = knob.of_belt(&scaled.machine.belt).map_or(0.0, f64::abs);
     let unit = symbol_of(knob).map(|symbol| scaled.scale(symbol));
     if size > 0.0 { size } else { unit.unwrap_or(1.0) }
-}
-
-/// First step of the disturbance: a tenth of the friction, rounded to a step size.
-fn step_of_disturbance(scene: &Scene) -> f64 {
-    let r = scene.problem.parameters.r;
-    if r > 0.0 { 0.1 * r } else { Knob::Disturbance.spec().step }
 }

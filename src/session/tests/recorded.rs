@@ -99,7 +99,7 @@ fn a_recording_begins_with_the_lines_that_lead_to_its_start() {
 #[test]
 fn a_machine_and_a_saved_session_begin_as_they_were() {
     for machine in machines() {
-        let scene = Arc::new(ScaledMachine::new(machine.clone()).unwrap().scene());
+        let scene = Arc::new(ScaledMachine::try_from(machine.clone()).unwrap().scene());
         let scene = with_numbers(&scene, |scene| set(scene, Knob::Q0, 0.5));
         let (live, recorder) = started(scene, DisplaySettings::default());
         let begun = text("", recorder.steps());
