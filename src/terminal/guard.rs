@@ -14,35 +14,27 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 use super::screen::{END, PLAIN};
 
+/// The sequences that turn a mode on and off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScreenMode {
     pub on: &'static str,
     pub off: &'static str,
-    /// What the mode does, for the handbook.
-    pub meaning: &'static str,
 }
 
 /// The modes of the explorer, in the order in which they are turned on.
 pub const MODES: [ScreenMode; 3] = [
-    ScreenMode {
-        on: "\x1b[?1049h",
-        off: "\x1b[?1049l",
-        meaning: "alternate screen: what was on the terminal comes back at the end",
-    },
-    ScreenMode {
-        on: "\x1b[?2004h",
-        off: "\x1b[?2004l",
-        meaning: "bracketed paste: a paste arrives as one message, not as keys",
-    },
-    ScreenMode { on: "\x1b[?25l", off: "\x1b[?25h", meaning: "hidden cursor" },
+    // Alternate screen: what was on the terminal comes back at the end.
+    ScreenMode { on: "\x1b[?1049h", off: "\x1b[?1049l" },
+    // Bracketed paste: a paste arrives as one message, not as keys.
+    ScreenMode { on: "\x1b[?2004h", off: "\x1b[?2004l" },
+    // Hidden cursor.
+    ScreenMode { on: "\x1b[?25l", off: "\x1b[?25h" },
 ];
 
-/// The mode that only some users want: while it is off, the mouse selects text in the terminal.
-pub const MOUSE: ScreenMode = ScreenMode {
-    on: "\x1b[?1000h\x1b[?1006h",
-    off: "\x1b[?1006l\x1b[?1000l",
-    meaning: "the mouse: clicks and the wheel are reported, with decimal coordinates",
-};
+/// The mode that only some users want: while it is off, the mouse selects text in the terminal. Clicks and the wheel are
+/// reported, with decimal coordinates.
+pub const MOUSE: ScreenMode =
+    ScreenMode { on: "\x1b[?1000h\x1b[?1006h", off: "\x1b[?1006l\x1b[?1000l" };
 
 /// The sequence that `enter` writes.
 fn entering(mouse: bool) -> String {

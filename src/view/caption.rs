@@ -4,7 +4,7 @@
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::{Surface, keys, pane};
+use super::{Surface, pane};
 use crate::picture::Role;
 use crate::session::{Session, overlay::SessionCaption};
 
@@ -13,7 +13,7 @@ const WIDTH: u16 = 100;
 /// Draws the box at the bottom of `area`, if there is something to say and room for it.
 pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
-    let filled = |text: &str| keys::sentence(text, &session.keymap, look);
+    let filled = |text: &str| look.sentence(text, &session.keymap);
     let (heading, paragraphs) = match &session.caption {
         SessionCaption::Tour(caption, place) => {
             let place = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));

@@ -4,7 +4,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 use ratatui::text::Span;
 
-use super::{Look, Surface, keys, pane};
+use super::{Look, Surface, pane};
 use crate::flow::QUALITIES;
 use crate::model::{Knob, KnobSpec};
 use crate::picture::Role;
@@ -63,7 +63,7 @@ fn fitting(hints: &[&Hint], width: usize, look: &Look) -> Vec<Span<'static>> {
 
 fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
     [
-        look.span(format!(" {}", keys::names(hint.keys.iter().copied(), look)), Role::Key),
+        look.span(format!(" {}", look.keys(hint.keys.iter().copied())), Role::Key),
         look.span(format!(" {} ", hint.text), Role::Quiet),
     ]
 }

@@ -8,8 +8,8 @@ use super::layout::{Layout, SMALLEST, layout};
 use super::pane::{self, Framed, Heading};
 use super::plot::{point_at, shown};
 use super::{
-    Look, Surface, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters,
-    scan, signs, status,
+    Look, Surface, caption, energy_ledger, footer, legend, lists, paint::paint, parameters, scan,
+    signs, status,
 };
 use crate::picture::{self, Role, legend::entries};
 use crate::scene::View;
@@ -80,7 +80,7 @@ fn plot(mut framed: Framed, session: &Session, index: usize, screen: &mut Surfac
     };
     if let Some(text) = session.nothing(index).filter(|_| !draws) {
         screen.title(*area, &picture.title, "", heading);
-        let text = keys::sentence(&text, &session.keymap, screen.look);
+        let text = screen.look.sentence(&text, &session.keymap);
         return nothing(*area, text, screen);
     }
     heading.reading.clone_from(&picture.reading);

@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::{Look, Surface, keys, pane};
+use super::{Look, Surface, pane};
 use crate::numerics::cells;
 use crate::paper::{Claim, ClaimResult, Verdict};
 use crate::picture::Role;
@@ -72,7 +72,7 @@ fn keys_of(session: &Session, row: PaletteRow, look: &Look) -> Vec<String> {
             let places = session.keymap.places(command);
             let here = places.into_iter().find(|(context, _)| Some(*context) == place);
             let keys = here.map(|(_, keys)| keys).unwrap_or_default();
-            keys.into_iter().map(|key| keys::name(key, look)).collect()
+            keys.into_iter().map(|key| look.key(key)).collect()
         }
         PaletteRow::Line(line) => vec![format!(":{}", line.name)],
         _ => Vec::new(),
@@ -94,9 +94,8 @@ fn scenes(content: &mut ListContent, session: &Session, list: &List, look: &Look
     }
     if let Some(scene) = found.get(list.selected) {
         let quiet = look.style(Role::Quiet);
-        let text = |text: &str| {
-            Line::styled(keys::sentence(&said_by(scene, text), &session.keymap, look), quiet)
-        };
+        let text =
+            |text: &str| Line::styled(look.sentence(&said_by(scene, text), &session.keymap), quiet);
         content.about = vec![text(&scene.watch), Line::default(), text(&scene.press)];
     }
 }
@@ -120,8 +119,7 @@ fn views(content: &mut ListContent, session: &Session, list: &List, look: &Look)
         let shown = session.plots.iter().any(|plot| plot.view == spec.view);
         let on = if shown { "[x]" } else { "[ ]" };
         let title = format!("{on} {:<14}", spec.title);
-        let lacks =
-            session.lacks(spec.view).map(|text| keys::sentence(text, &session.keymap, look));
+        let lacks = session.lacks(spec.view).map(|text| look.sentence(text, &session.keymap));
         let (text, role) = match lacks {
             Some(lacks) => (lacks, Role::Quiet),
             None => (spec.meaning.to_owned(), Role::Text),

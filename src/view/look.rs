@@ -17,6 +17,7 @@ use strum::VariantArray;
 use crate::numerics::count::truncated;
 use crate::picture::{Mark, Role};
 use crate::session::settings::{self, Colors, Glyphs, Theme};
+use crate::session::{Code, Key, Keymap};
 
 /// The text of a theme that comes with the program.
 fn text_of(theme: Theme) -> &'static str {
@@ -160,6 +161,32 @@ impl Look {
     /// The symbols of this set of glyphs.
     pub fn symbols(&self) -> &'static Symbols {
         if self.glyphs == Glyphs::Ascii { &SETS.letters } else { &SETS.rich }
+    }
+
+    /// How a key is named on the screen: arrows as arrows, other keys by name, without brackets.
+    pub fn key(&self, key: Key) -> String {
+        const ARROWS: [(Code, char); 4] =
+            [(Code::Left, '←'), (Code::Right, '→'), (Code::Up, '↑'), (Code::Down, '↓')];
+        let arrow = ARROWS.iter().find(|(code, _)| *code == key.code);
+        if let (Some((_, arrow)), false) = (arrow, self.glyphs == Glyphs::Ascii) {
+            let modifier = [(key.control, "C-"), (key.alt, "A-"), (key.shift, "S-")];
+            let held: String =
+                modifier.into_iter().filter_map(|(on, text)| on.then_some(text)).collect();
+            return format!("{held}{arrow}");
+        }
+        key.said()
+    }
+
+    /// Several keys, side by side; single characters need no space between them.
+    pub fn keys(&self, keys: impl IntoIterator<Item = Key>) -> String {
+        let names: Vec<String> = keys.into_iter().map(|key| self.key(key)).collect();
+        let short = names.iter().all(|name| name.chars().count() == 1);
+        names.join(if short { "" } else { " " })
+    }
+
+    /// A sentence of a scene, with the keys that the user has in place of the commands that it names.
+    pub fn sentence(&self, text: &str, keymap: &Keymap) -> String {
+        keymap.fill(text, |key| self.key(key))
     }
 }
 
@@ -419,6 +446,30 @@ mod tests {
             [((0, 0, 0), 16), ((255, 255, 255), 231), ((95, 135, 175), 67), ((238, 238, 238), 255)]
         {
             assert_eq!(nearest(rgb), index);
+        }
+    }
+
+    #[test]
+    fn keys_have_short_names() {
+        let rich = Look::new(settings::DisplaySettings::default());
+        let letters = Look::new(settings::DisplaySettings {
+            glyphs: Glyphs::Ascii,
+            ..settings::DisplaySettings::default()
+        });
+        let cases = [
+            ("<left>", "←", "left"),
+            ("<S-up>", "S-↑", "S-up"),
+            ("<enter>", "enter", "enter"),
+            ("<space>", "space", "space"),
+            ("<lt>", "<", "<"),
+            ("<C-r>", "C-r", "C-r"),
+            ("<f6>", "F6", "F6"),
+            ("<S-f6>", "S-F6", "S-F6"),
+            ("?", "?", "?"),
+        ];
+        for (written, drawn, plain) in cases {
+            let key: Key = written.parse().unwrap();
+            assert_eq!((rich.key(key).as_str(), letters.key(key).as_str()), (drawn, plain));
         }
     }
 }

@@ -10,7 +10,6 @@ pub mod energy_ledger;
 mod fitted;
 pub mod footer;
 pub mod frame;
-pub mod keys;
 pub mod layout;
 pub mod legend;
 pub mod lists;

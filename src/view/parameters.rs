@@ -5,7 +5,7 @@ use ratatui::text::{Line, Span};
 
 use super::fitted::{fitted, spread};
 use super::pane::{self, Heading};
-use super::{Look, Surface, keys, margin, verdict::multiplier};
+use super::{Look, Surface, margin, verdict::multiplier};
 use crate::accuracy::harmonic_error::BalanceResult;
 use crate::flow::Problem;
 use crate::model::Knob;
@@ -63,7 +63,7 @@ pub fn first(session: &Session, height: u16) -> usize {
 fn guide(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let quiet = |text: &str| look.span(text.to_owned(), Role::Quiet);
-    let sentence = |text: &str| keys::sentence(text, &session.keymap, look);
+    let sentence = |text: &str| look.sentence(text, &session.keymap);
     let section = |heading: &'static str, remark: &str, text: &str| {
         let title = vec![look.span(heading, Role::Title), quiet(&sentence(remark))];
         [Line::from(title), Line::from(quiet(&sentence(&session.said(text))))]

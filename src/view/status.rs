@@ -3,7 +3,7 @@
 
 use ratatui::layout::Rect;
 
-use super::{Look, Surface, fitted::UNRELIABLE, keys, margin, pane, verdict};
+use super::{Look, Surface, fitted::UNRELIABLE, margin, pane, verdict};
 use crate::flow::trajectory::choice;
 use crate::picture::{Role, end_mark};
 use crate::scene::Topic;
@@ -67,7 +67,7 @@ fn busy(session: &Session, look: &Look) -> String {
         busy += &format!("writing {} ", name.display());
     }
     match session.keymap.key_of("play-motion").filter(|_| session.is_playing()) {
-        Some(key) => busy += &format!("playing, {} holds ", keys::name(key, look)),
+        Some(key) => busy += &format!("playing, {} holds ", look.key(key)),
         None if session.is_playing() => busy += "playing ",
         None => {}
     }
@@ -152,7 +152,7 @@ fn price(session: &Session, look: &Look, shorter: usize) -> String {
         return String::new();
     }
     let topics: Vec<Topic> = price.recomputed.iter().map(|part| part.topic).collect();
-    let key = price.key.map_or_else(|| "open".into(), |key| keys::name(key, look));
+    let key = price.key.map_or_else(|| "open".into(), |key| look.key(key));
     let recomputed = if shorter == 0 { "recomputed " } else { "" };
     let (names, evaluations) = (named(&topics, "+"), count(price.evaluations()));
     format!("{key}: {recomputed}{names} {evaluations} ev {}", duration(price.seconds()))
