@@ -65,7 +65,7 @@ impl<R, I: IntoIterator<Item: Borrow<R>>> Rows<R> for I {}
 
 /// Columns of rows `R`, in their order.
 pub struct Columns<'a, R> {
-    files: Vec<FileColumns<'a, R>>,
+    files: Vec<FileColumn<'a, R>>,
     texts: Vec<TextColumn<'a, R>>,
 }
 
@@ -76,10 +76,12 @@ type Part<'a, R, T> = Box<dyn Fn(&R) -> T + 'a>;
 /// an object, in which records stay whole.
 type Told = (Vec<Value>, Document);
 
-/// Columns of a file that are filled together.
-struct FileColumns<'a, R> {
-    names: Vec<String>,
-    told: Part<'a, R, Told>,
+/// What stands in a file.
+enum FileColumn<'a, R> {
+    /// A value, which is a field of documents and, unless these have it alone, a column of rows.
+    One { name: String, in_rows: bool, value: Part<'a, R, Value> },
+    /// Columns that are filled together.
+    Several { names: Vec<String>, told: Part<'a, R, Told> },
 }
 
 struct TextColumn<'a, R> {
@@ -96,18 +98,12 @@ impl<R> Default for Columns<'_, R> {
 impl<'a, R: 'a> Columns<'a, R> {
     /// A column of files alone.
     pub fn file<V: Serialize>(self, name: &str, value: impl Fn(&R) -> V + 'a) -> Self {
-        let field = name.to_owned();
-        self.together(vec![name.to_owned()], move |row| {
-            let value = json::value(&value(row));
-            (vec![value.clone()], Document::default().with(&field, value))
-        })
+        self.one(name, true, Box::new(move |row| json::value(&value(row))))
     }
 
     /// A field of documents alone.
     pub fn field<V: Serialize>(self, name: &'static str, value: impl Fn(&R) -> V + 'a) -> Self {
-        self.together(Vec::new(), move |row| {
-            (Vec::new(), Document::default().with(name, value(row)))
-        })
+        self.one(name, false, Box::new(move |row| json::value(&value(row))))
     }
 
     /// A column of text alone.
@@ -143,25 +139,28 @@ impl<'a, R: 'a> Columns<'a, R> {
     /// Both ends of an interval that is proved, as `name_lower` and `name_upper`; in text its certain digits.
     pub fn bounds(self, name: &str, value: impl Fn(&R) -> Option<Interval> + Copy + 'a) -> Self {
         let field = name.to_owned();
-        self.together(ENDS.map(|end| format!("{name}_{end}")).to_vec(), move |row| {
+        let told = move |row: &R| {
             let value = value(row);
             let cells = value.map_or(vec![], |it| vec![it.lower().into(), it.upper().into()]);
             (cells, Document::default().with(&field, value.map(bounds)))
-        })
-        .text(&format!("{}, proved", title(name)), move |row| {
-            value(row).map_or_else(|| "-".to_owned(), certain)
-        })
+        };
+        self.together(ENDS.map(|end| format!("{name}_{end}")).to_vec(), Box::new(told))
+            .text(&format!("{}, proved", title(name)), move |row| {
+                value(row).map_or_else(|| "-".to_owned(), certain)
+            })
     }
 
     /// A column of files for each field of records like `example` that is neither a record nor a list.
     pub fn fields<T: Serialize>(self, example: &T, record: impl Fn(&R) -> Option<T> + 'a) -> Self {
         let names: Vec<String> = singles(example).into_iter().map(|(name, _)| name).collect();
-        self.together(names.clone(), move |row| {
+        let columns = names.clone();
+        let told = move |row: &R| {
             let record = record(row);
             let mut fields = record.as_ref().map(singles).unwrap_or_default();
             let cells = names.iter().map(|name| fields.remove(name).unwrap_or_default());
             (cells.collect(), record.iter().fold(Document::default(), Document::and))
-        })
+        };
+        self.together(columns, Box::new(told))
     }
 
     /// The columns that describe a part of a row; in a document they are the field `name`, which is left out of a row
@@ -178,12 +177,14 @@ impl<'a, R: 'a> Columns<'a, R> {
                 part(row).map_or_else(|| "-".to_owned(), |it| (text.cell)(&it))
             });
         }
-        self.together(columns.names(), move |row| {
+        let names = columns.names();
+        let told = move |row: &R| {
             let part = part(row);
             let object = part.as_ref().map(|part| columns.object(part));
             let cells = part.map(|part| columns.cells(&part)).unwrap_or_default();
             (cells, Document::default().with_any(name, object))
-        })
+        };
+        self.together(names, Box::new(told))
     }
 
     /// The columns of `more` after these, if there are any.
@@ -194,8 +195,13 @@ impl<'a, R: 'a> Columns<'a, R> {
         self
     }
 
-    fn together(mut self, names: Vec<String>, told: impl Fn(&R) -> Told + 'a) -> Self {
-        self.files.push(FileColumns { names, told: Box::new(told) });
+    fn one(mut self, name: &str, in_rows: bool, value: Part<'a, R, Value>) -> Self {
+        self.files.push(FileColumn::One { name: name.to_owned(), in_rows, value });
+        self
+    }
+
+    fn together(mut self, names: Vec<String>, told: Part<'a, R, Told>) -> Self {
+        self.files.push(FileColumn::Several { names, told });
         self
     }
 
@@ -215,8 +221,10 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// A row as an object.
     pub fn object(&self, row: &R) -> Document {
-        let fields = self.files.iter().map(|columns| (columns.told)(row).1);
-        fields.fold(Document::default(), |object, fields| object.and(&fields))
+        self.files.iter().fold(Document::default(), |object, column| match column {
+            FileColumn::One { name, value, .. } => object.with(name, value(row)),
+            FileColumn::Several { told, .. } => object.and(&told(row).1),
+        })
     }
 
     /// An object for each row.
@@ -225,16 +233,27 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     fn names(&self) -> Vec<String> {
-        self.files.iter().flat_map(|columns| columns.names.clone()).collect()
+        let names = self.files.iter().flat_map(|column| match column {
+            FileColumn::One { name, in_rows, .. } => vec![name.clone(); usize::from(*in_rows)],
+            FileColumn::Several { names, .. } => names.clone(),
+        });
+        names.collect()
     }
 
     fn cells(&self, row: &R) -> Vec<Value> {
-        let filled = |columns: &FileColumns<R>| {
-            let mut cells = (columns.told)(row).0;
-            cells.resize(columns.names.len(), Value::Null);
-            cells
-        };
-        self.files.iter().flat_map(filled).collect()
+        let mut cells = Vec::new();
+        for column in &self.files {
+            match column {
+                FileColumn::One { in_rows: false, .. } => {}
+                FileColumn::One { value, .. } => cells.push(value(row)),
+                FileColumn::Several { names, told } => {
+                    let filled = cells.len() + names.len();
+                    cells.extend(told(row).0);
+                    cells.resize(filled, Value::Null);
+                }
+            }
+        }
+        cells
     }
 }
 
