@@ -72,7 +72,7 @@ fn outline(text: &Node, font: &Face) -> String {
         _ => 0.0,
     };
     let mut letter =
-        Letter { scale, left: number("x") - before, base: number("y"), path: String::new() };
+        GlyphPath { scale, left: number("x") - before, base: number("y"), path: String::new() };
     for glyph in glyphs {
         // A glyph without an outline is a space.
         let _ = font.outline_glyph(glyph, &mut letter);
@@ -82,14 +82,14 @@ fn outline(text: &Node, font: &Face) -> String {
 }
 
 /// A letter that is written to the data of a path: where it stands, and the size of a unit of its font.
-struct Letter {
+struct GlyphPath {
     scale: f32,
     left: f32,
     base: f32,
     path: String,
 }
 
-impl Letter {
+impl GlyphPath {
     /// Adds a command of a path with its points. Letters grow upwards, the picture downwards.
     fn add(&mut self, command: char, points: &[(f32, f32)]) {
         self.path.push(command);
@@ -100,7 +100,7 @@ impl Letter {
     }
 }
 
-impl OutlineBuilder for Letter {
+impl OutlineBuilder for GlyphPath {
     fn move_to(&mut self, x: f32, y: f32) {
         self.add('M', &[(x, y)]);
     }

@@ -4,7 +4,7 @@
 use clap::ValueEnum;
 use serde::Serialize;
 
-use super::columns::{Columns, Quantity, Rows};
+use super::columns::{Columns, Quantity, RowsOf};
 use super::json::{self, Document};
 use super::table::Table;
 use crate::flow::Cost;
@@ -80,7 +80,12 @@ impl Answer {
     }
 
     /// With these rows as a field of its document.
-    pub(super) fn with_rows<R>(self, name: &str, columns: &Columns<R>, rows: impl Rows<R>) -> Self {
+    pub(super) fn with_rows<R>(
+        self,
+        name: &str,
+        columns: &Columns<R>,
+        rows: impl RowsOf<R>,
+    ) -> Self {
         let objects = self.makes(Format::Json).then(|| columns.objects(rows));
         self.with_any(name, objects)
     }
@@ -104,13 +109,13 @@ impl Answer {
     }
 
     /// With these rows in files.
-    pub(super) fn csv<R>(self, columns: &Columns<R>, rows: impl Rows<R>) -> Self {
+    pub(super) fn csv<R>(self, columns: &Columns<R>, rows: impl RowsOf<R>) -> Self {
         let csv = if self.makes(Format::Csv) { columns.csv(rows) } else { String::new() };
         Answer { csv, ..self }
     }
 
     /// With these rows for reading.
-    pub(super) fn table_of<R>(self, columns: &Columns<R>, rows: impl Rows<R>) -> Self {
+    pub(super) fn table_of<R>(self, columns: &Columns<R>, rows: impl RowsOf<R>) -> Self {
         if self.makes(Format::Table) { self.table(columns.table(rows)) } else { self }
     }
 
@@ -121,7 +126,7 @@ impl Answer {
     }
 
     /// With these rows in files and for reading.
-    pub(super) fn rows<R>(self, columns: &Columns<R>, rows: impl Rows<R> + Clone) -> Self {
+    pub(super) fn rows<R>(self, columns: &Columns<R>, rows: impl RowsOf<R> + Clone) -> Self {
         self.csv(columns, rows.clone()).table_of(columns, rows)
     }
 

@@ -59,9 +59,9 @@ impl Quantity {
 }
 
 /// Rows `R` or references to them.
-pub trait Rows<R>: IntoIterator<Item: Borrow<R>> {}
+pub trait RowsOf<R>: IntoIterator<Item: Borrow<R>> {}
 
-impl<R, I: IntoIterator<Item: Borrow<R>>> Rows<R> for I {}
+impl<R, I: IntoIterator<Item: Borrow<R>>> RowsOf<R> for I {}
 
 /// Columns of rows `R`, in their order.
 pub struct Columns<'a, R> {
@@ -206,14 +206,14 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// The rows as text.
-    pub fn table(&self, rows: impl Rows<R>) -> Table {
+    pub fn table(&self, rows: impl RowsOf<R>) -> Table {
         let titles = self.texts.iter().map(|column| column.title.clone()).collect();
         let cells = |row: &R| self.texts.iter().map(|column| (column.cell)(row)).collect();
         Table::new(titles, rows.into_iter().map(|row| cells(row.borrow())).collect())
     }
 
     /// The rows below a line of names.
-    pub fn csv(&self, rows: impl Rows<R>) -> String {
+    pub fn csv(&self, rows: impl RowsOf<R>) -> String {
         let cells = |row: &R| self.cells(row).iter().map(cell).collect();
         let rows = rows.into_iter().map(|row| cells(row.borrow()));
         lines(std::iter::once(self.names()).chain(rows))
@@ -228,7 +228,7 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// An object for each row.
-    pub fn objects(&self, rows: impl Rows<R>) -> Vec<Document> {
+    pub fn objects(&self, rows: impl RowsOf<R>) -> Vec<Document> {
         rows.into_iter().map(|row| self.object(row.borrow())).collect()
     }
 
