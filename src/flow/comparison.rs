@@ -177,3 +177,6 @@ impl Stepper<SmoothField> for TimeStepping {
         self.cost
     }
 }
+
+#[cfg(test)]
+mod tests;

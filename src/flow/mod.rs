@@ -32,7 +32,6 @@ pub(crate) mod motion;
 pub mod precise;
 #[doc(hidden)]
 pub mod quality;
-pub(crate) mod run;
 pub(crate) mod step;
 pub(crate) mod stiff;
 pub(crate) mod stop;

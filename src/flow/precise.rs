@@ -8,10 +8,10 @@ use std::ops::ControlFlow;
 use super::limits::Limits;
 use super::method::Method;
 use super::motion::{Cost, Detail, Problem, Trajectory};
-use super::run::MotionRun;
 use super::step::{StepPoint, Stepper};
 use super::swing::swing;
 use super::taylor::Taylor;
+use super::trajectory::MotionRun;
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::twofold::Twofold;
 

@@ -136,27 +136,23 @@ pub(super) fn energy(ledger: &Ledger, machine: bool) -> Document {
     works.with("residual", if machine { ledger.imbalance() } else { ledger.residual })
 }
 
-/// Tolerance, step and epsilon of a row; `None` for those that do not set the accuracy of its method.
-fn dials(row: &TradePoint) -> [Option<f64>; 3] {
-    let problem = &row.problem;
-    let dial = problem.method.spec().dial;
-    let number = |wanted: Knob| (dial == Some(wanted)).then(|| problem.get(wanted));
-    let [tolerance, step, epsilon] = [Knob::Tolerance, Knob::Step, Knob::Epsilon].map(number);
-    [tolerance.or(epsilon.map(|_| problem.tolerance)), step, epsilon]
-}
-
 /// What the accuracy of a row is set to.
 fn setting(row: &TradePoint) -> Option<String> {
-    let [tolerance, step, epsilon] = dials(row);
-    step.or(epsilon).or(tolerance).map(|setting| format!("{setting:e}"))
+    row.problem.method.spec().dial.map(|dial| format!("{:e}", row.problem.get(dial)))
 }
 
-/// The columns of files for what the accuracy of a method is set to.
+/// The columns of files for what the accuracy of a method is set to: the number that sets it, and the tolerance of the
+/// smoothed motion.
 fn dial_columns<'a>() -> Columns<'a, &'a TradePoint> {
-    let names = ["tolerance", "step", "epsilon"].into_iter().enumerate();
-    names.fold(Columns::default(), |columns, (index, name)| {
-        columns.file(name, move |row: &&TradePoint| dials(row)[index])
-    })
+    let number = |row: &TradePoint, wanted: &[Knob], read: Knob| {
+        let dial = row.problem.method.spec().dial;
+        dial.filter(|dial| wanted.contains(dial)).map(|_| row.problem.get(read))
+    };
+    let by_tolerance = [Knob::Tolerance, Knob::Epsilon];
+    Columns::default()
+        .file("tolerance", move |row: &&TradePoint| number(row, &by_tolerance, Knob::Tolerance))
+        .file("step", move |row| number(row, &[Knob::Step], Knob::Step))
+        .file("epsilon", move |row| number(row, &[Knob::Epsilon], Knob::Epsilon))
 }
 
 /// The columns of rows, most of which are empty for one without an error. The best choices by their time are marked with

@@ -105,17 +105,10 @@ impl Fourier {
 pub struct SignChange {
     /// Where, from 0 to a full turn.
     pub angle: f64,
-    /// Whether the function goes from negative to positive there.
-    pub rising: bool,
+    /// `+1` where the function goes from negative to positive, `-1` where it falls.
+    pub direction: f64,
     /// Its derivative there.
     pub slope: f64,
-}
-
-impl SignChange {
-    /// `+1` where the function rises, `-1` where it falls.
-    pub fn direction(&self) -> f64 {
-        if self.rising { 1.0 } else { -1.0 }
-    }
 }
 
 /// An end of a piece of a turn, and whether the function is positive there.
@@ -196,7 +189,7 @@ fn sign_change(function: &Fourier, bracket: Bracket) -> SignChange {
     let at = |angle: f64| function.at(angle).into();
     let angle = newton(bracket, bracket.middle(), settled, at).at;
     let [_, slope] = function.at(angle);
-    SignChange { angle, rising: bracket.rising, slope }
+    SignChange { angle, direction: if bracket.rising { 1.0 } else { -1.0 }, slope }
 }
 
 #[cfg(test)]
@@ -315,9 +308,9 @@ mod tests {
             let found = sign_changes(&function);
             prop_assert!(found.len().is_multiple_of(2) && found.len() <= 2 * function.degree());
             for pair in found.windows(2) {
-                prop_assert!(pair[0].angle < pair[1].angle && pair[0].rising != pair[1].rising);
+                prop_assert!(pair[0].angle < pair[1].angle && pair[0].direction == -pair[1].direction);
                 let [between] = function.at(0.5 * (pair[0].angle + pair[1].angle));
-                prop_assert_eq!(between > 0.0, pair[0].rising);
+                prop_assert_eq!(between > 0.0, pair[0].direction > 0.0);
             }
         }
     }

@@ -182,12 +182,10 @@ impl BalanceResidual {
         };
         if k == 0 {
             // The sign before the first change is that after the last; from each change on it is another one.
-            let changes =
-                self.crossings.iter().map(|(change, _)| change.direction() * change.angle);
-            return Complex::from(last.direction() - changes.sum::<f64>() / PI);
+            let changes = self.crossings.iter().map(|(change, _)| change.direction * change.angle);
+            return Complex::from(last.direction - changes.sum::<f64>() / PI);
         }
-        let jumps =
-            self.crossings.iter().map(|(change, waves)| waves[k].conj() * change.direction());
+        let jumps = self.crossings.iter().map(|(change, waves)| waves[k].conj() * change.direction);
         jumps.sum::<Complex<f64>>() / Complex::new(0.0, PI * real(k))
     }
 

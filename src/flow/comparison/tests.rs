@@ -3,10 +3,9 @@
 use super::super::explicit::Explicit;
 use super::super::stiff::Stiff;
 use super::super::tableau::DOP853;
-use super::super::trajectory::trajectory;
-use super::super::{Limits, Method, Outcome, Problem, Trajectory};
-use super::*;
-use crate::model::Parameters;
+use super::super::trajectory::{MotionRun, trajectory};
+use super::super::{Detail, Limits, METHODS, Method, Outcome, Problem, Trajectory};
+use crate::model::{Parameters, State};
 
 /// Where the motion from (2, 0) rests after three half swings, in closed form.
 const REST: f64 = -0.116_144_440_390_138;
@@ -76,7 +75,7 @@ fn time_stepping_sticks_and_nears_the_right_place_with_its_step() {
 /// From there the linear oscillator turns beyond the largest number, whether or not a method locates the turn.
 #[test]
 fn no_crossing_lies_beyond_the_largest_number() {
-    for row in super::super::METHODS {
+    for row in METHODS {
         let problem = Problem {
             parameters: Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 },
             initial: State { q: f64::MAX, v: f64::MAX },
