@@ -26,28 +26,20 @@ pub fn radius(parameters: &Parameters) -> Option<f64> {
     (d < 0.0).then_some(-r / (2.0 * d))
 }
 
-/// Where the energy of the full system never grows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Disk {
-    /// Within this distance of the origin. For `r > 0` every motion that starts there is captured.
-    Radius(f64),
-    /// In the whole plane.
-    Plane,
-}
-
-/// Largest disk within which the energy of the full system never grows.
+/// Radius of the largest disk within which the energy of the full system never grows, so that for `r > 0` every motion that
+/// starts there is captured; infinite where that is the whole plane.
 ///
-/// Its radius is the smallest `v` beyond which `r + 2 D v - abs(D2) v^2 + D3 v^3`, the loss of energy
+/// It is the smallest `v` beyond which `r + 2 D v - abs(D2) v^2 + D3 v^3`, the loss of energy
 /// per length of path on the worse side of `v = 0`, is negative. Guarantee: the radius is bracketed
 /// between neighbouring doubles by the sign of that polynomial as rounded.
-pub fn full_disk(parameters: &Parameters) -> Disk {
+pub fn full_disk(parameters: &Parameters) -> f64 {
     let Parameters { d, d2, d3, r } = *parameters;
     let asymmetry = d2.abs();
     let loss = |v: f64| r + v * (2.0 * d - v * (asymmetry - v * d3));
     // Without friction the lowest term that is not zero decides next to the origin.
     let feeds_small_motions = d < 0.0 || (d == 0.0 && (asymmetry > 0.0 || d3 < 0.0));
     if r == 0.0 && feeds_small_motions {
-        return Disk::Radius(0.0);
+        return 0.0;
     }
     // By the rule of signs the loss turns negative at most once for D3 <= 0, and then stays so; for
     // D3 > 0 it turns negative and positive again or never, and is least in between.
@@ -59,9 +51,8 @@ pub fn full_disk(parameters: &Parameters) -> Disk {
             .take_while(|v| v.is_finite())
             .find(|&v| loss(v) < 0.0)
     };
-    negative.map_or(Disk::Plane, |negative| {
-        Disk::Radius(bisect(0.0, negative, TO_ROUNDING, |v| loss(v) < 0.0).0)
-    })
+    negative
+        .map_or(f64::INFINITY, |negative| bisect(0.0, negative, TO_ROUNDING, |v| loss(v) < 0.0).0)
 }
 
 #[cfg(test)]
@@ -80,11 +71,11 @@ mod tests {
     fn with_linear_damping_alone_both_radii_are_r_over_two_d() {
         let parameters = oscillator(-0.1, 0.0, 0.0, 0.5);
         assert_eq!(radius(&parameters), Some(2.5));
-        let Disk::Radius(full) = full_disk(&parameters) else { panic!("a radius") };
+        let full = full_disk(&parameters);
         assert!((full - 2.5).abs() <= 4.0 * f64::EPSILON);
         for d in [0.0, -0.0, 0.3] {
             assert_eq!(radius(&oscillator(d, 0.0, 0.0, 0.5)), None);
-            assert_eq!(full_disk(&oscillator(d, 0.0, 0.0, 0.5)), Disk::Plane);
+            assert_eq!(full_disk(&oscillator(d, 0.0, 0.0, 0.5)), f64::INFINITY);
         }
         assert!(radius(&oscillator(-1e-150, 0.0, 0.0, 1e150)).is_some_and(f64::is_finite));
     }
@@ -92,22 +83,22 @@ mod tests {
     #[test]
     fn terms_of_higher_order_move_the_radius() {
         // 0.5 - 0.2 v - 0.1 v^2 = 0 at v = sqrt(6) - 1.
-        let Disk::Radius(full) = full_disk(&oscillator(-0.1, -0.1, 0.0, 0.5)) else { panic!() };
+        let full = full_disk(&oscillator(-0.1, -0.1, 0.0, 0.5));
         assert!((full - (6.0_f64.sqrt() - 1.0)).abs() <= 4.0 * f64::EPSILON);
         // 0.1 - 0.6 v + 0.5 v^3 has its least value below zero at v = sqrt(0.4); with r = 0.3 above.
-        assert!(matches!(full_disk(&oscillator(-0.3, 0.0, 0.5, 0.1)), Disk::Radius(_)));
-        assert_eq!(full_disk(&oscillator(-0.3, 0.0, 0.5, 0.3)), Disk::Plane);
+        assert!(full_disk(&oscillator(-0.3, 0.0, 0.5, 0.1)).is_finite());
+        assert_eq!(full_disk(&oscillator(-0.3, 0.0, 0.5, 0.3)), f64::INFINITY);
         // Negative cubic damping feeds energy in even at D > 0: 1 + v - v^3/4 = 0.
-        let Disk::Radius(full) = full_disk(&oscillator(0.5, 0.0, -0.25, 1.0)) else { panic!() };
+        let full = full_disk(&oscillator(0.5, 0.0, -0.25, 1.0));
         assert!((1.0 + full - powi(full, 3) / 4.0).abs() < 1e-14);
     }
 
     #[test]
     fn without_friction_the_origin_decides() {
-        assert_eq!(full_disk(&oscillator(-1e-150, 0.0, 1.0, 0.0)), Disk::Radius(0.0));
-        assert_eq!(full_disk(&oscillator(-0.0, 1e-150, 1.0, 0.0)), Disk::Radius(0.0));
-        assert_eq!(full_disk(&oscillator(0.0, 0.0, 0.0, 0.0)), Disk::Plane);
-        assert_eq!(full_disk(&oscillator(0.1, 0.0, 1.0, 0.0)), Disk::Plane);
+        assert_eq!(full_disk(&oscillator(-1e-150, 0.0, 1.0, 0.0)), 0.0);
+        assert_eq!(full_disk(&oscillator(-0.0, 1e-150, 1.0, 0.0)), 0.0);
+        assert_eq!(full_disk(&oscillator(0.0, 0.0, 0.0, 0.0)), f64::INFINITY);
+        assert_eq!(full_disk(&oscillator(0.1, 0.0, 1.0, 0.0)), f64::INFINITY);
     }
 
     proptest! {
@@ -123,13 +114,12 @@ mod tests {
             d in -1.0..1.0, d2 in -1.0..1.0, d3 in -1.0..1.0, r in 1e-3..1.0, part in 0.0..1.0,
         ) {
             let parameters = oscillator(d, d2, d3, r);
-            let (inside, outside) = match full_disk(&parameters) {
-                Disk::Radius(radius) => (part * radius, Some(radius * (1.0 + 1e-9))),
-                Disk::Plane => (part * 1e3, None),
-            };
+            let radius = full_disk(&parameters);
+            let inside = part * if radius.is_finite() { radius } else { 1e3 };
             let rate = |v: f64| energy_rate(&parameters, State { q: 0.0, v });
             prop_assert!(rate(inside) <= 0.0 && rate(-inside) <= 0.0);
-            if let Some(outside) = outside {
+            let outside = radius * (1.0 + 1e-9);
+            if outside.is_finite() {
                 prop_assert!(rate(outside).max(rate(-outside)) > 0.0);
             }
         }

@@ -12,10 +12,10 @@ use std::sync::Arc;
 
 use super::exact::Exact;
 use super::motion::Cost;
-use super::step::{Field, Powers, Step, StepPoint, Stepper};
+use super::step::{Powers, Step, StepPoint, Stepper};
 use super::stiff::Stiff;
 use super::taylor::Taylor;
-use crate::model::{HalfPlane, Reason};
+use crate::model::{Field, HalfPlane, Reason};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 
 /// Length of a series step, in damping times and as a fraction of the order, beyond which stability limits it.
@@ -151,7 +151,7 @@ impl Auto {
 
     /// The length of a step in units of the damping time at its end.
     fn damping_times(&self, step: &Step) -> f64 {
-        -Field::divergence(&self.field, step.end.v) * step.duration
+        -self.field.divergence(step.end.v) * step.duration
     }
 }
 

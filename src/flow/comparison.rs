@@ -17,8 +17,8 @@
 //! Mechanics and Engineering 177, 1999).
 
 use super::motion::Cost;
-use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper, powers_of_stages};
-use crate::model::{HalfPlane, Parameters, Reason, Side};
+use super::step::{Powers, Step, StepPoint, Stepper, powers_of_stages};
+use crate::model::{Field, HalfPlane, Parameters, PlaneField, Reason, Side};
 use crate::numerics::{tanh, times_power};
 
 /// The field of the whole phase plane with friction as a function of the velocity.

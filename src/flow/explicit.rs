@@ -8,11 +8,11 @@ use std::cell::Cell;
 
 use super::motion::Cost;
 use super::step::{
-    Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length,
-    powers_of_stages, stopping_time,
+    LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length, powers_of_stages,
+    stopping_time,
 };
 use super::tableau::{ErrorEstimate, Scheme};
-use crate::model::{HalfPlane, Reason};
+use crate::model::{Field, HalfPlane, Reason};
 use crate::numerics::{Bracket, PlaceTolerance, newton, rough_exp2, rough_log2};
 
 /// Relative change of the length of the last step below which it counts as settled. This takes about four

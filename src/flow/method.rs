@@ -94,12 +94,6 @@ impl Method {
     pub fn dial(self) -> Knob {
         self.spec().dial.unwrap_or(Knob::Tolerance)
     }
-
-    /// The method with this name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        METHODS.iter().find(|row| row.name == name).map(|row| row.method)
-    }
 }
 
 impl fmt::Display for Method {
@@ -116,7 +110,6 @@ mod tests {
     fn every_method_stands_at_its_own_row() {
         for row in METHODS {
             assert_eq!(row.method.spec().name, row.name);
-            assert_eq!(Method::named(row.name), Some(row.method));
         }
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use nalgebra::Vector3;
 
 use super::motion::Cost;
-use crate::model::{HalfPlane, Reason};
+use crate::model::{Field, HalfPlane, Reason};
 use crate::numerics::quadrature::GAUSS;
 use crate::numerics::{Scalar, real};
 
@@ -61,54 +61,6 @@ pub fn stopping_time(v: f64, acceleration: f64) -> f64 {
 pub fn first_length(from: StepPoint, acceleration: f64) -> f64 {
     let slope = from.v.abs().max(acceleration.abs());
     if slope > 0.0 { (0.01 * from.size() / slope).min(LONGEST) } else { LONGEST }
-}
-
-/// A smooth field `x' = v, v' = acceleration(x, v)` with `acceleration = -x - (a function of v)`.
-pub trait Field: Copy + Debug {
-    /// The acceleration `v'`.
-    fn acceleration(&self, x: f64, v: f64) -> f64;
-
-    /// Divergence of the field, i.e. the derivative of the acceleration by v. (Its derivative by x is -1.)
-    fn divergence(&self, v: f64) -> f64;
-
-    /// Sum of the magnitudes of all terms of the acceleration, the scale of its rounding error.
-    fn magnitude(&self, x: f64, v: f64) -> f64;
-}
-
-impl Field for HalfPlane {
-    #[inline]
-    fn acceleration(&self, x: f64, v: f64) -> f64 {
-        HalfPlane::acceleration(self, x, v)
-    }
-
-    #[inline]
-    fn divergence(&self, v: f64) -> f64 {
-        HalfPlane::divergence(self, v)
-    }
-
-    fn magnitude(&self, x: f64, v: f64) -> f64 {
-        let v = v.abs();
-        x.abs() + v * (2.0 * self.d.abs() + v * (self.d2.abs() + self.d3.abs() * v))
-    }
-}
-
-/// A field of the oscillator: on one side of `v = 0`, or on both with friction that is no longer set-valued.
-pub trait PlaneField: Field {
-    /// The same field for a motion measured in units of `2^k`, exactly.
-    fn in_units(&self, k: i32) -> Self;
-
-    /// The field without friction, which alone drives an escape.
-    fn frictionless(&self) -> HalfPlane;
-}
-
-impl PlaneField for HalfPlane {
-    fn in_units(&self, k: i32) -> Self {
-        HalfPlane::in_units(self, k)
-    }
-
-    fn frictionless(&self) -> HalfPlane {
-        *self
-    }
 }
 
 /// An accepted step.

@@ -17,11 +17,11 @@ mod arrival;
 
 use super::motion::Cost;
 use super::step::{
-    Field, LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length,
-    powers_of_stages, stopping_time,
+    LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length, powers_of_stages,
+    stopping_time,
 };
 use super::tableau::radau::{Collocation, Differences, MOST, SCHEMES, StageMatrix, Stages};
-use crate::model::{HalfPlane, Reason};
+use crate::model::{Field, HalfPlane, Reason};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
 
 /// The tolerances down to which three stages and five stages are enough.

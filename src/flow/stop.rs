@@ -6,7 +6,7 @@
 //! its own exponent, because it is quadratic in the velocity.
 
 use super::step::StepPoint;
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, PlaneField};
 use crate::numerics::quadrature::GAUSS;
 use crate::numerics::scaling::{exponent, times_power};
 

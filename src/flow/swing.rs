@@ -6,8 +6,8 @@
 use std::ops::ControlFlow;
 
 use super::limits::Limits;
-use super::step::{PlaneField, Step, StepPoint, Stepper};
-use crate::model::{HalfPlane, Reason};
+use super::step::{Step, StepPoint, Stepper};
+use crate::model::{HalfPlane, PlaneField, Reason};
 use crate::numerics::{Scalar, Sum, exponent, ln_1p};
 
 /// Size, as a power of two, at which the unit is chosen anew.

@@ -11,14 +11,14 @@ use super::explicit::Explicit;
 use super::limits::Limits;
 use super::method::Method;
 pub use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
-use super::step::{PlaneField, Powers, Step, StepPoint, Stepper};
+use super::step::{Powers, Step, StepPoint, Stepper};
 use super::stiff::Stiff;
 use super::stop::ComingToRest;
 use super::swing::swing;
 use super::tableau::{CLASSICAL, DOP853, DOPRI5};
 use super::taylor::Taylor;
 use crate::model::parameters::{energy, rests};
-use crate::model::{HalfPlane, Ledger, Reason, Side, State};
+use crate::model::{HalfPlane, Ledger, PlaneField, Reason, Side, State};
 use crate::numerics::{Scalar, Sum, real, times_power};
 
 /// Computes a motion.

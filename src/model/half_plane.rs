@@ -9,6 +9,8 @@
 //! at `(-c, 0)`, where `c` is the clearance `abs(q) - r` of its turning point from the sticking set,
 //! and ends at `(X, 0)`; the next clearance is `X - 2 r`.
 
+use std::fmt::Debug;
+
 use super::parameters::{Parameters, State};
 use crate::numerics::{Scalar, times_power};
 
@@ -86,29 +88,6 @@ impl HalfPlane {
         HalfPlane { d: parameters.d, d2: side.sign() * parameters.d2, d3: parameters.d3 }
     }
 
-    /// Acceleration `v'` at `(x, v)` (equation 8 in the frame of this side).
-    #[must_use]
-    pub fn acceleration(&self, x: f64, v: f64) -> f64 {
-        -x - v * (2.0 * self.d + v * (self.d2 + v * self.d3))
-    }
-
-    /// Divergence of the field, `-(2 D + 2 D2 v + 3 D3 v^2)`; the Jacobian is `[[0, 1], [-1, this]]`.
-    #[must_use]
-    pub fn divergence(&self, v: f64) -> f64 {
-        -(2.0 * self.d + v * (2.0 * self.d2 + v * 3.0 * self.d3))
-    }
-
-    /// The same field for a motion measured in units of `2^k`, exactly: D2 is multiplied by `2^k`, D3 by
-    /// `2^(2 k)` (the scaling symmetry of equation 4).
-    #[must_use]
-    pub fn in_units(&self, k: i32) -> Self {
-        HalfPlane {
-            d: self.d,
-            d2: times_power(self.d2, k),
-            d3: times_power(times_power(self.d3, k), k),
-        }
-    }
-
     /// The field of motions run backward: with time reversed, `y = -x` obeys the same equation with all
     /// damping of the opposite sign.
     #[must_use]
@@ -120,5 +99,60 @@ impl HalfPlane {
     #[must_use]
     pub fn is_linear(&self) -> bool {
         self.d2 == 0.0 && self.d3 == 0.0
+    }
+}
+
+/// A smooth field `x' = v, v' = acceleration(x, v)` with `acceleration = -x - (a function of v)`.
+pub trait Field: Copy + Debug {
+    /// The acceleration `v'`.
+    fn acceleration(&self, x: f64, v: f64) -> f64;
+
+    /// Divergence of the field, i.e. the derivative of the acceleration by v; the Jacobian is `[[0, 1], [-1, this]]`.
+    fn divergence(&self, v: f64) -> f64;
+
+    /// Sum of the magnitudes of all terms of the acceleration, the scale of its rounding error.
+    fn magnitude(&self, x: f64, v: f64) -> f64;
+}
+
+/// A field of the oscillator: on one side of `v = 0`, or on both with friction that is no longer set-valued.
+pub trait PlaneField: Field {
+    /// The same field for a motion measured in units of `2^k`, exactly.
+    #[must_use]
+    fn in_units(&self, k: i32) -> Self;
+
+    /// The field without friction, which alone drives an escape.
+    fn frictionless(&self) -> HalfPlane;
+}
+
+/// Equation 8 in the frame of this side.
+impl Field for HalfPlane {
+    #[inline]
+    fn acceleration(&self, x: f64, v: f64) -> f64 {
+        -x - v * (2.0 * self.d + v * (self.d2 + v * self.d3))
+    }
+
+    #[inline]
+    fn divergence(&self, v: f64) -> f64 {
+        -(2.0 * self.d + v * (2.0 * self.d2 + v * 3.0 * self.d3))
+    }
+
+    fn magnitude(&self, x: f64, v: f64) -> f64 {
+        let v = v.abs();
+        x.abs() + v * (2.0 * self.d.abs() + v * (self.d2.abs() + self.d3.abs() * v))
+    }
+}
+
+/// D2 is multiplied by `2^k`, D3 by `2^(2 k)` (the scaling symmetry of equation 4).
+impl PlaneField for HalfPlane {
+    fn in_units(&self, k: i32) -> Self {
+        HalfPlane {
+            d: self.d,
+            d2: times_power(self.d2, k),
+            d3: times_power(times_power(self.d3, k), k),
+        }
+    }
+
+    fn frictionless(&self) -> HalfPlane {
+        *self
     }
 }

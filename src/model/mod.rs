@@ -43,7 +43,7 @@ pub(crate) mod parameters;
 pub mod unit;
 
 pub use belt::Belt;
-pub use half_plane::{HalfPlane, Side};
+pub use half_plane::{Field, HalfPlane, PlaneField, Side};
 pub use interval::{Interval, ParameterBox};
 pub(crate) use knob::unknown;
 pub use knob::{Group, KNOBS, Knob, KnobSpec, OutOfRange};

@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 
 use super::measure::{ClaimCase, at_rest, missing, oscillator};
 use super::{Certain, Check, Evidence, Known, always, tends, worst};
-use crate::closed_form::lyapunov::{self, Disk};
+use crate::closed_form::lyapunov;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Outcome, Reason};
-use crate::model::{HalfPlane, Parameters, Side, State};
+use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::{Interval, atan, exp, hypot, sin, sin_cos};
 use crate::portrait::proved::proved_kicks;
 use crate::portrait::{Border, Portrait};
@@ -58,10 +58,8 @@ pub(super) const CHECKS: &[Check] = &[
     }),
     worst("circle with D2", |it| {
         let evidence = Evidence::at_most(circle(it), least_kick(it)?);
-        Ok(match lyapunov::full_disk(it) {
-            Disk::Radius(radius) => evidence.corrected(radius),
-            Disk::Plane => evidence,
-        })
+        let full = lyapunov::full_disk(it);
+        Ok(if full.is_finite() { evidence.corrected(full) } else { evidence })
     }),
     worst("periodic border", |it| {
         let found = it.edge()?;

@@ -11,7 +11,7 @@ use super::{
 use crate::closed_form::lyapunov;
 use crate::fit::{Fitted, Signal};
 use crate::flow::{Outcome, Problem, Sample, Trajectory};
-use crate::model::{HalfPlane, Parameters, Side, State};
+use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
 use crate::portrait::kicks::{Distribution, RandomKick};
 use crate::portrait::{Border, Cycle, Drawing, Ride};

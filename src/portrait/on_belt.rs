@@ -1,7 +1,7 @@
 //! Where a motion of the oscillator of the paper reaches the speed of the belt, which is not a part of its equation.
 
 use crate::flow::{Sample, Trajectory};
-use crate::model::{HalfPlane, Side, State};
+use crate::model::{Field, HalfPlane, Side, State};
 use crate::numerics::{Hermite, TO_ROUNDING, bisect};
 
 /// Time and displacement where a motion first reaches a velocity; `None` where it does not.

@@ -1,11 +1,11 @@
 //! A motion of a machine as a curve: the series of its steps, in slip and while the mass rides on the belt; and where
 //! its energy comes from and goes, the belt's work against the damper's and the guide's.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use crate::model::{ContactState, Ledger, Model, Phase, State, Work};
 use crate::numerics::polynomial::{value, value_and_slope};
-use crate::numerics::quadrature::gauss;
+use crate::numerics::quadrature::{GAUSS, gauss};
 use crate::numerics::{Bracket, PlaceTolerance, newton, powi, reciprocals};
 
 /// Order of the series; near the one that costs least at full precision.
@@ -78,21 +78,19 @@ impl MachineStep {
     ///
     /// In slip the belt pulls by its law; a mass that rides is pulled as much as it takes to hold it at the belt's speed.
     pub(super) fn works(&self, model: &Model, until: f64) -> Vector3<f64> {
-        let belt = |part: f64| {
-            let (x, y) = self.at(part * until);
-            let other = model.damper(y);
-            y * match self.place {
-                ContactState::Slips(Phase::Above) => model.force(Phase::Above, y).0 + other,
-                ContactState::Slips(phase) => model.pull + model.force(phase, y).0 + other,
-                _ => x + model.pull + other + model.guide,
-            }
-        };
-        let damper = |part: f64| {
-            let y = self.at(part * until).1;
-            y * model.damper(y)
-        };
+        let powers = GAUSS.iter().map(|&(node, weight)| {
+            let (x, y) = self.at(node * until);
+            let damper = model.damper(y);
+            let belt = match self.place {
+                ContactState::Slips(Phase::Above) => model.force(Phase::Above, y).0 + damper,
+                ContactState::Slips(phase) => model.pull + model.force(phase, y).0 + damper,
+                _ => x + model.pull + damper + model.guide,
+            };
+            weight * (y * Vector2::new(belt, damper))
+        });
+        let [belt, damper] = (powers.sum::<Vector2<f64>>() * until).into();
         let way = value(&self.x, until) - self.x[0];
-        Vector3::new(gauss(belt) * until, gauss(damper) * until, model.guide * way.abs())
+        Vector3::new(belt, damper, model.guide * way.abs())
     }
 }
 

@@ -40,7 +40,9 @@ impl MotionUnits {
 /// [follows machines](Method::follows_machines).
 #[must_use]
 pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Detail) -> Trajectory {
-    let model = &Model { tolerance: problem.tolerance, ..model.clone() };
+    let mut model = model.clone();
+    model.tolerance = problem.tolerance;
+    let model = &model;
     let Problem { initial: State { q, v }, until, method, .. } = *problem;
     let mut flow = Flow { stepper: stepped::stepper(model, method), ..Flow::new(model) };
     (flow.series.left, flow.follows) = (until * units.omega_0, true);

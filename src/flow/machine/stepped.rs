@@ -5,9 +5,9 @@ use super::curve::MachineStep;
 use super::levels::{PhaseStep, crossing};
 use crate::flow::Method;
 use crate::flow::explicit::Explicit;
-use crate::flow::step::{Field, StepPoint, Stepper};
+use crate::flow::step::{StepPoint, Stepper};
 use crate::flow::tableau::{DOP853, DOPRI5};
-use crate::model::{ContactState, Model, Phase, Reason};
+use crate::model::{ContactState, Field, Model, Phase, Reason};
 
 /// The methods that can follow a machine.
 pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";

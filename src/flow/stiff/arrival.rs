@@ -1,7 +1,8 @@
 //! The last step of a half swing: shortened until it ends at `v = 0`.
 
 use super::Stiff;
-use crate::flow::step::{Field, Step, StepPoint};
+use crate::flow::step::{Step, StepPoint};
+use crate::model::Field;
 use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
 
 /// Relative change of the length of the last step below which it counts as settled; this takes about four attempts.

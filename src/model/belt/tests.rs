@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::model::unit::Dimension;
-use crate::model::{Group, HalfPlane, Knob, Reason, Side};
+use crate::model::{Field, Group, HalfPlane, Knob, Reason, Side};
 use crate::numerics::{SmoothingSpline, exp, log10, powi};
 
 /// Value and derivatives by central differences of `mu` with Richardson's extrapolation: they know

@@ -15,7 +15,7 @@ use super::pair::Closing;
 use super::roundoff::UNIT;
 use crate::flow::step::Stepper;
 use crate::flow::{Limits, Reason};
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, PlaneField};
 use crate::numerics::quadrature::{GAUSS, gauss};
 use crate::numerics::{exp, exponent, ln_1p, times_power};
 

@@ -17,7 +17,7 @@ use crate::flow::auto::Auto;
 use crate::flow::step::{Step, StepPoint, Stepper};
 use crate::flow::swing::{blow_up, swing};
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, PlaneField};
 use crate::numerics::{atan2, exp, hypot, ln, ln_1p, sin_cos, times_power};
 
 /// Below this fraction of its natural scale, in units of the tolerance of a step, the damping is linear to far

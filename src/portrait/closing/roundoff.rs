@@ -9,8 +9,8 @@
 //!
 //! Assumption: errors are small beside what they are errors of, and a step rounds by [`UNIT`] at most.
 
-use crate::flow::step::{Field, Step, StepPoint};
-use crate::model::HalfPlane;
+use crate::flow::step::{Step, StepPoint};
+use crate::model::{Field, HalfPlane, PlaneField};
 use crate::numerics::{exp, exponent, ln, times_power};
 
 /// Rounding of one step relative to its terms: some operations each, of which the largest term decides.
