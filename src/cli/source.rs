@@ -56,7 +56,7 @@ impl SourceOptions {
         Ok(Some(case.checked()?))
     }
 
-    /// What a question about all motions is put to, if that takes no intervals.
+    /// What a question about all motions that takes no intervals is put to.
     pub fn exact(&self) -> Result<CommandCase, Failure> {
         self.portrayed()?.map_or_else(|| self.case(None), Ok)
     }

@@ -200,7 +200,7 @@ fn growth(cycle: &LinearCycle) -> f64 {
     exp(0.5 * cycle.log_multiplier)
 }
 
-/// (33) as it stands in the paper, in units of friction.
+/// (33) as it stands in the paper.
 fn printed_velocity(cycle: &LinearCycle) -> f64 {
     let LinearCycle { d, clearance, period, .. } = *cycle;
     let omega = TAU / period;
@@ -208,13 +208,13 @@ fn printed_velocity(cycle: &LinearCycle) -> f64 {
     clearance * exp(-d * PI) / omega * exp(-d / omega * angle) * sin(omega + angle)
 }
 
-/// (31), on the upper half, in units of friction.
+/// (31), on the upper half.
 fn curve(cycle: &LinearCycle, angle: f64) -> State {
-    let LinearCycle { d, clearance, period, .. } = *cycle;
+    let LinearCycle { d, r, clearance, period, .. } = *cycle;
     let omega = TAU / period;
     let grown = clearance * exp(-d / omega * angle);
     let (sine, cosine) = sin_cos(angle);
-    State { q: -1.0 - grown * (cosine + d / omega * sine), v: grown / omega * sine }
+    State { q: -r - grown * (cosine + d / omega * sine), v: grown / omega * sine }
 }
 
 /// Both coordinates of (31) against the motion that starts at the turning point of the cycle.

@@ -239,7 +239,8 @@ fn asymptote(it: &ClaimCase) -> Result<(f64, Known), Reason> {
     Ok((formula, Known::relative(root, 1e-14)))
 }
 
-/// Of two formulas that with n, and the solution of (42) that approaches `A_n`: the smallest for n = 1, the largest for n = 2.
+/// The formula for `A_n`, of those for n = 1 and n = 2, and the solution of (42) that approaches it as abs(D) grows to 1:
+/// the smallest for n = 1, the largest for n = 2.
 pub(super) fn approached(it: &ClaimCase, [first, second]: [f64; 2]) -> Result<(f64, f64), Reason> {
     let found = amplitudes(it);
     let (formula, root) =

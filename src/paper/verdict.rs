@@ -300,7 +300,7 @@ impl Evidence {
         let failing = answers.iter().find(|(_, answer)| !answer.value);
         let place = failing.map(|(case, _)| format!("first fails at {case}"));
         let is_refuted = answers.iter().any(|(_, answer)| answer.certain && !answer.value);
-        let is_proved = held == cases && answers.iter().all(|(_, answer)| answer.certain);
+        let is_proved = answers.iter().all(|(_, answer)| answer.certain);
         let mark = match (is_refuted, is_proved && cases > 0) {
             (true, _) => Some(Certainty::Refuted),
             (false, true) => Some(Certainty::Proved),

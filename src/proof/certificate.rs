@@ -119,8 +119,8 @@ impl Walk {
         let at = Interval::point(self.at);
         let reach = |(fences, map): (Fences, Map)| (map.images(at).lower(), fences);
         let [plain, fenced] = self.maps(!self.above);
-        let found = reach(plain);
-        if found.0 > self.at { found } else { reach(fenced) }
+        let (end, fences) = reach(plain);
+        if end > self.at { (end, fences) } else { reach(fenced) }
     }
 
     /// One step, at most up to `most`.

@@ -33,8 +33,8 @@ pub struct SignedGap {
 }
 
 impl SignedGap {
-    fn between(low: GapEnd, high: GapEnd) -> Self {
-        SignedGap { over: Interval::new(low.0, high.0), low: low.1, high: high.1 }
+    fn between((from, low): GapEnd, (to, high): GapEnd) -> Self {
+        SignedGap { over: Interval::new(from, to), low, high }
     }
 }
 

@@ -115,15 +115,16 @@ fn describe(
     let ParameterBox { r, .. } = map.parameters;
     let gap = r.twice();
     let (halves, effort) = map.halves(direction);
+    // The clearance of the left turning point.
     let left = halves[0].image(clearance, effort);
     if !(left.lower() > 0.0 && left.is_finite()) {
         return None;
     }
-    let [right, from_left] = [(&halves[0], clearance), (&halves[1], left)]
+    let [from_right, from_left] = [(&halves[0], clearance), (&halves[1], left)]
         .map(|(half, clearance)| half.whole_swing(half.start(clearance), effort));
     let [below, above] = match direction {
-        MapDirection::Forward => [right, from_left],
-        MapDirection::Backward => [from_left, right],
+        MapDirection::Forward => [from_right, from_left],
+        MapDirection::Backward => [from_left, from_right],
     };
     // The contribution of D2 to the divergence vanishes around a closed curve.
     let cubic = |swing: &ProvedSwing| {

@@ -67,7 +67,11 @@ impl Finding {
             Finding::Scan(found) => found.cost(),
             Finding::Reference(Ok(found)) => found.cost,
             // What these take is not counted.
-            _ => Cost::default(),
+            Finding::Fit(_)
+            | Finding::Refit(_)
+            | Finding::Claims(_)
+            | Finding::Proof(_)
+            | Finding::Reference(Err(_)) => Cost::default(),
         }
     }
 }
