@@ -74,7 +74,7 @@ fn outline(text: &Node, font: &Face) -> String {
     let mut letter =
         GlyphPath { scale, left: number("x") - before, base: number("y"), path: String::new() };
     for glyph in glyphs {
-        // A glyph without an outline is a space.
+        // A space has no outline; the fonts are those of the program, so that no glyph is damaged.
         let _ = font.outline_glyph(glyph, &mut letter);
         letter.left += step(&glyph);
     }

@@ -35,6 +35,8 @@ pub struct Fitted {
     pub curves: Curves,
     /// All points of the record; none in a list of peaks without times.
     pub points: Vec<RecordPoint>,
+    /// Those that are drawn as a line; `None` at each gap.
+    pub line: Vec<Option<RecordPoint>>,
     /// Increase of chi-squared caused by the numbers held after the fit.
     pub rise: f64,
     /// Whether the distribution of the margin takes these numbers into account.
@@ -81,37 +83,16 @@ impl Fitted {
     pub fn new(name: String, record: Record, estimate: Estimate, margins: Margins) -> Self {
         let curves = Curves::of(&estimate, &margins);
         let points = points(&record, &estimate);
+        let line = drawn(&points, &estimate.data);
         let (rise, drawn, seconds) = (0.0, true, 0.0);
-        Fitted { name, record, estimate, margins, curves, points, rise, drawn, seconds }
+        Fitted { name, record, estimate, margins, curves, points, line, rise, drawn, seconds }
     }
 
     /// The samples of the fitted motion as a line through the places that `of` reads, without outliers and jumps, and with a
     /// break (NaN) at each gap; of a long record every second, third, .. sample. None for a record of peaks.
     #[must_use]
     pub fn line(&self, of: impl Fn(&RecordPoint) -> PlotPoint) -> Vec<PlotPoint> {
-        /// Maximum number of samples.
-        const MOST: usize = 4000;
-        /// A step longer than the average one by this factor is a gap.
-        const GAP: f64 = 6.0;
-        let data = &self.estimate.data;
-        if data.has_peaks() {
-            return Vec::new();
-        }
-        let every = data.t.len().div_ceil(MOST);
-        let gap = GAP * real(every) / rate(&data.t);
-        let fitted = self.points.iter().filter(|it| !it.dropped.is_some_and(Dropped::is_outside));
-        let (mut line, mut last) = (Vec::new(), f64::INFINITY);
-        for point in fitted.step_by(every) {
-            if matches!(point.dropped, Some(Dropped::Outlier | Dropped::Jump)) {
-                continue;
-            }
-            if point.t - last > gap {
-                line.push([f64::NAN; 2]);
-            }
-            line.push(of(point));
-            last = point.t;
-        }
-        line
+        self.line.iter().map(|point| point.as_ref().map_or([f64::NAN; 2], &of)).collect()
     }
 
     /// The window in which the residuals are shown; `None` for a record of peaks.
@@ -214,6 +195,32 @@ impl Fitted {
         let place = self.place(symbol).filter(|place| self.estimate.free[*place])?;
         Some(self.estimate.covariance.error(place))
     }
+}
+
+/// The points that are drawn as a line, see [`Fitted::line`].
+fn drawn(points: &[RecordPoint], data: &Record) -> Vec<Option<RecordPoint>> {
+    /// Maximum number of samples.
+    const MOST: usize = 4000;
+    /// A step longer than the average one by this factor is a gap.
+    const GAP: f64 = 6.0;
+    if data.has_peaks() {
+        return Vec::new();
+    }
+    let every = data.t.len().div_ceil(MOST);
+    let gap = GAP * real(every) / rate(&data.t);
+    let fitted = points.iter().filter(|it| !it.dropped.is_some_and(Dropped::is_outside));
+    let (mut line, mut last) = (Vec::new(), f64::INFINITY);
+    for point in fitted.step_by(every) {
+        if matches!(point.dropped, Some(Dropped::Outlier | Dropped::Jump)) {
+            continue;
+        }
+        if point.t - last > gap {
+            line.push(None);
+        }
+        line.push(Some(*point));
+        last = point.t;
+    }
+    line
 }
 
 /// The measured points, relative to the fitted motion.

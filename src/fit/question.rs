@@ -310,10 +310,17 @@ pub enum Unfit {
         unknowns: usize,
     },
     /// The record shows no swings.
-    #[error("fewer than two turning points, a hold and a rest included, stand out from noise")]
+    #[error(
+        "fewer than two turning points, a hold and a rest included, stand out from the noise: of a single swing friction \
+         and offset cannot be told apart"
+    )]
     NoSwings,
     /// Successive peaks do not lie on opposite sides.
-    #[error("peaks {peak} to {} do not alternate; those on one side need a minus sign", peak + 2)]
+    #[error(
+        "peaks {peak} to {} do not alternate: successive turning points lie on opposite sides, and of magnitudes those on \
+         one side need their minus sign",
+        peak + 2
+    )]
     NotAlternating {
         /// Number of the first such peak, counted from 1.
         peak: usize,
@@ -329,7 +336,8 @@ pub enum Unfit {
     Interrupted,
     /// The maximum number of motions was reached.
     #[error(
-        "no motion of the model explains it: of {motions}, the closest is off by {closest:.2e}"
+        "gave up after {motions} motions, the closest of which is off by {closest:.2e} in the unit of the record: no \
+         motion of the model explains it"
     )]
     GaveUp {
         /// Number of motions computed.

@@ -42,7 +42,11 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     let omega0 = TAU * frequency.unwrap_or(1.0);
     let factor = signal.as_displacement(omega0);
     let swinging: Vec<f64> = x.iter().map(|x| factor * x).collect();
-    let quiet = Noise::of(&swinging, per_period);
+    let quiet = Noise {
+        deviation: factor.abs() * noise.deviation,
+        step: factor.abs() * noise.step,
+        ..noise
+    };
     let guessed = |[slope, bend]: [f64; 2]| {
         let level = without_drift(&t, &swinging, [factor * slope, factor * bend]);
         let mut guess = guess(&t, &level, &quiet, signal)?;

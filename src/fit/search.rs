@@ -1,7 +1,6 @@
 //! The search for the best minimum from first guesses, with several starts and growing horizons; and with a drift of the
 //! zero beside the motion, along a line or a parabola over the record, where the record shows one.
 
-use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::{
@@ -342,7 +341,10 @@ pub fn drift_of_swings(t: &[f64], extremes: &[Extreme]) -> [f64; 2] {
 
 /// Takes a drift off a record.
 pub fn without_drift(t: &[f64], x: &[f64], by: [f64; 2]) -> Vec<f64> {
-    let at = |time: f64| Vector2::from(by).dot(&Vector2::from(drift(t, time)));
+    let at = |time: f64| {
+        let [slope, bend] = drift(t, time);
+        by[0] * slope + by[1] * bend
+    };
     t.iter().zip(x).map(|(&t, x)| x - at(t)).collect()
 }
 

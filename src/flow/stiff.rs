@@ -24,8 +24,11 @@ use super::tableau::radau::{Collocation, Differences, MOST, SCHEMES, StageMatrix
 use crate::model::{Field, HalfPlane, Reason};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
 
-/// The tolerances down to which three stages and five stages are enough.
-const ENOUGH: (f64, f64) = (5e-4, 1e-8);
+/// The tolerance down to which three stages are enough.
+const LOOSE: f64 = 5e-4;
+
+/// The tolerance down to which five stages are enough.
+const MEDIUM: f64 = 1e-8;
 
 /// Fraction of the way to an arrival after which the arrival is sought anew, from nearby. Where a motion creeps
 /// in along `v^2 = -x/D2`, a hundredth of the way out is left.
@@ -75,8 +78,8 @@ impl<F: Field> Stiff<F> {
     pub fn new(field: F, tolerance: f64) -> Self {
         let [three, five, seven] = &*SCHEMES;
         let scheme = match tolerance {
-            loose if loose >= ENOUGH.0 => three,
-            medium if medium >= ENOUGH.1 => five,
+            tolerance if tolerance >= LOOSE => three,
+            tolerance if tolerance >= MEDIUM => five,
             _ => seven,
         };
         Stiff {

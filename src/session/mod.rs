@@ -30,6 +30,7 @@ pub use message::{Done, Effect, Gesture, Msg, Notice, Pointed, PointerTarget, Pu
 pub use read::answers::NoErrorReason;
 pub use read::contexts::Hint;
 pub use read::lists::PaletteRow;
+pub use read::machine::MachineMargins;
 pub use read::plots::{ShownMotion, VariantTag};
 pub use read::{fate, ledger, motion, wants};
 pub use replay::script::{Instruction, Script, ScriptStep};

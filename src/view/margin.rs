@@ -5,7 +5,7 @@ use super::{fitted::statement, pane};
 use crate::model::Knob;
 use crate::portrait::{Border, Margin};
 use crate::scene::Topic;
-use crate::session::Session;
+use crate::session::{MachineMargins, Session};
 use crate::words::number::rounded_down;
 use crate::words::{significant, with_unit};
 
@@ -193,9 +193,8 @@ pub fn share(share: Option<f64>) -> Option<String> {
 /// The margin of a machine by the model on show, and by how much the expansion is wrong.
 fn machine(session: &Session, width: usize) -> Option<String> {
     let fresh = !session.is_stale(Topic::Cycles, session.plot);
-    let [drawn, other] = session.machine_margins().filter(|_| fresh)?;
+    let MachineMargins { whole, cubic } = session.machine_margins().filter(|_| fresh)?;
     session.running()?;
-    let (whole, cubic) = if session.draws_whole() { (drawn, other) } else { (other, drawn) };
     let error = match (whole.from_rest.displacement, cubic.from_rest.displacement) {
         (Some(own), Some(other)) if own > 0.0 => {
             let percent = 100.0 * (other / own - 1.0);

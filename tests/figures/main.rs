@@ -192,9 +192,9 @@ fn aside(point: (f64, f64), line: &[(f64, f64)], near: usize) -> (f64, usize) {
         chords
             .enumerate()
             .map(|(index, apart)| (apart, from + index))
-            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .min_by(|(one, _), (other, _)| one.total_cmp(other))
     };
-    let close = least(near.saturating_sub(8), near + 8).filter(|close| close.0 < FAINT);
+    let close = least(near.saturating_sub(8), near + 8).filter(|(apart, _)| *apart < FAINT);
     close.or_else(|| least(0, line.len())).unwrap_or((f64::INFINITY, 0))
 }
 

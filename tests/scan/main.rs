@@ -355,7 +355,7 @@ fn page_scan() -> String {
 }
 
 #[test]
-#[ignore = "needs GNU parallel: cargo test --test scan -- --ignored"]
+#[ignore = "needs GNU parallel: cargo test --test scan -- --ignored parallel"]
 fn the_line_for_gnu_parallel_makes_the_whole() {
     let folder = tempfile::tempdir().unwrap();
     let line = page_line("parallel hopfscope scan");

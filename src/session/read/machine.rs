@@ -15,6 +15,15 @@ use crate::scene::{Finding, Layer, Request, ScaledMachine, Setting, Topic, View}
 use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
 use crate::session::{Session, Setup, Uncertainty};
 
+/// The margins of a machine, without units.
+#[derive(Clone, Copy, Debug)]
+pub struct MachineMargins {
+    /// By its whole model.
+    pub whole: Margin,
+    /// By its cubic expansion.
+    pub cubic: Margin,
+}
+
 impl Session {
     /// The machine of the scene with its present setting.
     pub fn running(&self) -> Option<&ScaledMachine> {
@@ -63,12 +72,17 @@ impl Session {
         self.layers.contains(&Layer::Whole) && self.machine().is_some()
     }
 
-    /// The margin of the machine by the model that is drawn, and by the other one; `None` while they are not known.
-    pub fn machine_margins(&self) -> Option<[Margin; 2]> {
-        match self.answer(Topic::Cycles, self.plot)? {
-            Finding::Cycles(found, other) => Some([found.margin, (*other)?]),
-            _ => None,
-        }
+    /// The margins of the machine; `None` while they are not known.
+    pub fn machine_margins(&self) -> Option<MachineMargins> {
+        let Finding::Cycles(found, other) = self.answer(Topic::Cycles, self.plot)? else {
+            return None;
+        };
+        let (drawn, other) = (found.margin, (*other)?);
+        Some(if self.draws_whole() {
+            MachineMargins { whole: drawn, cubic: other }
+        } else {
+            MachineMargins { whole: other, cubic: drawn }
+        })
     }
 
     /// The uncertainty of `setup` with another half width of a parameter, or tolerance of a number of the

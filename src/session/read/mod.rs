@@ -6,7 +6,7 @@ pub mod contexts;
 pub mod fate;
 pub mod ledger;
 pub(crate) mod lists;
-mod machine;
+pub mod machine;
 pub mod motion;
 pub mod plots;
 pub mod walk;

@@ -78,6 +78,7 @@ impl Instruction {
             Msg::Key(key) => Some(Instruction::Key { key: *key, count: 1 }),
             Msg::Paste(text) | Msg::Say(text, _) if text.is_empty() => None,
             Msg::Say(text, _) => Some(Instruction::Give(Msg::Say(text.clone(), None))),
+            // What can be written is a step.
             _ => written(message).map(|_| Instruction::Give(message.clone())),
         }
     }

@@ -6,18 +6,17 @@ use std::sync::Arc;
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use toml::Table;
 
+use crate::flow::Problem;
 use crate::scene::{Arrangement, Layer, MOST_PLOTS, PlotSetup, Request, Scene, find};
 use crate::session::{Setup, StepSizes};
 
 /// The state before a change, limited to what the change affects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "kebab-case", from = "SavedBefore")]
 pub enum Before {
     /// A number was changed. Undoing that leaves zoom and layers alone.
-    #[serde(rename = "motions", alias = "motion-on-belt", alias = "motion")]
-    #[serde(deserialize_with = "setup_or_motion")]
+    #[serde(rename = "motions")]
     Setup(Box<Setup>),
     /// A plot was added, removed or moved, or its view was changed.
     #[serde(rename = "plots")]
@@ -37,13 +36,30 @@ impl Before {
     }
 }
 
-/// Reads a setup; earlier versions wrote a motion alone, without a machine and known exactly.
-fn setup_or_motion<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Box<Setup>, D::Error> {
-    let table = Table::deserialize(deserializer)?;
-    let is_motion = table.contains_key("parameters");
-    let alone = |table: Table| table.try_into().map(Setup::alone);
-    let read = if is_motion { alone(table) } else { table.try_into() };
-    read.map(Box::new).map_err(D::Error::custom)
+/// The same as this and earlier versions wrote it.
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum SavedBefore {
+    /// A motion alone, without a machine and known exactly: earlier versions wrote that.
+    Motion(Problem),
+    #[serde(alias = "motion-on-belt")]
+    Motions(Box<Setup>),
+    Plots(ScreenSetup),
+    Scene {
+        plots: Vec<PlotSetup>,
+        show: Box<Snapshot>,
+    },
+}
+
+impl From<SavedBefore> for Before {
+    fn from(saved: SavedBefore) -> Self {
+        match saved {
+            SavedBefore::Motion(problem) => Before::Setup(Box::new(Setup::alone(problem))),
+            SavedBefore::Motions(setup) => Before::Setup(setup),
+            SavedBefore::Plots(screen_setup) => Before::ScreenSetup(screen_setup),
+            SavedBefore::Scene { plots, show } => Before::Scene { plots, show },
+        }
+    }
 }
 
 /// Fails with one line if a screen cannot have so many plots.
