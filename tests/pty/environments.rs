@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use crate::support::{Answers, PROGRAM, QUIET, TITLE, Terminal};
+use crate::support::{Answers, PROGRAM, QUIET, TITLE, Terminal, all_at_once};
 
 /// The parameters of all sequences that set colours and attributes.
 fn attributes(written: &[u8]) -> BTreeSet<u8> {
@@ -163,31 +163,30 @@ const GAPS: [u64; 6] = [0, 5, 20, 60, 150, 300];
 
 #[test]
 fn a_size_that_changes_there_and_back_leaves_no_damage() {
-    for (columns, rows) in [(60, 16), (100, 30)] {
-        for keys in ["", "\x1b[C"] {
-            let mut terminal = Terminal::explorer(&["supercritical"], &[], (80, 24));
-            for gap in GAPS {
-                terminal.quiet(QUIET);
-                terminal.types(&keys.repeat(3));
-                terminal.resize(columns, rows);
-                terminal.watch(Duration::from_millis(gap));
-                terminal.types(keys);
-                terminal.resize(80, 24);
-                assert_eq!(
-                    damaged(&mut terminal),
-                    [[""; 2]; 0],
-                    "{columns}x{rows}, {gap} ms, {keys:?}"
-                );
-            }
-            terminal.leave();
+    let cases = [(60, 16, ""), (100, 30, ""), (60, 16, "\x1b[C"), (100, 30, "\x1b[C")];
+    all_at_once(&cases, |&(columns, rows, keys)| {
+        let mut terminal = Terminal::explorer(&["supercritical"], &[], (80, 24));
+        for gap in GAPS {
+            terminal.quiet(QUIET);
+            terminal.types(&keys.repeat(3));
+            terminal.resize(columns, rows);
+            terminal.watch(Duration::from_millis(gap));
+            terminal.types(keys);
+            terminal.resize(80, 24);
+            assert_eq!(
+                damaged(&mut terminal),
+                [[""; 2]; 0],
+                "{columns}x{rows}, {gap} ms, {keys:?}"
+            );
         }
-    }
+        terminal.leave();
+    });
 }
 
 #[test]
 fn on_a_slow_line_a_size_that_changes_there_and_back_leaves_no_damage() {
-    let mut terminal = Terminal::explorer(&["supercritical"], &[], (80, 24));
-    for gap in GAPS {
+    all_at_once(&GAPS, |&gap| {
+        let mut terminal = Terminal::explorer(&["supercritical"], &[], (80, 24));
         terminal.quiet(QUIET);
         terminal.answers = Answers::WhenTold;
         // A frame is under way while the size changes.
@@ -203,8 +202,8 @@ fn on_a_slow_line_a_size_that_changes_there_and_back_leaves_no_damage() {
         }
         terminal.answers = Answers::AtOnce;
         assert_eq!(damaged(&mut terminal), [[""; 2]; 0], "{gap} ms");
-    }
-    terminal.leave();
+        terminal.leave();
+    });
 }
 
 #[test]

@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use rustix::process::Signal;
-use support::{Answers, PROGRAM, QUIET, TITLE, Terminal};
+use support::{Answers, PROGRAM, QUIET, TITLE, Terminal, all_at_once};
 
 /// The explorer with its first picture complete.
 fn explorer(arguments: &[&str], environment: &[(&str, &str)], size: (u16, u16)) -> Terminal {
@@ -189,9 +189,9 @@ const MOST_SILENCES: usize = 40;
 
 #[test]
 fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one() {
-    for (scene, keys) in HASTY {
+    all_at_once(&HASTY, |(scene, keys)| {
         let mut slow = explorer(&[scene], &[], (120, 40));
-        for key in keys {
+        for key in *keys {
             slow.types(key);
             slow.wait("the answers", |it| !it.text().contains("computing"));
             slow.quiet(QUIET);
@@ -212,7 +212,7 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
         );
         slow.leave();
         fast.leave();
-    }
+    });
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::support::{Answers, PROGRAM, QUIET, Terminal};
+use crate::support::{Answers, PROGRAM, QUIET, Terminal, all_at_once};
 use rustix::process::Signal;
 
 /// The explorer, with its own folder for kept sessions, once its first picture is complete.
@@ -185,14 +185,17 @@ fn a_recording_plays_what_was_recorded_without_the_key_that_left() {
     terminal.types(&format!("\x1b[C\"a\x1b[C:write {}\r", saved.display()));
     terminal.wait_for("written to");
     terminal.leave();
-    for (arguments, keys) in [
+    let cases = [
         (&["supercritical", "--set", "q0=0.5"][..], "\x1b[C\x1b[C\x1b[C"),
         (&["--set", "D3=0.5", "--method", "rk4", "--step", "0.02", "--theme", "light"], "Ro"),
         (&["--belt", "textbook", "--glyphs", "ascii"], "\t+"),
         (&["--open", saved.to_str().unwrap()], "u'a"),
-    ] {
+    ];
+    all_at_once(&cases, |(arguments, keys)| {
+        let memory = tempfile::tempdir().unwrap();
+        explorer(&[], memory.path()).leave();
         let file = memory.path().join("r.keys");
-        let all = [arguments, &["--record", file.to_str().unwrap()]].concat();
+        let all = [*arguments, &["--record", file.to_str().unwrap()]].concat();
         let mut terminal = explorer(&all, memory.path());
         for key in keys.split_inclusive(|char: char| char != '\x1b' && char != '[') {
             terminal.types(key);
@@ -201,7 +204,7 @@ fn a_recording_plays_what_was_recorded_without_the_key_that_left() {
         let last = screen(&terminal.text());
         terminal.leave();
         assert_eq!(replayed(&file), last, "{}", fs::read_to_string(&file).unwrap());
-    }
+    });
 }
 
 #[test]
@@ -253,14 +256,15 @@ fn keys_pressed_while_a_file_plays_are_not_mixed_into_it() {
 
 #[test]
 fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one() {
-    let memory = tempfile::tempdir().unwrap();
-    explorer(&[], memory.path()).leave();
-    for (scene, keys) in [
+    let cases = [
         ("supercritical", &["\x1b[C", "\x1b[C", "i", "\x1b[C", "o"][..]),
         ("supercritical", &[":set r=0.15\r", "\t", "\t", "w", "\x1b[C", "\t", "\r", "u"]),
         ("linear", &["\"a", "\x1b[C", ":view trade\r", "\x1b[D", "\x1b[D", "\r", "'a"]),
         ("fig17", &["\x1b[C", "\t", "0", "+", "H", "\x1b[A", "\r"]),
-    ] {
+    ];
+    all_at_once(&cases, |(scene, keys)| {
+        let memory = tempfile::tempdir().unwrap();
+        explorer(&[], memory.path()).leave();
         let end = |writes: &[String]| {
             let mut terminal = explorer(&[scene], memory.path());
             for keys in writes {
@@ -273,7 +277,7 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
         };
         let one_by_one: Vec<String> = keys.iter().map(ToString::to_string).collect();
         assert_eq!(end(&[keys.concat()]), end(&one_by_one), "{keys:?} in {scene}");
-    }
+    });
 }
 
 #[test]

@@ -15,6 +15,15 @@ use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system}
 use rustix::process::{Pid, Signal, kill_process};
 use rustix::termios::{LocalModes, tcgetattr};
 
+/// Checks all cases at once, each with a terminal of its own: most of their time is waiting.
+pub fn all_at_once<T: Sync>(cases: &[T], check: impl Fn(&T) + Sync) {
+    std::thread::scope(|scope| {
+        for case in cases {
+            scope.spawn(|| check(case));
+        }
+    });
+}
+
 /// Time within which a condition must become true.
 const DEADLINE: Duration = Duration::from_secs(30);
 
