@@ -284,7 +284,7 @@ impl Estimate {
     /// What was estimated, with these unknowns held. The loss is that of the samples that count.
     pub fn task<'a>(&'a self, held: &[usize], runs: &'a Runs<'a>) -> Task<'a> {
         let (start, free, reach, dropped) = (self.start, self.free, self.reach, &self.left_out[..]);
-        let task = Task { start, free, reach, dropped, ..Task::new(&self.data, runs) };
+        let task = Task { start, reach, free, dropped, ..Task::new(&self.data, runs) };
         held.iter().fold(task, |task, place| task.holding(*place))
     }
 

@@ -330,6 +330,6 @@ impl ProvedHalf {
         let FieldBox { a, b, c } = field.in_units_of(unit);
         let path = scaled(end + start, -unit);
         let divergence = -(a * whole.duration + (b * path).twice() + c * square * 3.0);
-        Some(ProvedSwing { end, square, divergence, ..whole })
+        Some(ProvedSwing { end, divergence, square, ..whole })
     }
 }

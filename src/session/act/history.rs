@@ -120,11 +120,12 @@ pub(crate) fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot
 /// Opens a scene, as one change that can be undone.
 pub(crate) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     let (plots, before) = (session.screen_setup().plots, snapshot(session));
-    let opens = opening(Arc::clone(&scene));
-    if before != opens || plots != scene.plots {
+    let opens = opening(scene);
+    if before != opens || plots != opens.scene.plots {
         session.history.record(Before::Scene { plots, show: Box::new(before) });
     }
-    restore(session, opens, opened(&scene.plots));
+    let plots = opened(&opens.scene.plots);
+    restore(session, opens, plots);
     session.unfolded = false;
     session.selected = Row::default();
     // The descriptions of scenes begin there.

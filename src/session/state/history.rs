@@ -141,7 +141,9 @@ impl History {
                 Before::ScreenSetup(screen_setup) => &mut screen_setup.plots,
                 Before::Scene { plots, .. } => plots,
             };
-            plots.iter_mut().for_each(|plot| plot.window = None);
+            for plot in plots {
+                plot.window = None;
+            }
         }
     }
 
