@@ -11,11 +11,11 @@ use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
 use crate::model::{Knob, Parameters, Side, State};
 use crate::numerics::Interval;
 use crate::portrait::basin::arc::Arc;
-use crate::portrait::proved::{matching, proved_kicks};
+use crate::portrait::proved::matching;
 use crate::portrait::{Border, Cycle, Direction, Equation, Length, Portrait, closings};
 use crate::proof::motion::{ProvedFate, ProvedMotion, follow};
 use crate::proof::range::change_within;
-use crate::proof::{Enclosure, ParameterBox, prove};
+use crate::proof::{Enclosure, ParameterBox, kicks, prove};
 
 /// Rounding of a number that several operations made from a computed one.
 const ROUNDED: f64 = 1e-14;
@@ -271,7 +271,8 @@ impl<'a> ClaimCase<'a> {
     /// What borders the basin.
     pub fn edge(&self) -> Result<Certain<Border>, Reason> {
         let found = Portrait::of_oscillator(self, 10.0, &self.limits)?;
-        let proved = proved_kicks(self, &found).edge;
+        let proof = prove(&ParameterBox::from(&self.parameters), &[]);
+        let proved = kicks::edge(&proof, found.margin.displacement);
         let certain = proved.map(Border::from) == Some(found.border);
         Ok(Certain { value: found.border, certain })
     }

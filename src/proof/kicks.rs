@@ -54,34 +54,15 @@ const TURNS: usize = 300;
 /// the displacement, of the impulse at `q = 0`, and of the smallest one at a rest position.
 pub fn kicks(proof: &Proof, hints: [Option<f64>; 3]) -> ProvedKicks {
     let parameters = &proof.parameters;
-    let open = |reason| ProvedKicks { open: Some(reason), ..ProvedKicks::default() };
-    if !(parameters.r.lower() > 0.0) {
-        return open(NO_FRICTION);
-    }
     let mut map = ProvedMap::new(parameters);
-    let none = proof.is_complete() && proof.cycles.is_empty();
-    if none && is_bounded(&mut map, proof) {
-        return ProvedKicks { edge: Some(ProvedEdge::None), ..ProvedKicks::default() };
-    }
-    let r = parameters.r;
-    let innermost = innermost(proof);
-    if innermost.is_some_and(|cycle| cycle.stable) {
-        return open(ATTRACTS);
-    }
-    let (edge, clearances) = if let Some(it) = innermost.and_then(|cycle| cycle.enclosure) {
-        (Some(ProvedEdge::Cycle), [it.clearance, -it.q_min - r])
-    } else {
-        let guess = hints[0].map(|hint| hint - r.middle());
-        let sides = [0, 1].map(|side| {
-            let mut known = Interval::new(0.0, f64::INFINITY);
-            threshold(guess, |clearance| at_rest(&mut map, side, clearance, &mut known))
-        });
-        let [Some(right), Some(left)] = sides else { return open(NO_EDGE) };
-        if right.upper().min(left.upper()) == f64::INFINITY {
-            return open(NO_EDGE);
-        }
-        (none.then_some(ProvedEdge::Separatrix), [right, left])
+    let (edge, clearances) = match border(&mut map, proof, hints[0]) {
+        Ok(found) => found,
+        Err(reason) => return ProvedKicks { open: Some(reason), ..ProvedKicks::default() },
     };
+    let Some(clearances) = clearances else {
+        return ProvedKicks { edge, ..ProvedKicks::default() };
+    };
+    let r = parameters.r;
     let mut at = |x: Interval, hint| {
         let [one, other] = [0, 1]
             .map(|half| threshold(hint, |speed| pushed(&mut map, half, x, speed, clearances)));
@@ -99,6 +80,45 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 3]) -> ProvedKicks {
         rest_impulse,
         open: (impulse.is_none() || rest_impulse.is_none()).then_some(NO_EDGE),
     }
+}
+
+/// What certainly borders the basin; `hint` is an approximate value of the smallest displacement.
+pub fn edge(proof: &Proof, hint: Option<f64>) -> Option<ProvedEdge> {
+    border(&mut ProvedMap::new(&proof.parameters), proof, hint).ok()?.0
+}
+
+/// What borders the basin, if that is certain, and the clearances of the border to the right and to the left; `None` where
+/// everything comes to rest. Fails with why nothing is known.
+fn border(
+    map: &mut ProvedMap,
+    proof: &Proof,
+    hint: Option<f64>,
+) -> Result<(Option<ProvedEdge>, Option<[Interval; 2]>), &'static str> {
+    let r = proof.parameters.r;
+    if !(r.lower() > 0.0) {
+        return Err(NO_FRICTION);
+    }
+    let none = proof.is_complete() && proof.cycles.is_empty();
+    if none && is_bounded(map, proof) {
+        return Ok((Some(ProvedEdge::None), None));
+    }
+    let innermost = innermost(proof);
+    if innermost.is_some_and(|cycle| cycle.stable) {
+        return Err(ATTRACTS);
+    }
+    if let Some(it) = innermost.and_then(|cycle| cycle.enclosure) {
+        return Ok((Some(ProvedEdge::Cycle), Some([it.clearance, -it.q_min - r])));
+    }
+    let guess = hint.map(|hint| hint - r.middle());
+    let sides = [0, 1].map(|side| {
+        let mut known = Interval::new(0.0, f64::INFINITY);
+        threshold(guess, |clearance| at_rest(map, side, clearance, &mut known))
+    });
+    let [Some(right), Some(left)] = sides else { return Err(NO_EDGE) };
+    if right.upper().min(left.upper()) == f64::INFINITY {
+        return Err(NO_EDGE);
+    }
+    Ok((none.then_some(ProvedEdge::Separatrix), Some([right, left])))
 }
 
 /// The innermost cycle, if there is certainly none inside it.
