@@ -268,8 +268,10 @@ fn no_chord_misses_its_curve_after_zooming_either() {
         let shown = print::figure(&mut session, &[panel], &Limits::PATIENT);
         let mut truth = open();
         look(&mut truth);
+        // Nothing else is computed that finely.
+        truth.plots = vec![truth.plots.remove(panel)];
         complete(&mut truth, Fineness::PRINT.finer(40), &Limits::PATIENT).expect("an answer");
-        let truth = Figure::of(&truth, [panel]);
+        let truth = Figure::of(&truth, [0]);
         let mut looked = 0;
         for (curve, finer) in shown.panels[0].curves.iter().zip(&truth.panels[0].curves) {
             assert_eq!(curve.name, finer.name);

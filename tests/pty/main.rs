@@ -97,7 +97,7 @@ fn a_full_picture_and_a_step_are_a_few_bytes() {
 
 #[test]
 fn a_changed_cell_costs_at_most_five_bytes_at_every_size() {
-    for size in [(80, 24), (120, 40), (200, 60)] {
+    all_at_once(&[(80, 24), (120, 40), (200, 60)], |&size| {
         let mut terminal = explorer(&[], &[], size);
         let (mut bytes, mut changed) = (0, 0);
         for _ in 0..5 {
@@ -112,7 +112,7 @@ fn a_changed_cell_costs_at_most_five_bytes_at_every_size() {
         assert!(changed > 500, "{changed} cells at {size:?}");
         assert!(bytes <= 5 * changed, "{bytes} bytes for {changed} cells at {size:?}");
         terminal.leave();
-    }
+    });
 }
 
 /// Processor time used so far, in ticks, and how often any of its threads has woken up.
