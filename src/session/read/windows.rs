@@ -178,7 +178,7 @@ fn diagram(session: &Session, plot: usize) -> Option<Window> {
     }
     heights.retain(|height| height.is_finite());
     heights.sort_by(f64::total_cmp);
-    let zero = ordinate.is_from_zero().then_some(0.0);
+    let zero = ordinate.spec().from_zero.then_some(0.0);
     let ends = [1.0 - QUANTILE, QUANTILE].map(|part| quantile(&heights, part));
     let fitting = special.into_iter().chain(zero).chain(ends.into_iter().flatten());
     let span = Span::covering(fitting)?;
