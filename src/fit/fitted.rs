@@ -83,7 +83,7 @@ impl Fitted {
     pub fn new(name: String, record: Record, estimate: Estimate, margins: Margins) -> Self {
         let curves = Curves::of(&estimate, &margins);
         let points = points(&record, &estimate);
-        let line = drawn(&points, &estimate.data);
+        let line = line_through(&points, &estimate.data);
         let (rise, drawn, seconds) = (0.0, true, 0.0);
         Fitted { name, record, estimate, margins, curves, points, line, rise, drawn, seconds }
     }
@@ -198,7 +198,7 @@ impl Fitted {
 }
 
 /// The points that are drawn as a line, see [`Fitted::line`].
-fn drawn(points: &[RecordPoint], data: &Record) -> Vec<Option<RecordPoint>> {
+fn line_through(points: &[RecordPoint], data: &Record) -> Vec<Option<RecordPoint>> {
     /// Maximum number of samples.
     const MOST: usize = 4000;
     /// A step longer than the average one by this factor is a gap.

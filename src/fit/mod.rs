@@ -3,9 +3,9 @@
 //! [`record`] reads the files of instruments. [`mod@guess`] makes a first guess from the [`mod@turning_points`], by the
 //! decrements of averaging. [`motion`] follows a motion with its exact derivatives, half swing by half swing;
 //! [`observation`] compares it with the record. [`task`] says which of the unknowns ([`question`]) are estimated, and
-//! minimizes the loss; [`search`] finds the right [`valley`] for it. [`mod@samples`]
+//! minimizes the loss; [`search`] finds the right [`valley`] for it, [`mod@drift`] one with a drift of the zero. [`mod@samples`]
 //! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for
-//! correlated noise ([`mod@noise`]), and intervals where the loss is not quadratic ([`uncertainty`]); numbers
+//! correlated noise ([`residuals`]), and intervals where the loss is not quadratic ([`uncertainty`]); numbers
 //! of which only a combination is known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What
 //! all of this rests on is tested by the record itself ([`mod@conditions`]).
 //!
@@ -37,6 +37,7 @@ mod cells;
 mod conditions;
 mod curves;
 mod descent;
+mod drift;
 mod estimate;
 mod fitted;
 mod guess;
@@ -47,6 +48,7 @@ mod observation;
 mod posterior;
 mod question;
 mod record;
+mod residuals;
 mod samples;
 mod search;
 mod signal;
@@ -78,21 +80,24 @@ pub use {
 // What other rings use of it, and its files of each other.
 pub(crate) use {
     curves::{Curves, Extent, PlotPoint, memory},
+    drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
     estimate::{LeftOut, RISES, held, judged, left_out},
     fitted::{Combination, combination, rows},
     guess::{Beginning, Guess, guess, period_of},
     margin::MarginSpread,
     motion::{FittedTurn, MotionLost, follow},
     noise::{
-        IMPOSSIBLE, Noise, Whiteness, autocorrelations, chi_squared, deviation_of_95_percent,
-        least_squares, median, normal_at, range, rate, robust_deviation, whiteness, within_scale,
+        IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,
     },
     observation::{Bound, Region, Seen, drift},
     posterior::{Drawn, FEWEST, drawn},
     question::{Loss, UnknownsMatrix, assigned, direction, listed, placed, reach, row_of},
     record::decoded,
+    residuals::{
+        Whiteness, autocorrelations, chi_squared, deviation_of_95_percent, normal_at, whiteness,
+    },
     samples::of_kind,
-    search::{FittedDrift, LeftDrift, drift_of_swings, released_before, without_drift},
+    search::released_before,
     signal::{SignalUnit, measure, quantity},
     task::{FitVerdict, HIDDEN, LinearResiduals, Optimum, RUN, longest_run, mean_square},
     turning_points::{
