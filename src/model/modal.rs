@@ -1,7 +1,7 @@
 //! The numbers of a vibration mode that has no belt.
 
 /// A vibration mode: what feeds and damps it is a polynomial in its velocity.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Modal {
     /// Natural frequency, in cycles a second.
     pub frequency: f64,

@@ -1,5 +1,6 @@
 //! Answers, how they are computed, and by which means.
 
+use strum::EnumTryAs;
 use thiserror::Error;
 
 use super::fit::Fit;
@@ -23,7 +24,7 @@ use crate::proof::{ParameterBox, Proof, prove};
 use crate::scan::grid::ScanRow;
 
 /// The answer of the worker.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, EnumTryAs)]
 pub enum Finding {
     Fit(Fit),
     Refit(Fit),

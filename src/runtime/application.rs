@@ -37,7 +37,7 @@ pub trait Application {
 
     /// Whether a command waits for an answer: all further input of the user must then wait, too.
     fn is_waiting(&self) -> bool {
-        self.session().is_some_and(Session::is_waiting)
+        self.session().is_some_and(|session| session.waiting.is_some())
     }
 
     /// Whether a key has its usual effect while a caption is shown, instead of continuing the replay.

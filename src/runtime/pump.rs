@@ -24,7 +24,7 @@ use super::scan_file;
 use super::workers::{Compute, Workers};
 use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script, ScriptError};
-use crate::session::{Effect, Msg, Notice, Pointed};
+use crate::session::{Content, Effect, Msg, Notice, Pointed};
 use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
 use crate::view;
@@ -272,6 +272,17 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(self.options.files.copy(text))
     }
 
+    /// Writes a file, and tells the session what became of it.
+    fn write(&mut self, path: PathBuf, content: Content, replace: bool) -> Step {
+        let done = match content {
+            Content::Figure { plot } => return self.write_figure(path, plot, replace),
+            Content::Record { forget } => self.write_record(&path, forget, replace),
+            Content::Scan(scan, rows) => scan_file::save(&path, &scan, &rows),
+            Content::Text(text) => Files::write(&path, text, replace, Readers::Owner),
+        };
+        self.told(done.into(), false)
+    }
+
     /// Begins to write a figure; if that fails, the session is told why.
     fn write_figure(&mut self, path: PathBuf, plot: Option<usize>, replace: bool) -> Step {
         let begun = Files::admit(&path, replace)
@@ -339,7 +350,7 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     fn carry_out(&mut self, effect: Effect) -> Step {
         if let Some(text) = self.withheld(&effect) {
-            let of_figure = matches!(effect, Effect::Figure { .. });
+            let of_figure = matches!(effect, Effect::Write { content: Content::Figure { .. }, .. });
             let notice = Notice { error: true, text };
             return if notice.text.is_empty() { Ok(()) } else { self.told(notice, of_figure) };
         }
@@ -359,8 +370,8 @@ impl<M: Application, W: Write> Pump<M, W> {
                 Files::put_aside(&path);
                 return Ok(());
             }
-            Effect::Figure { path, plot, replace } => {
-                return self.write_figure(path, plot, replace);
+            Effect::Write { path, content, replace } => {
+                return self.write(path, content, replace);
             }
             Effect::Read { path, purpose } => {
                 let result = self.read(&path);
@@ -372,11 +383,6 @@ impl<M: Application, W: Write> Pump<M, W> {
                 let picture = self.application.picture(self.screen.size());
                 self.copy(&view::screen::text(&picture))?
             }
-            Effect::SaveScan { path, scan, rows } => scan_file::save(&path, &scan, &rows),
-            Effect::Write { path, text, replace } => {
-                Files::write(&path, &text, replace, Readers::Owner)
-            }
-            Effect::Record { path, forget, replace } => self.write_record(&path, forget, replace),
         };
         self.told(done.into(), false)
     }

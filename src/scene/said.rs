@@ -10,7 +10,7 @@ use std::ops::RangeBounds;
 use strum::EnumString;
 
 use super::scene::Scene;
-use super::views::Layer;
+use super::views::{Layer, named};
 use crate::model::{Group, Knob};
 
 /// A condition of a part of a text, by its name in scene files.
@@ -87,7 +87,7 @@ pub fn said_by(scene: &Scene, text: &str) -> String {
 fn conditions(names: &str) -> Option<Vec<TextCondition>> {
     let known = |name: &str| {
         let plain = name.parse().ok().or_else(|| comparison(name));
-        plain.or_else(|| Layer::named(name).map(TextCondition::Shows))
+        plain.or_else(|| named(name).map(TextCondition::Shows))
     };
     let found: Option<Vec<_>> = names.split_whitespace().map(known).collect();
     found.filter(|conditions| !conditions.is_empty())

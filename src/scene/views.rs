@@ -97,7 +97,7 @@ fn described(line: &'static str) -> Option<ViewSpec> {
     Some(ViewSpec { view, name, title, heading, coordinates, window, meaning, needs, nothing })
 }
 
-/// What has this name in files.
+/// What has this name in files, or had it in earlier ones.
 pub fn named<'de, T: Deserialize<'de>>(name: &'de str) -> Option<T> {
     let name: StrDeserializer<'de, serde::de::value::Error> = name.into_deserializer();
     T::deserialize(name).ok()
@@ -204,11 +204,6 @@ impl Layer {
     pub fn spec(self) -> &'static LayerSpec {
         &LAYERS[self as usize]
     }
-
-    /// The layer with this present or former name.
-    pub fn named(name: &str) -> Option<Self> {
-        self::named(name)
-    }
 }
 
 /// Letters that already move in a list or close it.
@@ -255,9 +250,9 @@ mod tests {
     fn every_layer_is_found_by_its_name_and_by_the_one_it_once_had() {
         for row in &LAYERS {
             assert_eq!(row.layer.spec().layer, row.layer);
-            assert_eq!(Layer::named(row.name), Some(row.layer));
+            assert_eq!(named(row.name), Some(row.layer));
             assert!(row.meaning.len() <= 52, "{} is cut at 80 columns", row.name);
         }
-        assert_eq!(Layer::named("harmonic-border"), Some(Layer::HarmonicFold));
+        assert_eq!(named("harmonic-border"), Some(Layer::HarmonicFold));
     }
 }

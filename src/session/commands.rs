@@ -4,10 +4,10 @@
 //! one small function in `session::act` for what no other command does. Every command of a key can also be typed by
 //! its name. A line is run completely or not at all, and a refused line says what is allowed.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 
 use crate::scene::machine::library::machines;
-use crate::scene::{LAYERS, Layer, LayerSpec, Scene, VIEWS, library};
+use crate::scene::{LAYERS, Layer, LayerSpec, VIEWS, library};
 use crate::session::Listed::{Cost, Layers, Palette as Everything, Paper, Scenes, Views};
 use crate::session::act::{
     copy, files, general, history, lists, motions, parameters, plots, prompt, scan, screen_setup,
@@ -18,8 +18,7 @@ use crate::session::settings::{Colors, Glyphs, Theme, choices, named};
 use crate::session::state::keymap::CommandAction::{self, Act, Choose, Line, Move, Toggle, Try};
 use crate::session::state::keymap::{COMMANDS, contexts};
 use crate::session::{
-    Command, Context, Effect, Input, Key, Keymap, Letter as Ask, List, Pending, Purpose, Session,
-    Size,
+    Command, Context, Effect, Input, Key, Keymap, Letter as Ask, List, Pending, Purpose,
 };
 
 /// What commands do: by the name that their line ends with, which is that of the command where the line does not say
@@ -176,8 +175,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     (":record!", Line(completion::nothing, |s, rest| files::record(s, rest, true))),
     (":play", Line(completion::nothing, |s, rest| files::ask(s, rest, Purpose::Play))),
     (":theme", Line(|_, _| completion::all(choices::<Theme>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.theme = it))),
-    (":units", Line(completion::switch, |s, state| values::is_on("units", state).map(|on| s.display.dimensionless = !on))),
-    (":equal", Line(completion::switch, |s, state| values::is_on("equal units", state).map(|on| s.display.stretched = !on))),
+    (":units", Line(completion::switch, |s, state| values::is_on(state).map(|on| s.display.dimensionless = !on))),
+    (":equal", Line(completion::switch, |s, state| values::is_on(state).map(|on| s.display.stretched = !on))),
     (":glyphs", Line(|_, _| completion::all(choices::<Glyphs>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.glyphs = it))),
     (":color", Line(|_, _| completion::all(choices::<Colors>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.colors = it))),
 ];
@@ -266,13 +265,6 @@ impl Default for Keymap {
     /// The default keys of every command.
     fn default() -> Self {
         Keymap::new(table().iter())
-    }
-}
-
-impl Session {
-    /// A session that has just opened a scene, with the default keys.
-    pub fn new(scene: Arc<Scene>, size: Size) -> Self {
-        Session::opened(scene, size, Arc::new(Keymap::default()))
     }
 }
 

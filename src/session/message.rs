@@ -1,11 +1,13 @@
 //! The messages that a session takes in, and the effects that it asks of the outer rings.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::sync::Arc;
 
 use strum::IntoStaticStr;
 
 use crate::model::Knob;
 use crate::question::NoAnswer;
+use crate::scan::grid::{Scan, ScanRow};
 use crate::scene::{Answered, Finding, Point, Request};
 use crate::session::{Key, Script};
 
@@ -137,28 +139,12 @@ pub enum Effect {
     Copy(String),
     /// Put the characters on the screen there, too.
     CopyScreen,
-    /// Write a complete file; the outcome comes back as a notice.
+    /// Write a file; the outcome comes back as a notice, that of a figure as `Msg::Written`.
     Write {
         path: PathBuf,
-        text: String,
-        /// Whether an existing file may be replaced.
-        replace: bool,
-    },
-    /// Write all input since the start as a keystroke file.
-    Record {
-        path: PathBuf,
-        /// Number of presses at the end that are left out.
-        forget: u32,
-        /// Whether an existing file may be replaced.
-        replace: bool,
-    },
-    /// Write a figure of plots, in the format that the file's extension asks for. `Msg::Written` comes back at
-    /// the end.
-    Figure {
-        path: PathBuf,
-        /// The plot; `None` for all that are on show.
-        plot: Option<usize>,
-        /// Whether an existing file may be replaced.
+        content: Content,
+        /// Whether an existing file may be replaced. One with rows of the same scan always is; one of another scan is left
+        /// alone.
         replace: bool,
     },
     /// Stop the figure in progress.
@@ -167,25 +153,17 @@ pub enum Effect {
     Read { path: PathBuf, purpose: Purpose },
     /// Put the kept file of an interrupted session aside, so that it is not offered again.
     PutAside(PathBuf),
-    /// Write the rows of a scan to a file, in the form given by its extension; a file of another scan is left
-    /// alone. The outcome comes back as a notice.
-    SaveScan {
-        path: PathBuf,
-        scan: std::sync::Arc<crate::scan::grid::Scan>,
-        /// Its rows, beginning with the first point.
-        rows: Vec<crate::scan::grid::ScanRow>,
-    },
 }
 
-impl Effect {
-    /// The file that it writes, if it writes one.
-    pub fn writes(&self) -> Option<&Path> {
-        match self {
-            Effect::Write { path, .. }
-            | Effect::Record { path, .. }
-            | Effect::Figure { path, .. }
-            | Effect::SaveScan { path, .. } => Some(path),
-            _ => None,
-        }
-    }
+/// What is written to a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// A complete text.
+    Text(String),
+    /// All input since the start as a keystroke file, except so many presses at the end.
+    Record { forget: u32 },
+    /// A figure of this plot, or of all that are on show, in the format that the file's extension asks for.
+    Figure { plot: Option<usize> },
+    /// The rows of a scan, beginning with the first point, in the form given by the file's extension.
+    Scan(Arc<Scan>, Vec<ScanRow>),
 }

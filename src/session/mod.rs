@@ -26,7 +26,7 @@ pub mod update;
 
 pub use commands::commands;
 pub use key::{Code, Key};
-pub use message::{Done, Effect, Gesture, Msg, Notice, Pointed, PointerTarget, Purpose};
+pub use message::{Content, Done, Effect, Gesture, Msg, Notice, Pointed, PointerTarget, Purpose};
 pub use read::answers::NoErrorReason;
 pub use read::contexts::Hint;
 pub use read::lists::PaletteRow;

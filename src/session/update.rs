@@ -13,7 +13,7 @@ use crate::session::act::{answers, files, general, history, plots, prompt, value
 use crate::session::read::completion::names;
 use crate::session::read::contexts::{self, elsewhere, place};
 use crate::session::replay::script::parse;
-use crate::session::state::keymap::full_name;
+use crate::session::state::keymap::called;
 use crate::session::{
     Code, Command, CommandAction, Context, Done, Effect, Key, Letter, Msg, NextCommand, Overlay,
     Pane, Pending, Price, Prompt, Row, Session, SessionCaption, Size, Waiting,
@@ -74,7 +74,8 @@ fn take_in(session: &mut Session, message: Msg) {
         Msg::Answered(answered) => take(session, *answered),
         Msg::Run(line) => {
             session.price = Price { key: Some(ENTER), recomputed: Vec::new() };
-            run_untyped(session, &line);
+            (session.overlay, session.pending, session.notice) = (None, None, None);
+            session.attempt(|session| run_line(session, &line));
         }
         Msg::Start(names) => history::begin(session, names),
         Msg::Say(caption, place) => {
@@ -165,7 +166,7 @@ fn released(session: &mut Session) -> Option<Msg> {
     let message = session.waiting.as_ref()?.message.clone();
     let request = session.awaited(&message);
     session.waiting = request.map(|request| Waiting { message: message.clone(), request });
-    (!session.is_waiting()).then_some(message)
+    session.waiting.is_none().then_some(message)
 }
 
 /// The key that is passed to commands that are run from a line.
@@ -314,8 +315,7 @@ fn typed(session: &mut Session, act: impl FnOnce(&mut Session) -> Done) {
 /// Runs a line while nothing is open. Fails with one line that says what is wrong and what is allowed; the
 /// session is then unchanged.
 pub fn run_line(session: &mut Session, text: &str) -> Done {
-    let (name, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-    let (name, rest) = (full_name(name), rest.trim());
+    let (name, rest) = called(text);
     let (line, command) = (session.keymap.line(name), session.keymap.named(name));
     match (line, command) {
         (_, Some(command)) if rest.is_empty() => {
@@ -335,10 +335,4 @@ pub fn run_line(session: &mut Session, text: &str) -> Done {
             None => format!("no command {name:?}; Tab lists them"),
         }),
     }
-}
-
-/// Runs a line that was not typed.
-fn run_untyped(session: &mut Session, text: &str) {
-    (session.overlay, session.pending, session.notice) = (None, None, None);
-    session.attempt(|session| run_line(session, text));
 }

@@ -66,9 +66,9 @@ fn busy(session: &Session, look: &Look) -> String {
     if let Some(name) = session.writing.as_ref().and_then(|path| path.file_name()) {
         busy += &format!("writing {} ", name.display());
     }
-    match session.keymap.key_of("play-motion").filter(|_| session.is_playing()) {
+    match session.keymap.key_of("play-motion").filter(|_| session.playback.playing) {
         Some(key) => busy += &format!("playing, {} holds ", look.key(key)),
-        None if session.is_playing() => busy += "playing ",
+        None if session.playback.playing => busy += "playing ",
         None => {}
     }
     busy

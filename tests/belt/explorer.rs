@@ -23,12 +23,12 @@ fn figure() -> Scene {
 #[test]
 fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
     let (session, start) = screen(figure(), "");
-    assert!(session.head().is_none() && !session.is_playing());
+    assert!(session.head().is_none() && !session.playback.playing);
     assert!(start.contains("x [mm]") && start.contains("t 0 s  x 1 mm  v 0 m/s"), "{start}");
     // The period is 4 s: after 2 s of playing, half a period has passed and the motion is near the left turning point.
     let (session, half) = screen(figure(), "<f8> <elapse 1.5> <elapse 0.5>");
     let head = session.head().unwrap();
-    assert!(session.is_playing() && (head.tau - std::f64::consts::PI).abs() < 1e-12);
+    assert!(session.playback.playing && (head.tau - std::f64::consts::PI).abs() < 1e-12);
     assert!(head.q < -0.1 && head.v.abs() < 0.01, "{head:?}");
     assert_ne!(start, half);
     // While paused, time does not count; a step advances by a fortieth of a period.
@@ -42,7 +42,7 @@ fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
         Outcome::Captured { tau, q } => (tau, q),
         other => panic!("{other:?}"),
     };
-    assert!(!rest.is_playing());
+    assert!(!rest.playback.playing);
     assert_eq!((rest.head().unwrap().tau, rest.head().unwrap().q), (tau, q));
     // Played again, it restarts.
     let (again, _) = screen(figure(), "<f8> <elapse 600> <f8> <elapse 1>");
@@ -101,7 +101,7 @@ fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
         "{text}"
     );
     let (end, _) = screen((*wild.scene).clone(), "| <left*30> o <f8> <elapse 3600>");
-    assert!(!end.is_playing() && (end.head().unwrap().tau / tau - 1.0).abs() < 1e-12);
+    assert!(!end.playback.playing && (end.head().unwrap().tau / tau - 1.0).abs() < 1e-12);
 }
 
 #[test]

@@ -163,7 +163,7 @@ fn what_plays_has_a_sign_for_as_long_as_it_plays() {
     let mut session = settled("plain", 80, 24, "<f8>");
     for keys in ["<down>", "<tab>", "<right>"] {
         press(&mut session, keys);
-        assert!(session.is_playing());
+        assert!(session.playback.playing);
         let screen = text(&draw(&session, braille()));
         assert!(screen.contains("playing, F8 holds"), "{keys}: {screen}");
     }

@@ -42,6 +42,13 @@ pub enum FrictionLaw {
     Table(SmoothingSpline),
 }
 
+impl Default for FrictionLaw {
+    /// No friction.
+    fn default() -> Self {
+        FrictionLaw::Constant { mu: 0.0 }
+    }
+}
+
 impl FrictionLaw {
     /// What it is made of: all that is computed of a law follows from these, or from the spline of a table.
     #[must_use]
@@ -101,7 +108,7 @@ impl FrictionLaw {
     pub fn blank(name: &str) -> Option<Self> {
         let (rest, kinetic, velocity, exponent, viscous) = (0.0, 0.0, 0.0, 0.0, 0.0);
         match name {
-            "constant" => Some(FrictionLaw::Constant { mu: 0.0 }),
+            "constant" => Some(FrictionLaw::default()),
             "stribeck" => {
                 Some(FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous })
             }
@@ -173,7 +180,7 @@ fn stretched_exponential(u: f64, exponent: f64) -> Derivatives {
 }
 
 /// A mass on a moving belt.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Belt {
     /// Mass m, in kg.
     pub mass: f64,

@@ -13,7 +13,7 @@ use super::{Application, Files, Pump, Step};
 use crate::runtime::application::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
 use crate::session::replay::{Action, Script, ScriptError};
-use crate::session::{Code, Effect, Key, Msg, Notice};
+use crate::session::{Code, Content, Effect, Key, Msg, Notice};
 use crate::view;
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
@@ -107,22 +107,21 @@ impl<M: Application, W: Write> Pump<M, W> {
     /// without a terminal one that needs it, of which nothing is said; `None` for one that is.
     pub(super) fn withheld(&self, effect: &Effect) -> Option<String> {
         self.playing.as_ref()?;
-        let forbidden = effect.writes().filter(|_| !self.options.files.may_play_write);
-        match (forbidden.map(Path::display), effect) {
-            (Some(path), _) => {
+        match effect {
+            Effect::Write { path, .. } if !self.options.files.may_play_write => {
+                let path = path.display();
                 Some(format!("{path} not written: a keystroke file writes only with --allow-write"))
             }
             _ if !self.unattended => None,
-            (_, Effect::Record { .. }) => Some("a replay records nothing".to_owned()),
-            (
-                _,
-                Effect::Suspend
-                | Effect::Repaint
-                | Effect::Copy(_)
-                | Effect::CopyScreen
-                | Effect::Mouse(_)
-                | Effect::PutAside(_),
-            ) => Some(String::new()),
+            Effect::Write { content: Content::Record { .. }, .. } => {
+                Some("a replay records nothing".to_owned())
+            }
+            Effect::Suspend
+            | Effect::Repaint
+            | Effect::Copy(_)
+            | Effect::CopyScreen
+            | Effect::Mouse(_)
+            | Effect::PutAside(_) => Some(String::new()),
             _ => None,
         }
     }

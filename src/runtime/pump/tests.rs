@@ -166,14 +166,18 @@ fn a_replay_types_its_keys_and_says_how_it_ended() {
     assert!(stopped.starts_with("1 replay stopped: line 1, column 9"), "{stopped}");
 }
 
+fn written_to(path: &Path, content: Content) -> Effect {
+    Effect::Write { path: path.to_owned(), content, replace: false }
+}
+
 #[test]
 fn a_replay_goes_on_without_a_file_that_it_may_not_write_and_says_so_at_the_end() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.toml");
     for may_play_write in [false, true] {
         let Bench { mut pump, events, written } = playing("<enter> <right>");
-        let (path, text) = (path.clone(), "text".to_owned());
-        pump.application.asks = Some(Effect::Write { path, text, replace: false });
+        let content = Content::Text("text".to_owned());
+        pump.application.asks = Some(written_to(&path, content));
         pump.options.files.may_play_write = may_play_write;
         let running = std::thread::spawn(move || (pump.run(), pump));
         while !written.recv().unwrap().contains("done") {}
@@ -192,7 +196,7 @@ fn keys_are_answered_while_a_figure_is_written() {
     let path = folder.path().join("a.svg");
     let Bench { mut pump, events, written } = bench();
     let (open, gate) = unbounded();
-    let asks = Effect::Figure { path: path.clone(), plot: None, replace: false };
+    let asks = written_to(&path, Content::Figure { plot: None });
     (pump.application.asks, pump.application.gate) = (Some(asks), Some(gate));
     events.send(key("<enter>")).unwrap();
     let running = std::thread::spawn(move || pump.run());
@@ -253,7 +257,7 @@ fn what_was_pressed_is_written_without_what_asks_for_it() {
     for name in ["<right>", "<right>", ":"] {
         pump.handle(key(name)).unwrap();
     }
-    pump.application.asks = Some(Effect::Record { path: path.clone(), forget: 2, replace: false });
+    pump.application.asks = Some(written_to(&path, Content::Record { forget: 2 }));
     pump.handle(key("<enter>")).unwrap();
     let written = std::fs::read_to_string(path).unwrap();
     assert!(written.ends_with("\n# hopfscope basin\n<right*2>\n"), "{written}");

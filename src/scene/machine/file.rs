@@ -227,18 +227,8 @@ impl MachineReader<'_> {
         let friction = friction.ok_or_else(|| lacks("friction is missing".to_owned()))?;
         let at_rest = friction.get("static")?;
         let read = |given| self.read(Knob::StaticCoefficient, &given);
-        let mut belt = Belt {
-            mass: 0.0,
-            stiffness: 0.0,
-            damping: 0.0,
-            cubic_damping: 0.0,
-            normal_force: 0.0,
-            friction: 0.0,
-            belt_speed: 0.0,
-            law: FrictionLaw::Constant { mu: 0.0 },
-            static_coefficient: at_rest.map(read).transpose()?,
-            static_guide: None,
-        };
+        let static_coefficient = at_rest.map(read).transpose()?;
+        let mut belt = Belt { static_coefficient, ..Belt::default() };
         self.set_law(&mut belt, &friction)?;
         Ok((Body::Belt(Box::new(belt)), friction.at))
     }
@@ -248,9 +238,7 @@ impl MachineReader<'_> {
         let ratio = read.get::<Vec<_>>("damping_ratio")?;
         let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing".to_owned()))?;
         let damping_ratio = self.polynomial("ratio", ratio.get_ref())?;
-        let (frequency, mass, friction) = (0.0, 0.0, 0.0);
-        let mode = Modal { frequency, mass, damping_ratio, friction, static_guide: None };
-        Ok((Body::Mode(mode), ratio.span()))
+        Ok((Body::Mode(Modal { damping_ratio, ..Modal::default() }), ratio.span()))
     }
 
     /// Gives a mass its friction law: the one table beside the coefficient of static friction.

@@ -8,7 +8,7 @@ use crate::model::Knob;
 use crate::question::{NoAnswer, Rows};
 use crate::scene::{Answered, Finding, Fit, Topic};
 use crate::session::act::scan::refit;
-use crate::session::read::windows::{fitted, is_pending};
+use crate::session::read::windows::{awaited, fitted};
 use crate::session::scan::SCANNING;
 use crate::session::{Framing, Recomputation, ScanProgress, Session, StepSizes};
 use crate::words::fit::sentences;
@@ -117,7 +117,7 @@ pub(crate) fn follow_fit(session: &mut Session) {
 pub(crate) fn resolve(session: &mut Session) {
     for index in session.on_show() {
         let waits = session.plots[index].framing == Framing::Fitting;
-        if !waits || is_pending(session, index) {
+        if !waits || awaited(session, index).is_some() {
             continue;
         }
         let view = session.plots[index].view;

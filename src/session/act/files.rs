@@ -8,23 +8,25 @@ use crate::question::record::{RecordOptions, apart};
 use crate::scene::machine::file;
 use crate::scene::{Machine, Recording, ScaledMachine};
 use crate::session::act::{history, lists, prompt};
-use crate::session::{Done, Effect, Listed, Overlay, Purpose, Script, Session, replay, save};
+use crate::session::{
+    Content, Done, Effect, Listed, Overlay, Purpose, Script, Session, replay, save,
+};
 
 /// The built-in tour.
 const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
 
 /// Saves the session.
 pub(crate) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
-    let text = save::text(session)?;
-    session.effects.push(Effect::Write { path: path.into(), text, replace });
+    let content = Content::Text(save::text(session)?);
+    session.effects.push(Effect::Write { path: path.into(), content, replace });
     Ok(())
 }
 
 /// Writes the recording since the start, without the presses that asked for that.
 #[expect(clippy::unnecessary_wraps, reason = "as the functions of all lines")]
 pub(crate) fn record(session: &mut Session, path: &str, replace: bool) -> Done {
-    let (path, forget) = (path.into(), session.chord);
-    session.effects.push(Effect::Record { path, forget, replace });
+    let content = Content::Record { forget: session.chord };
+    session.effects.push(Effect::Write { path: path.into(), content, replace });
     Ok(())
 }
 
@@ -59,7 +61,7 @@ pub(crate) fn figure(
         return Err(format!("{} is still being written; {stops}", other.display()));
     }
     session.writing = Some(path.clone());
-    session.effects.push(Effect::Figure { path, plot, replace });
+    session.effects.push(Effect::Write { path, content: Content::Figure { plot }, replace });
     Ok(())
 }
 

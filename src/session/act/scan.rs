@@ -11,7 +11,7 @@ use crate::session::act::parameters::change;
 use crate::session::act::screen_setup::{add, focus_on, show};
 use crate::session::scan::SCANNING;
 use crate::session::{
-    Done, Effect, Overlay, Pane, Plot, Prompt, ScanOnShow, ScanProgress, Session,
+    Content, Done, Effect, Overlay, Pane, Plot, Prompt, ScanOnShow, ScanProgress, Session,
 };
 use crate::words::number::resolved;
 
@@ -176,7 +176,8 @@ pub fn take(session: &mut Session) -> Done {
 /// Writes the rows so far to a file, in the form of the command `scan`. Fails with one line if there is no scan.
 pub fn save(session: &mut Session, path: &str) -> Done {
     let ScanOnShow { scan, rows, .. } = scanned(session)?.clone();
-    session.effects.push(Effect::SaveScan { path: path.into(), scan, rows });
+    let content = Content::Scan(scan, rows);
+    session.effects.push(Effect::Write { path: path.into(), content, replace: false });
     Ok(())
 }
 

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use crate::model::{Knob, unknown};
 use crate::portrait::kicks::RandomKick;
-use crate::scene::{Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find, machine};
+use crate::scene::{
+    Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find, machine, views,
+};
 use crate::session::act::{general, history, parameters, plots, screen_setup};
 use crate::session::read::completion::{properties, rows};
 use crate::session::state::session::MOST_HARMONICS;
@@ -80,9 +82,9 @@ pub fn view(session: &mut Session, name: &str) -> Done {
 pub fn layer(session: &mut Session, rest: &str) -> Done {
     let (name, state) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
     let rows = LAYERS.iter().map(|row| (row.name, row.layer));
-    let layer = Layer::named(name).map_or_else(|| one_of("layer", name, rows), Ok)?;
+    let layer = views::named(name).map_or_else(|| one_of("layer", name, rows), Ok)?;
     let was_on = session.layers.contains(&layer);
-    let wanted = if state.trim().is_empty() { !was_on } else { is_on(name, state.trim())? };
+    let wanted = if state.trim().is_empty() { !was_on } else { is_on(state.trim())? };
     if wanted != was_on {
         general::toggle(session, layer);
     }
@@ -161,11 +163,7 @@ pub fn letter(text: &str) -> Result<char, String> {
     }
 }
 
-/// Whether a setting is to be on. Fails with a line if that is not said.
-pub(crate) fn is_on(what: &str, state: &str) -> Result<bool, String> {
-    match state {
-        "on" => Ok(true),
-        "off" => Ok(false),
-        _ => Err(format!("{what} can be on or off, not {state:?}")),
-    }
+/// Whether something is to be on. Fails with one line if that is not said.
+pub(crate) fn is_on(state: &str) -> Result<bool, String> {
+    one_of("state", state, [("on", true), ("off", false)])
 }

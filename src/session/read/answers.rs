@@ -29,72 +29,60 @@ pub enum NoErrorReason {
     OtherFate,
 }
 
-/// The last answer on a topic for a plot, stale or not.
-macro_rules! last {
-    ($session:ident, $topic:ident, $plot:expr) => {
-        match $session.answer(Topic::$topic, $plot)? {
-            Finding::$topic(found, ..) => Some(found),
-            _ => None,
-        }
-    };
-}
-
 /// The last answers, stale or not: for the plot in use, or for any plot.
 impl Session {
     pub fn trajectory(&self) -> Option<&Trajectory> {
-        last!(self, Trajectory, self.plot)
+        self.answer(Topic::Trajectory, self.plot)?.try_as_trajectory_ref()
     }
 
     pub fn cycles(&self) -> Option<&Drawing> {
-        last!(self, Cycles, self.plot)
+        self.answer(Topic::Cycles, self.plot)?.try_as_cycles_ref().map(|(drawn, _)| drawn)
     }
 
     pub fn balance(&self) -> Option<&HarmonicBalance> {
-        last!(self, Balance, self.plot)
+        self.answer(Topic::Balance, self.plot)?.try_as_balance_ref()
     }
 
     pub fn zones(&self) -> Option<&CertainZones> {
-        last!(self, Zones, self.plot)
+        self.answer(Topic::Zones, self.plot)?.try_as_zones_ref()
     }
 
     pub fn trade(&self) -> Option<&Trade> {
-        last!(self, Trade, self.plot).map(|found| &**found)
+        self.answer(Topic::Trade, self.plot)?.try_as_trade_ref().map(|found| &**found)
     }
 
     /// The borders between bands of capture.
     pub fn borders(&self, plot: usize) -> Option<&Vec<Vec<State>>> {
-        last!(self, Capture, plot)
+        self.answer(Topic::Capture, plot)?.try_as_capture_ref().map(|(borders, _)| borders)
     }
 
     pub fn return_map(&self, plot: usize) -> Option<&ReturnMap> {
-        last!(self, ReturnMap, plot)
+        self.answer(Topic::ReturnMap, plot)?.try_as_return_map_ref()
     }
 
     pub fn speeds(&self, plot: usize) -> Option<&MachineBranch> {
-        last!(self, Speeds, plot)
+        self.answer(Topic::Speeds, plot)?.try_as_speeds_ref()
     }
 
     /// The chart over the two parameters of a plot.
     pub fn chart(&self, plot: usize) -> Option<&Chart> {
         let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
-        let found = last!(self, Regimes, plot)?;
-        Some(found).filter(|found| (found.plane.right, found.plane.up) == (abscissa, against))
+        let found = self.answer(Topic::Regimes, plot)?.try_as_regimes_ref();
+        found.filter(|found| (found.plane.right, found.plane.up) == (abscissa, against))
     }
 
     /// The proof about the cycles at the present parameters; `None` until it is there.
     pub fn proof(&self) -> Option<&Proof> {
-        last!(self, Proof, self.plot).filter(|_| !self.is_stale(Topic::Proof, self.plot))
+        let standing = self.standing(Topic::Proof, self.plot);
+        standing.answer()?.try_as_proof_ref().filter(|_| standing.is_fresh())
     }
 
     /// The fit of the record on show with the held numbers; until it is there, the most similar one.
     pub fn fitted(&self) -> Option<&Fitted> {
         // With the distribution of the margin once that is there.
         let held = self.refit(true).filter(|drawn| drawn.is_fresh()).or_else(|| self.refit(false));
-        let held = match held.and_then(AnswerState::answer) {
-            Some(Finding::Refit(fit)) => fit.found().ok(),
-            _ => None,
-        };
-        held.or_else(|| self.fit_of_all()?.found().ok())
+        let held = held.and_then(AnswerState::answer).and_then(Finding::try_as_refit_ref);
+        held.and_then(|fit| fit.found().ok()).or_else(|| self.fit_of_all()?.found().ok())
     }
 
     /// The fit only if the distribution of its margin is that for the held numbers and for what is unsure.
@@ -115,10 +103,7 @@ impl Session {
     /// The fit of all numbers; `None` until it is there.
     fn fit_of_all(&self) -> Option<&Fit> {
         let standing = self.standing(Topic::Fit, self.plot);
-        match standing.answer()? {
-            Finding::Fit(fit) if standing.is_fresh() => Some(fit),
-            _ => None,
-        }
+        standing.answer()?.try_as_fit_ref().filter(|_| standing.is_fresh())
     }
 
     /// The question for the fit with the held numbers, if `drawn` with the distribution of the margin; `None`
@@ -194,9 +179,7 @@ impl Session {
         if !self.measures() || stale(Topic::Reference) {
             return None;
         }
-        let Finding::Reference(reference) = self.answer(Topic::Reference, self.plot)? else {
-            return None;
-        };
+        let reference = self.answer(Topic::Reference, self.plot)?.try_as_reference_ref()?;
         let Ok(reference) = reference else { return Some(Err(NoErrorReason::TighterGaveUp)) };
         let motion = self.trajectory().filter(|_| !stale(Topic::Trajectory))?;
         Some(match reference.compare(motion) {
@@ -211,9 +194,7 @@ impl Session {
 
     /// The examined claims of the paper; empty until they are there.
     pub fn examined(&self) -> &[ClaimResult] {
-        match self.answer(Topic::Claims, self.plot) {
-            Some(Finding::Claims(examined)) => examined,
-            _ => &[],
-        }
+        let examined = self.answer(Topic::Claims, self.plot).and_then(Finding::try_as_claims_ref);
+        examined.map_or(&[], Vec::as_slice)
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! A press that waits has not been taken in: it has no effect yet, and nor has anything after it. So the same
 //! keys lead to the same result, however fast they are typed. Whoever gives messages to a session holds back
-//! further input meanwhile ([`Session::is_waiting`]). If the computation gives up, the command is run all the
+//! further input meanwhile ([`Session::waiting`]). If the computation gives up, the command is run all the
 //! same and reports that.
 
 use std::collections::BTreeSet;
@@ -11,18 +11,13 @@ use std::collections::BTreeSet;
 use crate::scene::{Request, TOPICS, Topic, VIEWS, View};
 use crate::session::read::wants::COMPARED;
 use crate::session::read::windows;
-use crate::session::state::keymap::{chain, full_name};
+use crate::session::state::keymap::{called, chain};
 use crate::session::{
     Code, Command, Context, Key, Letter, Listed, Msg, Overlay, PaletteRow, Pane, Pending, Pointed,
     PointerTarget, Prompt, Session, SessionCaption,
 };
 
 impl Session {
-    /// Whether a press waits for an answer; further input of the user must then wait, too.
-    pub fn is_waiting(&self) -> bool {
-        self.waiting.is_some()
-    }
-
     /// The question that must be answered before this message can be taken in.
     pub(crate) fn awaited(&self, message: &Msg) -> Option<Request> {
         match message {
@@ -62,13 +57,10 @@ impl Session {
     }
 
     fn awaited_by_line(&self, line: &str) -> Option<Request> {
-        let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let name = full_name(name);
+        let (name, words) = called(line);
         match self.keymap.named(name) {
-            Some(command) if rest.trim().is_empty() => self.awaited_by_command(command),
-            // With words of its own, such as those of a scan, it takes nothing from the plot.
-            Some(_) => None,
-            None => self.awaited_by(self.keymap.line(name)?, self.plot),
+            Some(command) if words.is_empty() => self.awaited_by_command(command),
+            _ => self.awaited_by(self.keymap.line(name)?, self.plot),
         }
     }
 

@@ -11,7 +11,7 @@ use crate::flow::Problem;
 use crate::model::{Belt, Body, Knob, Parameters, Source};
 use crate::portrait::Margin;
 use crate::scene::machine::unlikely::unlikely;
-use crate::scene::{Finding, Layer, Request, ScaledMachine, Setting, Topic, View};
+use crate::scene::{Layer, Request, ScaledMachine, Setting, Topic, View};
 use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
 use crate::session::{Session, Setup, Uncertainty};
 
@@ -74,9 +74,7 @@ impl Session {
 
     /// The margins of the machine; `None` while they are not known.
     pub fn machine_margins(&self) -> Option<MachineMargins> {
-        let Finding::Cycles(found, other) = self.answer(Topic::Cycles, self.plot)? else {
-            return None;
-        };
+        let (found, other) = self.answer(Topic::Cycles, self.plot)?.try_as_cycles_ref()?;
         let (drawn, other) = (found.margin, (*other)?);
         Some(if self.draws_whole() {
             MachineMargins { whole: drawn, cubic: other }

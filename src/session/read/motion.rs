@@ -2,7 +2,7 @@
 //! a head moves along the present one.
 //!
 //! Nothing here reads a clock. The outer rings report how much time has passed (`super::Msg::Elapsed`) while
-//! [`Session::is_playing`], and a keystroke file does the same with `<elapse SECONDS>`.
+//! [`Session::is_moving`], and a keystroke file does the same with `<elapse SECONDS>`.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::flow::{Method, Outcome, Problem, Sample, Trajectory};
 use crate::model::{Parameters, State};
 use crate::numerics::elementary::tanh;
 use crate::portrait::on_belt::first_at;
-use crate::scene::{Finding, Topic};
+use crate::scene::Topic;
 use crate::session::{Pace, Session};
 
 impl Session {
@@ -105,24 +105,18 @@ impl Session {
         let found = asked.filter_map(|(place, problem)| {
             let request = self.request_for(Topic::Trajectory, self.plot, problem)?;
             let answer = self.answers.standing(&request).answer()?;
-            let Finding::Trajectory(found) = answer else { return None };
-            Some((place, found))
+            Some((place, answer.try_as_trajectory_ref()?))
         });
         found.collect()
     }
 }
 
 impl Session {
-    /// Whether the motion is being played.
-    pub fn is_playing(&self) -> bool {
-        self.playback.playing
-    }
-
     /// Whether playback advances with time. It pauses while the motion is recomputed, so that the position of
     /// the head does not depend on how long that takes.
     pub fn is_moving(&self) -> bool {
         let asked = self.request(Topic::Trajectory, self.plot);
-        self.is_playing() && asked.is_none_or(|request| !self.is_open(&request))
+        self.playback.playing && asked.is_none_or(|request| !self.is_open(&request))
     }
 
     /// The state of the motion at the head; `None` before the first playback.

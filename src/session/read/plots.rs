@@ -201,12 +201,9 @@ impl Session {
     /// problems that the plot shows.
     pub fn branches(&self, plot: usize) -> Vec<(usize, &Branch)> {
         let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
-        self.answers_for_each(Topic::Branch, plot)
-            .filter_map(|(index, answer)| match answer {
-                Finding::Branch(found) if Some(found.parameter) == over => Some((index, found)),
-                _ => None,
-            })
-            .collect()
+        let found = self.answers_for_each(Topic::Branch, plot);
+        let found = found.filter_map(|(index, answer)| Some((index, answer.try_as_branch_ref()?)));
+        found.filter(|(_, branch)| Some(branch.parameter) == over).collect()
     }
 
     /// The measure of heights for the cycles of a variant in a diagram, at the friction of the branch on show,

@@ -69,21 +69,12 @@ fn roomy(span: Span) -> Span {
     span.scaled(span.center(), ROOM)
 }
 
-/// Whether something that a plot shows has yet to be computed.
-pub(crate) fn is_pending(session: &Session, plot: usize) -> bool {
-    first_open(session, plot).is_some()
-}
-
-/// The first unanswered question of a plot.
-fn first_open(session: &Session, plot: usize) -> Option<Request> {
-    session.asked_by(plot).into_iter().find(|request| session.is_open(request))
-}
-
 /// The question whose answer the window of a plot waits for, if the plot is on show and is being fitted.
 pub(crate) fn awaited(session: &Session, plot: usize) -> Option<Request> {
     let fitting = session.plots.get(plot).is_some_and(|plot| plot.framing == Framing::Fitting);
-    let on_show = session.on_show().contains(&plot);
-    first_open(session, plot).filter(|_| fitting && on_show)
+    let mut asked = session.asked_by(plot).into_iter();
+    let open = asked.find(|request| session.is_open(request));
+    open.filter(|_| fitting && session.on_show().contains(&plot))
 }
 
 /// The window of the speeds: the same speeds, and all cycles at these.
@@ -116,15 +107,15 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         let shown = session.shows_in(layer, plot).then(|| session.found(topic, plot));
         shown.unwrap_or_default().into_iter().map(|(.., answer)| answer)
     };
-    for answer in answers(Layer::Cycles, Topic::Cycles) {
-        let Finding::Cycles(found, _) = answer else { continue };
+    let drawn = answers(Layer::Cycles, Topic::Cycles).filter_map(Finding::try_as_cycles_ref);
+    for (found, _) in drawn {
         for cycle in &found.cycles {
             points.push(Point { x: cycle.q_min, y: cycle.v_min });
             points.push(Point { x: cycle.q_max, y: cycle.v_max });
         }
     }
-    for answer in answers(Layer::Trajectory, Topic::Trajectory) {
-        let Finding::Trajectory(found) = answer else { continue };
+    let motions = answers(Layer::Trajectory, Topic::Trajectory);
+    for found in motions.filter_map(Finding::try_as_trajectory_ref) {
         let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
         let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
         let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });

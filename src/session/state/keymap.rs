@@ -77,6 +77,12 @@ pub fn full_name(word: &str) -> &str {
     OTHERS.get(word).copied().unwrap_or(word)
 }
 
+/// The name of the command that a line calls, and the words after it.
+pub fn called(line: &str) -> (&str, &str) {
+    let (name, words) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+    (full_name(name), words.trim())
+}
+
 /// Candidates for the last of the words after the name of a command.
 pub type Candidates = fn(&Session, &[&str]) -> Vec<String>;
 

@@ -77,12 +77,12 @@ impl Size {
     }
 }
 
-/// The complete state of a session.
+/// The complete state of a session; [`Session::new`] makes one that has the plots of a scene.
 #[expect(
     clippy::struct_excessive_bools,
     reason = "what is on or off has nothing to do with each other"
 )]
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Session {
     /// The scene that was opened last.
     pub scene: Arc<Scene>,
@@ -166,8 +166,8 @@ pub struct Session {
 }
 
 impl Session {
-    /// A session that has just opened a scene, with this keymap.
-    pub fn opened(scene: Arc<Scene>, size: Size, keymap: Arc<Keymap>) -> Self {
+    /// A session that has just opened a scene, with the default keys.
+    pub fn new(scene: Arc<Scene>, size: Size) -> Self {
         let Setup { problem, others, setting, doubt } = Setup::of_scene(&scene);
         Session {
             problem,
@@ -180,37 +180,9 @@ impl Session {
             arrangement: scene.arrangement,
             harmonics: HARMONICS,
             layers: scene.layers.clone(),
-            keymap,
             size,
             scene,
-            selected: Row::default(),
-            unfolded: false,
-            focus: Pane::default(),
-            plot: 0,
-            enlarged: false,
-            playback: Playback::default(),
-            held: None,
-            kicks: RandomKick::default(),
-            overlay: None,
-            history: History::default(),
-            pending: None,
-            waiting: None,
-            chord: 0,
-            asked: 0,
-            marks: Bookmarks::default(),
-            caption: SessionCaption::default(),
-            interrupted: Vec::new(),
-            writing: None,
-            lines: Vec::new(),
-            answers: Answers::default(),
-            scanned: None,
-            fitting: 0,
-            price: Price::default(),
-            measuring: false,
-            notice: None,
-            display: DisplaySettings::default(),
-            effects: Vec::new(),
-            quit: false,
+            ..Session::default()
         }
     }
 

@@ -8,7 +8,9 @@ use super::strange::any_key;
 use super::{Trial, answered};
 use crate::model::Knob;
 use crate::scene::{Request, Topic, library};
-use crate::session::{Effect, Kept, Msg, Notice, Purpose, Session, Setup, StepSizes, save, update};
+use crate::session::{
+    Content, Effect, Kept, Msg, Notice, Purpose, Session, Setup, StepSizes, save, update,
+};
 
 /// Everything of a session that its file holds.
 fn essence(session: &Session) -> impl PartialEq + use<> {
@@ -79,13 +81,19 @@ fn a_scene_changed_on_the_command_line_is_saved_in_full() {
     }
 }
 
+fn figure(path: &str, plot: Option<usize>, replace: bool) -> Effect {
+    Effect::Write { path: path.into(), content: Content::Figure { plot }, replace }
+}
+
 #[test]
 fn lines_write_open_and_play_files_without_touching_any() {
     let mut trial = used();
     trial.press("z :write<space>a.toml<enter>");
-    let Some(Effect::Write { path, text, replace: false }) = trial.effects.last().cloned() else {
+    let Some(Effect::Write { path, content, replace: false }) = trial.effects.last().cloned()
+    else {
         panic!("{:?}", trial.effects.last());
     };
+    let Content::Text(text) = content else { panic!("{content:?}") };
     assert_eq!(path, PathBuf::from("a.toml"));
     let mut other = Trial::open("plain");
     other.press(":open<space>a.toml<enter>");
@@ -97,10 +105,10 @@ fn lines_write_open_and_play_files_without_touching_any() {
     other.press(":write!<space>a.toml<enter>");
     assert!(matches!(other.effects.last(), Some(Effect::Write { replace: true, .. })));
     other.press(":figure<space>a.SVG<enter>");
-    assert!(matches!(other.effects.last(), Some(Effect::Figure { replace: false, .. })));
+    assert_eq!(other.effects.last(), Some(&figure("a.SVG", None, false)));
     // Only one figure is written at a time; the key that stops a scan also stops a figure.
     other.press(":figure<space>b.svg<enter>");
-    assert!(matches!(other.effects.last(), Some(Effect::Figure { replace: false, .. })));
+    assert_eq!(other.effects.last(), Some(&figure("a.SVG", None, false)));
     other.press("<esc> <esc>");
     assert_eq!(other.effects.last(), Some(&Effect::StopWriting));
     let stopped = Notice { error: false, text: "a.SVG not written: stopped".to_owned() };
@@ -110,22 +118,17 @@ fn lines_write_open_and_play_files_without_touching_any() {
     other.press(":figure<space>a.pdf<enter> <esc>");
     assert_eq!(other.effects.last(), Some(&Effect::StopWriting), "and no other file");
     other.press("<A-f><enter>");
-    let offered =
-        Effect::Figure { path: "supercritical-2.svg".into(), plot: Some(1), replace: false };
-    assert_eq!(other.effects.last(), Some(&offered));
+    assert_eq!(other.effects.last(), Some(&figure("supercritical-2.svg", Some(1), false)));
     other.give(Msg::Written(stopped.clone()));
     other.press("W <A-f> <backspace*3>png<enter>");
-    let offered =
-        Effect::Figure { path: "supercritical-3.png".into(), plot: Some(2), replace: false };
-    assert_eq!(other.effects.last(), Some(&offered));
+    assert_eq!(other.effects.last(), Some(&figure("supercritical-3.png", Some(2), false)));
     other.give(Msg::Written(stopped.clone()));
     other.press("Q :figure-pane!<space>a.csv<enter>");
-    assert!(matches!(
-        other.effects.last(),
-        Some(Effect::Figure { plot: Some(1), replace: true, .. })
-    ));
+    assert_eq!(other.effects.last(), Some(&figure("a.csv", Some(1), true)));
     other.press("<right> :record<space>a.keys<enter>");
-    assert!(matches!(other.effects.last(), Some(Effect::Record { forget: 15, .. })));
+    let content = Content::Record { forget: 15 };
+    let asked = Effect::Write { path: "a.keys".into(), content, replace: false };
+    assert_eq!(other.effects.last(), Some(&asked));
     let path = PathBuf::from("a.keys");
     let result = Err("a.keys: no such file".to_owned());
     other.give(Msg::Read { path, purpose: Purpose::Play, result });

@@ -11,7 +11,7 @@ use crate::scan::grid::{Scan, ScanRow};
 use crate::scan::measure::Value;
 use crate::scene::{Answered, Finding, Request, Topic, View};
 use crate::session::scan::ScanProgress;
-use crate::session::{Effect, Msg, Pane, ScanOnShow, Session, update};
+use crate::session::{Content, Effect, Msg, Pane, ScanOnShow, Session, update};
 
 /// Made-up rows: the index of the point in each column.
 pub fn rows(scan: &Scan, points: Range<usize>) -> Vec<ScanRow> {
@@ -154,7 +154,8 @@ fn a_key_saves_what_is_there() {
     let effects = update(&mut session, Msg::Key("S".parse().unwrap()));
     let scan = Arc::clone(&scanned(&session).scan);
     let rows = rows(&scan, 0..3);
-    assert_eq!(effects, [Effect::SaveScan { path: "scan.csv".into(), scan, rows }]);
+    let (path, content) = ("scan.csv".into(), Content::Scan(scan, rows));
+    assert_eq!(effects, [Effect::Write { path, content, replace: false }]);
 }
 
 #[test]

@@ -17,7 +17,7 @@ use crate::session::{Command, Effect, Keymap, Msg, update};
 fn hurry(trial: &mut Trial, message: Msg) -> bool {
     let effects = update(&mut trial.session, message);
     trial.effects.extend(effects);
-    let waits = trial.session.is_waiting();
+    let waits = trial.session.waiting.is_some();
     for round in 0.. {
         let Some(waiting) = &trial.session.waiting else { break };
         assert!(round < 10, "waits again and again: {waiting:?}");
@@ -114,9 +114,9 @@ fn what_waits_is_forgotten_by_escape_as_if_it_had_not_been_pressed() {
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     let before = trial.session.clone();
     update(&mut trial.session, Msg::Key("i".parse().unwrap()));
-    assert!(trial.session.is_waiting());
+    assert!(trial.session.waiting.is_some());
     update(&mut trial.session, Msg::Key("<esc>".parse().unwrap()));
-    assert!(!trial.session.is_waiting());
+    assert!(!trial.session.waiting.is_some());
     assert_eq!(trial.session.problem, before.problem);
     trial.settle();
     assert_eq!(trial.session.problem, before.problem, "and it stays forgotten");
