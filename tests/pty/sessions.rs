@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::support::{Answers, PROGRAM, QUIET, Terminal, all_at_once};
+use crate::support::{Answers, PROGRAM, QUIET, Terminal, all_at_once, poll};
 use rustix::process::Signal;
 
 /// The explorer, with its own folder for kept sessions, once its first picture is complete.
@@ -162,10 +162,16 @@ fn screen(text: &str) -> Vec<String> {
 
 /// Waits until everything is computed and shown.
 fn rest(terminal: &mut Terminal) {
-    terminal.quiet(Duration::from_millis(150));
+    const LONG: Duration = Duration::from_millis(150);
     let works = ["computing", "waiting for", "stale"];
-    terminal.wait("rest", |it| works.iter().all(|word| !it.text().contains(word)));
-    terminal.quiet(Duration::from_millis(150));
+    poll("rest", || {
+        terminal.quiet(LONG);
+        // A busy machine is silent before it has read the keys, too.
+        let slept = terminal.sleeps();
+        let silent = terminal.quiet(LONG) == 0;
+        let shown = terminal.text();
+        slept && silent && terminal.sleeps() && works.iter().all(|word| !shown.contains(word))
+    });
 }
 
 /// The last screen of a recording, from the command `replay`.
