@@ -70,9 +70,7 @@ impl KeysCommand {
         let columns = Columns::default()
             .word("context", |(context, ..): &KeyRow| *context)
             .word("command", |(_, command, _)| command.name)
-            .word("keys", |(.., keys)| keys.join(" "))
-            // A document lists them.
-            .field("keys", |(.., keys)| keys.clone())
+            .word("keys", |(.., keys)| keys.clone())
             .word("meaning", |(_, command, _)| command.doc);
         let list = Answer::list_of(&columns, &rows, output::columns());
         print(&list.told(self.format))?;

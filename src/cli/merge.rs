@@ -35,15 +35,8 @@ pub struct MergeCommand {
     force: bool,
 }
 
-/// Options for which rows a scan computes and where they are written, each with whether it takes a value.
-const OWN: [(&str, bool); 6] = [
-    ("--shard", true),
-    ("--shard-index0", true),
-    ("--rows", true),
-    ("--output", true),
-    ("--resume", false),
-    ("--force", false),
-];
+/// Options for which rows a scan computes and where they are written.
+const OWN: [&str; 6] = ["--shard", "--shard-index0", "--rows", "--output", "--resume", "--force"];
 
 impl MergeCommand {
     /// Merges; exit code 1 if rows are missing.
@@ -202,7 +195,7 @@ fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartFi
 /// The command line that writes rows of this form to a file, whatever its extension.
 fn command(mut arguments: Vec<String>, form: Format, path: &Path) -> String {
     if form != Format::of_file(path) {
-        arguments = without(&arguments, &[("--format", true)]);
+        arguments = without(&arguments, &["--format"]);
         let name = if form == Format::Json { "json" } else { "csv" };
         arguments.extend(["--format", name].map(str::to_owned));
     }

@@ -104,16 +104,19 @@ pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     new_file::write(path, content, Readers::Usual, (!force).then_some("--force replaces it"))
 }
 
-/// A command line without these options, each given with whether it takes a value.
-pub fn without(words: &[String], options: &[(&str, bool)]) -> Vec<String> {
+/// The options among those that are taken out of command lines that have no value.
+const FLAGS: [&str; 2] = ["--resume", "--force"];
+
+/// A command line without these options and their values.
+pub fn without(words: &[String], options: &[&str]) -> Vec<String> {
     let mut kept = Vec::new();
     let mut words = words.iter();
     while let Some(word) = words.next() {
         let name = word.split('=').next().unwrap_or_default();
-        match options.iter().find(|(option, _)| *option == name) {
-            Some((_, true)) if word == name => drop(words.next()),
-            Some(_) => {}
-            None => kept.push(word.clone()),
+        if !options.contains(&name) {
+            kept.push(word.clone());
+        } else if word == name && !FLAGS.contains(&name) {
+            words.next();
         }
     }
     kept
@@ -202,7 +205,7 @@ mod tests {
                 .split(' ')
                 .map(str::to_owned)
                 .collect();
-        let kept = without(&words, &[("--output", true), ("--resume", false), ("--shard", true)]);
+        let kept = without(&words, &["--output", "--resume", "--shard"]);
         assert_eq!(kept.join(" "), "scan --over D=0:1:2 --measure margin");
     }
 

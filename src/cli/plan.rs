@@ -1,5 +1,6 @@
 //! `hopfscope scan --plan`: the recipe by which a batch engine computes a scan in shards and merges them.
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 use clap::{Args, ValueEnum};
@@ -8,6 +9,7 @@ use super::output::without;
 use super::part::MOST;
 use super::{Failure, input, print, write};
 use crate::report::Format;
+use crate::runtime::provenance_file;
 use crate::words::provenance::{Provenance, quoted};
 
 /// The options that ask for a recipe.
@@ -19,7 +21,7 @@ pub struct Plan {
           conflicts_with_all = ["part", "resume"])]
     plan: Option<Engine>,
     /// Number of shards of the recipe
-    #[arg(long, value_name = "N", requires = "plan", value_parser = shards)]
+    #[arg(long, value_name = "N", requires = "plan", value_parser = |text: &str| input::whole(text, 1..=MOST))]
     shards: Option<usize>,
 }
 
@@ -42,19 +44,8 @@ const RETRIES: usize = 3;
 /// The file of the merged rows if none is named.
 const ROWS: &str = "rows.csv";
 
-/// Options of the scan that are not passed to its shards, each with whether it takes a value.
-const OWN: [(&str, bool); 6] = [
-    ("--plan", true),
-    ("--shards", true),
-    ("--output", true),
-    ("--force", false),
-    ("--jobs", true),
-    ("--header", true),
-];
-
-fn shards(text: &str) -> Result<usize, String> {
-    input::whole(text, 1..=MOST)
-}
+/// Options of the scan that are not passed to its shards.
+const OWN: [&str; 6] = ["--plan", "--shards", "--output", "--force", "--jobs", "--header"];
 
 impl Engine {
     fn template(self) -> &'static str {
@@ -73,39 +64,27 @@ impl Plan {
         self.plan.is_some()
     }
 
-    /// Prints or writes the recipe for the scan of this command line, with `jobs` threads for each shard.
-    pub fn run(
-        &self,
-        arguments: &[String],
-        jobs: u16,
-        output: Option<&Path>,
-        force: bool,
-    ) -> Result<(), Failure> {
+    /// Prints or writes the recipe for the scan of this process, with `jobs` threads for each shard.
+    pub fn run(&self, jobs: u16, output: Option<&Path>, force: bool) -> Result<(), Failure> {
         let (Some(engine), Some(shards)) = (self.plan, self.shards) else {
-            return Err(Failure::Usage("--plan needs --shards".to_owned()));
+            return Err(Failure::usage("--plan needs --shards"));
         };
-        let of_rows = |path: &&Path| {
-            path.extension()
-                .is_some_and(|ending| ["csv", "json", "jsonl"].iter().any(|it| ending == *it))
+        let is_of_rows = |path: &&Path| {
+            let ending = path.extension().and_then(OsStr::to_str);
+            ending.is_some_and(|ending| ["csv", "json", "jsonl"].contains(&ending))
         };
-        let rows = output.filter(of_rows);
-        let recipe = recipe(engine, arguments, shards, jobs, rows.unwrap_or(Path::new(ROWS)))?;
-        match output.filter(|path| !of_rows(path)) {
+        let rows = output.filter(is_of_rows).unwrap_or(Path::new(ROWS));
+        let recipe = recipe(engine, shards, jobs, rows)?;
+        match output.filter(|path| !is_of_rows(path)) {
             Some(path) => write(path, recipe.as_bytes(), force),
             None => print(&recipe),
         }
     }
 }
 
-/// The template of an engine, filled in.
-fn recipe(
-    engine: Engine,
-    arguments: &[String],
-    shards: usize,
-    jobs: u16,
-    rows: &Path,
-) -> Result<String, Failure> {
-    let scan = without(arguments, &OWN);
+/// The template of an engine, filled in for the scan of this process.
+fn recipe(engine: Engine, shards: usize, jobs: u16, rows: &Path) -> Result<String, Failure> {
+    let scan = without(&provenance_file::arguments(), &OWN);
     let rows = rows.to_string_lossy().into_owned();
     let special =
         |word: &&String| quoted(std::slice::from_ref(*word)) != **word || word.contains('@');

@@ -129,13 +129,7 @@ impl ScanCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let part = self.asked()?;
         if self.plan.is_wanted() {
-            let jobs = self.jobs.unwrap_or(1);
-            return self.plan.run(
-                &provenance_file::arguments(),
-                jobs,
-                self.output.as_deref(),
-                self.force,
-            );
+            return self.plan.run(self.jobs.unwrap_or(1), self.output.as_deref(), self.force);
         }
         let stop = stop_signal()?;
         let interrupted = || stop.load(Ordering::Relaxed) != 0;

@@ -5,7 +5,7 @@ use std::borrow::Borrow;
 
 use csv::Writer;
 use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::json::{self, Document};
 use super::table::Table;
@@ -65,23 +65,20 @@ impl<R, I: IntoIterator<Item: Borrow<R>>> RowsOf<R> for I {}
 
 /// Columns of rows `R`, in their order.
 pub struct Columns<'a, R> {
-    files: Vec<FileColumn<'a, R>>,
+    files: Vec<FileColumn>,
+    /// Fields of the object of a row.
+    fields: Vec<Part<'a, R, Document>>,
     texts: Vec<TextColumn<'a, R>>,
 }
 
 /// What a row tells.
 type Part<'a, R, T> = Box<dyn Fn(&R) -> T + 'a>;
 
-/// What a row has in columns of a file: a value for each name, none for a row without them; and the same as fields of
-/// an object, in which records stay whole.
-type Told = (Vec<Value>, Document);
-
-/// What stands in a file.
-enum FileColumn<'a, R> {
-    /// A value, which is a field of documents and, unless these have it alone, a column of rows.
-    One { name: String, in_rows: bool, value: Part<'a, R, Value> },
-    /// Columns that are filled together.
-    Several { names: Vec<String>, told: Part<'a, R, Told> },
+/// A column of comma-separated values, which are those of the object of a row.
+struct FileColumn {
+    name: String,
+    /// The names that lead to its value in the object.
+    place: Vec<String>,
 }
 
 struct TextColumn<'a, R> {
@@ -91,19 +88,27 @@ struct TextColumn<'a, R> {
 
 impl<R> Default for Columns<'_, R> {
     fn default() -> Self {
-        Columns { files: Vec::new(), texts: Vec::new() }
+        Columns { files: Vec::new(), fields: Vec::new(), texts: Vec::new() }
     }
 }
 
 impl<'a, R: 'a> Columns<'a, R> {
     /// A column of files alone.
     pub fn file<V: Serialize>(self, name: &str, value: impl Fn(&R) -> V + 'a) -> Self {
-        self.one(name, true, Box::new(move |row| json::value(&value(row))))
+        self.column(name.to_owned(), [name]).field(name, value)
     }
 
     /// A field of documents alone.
-    pub fn field<V: Serialize>(self, name: &'static str, value: impl Fn(&R) -> V + 'a) -> Self {
-        self.one(name, false, Box::new(move |row| json::value(&value(row))))
+    pub fn field<V: Serialize>(mut self, name: &str, value: impl Fn(&R) -> V + 'a) -> Self {
+        let name = name.to_owned();
+        self.fields.push(Box::new(move |row| Document::default().with(&name, value(row))));
+        self
+    }
+
+    fn column<'n>(mut self, name: String, place: impl IntoIterator<Item = &'n str>) -> Self {
+        let place = place.into_iter().map(str::to_owned).collect();
+        self.files.push(FileColumn { name, place });
+        self
     }
 
     /// A column of text alone.
@@ -138,29 +143,26 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// Both ends of an interval that is proved, as `name_lower` and `name_upper`; in text its certain digits.
     pub fn bounds(self, name: &str, value: impl Fn(&R) -> Option<Interval> + Copy + 'a) -> Self {
-        let field = name.to_owned();
-        let told = move |row: &R| {
-            let value = value(row);
-            let cells = value.map_or(vec![], |it| vec![it.lower().into(), it.upper().into()]);
-            (cells, Document::default().with(&field, value.map(bounds)))
-        };
-        self.together(ENDS.map(|end| format!("{name}_{end}")).to_vec(), Box::new(told))
+        ENDS.into_iter()
+            .fold(self, |all, end| all.column(format!("{name}_{end}"), [name, end]))
+            .field(name, move |row| value(row).map(bounds))
             .text(&format!("{}, proved", title(name)), move |row| {
                 value(row).map_or_else(|| "-".to_owned(), certain)
             })
     }
 
     /// A column of files for each field of records like `example` that is neither a record nor a list.
-    pub fn fields<T: Serialize>(self, example: &T, record: impl Fn(&R) -> Option<T> + 'a) -> Self {
-        let names: Vec<String> = singles(example).into_iter().map(|(name, _)| name).collect();
-        let columns = names.clone();
-        let told = move |row: &R| {
-            let record = record(row);
-            let mut fields = record.as_ref().map(singles).unwrap_or_default();
-            let cells = names.iter().map(|name| fields.remove(name).unwrap_or_default());
-            (cells.collect(), record.iter().fold(Document::default(), Document::and))
-        };
-        self.together(columns, Box::new(told))
+    pub fn fields<T: Serialize>(
+        mut self,
+        example: &T,
+        record: impl Fn(&R) -> Option<T> + 'a,
+    ) -> Self {
+        for name in Document::default().and(example).singles() {
+            self = self.column(name.to_owned(), [name]);
+        }
+        let told = move |row: &R| record(row).iter().fold(Document::default(), Document::and);
+        self.fields.push(Box::new(told));
+        self
     }
 
     /// The columns that describe a part of a row; in a document they are the field `name`, which is left out of a row
@@ -177,31 +179,22 @@ impl<'a, R: 'a> Columns<'a, R> {
                 part(row).map_or_else(|| "-".to_owned(), |it| (text.cell)(&it))
             });
         }
-        let names = columns.names();
-        let told = move |row: &R| {
-            let part = part(row);
-            let object = part.as_ref().map(|part| columns.object(part));
-            let cells = part.map(|part| columns.cells(&part)).unwrap_or_default();
-            (cells, Document::default().with_any(name, object))
-        };
-        self.together(names, Box::new(told))
+        for column in std::mem::take(&mut columns.files) {
+            let place = std::iter::once(name).chain(column.place.iter().map(String::as_str));
+            self = self.column(column.name, place);
+        }
+        self.fields.push(Box::new(move |row| {
+            Document::default().with_any(name, part(row).map(|part| columns.object(&part)))
+        }));
+        self
     }
 
     /// The columns of `more` after these, if there are any.
     pub fn and(mut self, more: impl Into<Option<Self>>) -> Self {
         let more = more.into().unwrap_or_default();
         self.files.extend(more.files);
+        self.fields.extend(more.fields);
         self.texts.extend(more.texts);
-        self
-    }
-
-    fn one(mut self, name: &str, in_rows: bool, value: Part<'a, R, Value>) -> Self {
-        self.files.push(FileColumn::One { name: name.to_owned(), in_rows, value });
-        self
-    }
-
-    fn together(mut self, names: Vec<String>, told: Part<'a, R, Told>) -> Self {
-        self.files.push(FileColumn::Several { names, told });
         self
     }
 
@@ -214,46 +207,23 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// The rows below a line of names.
     pub fn csv(&self, rows: impl RowsOf<R>) -> String {
-        let cells = |row: &R| self.cells(row).iter().map(cell).collect();
+        let names = self.files.iter().map(|column| column.name.clone()).collect();
+        let cells = |row: &R| {
+            let object = self.object(row);
+            self.files.iter().map(|column| cell(object.at(&column.place))).collect()
+        };
         let rows = rows.into_iter().map(|row| cells(row.borrow()));
-        lines(std::iter::once(self.names()).chain(rows))
+        lines(std::iter::once(names).chain(rows))
     }
 
     /// A row as an object.
     pub fn object(&self, row: &R) -> Document {
-        self.files.iter().fold(Document::default(), |object, column| match column {
-            FileColumn::One { name, value, .. } => object.with(name, value(row)),
-            FileColumn::Several { told, .. } => object.and(&told(row).1),
-        })
+        self.fields.iter().fold(Document::default(), |object, field| object.and(&field(row)))
     }
 
     /// An object for each row.
     pub fn objects(&self, rows: impl RowsOf<R>) -> Vec<Document> {
         rows.into_iter().map(|row| self.object(row.borrow())).collect()
-    }
-
-    fn names(&self) -> Vec<String> {
-        let names = self.files.iter().flat_map(|column| match column {
-            FileColumn::One { name, in_rows, .. } => vec![name.clone(); usize::from(*in_rows)],
-            FileColumn::Several { names, .. } => names.clone(),
-        });
-        names.collect()
-    }
-
-    fn cells(&self, row: &R) -> Vec<Value> {
-        let mut cells = Vec::new();
-        for column in &self.files {
-            match column {
-                FileColumn::One { in_rows: false, .. } => {}
-                FileColumn::One { value, .. } => cells.push(value(row)),
-                FileColumn::Several { names, told } => {
-                    let filled = cells.len() + names.len();
-                    cells.extend(told(row).0);
-                    cells.resize(filled, Value::Null);
-                }
-            }
-        }
-        cells
     }
 }
 
@@ -265,14 +235,8 @@ pub fn bounds(it: Interval) -> Document {
     Document::default().with(ENDS[0], it.lower()).with(ENDS[1], it.upper())
 }
 
-/// The fields of a record that are neither records nor lists.
-fn singles(record: &impl Serialize) -> Map<String, Value> {
-    let Value::Object(fields) = json::value(record) else { return Map::new() };
-    fields.into_iter().filter(|(_, value)| !value.is_object() && !value.is_array()).collect()
-}
-
 /// A value with all its digits: the shortest decimal that reads back as the same double, as `0.1`, `-3.0`, `1e-300`;
-/// an empty cell for one that does not exist.
+/// words of a list with blanks between them; an empty cell for one that does not exist.
 fn cell(value: &Value) -> String {
     match value {
         Value::Number(number) if number.is_f64() => {
@@ -280,7 +244,8 @@ fn cell(value: &Value) -> String {
         }
         Value::Number(_) | Value::Bool(_) => value.to_string(),
         Value::String(text) => text.clone(),
-        Value::Null | Value::Array(_) | Value::Object(_) => String::new(),
+        Value::Array(words) => words.iter().map(cell).collect::<Vec<_>>().join(" "),
+        Value::Null | Value::Object(_) => String::new(),
     }
 }
 

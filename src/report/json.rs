@@ -34,6 +34,19 @@ impl Document {
         self
     }
 
+    /// The value at the end of these names, each a field of the one before; null if there is none.
+    pub(super) fn at(&self, place: &[String]) -> &Value {
+        let Some((name, inner)) = place.split_first() else { return &Value::Null };
+        let found = inner.iter().fold(self.0.get(name), |found, name| found?.get(name));
+        found.unwrap_or(&Value::Null)
+    }
+
+    /// The names of its fields that are neither records nor lists.
+    pub(super) fn singles(&self) -> impl Iterator<Item = &str> {
+        let single = self.0.iter().filter(|(_, value)| !value.is_object() && !value.is_array());
+        single.map(|(name, _)| name.as_str())
+    }
+
     /// The names and values of its numbers.
     pub(super) fn numbers(&self) -> Vec<(String, f64)> {
         let number = |(name, value): (&String, &Value)| Some((name.clone(), value.as_f64()?));

@@ -71,10 +71,12 @@ fn bound_columns(proof: &Proof) -> Columns<'_, ProvedRow<'_>> {
     let columns = Columns::default()
         .file("proved", |row: &ProvedRow| row.enclosure.is_some())
         .file("open", |row| row.open.map(|gap| proof.why_open(gap)));
-    [1, 0, 3, 2, 4, 5, 6]
-        .map(|at| &NUMBERS[at])
-        .into_iter()
-        .fold(columns, |all, number| all.bounds(number.name, move |row| row.bounds(number)))
+    // The numbers themselves have these names without the ends.
+    [1, 0, 3, 2, 4, 5, 6].map(|at| &NUMBERS[at]).into_iter().fold(columns, |all, number| {
+        let end = |end: fn(Interval) -> f64| move |row: &ProvedRow| row.bounds(number).map(end);
+        all.file(&format!("{}_lower", number.name), end(Interval::lower))
+            .file(&format!("{}_upper", number.name), end(Interval::upper))
+    })
 }
 
 /// An answer with its cycles and what is proved about them: a row for each, and in files for each interval of clearances
