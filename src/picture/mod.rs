@@ -79,7 +79,7 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
     }
     // Until margins are drawn for the held values, the distribution stays that of the whole fit.
     let drawn = session.fitted().is_none_or(|found| found.drawn);
-    if view == View::Spread && session.doubt.holds_any() && !drawn {
+    if view == View::Spread && session.doubt.held.contains(&true) && !drawn {
         picture.add_to_title("all numbers free");
     }
     if session.draws_whole() && EXPANDED.contains(&view) {

@@ -15,7 +15,7 @@ use crate::session::act::{
 };
 use crate::session::read::completion;
 use crate::session::settings::{Colors, Glyphs, Theme, choices, named};
-use crate::session::state::keymap::CommandAction::{self, Act, Choose, Line, Move, Toggle, Try};
+use crate::session::state::keymap::CommandAction::{self, Act, Line, Move, Toggle, Try};
 use crate::session::state::keymap::{COMMANDS, contexts};
 use crate::session::{
     Command, Context, Effect, Input, Key, Keymap, Letter as Ask, List, Pending, Purpose,
@@ -125,14 +125,14 @@ const ACTIONS: &[(&str, CommandAction)] = &[
 
     ("list-by", Move(|s, [by, _]| lists::move_by(s, by as isize))),
     ("search", Act(|s, _| lists::with(s, |list| list.searching = true))),
-    ("choose", Choose(prompt::choose)),
+    ("choose", Try(prompt::choose)),
     ("toggle-letter", Act(lists::toggle_letter)),
-    ("search-done", Choose(prompt::search_done)),
+    ("search-done", Try(prompt::search_done)),
     ("search-drop", Act(|s, _| lists::with(s, |list| *list = List::default()))),
     ("search-delete", Act(|s, _| lists::search_with(s, |it| _ = it.pop()))),
     ("search-clear", Act(|s, _| lists::search_with(s, String::clear))),
 
-    ("accept", Choose(|s| Ok(prompt::accept(s)))),
+    ("accept", Act(|s, _| prompt::accept(s))),
     ("complete", Move(|s, [by, _]| prompt::complete(s, by as isize))),
     ("line-back", Move(|s, [by, _]| prompt::recall(s, by as isize))),
     ("clear", Act(|s, _| prompt::with(s, |i| *i = Input::default()))),

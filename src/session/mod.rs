@@ -24,6 +24,7 @@ pub mod state;
 pub(crate) mod tests;
 pub mod update;
 
+pub use act::run::run_line;
 pub use commands::commands;
 pub use key::{Code, Key};
 pub use message::{Content, Done, Effect, Gesture, Msg, Notice, Pointed, PointerTarget, Purpose};
@@ -36,7 +37,7 @@ pub use read::{fate, ledger, motion, wants};
 pub use replay::script::{Instruction, Script, ScriptStep};
 pub use state::answers::{AnswerState, Answers, Course};
 pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snapshot};
-pub use state::keymap::{Candidates, Command, CommandAction, Context, Keymap, NextCommand};
+pub use state::keymap::{Candidates, Command, CommandAction, Context, Keymap};
 pub use state::overlay::{Completion, Input, List, Listed, Overlay, Prompt, SessionCaption};
 pub use state::scan::{ScanOnShow, ScanProgress};
 pub use state::session::{
@@ -45,4 +46,4 @@ pub use state::session::{
 };
 pub use state::setup::{MOST_MOTIONS, Row, Setup, StepSizes, Uncertainty};
 pub use state::{overlay, scan, settings};
-pub use update::{run_line, settle, update};
+pub use update::{settle, update};

@@ -29,6 +29,7 @@ use crate::session::{
     Before, Bookmark, Bookmarks, History, Instruction, Msg, Overlay, Pane, Plot, Prompt, Row,
     Session, Setup, Snapshot, Uncertainty,
 };
+use crate::words::counted;
 
 /// The format that this program writes; it reads this and all earlier formats.
 const VERSION: u32 = 1;
@@ -186,13 +187,9 @@ pub fn summary(text: &str) -> Result<String, String> {
     let changed = difference(&Setup::of_scene(&scene), &setup);
     let marks = match file.marks.len() {
         0 => String::new(),
-        1 => ", 1 mark".to_owned(),
-        count => format!(", {count} marks"),
+        count => format!(", {}", counted(count, "mark")),
     };
-    let changes = match file.past.len() {
-        1 => "1 change".to_owned(),
-        count => format!("{count} changes"),
-    };
+    let changes = counted(file.past.len(), "change");
     let with = if changed.is_empty() { changed } else { format!(" {changed}") };
     Ok(format!("{}{with} ({changes}{marks})", scene.name))
 }

@@ -5,20 +5,16 @@
 //! can be reproduced by a keystroke file. The modules in `act` do what commands ask for, one concern each.
 
 use crate::flow::Reason;
-use crate::numerics::similar::most_similar;
 use crate::question::NoAnswer;
 use crate::scene::{Answered, Request};
-use crate::session::act::screen_setup::focus_on;
-use crate::session::act::{answers, files, general, history, plots, prompt, values, walk};
-use crate::session::read::completion::names;
-use crate::session::read::contexts::{self, elsewhere, place};
+use crate::session::act::run::{ENTER, run, run_line, run_where_it_belongs};
+use crate::session::act::{answers, files, history, plots, prompt, walk};
+use crate::session::read::contexts::{self, elsewhere};
 use crate::session::replay::script::parse;
-use crate::session::state::keymap::called;
 use crate::session::{
-    Code, Command, CommandAction, Context, Done, Effect, Key, Letter, Msg, NextCommand, Overlay,
-    Pane, Pending, Price, Prompt, Row, Session, SessionCaption, Size, Waiting,
+    Context, Effect, Key, Letter, Msg, Overlay, Pane, Pending, Price, Prompt, Row, Session,
+    SessionCaption, Size, Waiting,
 };
-use crate::words::printable;
 
 /// Takes a message in; a press that needs an answer that is still being computed waits for it.
 pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
@@ -169,9 +165,6 @@ fn released(session: &mut Session) -> Option<Msg> {
     session.waiting.is_none().then_some(message)
 }
 
-/// The key that is passed to commands that are run from a line.
-const ENTER: Key = Key::plain(Code::Enter);
-
 /// Handles a key press.
 fn press(session: &mut Session, key: Key) {
     session.notice = None;
@@ -215,7 +208,8 @@ fn resolve(session: &mut Session, pending: Pending, key: Key) {
 /// asks for a letter.
 fn repeat(session: &mut Session, key: Key, count: u32) {
     let depth = session.history.depth().0;
-    let overlay = session.overlay.clone();
+    let open = |session: &Session| session.overlay.as_ref().map(Overlay::kind);
+    let before = open(session);
     for _ in 0..count {
         if !session.means(key) {
             act(session, key);
@@ -224,11 +218,7 @@ fn repeat(session: &mut Session, key: Key, count: u32) {
         session.notice = None;
         act(session, key);
         let refused = session.notice.as_ref().is_some_and(|notice| notice.error);
-        let opened = match (&session.overlay, &overlay) {
-            (Some(now), Some(before)) => now.differs(before),
-            (now, before) => now.is_some() != before.is_some(),
-        };
-        if refused || opened || session.quit || session.pending.is_some() {
+        if refused || open(session) != before || session.quit || session.pending.is_some() {
             break;
         }
     }
@@ -248,91 +238,5 @@ fn letter(session: &mut Session, what: Letter, key: Key) {
         (Letter::GoTo, None) if asks("go-to-mark") => session.attempt(history::go_back),
         (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),
         (_, None) => session.refuse(format!("{} is not a letter from a to z", key.said())),
-    }
-}
-
-/// Runs a command here or in the pane where it applies, which then gets the focus.
-fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) {
-    match place(session, command) {
-        Ok(Some(pane)) => focus_on(session, pane),
-        Ok(None) => {}
-        Err(place) => {
-            return session.refuse(format!("{} {}", command.name, missing(session, place)));
-        }
-    }
-    run(session, command, key);
-}
-
-/// Why a command cannot be run: what it needs, and how to get there.
-fn missing(session: &Session, place: Context) -> String {
-    match place.view() {
-        Some(view) => {
-            let spec = view.spec();
-            let heading = spec.heading.to_lowercase();
-            session.with_keys(&format!(
-                "needs the {heading}: {{views}} or :view {} shows it",
-                spec.name
-            ))
-        }
-        None if place == Context::Walk => {
-            session.with_keys("needs a branch: {walk} on a diagram takes hold of one")
-        }
-        None => format!("works only {}", place.spec().title.to_lowercase()),
-    }
-}
-
-/// Runs a command, or the command that it chooses.
-fn run(session: &mut Session, command: &Command, key: Key) {
-    match command.run {
-        CommandAction::Act(act) => act(session, key),
-        CommandAction::Move(act) => act(session, command.by),
-        CommandAction::Try(act) => session.attempt(act),
-        CommandAction::Toggle(layer) => general::toggle(session, layer),
-        CommandAction::Choose(choose) => match choose(session) {
-            Ok(Some(NextCommand::Command(command))) => run_where_it_belongs(session, command, key),
-            Ok(Some(NextCommand::Line(text))) => typed(session, |it| run_line(it, &text)),
-            Ok(Some(NextCommand::Value(row, text))) => {
-                typed(session, |it| values::set_row(it, row.name(), &text));
-            }
-            Ok(None) => {}
-            Err(why) => session.refuse(why),
-        },
-        // It takes words, which a key cannot give.
-        CommandAction::Line(..) => {}
-    }
-}
-
-/// Does what the open line says; if it is refused, the line stays open with the reason.
-fn typed(session: &mut Session, act: impl FnOnce(&mut Session) -> Done) {
-    let open = session.overlay.take();
-    if let Err(why) = act(session) {
-        let Some(Overlay::Prompt(prompt)) = open else { return session.refuse(why) };
-        let refused = Prompt { refused: Some(why), completion: None, back: 0, ..prompt };
-        session.overlay = Some(Overlay::Prompt(refused));
-    }
-}
-
-/// Runs a line while nothing is open. Fails with one line that says what is wrong and what is allowed; the
-/// session is then unchanged.
-pub fn run_line(session: &mut Session, text: &str) -> Done {
-    let (name, rest) = called(text);
-    let (line, command) = (session.keymap.line(name), session.keymap.named(name));
-    match (line, command) {
-        (_, Some(command)) if rest.is_empty() => {
-            run_where_it_belongs(session, command, ENTER);
-            Ok(())
-        }
-        (Some(line), _) if rest.is_empty() => {
-            Err(format!("{name} needs {}: {}", line.arguments, line.doc))
-        }
-        (Some(line), _) => {
-            let CommandAction::Line(_, run) = line.run else { return Ok(()) };
-            run(session, rest).map_err(|why| printable::line(&format!("{name}: {why}")).into())
-        }
-        (None, Some(_)) => Err(format!("{name} takes no words, but there are {rest:?}")),
-        (None, None) => Err(match most_similar(name, names(&session.keymap)) {
-            Some(nearest) => format!("no command {name:?}; did you mean {nearest}?"),
-            None => format!("no command {name:?}; Tab lists them"),
-        }),
     }
 }

@@ -61,7 +61,7 @@ pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
         (Some(end), Some(metres)) => with_unit(end * metres, 3, "m"),
         (Some(end), None) => significant(end, 3),
     };
-    let held = session.doubt.holds_any();
+    let held = session.doubt.held.contains(&true);
     let rise = held.then(|| format!("held: chi^2 +{}", significant(*rise, 3)));
     let margin = if spread.lower.is_none() {
         "95 %: every kick".to_owned()

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::flow::{Problem, Reason, Subject};
 use crate::model::belt::ReducedBelt;
-use crate::model::{Belt, Body, Group, Knob, Model, OutOfRange, Parameters, State, Tolerances};
+use crate::model::{Belt, Body, Group, Knob, Model, OutOfRange, State, Tolerances};
 use crate::numerics::elementary::powi;
 
 /// What a file describes: a machine or a vibration mode, and one motion of it.
@@ -129,11 +129,6 @@ impl ScaledMachine {
         let mut machine = machine.clone();
         machine.belt.belt_speed = Knob::BeltSpeed.check(speed)?;
         ScaledMachine::try_from(machine).map_err(|refused| refused.to_string())
-    }
-
-    /// Whether these parameters equal those of the machine at this speed, to the last bit.
-    pub fn carries(&self, parameters: &Parameters) -> bool {
-        self.reduced.parameters == *parameters
     }
 
     /// The start of the machine's motion, in the units at this speed.
@@ -368,7 +363,7 @@ mod tests {
             let moved = own.brought_to(&running, own.problem());
             assert_eq!(moved, faster.problem(), "{}", machine.name);
             assert_eq!(running.brought_to(&own, moved), own.problem());
-            assert!(running.carries(&moved.parameters));
+            assert_eq!(running.reduced.parameters, moved.parameters);
             // A start chosen by the user keeps its place in metres, up to rounding.
             let initial = State { q: 0.7, v: -0.3 };
             let moved = own.brought_to(&running, Problem { initial, ..own.problem() });

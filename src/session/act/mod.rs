@@ -10,6 +10,7 @@ pub mod motions;
 pub mod parameters;
 pub mod plots;
 pub mod prompt;
+pub mod run;
 pub mod scan;
 pub mod screen_setup;
 pub mod values;

@@ -10,6 +10,7 @@ use crate::scene::{Layer, Topic};
 use crate::session::act::parameters::put;
 use crate::session::state::session::PACES;
 use crate::session::{Done, MOST_MOTIONS, Pace, Session, Setup};
+use crate::words::counted;
 
 /// Clearance of a start relative to that of the border: near enough to stay close for a while, far enough to be
 /// distinguished.
@@ -43,11 +44,10 @@ pub fn drop_newest(session: &mut Session) -> Done {
     let mut setup = session.setup();
     let State { q, v } = setup.others.pop().ok_or(ONLY)?;
     setup.problem.initial = State { q, v };
-    let count = setup.others.len() + 1;
+    let motions = counted(setup.others.len() + 1, "motion");
     put(session, setup);
-    let motions = if count == 1 { "motion" } else { "motions" };
     let place = format!("q0 = {}, v0 = {}", shortest(q), shortest(v));
-    session.inform(format!("{count} {motions} on show; {place}"));
+    session.inform(format!("{motions} on show; {place}"));
     Ok(())
 }
 

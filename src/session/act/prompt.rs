@@ -7,13 +7,12 @@ use crate::scene::find;
 use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
 use crate::session::act::lists;
+use crate::session::act::run::{ENTER, run_line, run_where_it_belongs};
 use crate::session::act::screen_setup::show_from_list;
-use crate::session::act::values::belt;
+use crate::session::act::values::{belt, set_row};
 use crate::session::read::completion::completion;
 use crate::session::state::keymap::full_name;
-use crate::session::{
-    Completion, Done, Input, List, Listed, NextCommand, Overlay, PaletteRow, Prompt, Session,
-};
+use crate::session::{Completion, Done, Input, List, Listed, Overlay, PaletteRow, Prompt, Session};
 use crate::words::printable::is_printable;
 
 /// Maximum number of remembered lines.
@@ -24,24 +23,29 @@ pub fn open(session: &mut Session, text: impl Into<String>) {
     session.overlay = Some(Overlay::Prompt(Prompt::new(text)));
 }
 
-/// The typed value, to be set; or the typed command, to be run. An empty command closes. A line that
-/// begins with no command is searched for in the palette, which stays open if something is found.
-pub fn accept(session: &mut Session) -> Option<NextCommand> {
-    let Some(Overlay::Prompt(prompt)) = &session.overlay else { return None };
+/// Sets the typed value, or runs the typed command; where that is refused, the line stays open with the reason. An empty
+/// command closes. A line that begins with no command is searched for in the palette, which stays open if something is
+/// found.
+pub fn accept(session: &mut Session) {
+    let Some(Overlay::Prompt(prompt)) = session.overlay.clone() else { return };
     let text = prompt.input.text().trim().to_owned();
-    if let Some(row) = prompt.row {
-        return Some(NextCommand::Value(row, text));
-    }
-    if text.is_empty() {
-        session.overlay = None;
-        return None;
-    }
-    if let Some(found) = search(session, &text) {
+    if let (None, Some(found)) = (prompt.row, search(session, &text)) {
         session.overlay = Some(Overlay::List(Listed::Palette, found));
-        return None;
+        return;
     }
-    remember(session, &text);
-    Some(NextCommand::Line(text))
+    session.overlay = None;
+    let done = match prompt.row {
+        Some(row) => set_row(session, row.name(), &text),
+        None if text.is_empty() => Ok(()),
+        None => {
+            remember(session, &text);
+            run_line(session, &text)
+        }
+    };
+    if let Err(why) = done {
+        let refused = Prompt { refused: Some(why), completion: None, back: 0, ..prompt };
+        session.overlay = Some(Overlay::Prompt(refused));
+    }
 }
 
 /// The palette with a search for a line that begins with no command; `None` if the line begins with a command
@@ -124,18 +128,18 @@ pub fn insert(session: &mut Session, text: &str) {
 }
 
 /// Ends the search and keeps the rows found; in a picker, picks the selected one at once.
-pub fn search_done(session: &mut Session) -> Result<Option<NextCommand>, String> {
+pub fn search_done(session: &mut Session) -> Done {
     lists::with(session, |list| list.searching = false);
     match session.overlay {
         Some(Overlay::List(Listed::Scenes | Listed::Views, _)) => choose(session),
-        _ => Ok(None),
+        _ => Ok(()),
     }
 }
 
-/// Runs the selected row of the open list, or returns the command to be run. The list closes, except that of the
+/// Runs the selected row of the open list. The list closes, except that of the
 /// layers. A command that takes words opens the line for typing them. In the list of costs, nothing can be run.
-pub fn choose(session: &mut Session) -> Result<Option<NextCommand>, String> {
-    let Some(Overlay::List(listed, list)) = &session.overlay else { return Ok(None) };
+pub fn choose(session: &mut Session) -> Done {
+    let Some(Overlay::List(listed, list)) = &session.overlay else { return Ok(()) };
     let rows = session.rows_of(*listed, list);
     let (listed, row) = (*listed, rows.get(list.selected).copied().flatten());
     let closes = row.is_some() || listed == Listed::Cost;
@@ -143,7 +147,7 @@ pub fn choose(session: &mut Session) -> Result<Option<NextCommand>, String> {
         session.overlay = None;
     }
     match row {
-        Some(PaletteRow::Command(command)) => return Ok(Some(NextCommand::Command(command))),
+        Some(PaletteRow::Command(command)) => run_where_it_belongs(session, command, ENTER),
         Some(PaletteRow::Line(line)) => open(session, format!("{} ", line.name)),
         Some(PaletteRow::Scene(scene)) => open_scene(session, Arc::clone(scene)),
         Some(PaletteRow::View(row)) => show_from_list(session, row.view)?,
@@ -152,7 +156,7 @@ pub fn choose(session: &mut Session) -> Result<Option<NextCommand>, String> {
         Some(PaletteRow::Claim(claim)) => show_claim(session, claim)?,
         None => {}
     }
-    Ok(None)
+    Ok(())
 }
 
 /// Opens the scene that shows a claim.

@@ -6,6 +6,7 @@ use crate::numerics::decimal::shortest;
 use crate::scan::measure::MEASURES;
 use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, Window};
 use crate::session::{Command, Completion, Keymap, Row, Session, Setup};
+use crate::words::counted;
 
 /// These names as candidates.
 pub fn all<Name: ToString>(names: impl IntoIterator<Item = Name>) -> Vec<String> {
@@ -158,9 +159,6 @@ pub(crate) fn difference(old: &Setup, new: &Setup) -> String {
         format!("{} = {value}", row.name_in(&new.problem))
     });
     let count = |setup: &Setup| setup.others.len() + 1;
-    let motions = (count(old) != count(new)).then(|| match count(new) {
-        1 => "1 motion".to_owned(),
-        count => format!("{count} motions"),
-    });
+    let motions = (count(old) != count(new)).then(|| counted(count(new), "motion"));
     said.chain(motions).collect::<Vec<_>>().join(", ")
 }

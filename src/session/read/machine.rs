@@ -37,10 +37,10 @@ impl Session {
         unlikely(&body, (machine.displacement, machine.velocity))
     }
 
-    /// Whether the parameters on show are those of the machine at the speed of its belt; `None` without a
-    /// machine.
+    /// Whether the parameters on show are those of the machine at the speed of its belt, to the last bit; `None` without
+    /// a machine.
     pub fn is_on_the_belt(&self) -> Option<bool> {
-        Some(self.running()?.carries(&self.problem.parameters))
+        Some(self.running()?.reduced.parameters == self.problem.parameters)
     }
 
     /// The machine on show, if the whole model can answer for it: D, D3 and r that were changed by hand
@@ -48,7 +48,7 @@ impl Session {
     pub fn machine(&self) -> Option<Belt> {
         let running = self.running()?;
         let mut belt = running.machine.belt.clone();
-        if running.carries(&self.problem.parameters) {
+        if running.reduced.parameters == self.problem.parameters {
             return Some(belt);
         }
         let own = |symbol: Knob| running.reduced.parameters.value(symbol);

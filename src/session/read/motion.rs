@@ -29,7 +29,7 @@ impl Session {
         let candidates = beside.into_iter().flatten().filter_map(|index| samples.get(index));
         let nearest =
             candidates.min_by(|a, b| (a.tau - tau).abs().total_cmp(&(b.tau - tau).abs()))?;
-        Some(State { q: nearest.q, v: nearest.v })
+        Some(nearest.state())
     }
 }
 

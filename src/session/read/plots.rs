@@ -183,26 +183,18 @@ impl Session {
         let labels = self.variants(plot).map(|all| labels(all, &self.problem, starts));
         let label = |index: usize| labels.as_ref()?.get(index).cloned();
         let tag = |index| VariantTag { index, label: label(index).unwrap_or_default() };
-        let found = self.answers_for_each(topic, plot);
-        found.map(|(index, answer)| (tag(index), answer)).collect()
-    }
-
-    /// The answers without the held values.
-    fn answers_for_each(
-        &self,
-        topic: Topic,
-        plot: usize,
-    ) -> impl Iterator<Item = (usize, &Finding)> {
         let asked = self.requests(topic, plot).into_iter();
-        asked.filter_map(|(index, asked)| Some((index, self.answers.standing(&asked).answer()?)))
+        let answer = |request: &Request| self.answers.standing(request).answer();
+        asked.filter_map(|(index, request)| Some((tag(index), answer(&request)?))).collect()
     }
 
     /// The branches computed last over the parameter of a diagram, stale or not, each with its index among the
     /// problems that the plot shows.
     pub fn branches(&self, plot: usize) -> Vec<(usize, &Branch)> {
         let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
-        let found = self.answers_for_each(Topic::Branch, plot);
-        let found = found.filter_map(|(index, answer)| Some((index, answer.try_as_branch_ref()?)));
+        let found = self.found(Topic::Branch, plot).into_iter();
+        let found =
+            found.filter_map(|(variant, it)| Some((variant.index, it.try_as_branch_ref()?)));
         found.filter(|(_, branch)| Some(branch.parameter) == over).collect()
     }
 

@@ -5,6 +5,7 @@
 
 use crate::branch::{Branch, SpecialKind};
 use crate::numerics::elementary::{hypot, ln};
+use crate::scene::Span;
 use crate::session::BranchStop;
 
 /// The connected pieces of branches, each a list of stops.
@@ -22,12 +23,9 @@ impl BranchPath {
     /// The way along branches, each of a variant. Walking onward leads from the end with the smaller value to
     /// the other end.
     pub fn along(branches: &[(usize, &Branch)]) -> Self {
-        let all = || branches.iter().flat_map(|(_, branch)| &branch.pieces).flatten();
-        let values = || all().map(|point| point.value);
-        let (low, high) =
-            (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-        let mut way =
-            BranchPath { pieces: Vec::new(), extent: if high > low { high - low } else { 1.0 } };
+        let points = branches.iter().flat_map(|(_, branch)| branch.pieces.iter().flatten());
+        let values = Span::covering(points.map(|point| point.value));
+        let mut way = BranchPath { pieces: Vec::new(), extent: values.map_or(1.0, Span::width) };
         for (variant, branch) in branches {
             for piece in branch.pieces.iter().filter(|piece| !piece.is_empty()) {
                 let mut stops: Vec<BranchStop> =

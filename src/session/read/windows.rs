@@ -56,11 +56,6 @@ pub(crate) fn fitted(session: &Session, index: usize) -> Option<Window> {
         View::Residuals => Window::of(session.fitted()?.residual_extent()?),
         View::Spread => Window::of(session.fitted()?.curves.spread_extent),
         View::Scan => session.scanned.as_ref().map(ScanOnShow::window),
-        #[allow(
-            unreachable_patterns,
-            reason = "a view without a rule of its own shows its usual window"
-        )]
-        view => Some(view.spec().window),
     }
 }
 
@@ -97,10 +92,10 @@ fn trade(session: &Session) -> Option<Window> {
 /// The motions, the cycles and the sticking sets.
 fn phase(session: &Session, plot: usize) -> Option<Window> {
     let start = session.problem.initial;
+    let at = |x, y| Point { x, y };
     let mut points = Vec::new();
     for shown in session.shown(plot) {
         let (start, r) = (shown.problem.initial, shown.problem.parameters.r);
-        let at = |x, y| Point { x, y };
         points.extend([at(start.q, start.v), at(-r, 0.0), at(r, 0.0)]);
     }
     let answers = |layer, topic| {
@@ -108,11 +103,8 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         shown.unwrap_or_default().into_iter().map(|(.., answer)| answer)
     };
     let drawn = answers(Layer::Cycles, Topic::Cycles).filter_map(Finding::try_as_cycles_ref);
-    for (found, _) in drawn {
-        for cycle in &found.cycles {
-            points.push(Point { x: cycle.q_min, y: cycle.v_min });
-            points.push(Point { x: cycle.q_max, y: cycle.v_max });
-        }
+    for cycle in drawn.flat_map(|(found, _)| &found.cycles) {
+        points.extend([at(cycle.q_min, cycle.v_min), at(cycle.q_max, cycle.v_max)]);
     }
     let motions = answers(Layer::Trajectory, Topic::Trajectory);
     for found in motions.filter_map(Finding::try_as_trajectory_ref) {
@@ -187,8 +179,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     for sample in session.motions().into_iter().flat_map(|(_, motion)| &motion.samples) {
         values.extend(shown(Layer::Position).then_some(sample.q));
         values.extend(shown(Layer::Velocity).then_some(sample.v));
-        let state = State { q: sample.q, v: sample.v };
-        values.extend(shown(Layer::Energy).then(|| energy(state)));
+        values.extend(shown(Layer::Energy).then(|| energy(sample.state())));
     }
     let motions = session.motions();
     if motions.iter().any(|(_, motion)| matches!(motion.outcome, Outcome::Escaped { .. })) {

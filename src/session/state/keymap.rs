@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 use crate::scene::{Layer, VIEWS, View};
-use crate::session::{Done, Key, Listed, Row, Session};
+use crate::session::{Done, Key, Listed, Session};
 
 /// Something that a key can do, or a line with words.
 #[derive(Debug)]
@@ -58,8 +58,6 @@ pub enum CommandAction {
     Try(fn(&mut Session) -> Done),
     /// It switches a layer.
     Toggle(Layer),
-    /// It chooses another command to run.
-    Choose(fn(&mut Session) -> Result<Option<NextCommand>, String>),
     /// It takes the words after its name, which the first function completes; the second one fails with one line that
     /// says why it cannot.
     Line(Candidates, fn(&mut Session, &str) -> Done),
@@ -85,17 +83,6 @@ pub fn called(line: &str) -> (&str, &str) {
 
 /// Candidates for the last of the words after the name of a command.
 pub type Candidates = fn(&Session, &[&str]) -> Vec<String>;
-
-/// The result of a command that chooses another one.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NextCommand {
-    /// A command of the palette.
-    Command(&'static Command),
-    /// The text of the command line.
-    Line(String),
-    /// The value that is typed for a row.
-    Value(Row, String),
-}
 
 /// Everything that can be run by name, and the command of each key in each context.
 #[derive(Clone, Debug, PartialEq)]

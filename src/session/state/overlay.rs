@@ -1,5 +1,7 @@
 //! Overlays: what covers the panes and gets the keys while it is open, such as a list or a line of text being typed.
 
+use std::mem::{Discriminant, discriminant};
+
 use crate::session::{Row, Script};
 
 /// An overlay over the panes.
@@ -32,12 +34,10 @@ pub enum Listed {
 }
 
 impl Overlay {
-    /// Whether this is another kind of overlay than `other`, whatever both contain.
-    pub fn differs(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Overlay::List(one, _), Overlay::List(other, _)) => one != other,
-            _ => std::mem::discriminant(self) != std::mem::discriminant(other),
-        }
+    /// What kind of overlay this is, whatever it contains.
+    pub fn kind(&self) -> (Discriminant<Self>, Option<Listed>) {
+        let listed = if let Overlay::List(listed, _) = self { Some(*listed) } else { None };
+        (discriminant(self), listed)
     }
 }
 

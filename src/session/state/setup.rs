@@ -112,11 +112,6 @@ impl Uncertainty {
         self.held[symbol as usize]
     }
 
-    /// Whether any number is held by hand.
-    pub fn holds_any(&self) -> bool {
-        self.held.contains(&true)
-    }
-
     /// Checks that no number is negative or infinite. Fails with one line that names the number.
     fn check(&self) -> Result<(), String> {
         let mut all = self.half_widths.iter().chain([&self.disturbance]);
