@@ -192,10 +192,10 @@ fn distance_from_fold(d: f64, d3: f64, r: f64) -> (f64, f64) {
     } else if rough > FAR {
         return (f64::INFINITY, f64::NEG_INFINITY);
     }
-    let over = |number: f64| Twofold::of(number).over(Twofold::of(d.abs()));
+    let over = |number: f64| Twofold::from(number) / Twofold::from(d.abs());
     let (friction, cubic) = (over(r), over(d3.abs()));
     let numerator = (friction * cubic * friction).times(81.0 / 8.0);
-    let ratio = numerator.over(twofold::PI * twofold::PI);
+    let ratio = numerator / (twofold::PI * twofold::PI);
     (ratio.high, ratio.one_minus().value())
 }
 

@@ -55,12 +55,12 @@ impl Linear {
 
     /// Duration of a half swing from rest, `pi/omega`, where motions oscillate.
     pub fn half_period(&self) -> Option<f64> {
-        self.omega().map(|omega| PI.over(omega).value())
+        self.omega().map(|omega| (PI / omega).value())
     }
 
     /// Natural logarithm of the growth in a half swing from rest, `-pi D/omega`, where motions oscillate.
     pub fn log_growth(&self) -> Option<Twofold> {
-        self.omega().map(|omega| PI.times(-self.d).over(omega))
+        self.omega().map(|omega| PI.times(-self.d) / omega)
     }
 
     /// The state at time `t` of the motion through `(x, v)` at time 0 (equations 25 to 27).
@@ -77,7 +77,7 @@ impl Linear {
             let (sin, cos) = phase.sin_cos();
             (cos, t * ratio(sin, phase))
         } else {
-            (cosh(phase.high), t * ratio(sinh(phase.high), Twofold::of(phase.high)))
+            (cosh(phase.high), t * ratio(sinh(phase.high), Twofold::from(phase.high)))
         };
         let decay = Twofold::product(-self.d, t).exp();
         let pull = self.d.mul_add(x, v);
@@ -106,7 +106,7 @@ impl Linear {
         let magnitude = Twofold::sum(self.d.abs(), high);
         let magnitude = Twofold::sum(magnitude.high, magnitude.low + low);
         let fast = magnitude.times(-self.d.signum());
-        (fast, Twofold::of(1.0).over(fast))
+        (fast, Twofold::from(1.0) / fast)
     }
 
     /// The first time after the start at which `v = 0`, for a start with `v > 0`, or with `v = 0` and

@@ -186,7 +186,7 @@ impl<N: Scalar> Outcome<N> {
     /// Displacement and velocity at the end, where these are known.
     pub fn state(self) -> Option<(N, N)> {
         match self {
-            Outcome::Captured { q, .. } => Some((q, N::of(0.0))),
+            Outcome::Captured { q, .. } => Some((q, N::from(0.0))),
             Outcome::Moving { q, v, .. } => Some((q, v)),
             Outcome::Escaped { .. } | Outcome::GaveUp { .. } => None,
         }
@@ -297,7 +297,7 @@ impl<N: Scalar> Trajectory<N> {
             problem: *problem,
             method,
             implicit_steps: 0,
-            outcome: Outcome::Moving { tau: N::of(0.0), q: N::of(q), v: N::of(v) },
+            outcome: Outcome::Moving { tau: N::from(0.0), q: N::from(q), v: N::from(v) },
             crossings: Vec::new(),
             legs: Vec::new(),
             extremes: None,

@@ -70,7 +70,7 @@ pub fn half_swing(
     let point = StepPoint { x: -start, v: Twofold::default() };
     let watch = |_: &mut Taylor<Twofold>, _, _, _: &_| ControlFlow::Continue(());
     let found =
-        swing(&mut stepper, &field, (point, 0), (Twofold::of(PATIENCE), true), limits, watch);
+        swing(&mut stepper, &field, (point, 0), (Twofold::from(PATIENCE), true), limits, watch);
     *cost += Cost { steps: found.steps, ..stepper.cost() };
     match found.end {
         Ok(end) => Ok(found.crossed.then_some((end.x, found.duration))),

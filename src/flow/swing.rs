@@ -85,9 +85,9 @@ pub fn swing<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
         // The time is that of the two driving terms alone; its error is the effect of the others.
         if let Some((rest, others)) = blow_up(&smooth, point.rounded())
             && rest * others <= error
-            && duration + N::of(rest) <= longest
+            && duration + N::from(rest) <= longest
         {
-            duration = duration + N::of(rest);
+            duration = duration + N::from(rest);
             break Err(Reason::Escapes);
         }
         let drift = exponent(point.size());
@@ -111,9 +111,9 @@ fn progress<N: Scalar>(step: Step<N>, from: StepPoint<N>, longest: N) -> Step<N>
     }
     let StepPoint { x, v } = from.rounded();
     let next = if v > 0.0 { x.next_up() } else { x.next_down() };
-    let duration = N::of((next - x) / v);
+    let duration = N::from((next - x) / v);
     if duration < longest {
-        Step { duration, end: StepPoint { x: N::of(next), ..from }, crossed: false }
+        Step { duration, end: StepPoint { x: N::from(next), ..from }, crossed: false }
     } else {
         Step { duration: longest, ..step }
     }

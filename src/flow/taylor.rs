@@ -101,9 +101,9 @@ impl<N: Scalar> Taylor<N> {
     /// for only one product of its predecessor. The sums over the others run over memory written at least two
     /// iterations ago.
     fn expand(&mut self, from: StepPoint<N>) {
-        let [d, d2, d3] = [2.0 * self.field.d, self.field.d2, self.field.d3].map(N::of);
-        let two = N::of(2.0);
-        let unit = N::of(times_power(1.0, self.time_exponent));
+        let [d, d2, d3] = [2.0 * self.field.d, self.field.d2, self.field.d3].map(N::from);
+        let two = N::from(2.0);
+        let unit = N::from(times_power(1.0, self.time_exponent));
         let order = self.order.min(MOST);
         self.cost.evaluations += order as u64;
         let v0 = from.v;
@@ -137,7 +137,7 @@ impl<N: Scalar> Taylor<N> {
             let (inner, product) = if k < 4 { (zero, zero) } else { self.inner.sums(k) };
             let earlier = cubic * inner + (cubic1 * square_before + product);
             // In `square_2` and its product, v1 is paired with itself, so it counts once instead of twice.
-            let next = if k == 2 { N::of(0.5) * before } else { before };
+            let next = if k == 2 { N::from(0.5) * before } else { before };
             let acceleration = -(self.x[k] + (neighbour * next + earlier)) - damping * newest;
             let square = twice1 * next + inner;
             let force = slope * newest + d3 * square;
@@ -193,10 +193,10 @@ impl<N: Scalar> Taylor<N> {
         let start = if guess > 0.0 && guess < end { guess } else { end };
         let rounded = self.v.map(N::value);
         let v = |t: f64| value_and_slope(&rounded[..=self.order], t);
-        let root = N::of(newton(Bracket::falling(0.0, end), start, SETTLED, v).at);
+        let root = N::from(newton(Bracket::falling(0.0, end), start, SETTLED, v).at);
         (0..N::POLISHING).fold(root, |root, _| {
             let (v, slope) = value_and_slope(&self.v[..=self.order], root);
-            root - v.over(slope)
+            root - v / slope
         })
     }
 }
@@ -272,7 +272,7 @@ impl<N: Scalar> Taylor<N> {
                     self.time_exponent += WIDE;
                     continue;
                 }
-                let allowed = N::of(allowed);
+                let allowed = N::from(allowed);
                 return Ok(if longest < allowed { longest } else { allowed });
             }
             // Coefficients that overflow belong to a time scale far below 1: use a smaller unit.
@@ -334,7 +334,7 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
     }
 
     fn at(&self, time: f64) -> StepPoint {
-        let (order, t) = (self.order, N::of(times_power(time, -self.time_exponent)));
+        let (order, t) = (self.order, N::from(times_power(time, -self.time_exponent)));
         let point = StepPoint { x: value(&self.x[..=order], t), v: value(&self.v[..=order], t) };
         point.rounded()
     }

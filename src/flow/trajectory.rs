@@ -141,7 +141,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
 
     /// The outcome of a motion that rests at its start.
     fn rests(&self) -> Outcome<N> {
-        Outcome::Captured { tau: N::of(0.0), q: N::of(self.found.problem.initial.q) }
+        Outcome::Captured { tau: N::from(0.0), q: N::from(self.found.problem.initial.q) }
     }
 
     /// Joins half swings until the motion ends. Without friction nothing happens at `v = 0`: unless crossings are requested,
@@ -151,11 +151,11 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         stepper: &mut S,
     ) -> Result<Outcome<N>, Reason> {
         let Problem { parameters, initial, until, .. } = self.found.problem;
-        let (r, until, rest) = (parameters.r, N::of(until), N::of(0.0));
+        let (r, until, rest) = (parameters.r, N::from(until), N::from(0.0));
         let Some(mut side) = Side::entered_from(initial, r) else { return Ok(self.rests()) };
         let arrives = r > 0.0 || self.detail.crossings;
-        let mut last = StepPoint { x: N::of(initial.q), v: N::of(initial.v) };
-        let mut point = StepPoint { x: side.position(last.x, r), v: N::of(initial.v.abs()) };
+        let mut last = StepPoint { x: N::from(initial.q), v: N::from(initial.v) };
+        let mut point = StepPoint { x: side.position(last.x, r), v: N::from(initial.v.abs()) };
         let mut unit = 0;
         loop {
             let remaining = self.time.until(until);
@@ -166,16 +166,16 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
                 return Err(Reason::HalfSwings { most: MOST_CROSSINGS });
             }
             let field = HalfPlane::new(&parameters, side);
-            let sign = N::of(side.sign());
+            let sign = N::from(side.sign());
             let stop = ComingToRest::of(&field, point.rounded(), N::NEGLIGIBLE);
-            let in_time = |stop: &ComingToRest| arrives && N::of(stop.duration) < remaining;
+            let in_time = |stop: &ComingToRest| arrives && N::from(stop.duration) < remaining;
             let q;
             if let Some(stop) = stop.filter(in_time) {
-                self.time.add(N::of(stop.duration));
+                self.time.add(N::from(stop.duration));
                 self.path += stop.way();
-                q = last.x + sign * N::of(stop.way());
-                let (beyond, of) = stop.beyond((sign * last.x - N::of(r)).value());
-                (point.x, unit) = (N::of(-beyond), of);
+                q = last.x + sign * N::from(stop.way());
+                let (beyond, of) = stop.beyond((sign * last.x - N::from(r)).value());
+                (point.x, unit) = (N::from(-beyond), of);
             } else {
                 let (from, bound) = ((point, unit), (remaining, arrives));
                 let (end, crossed) =
@@ -187,7 +187,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
                     return self.stopped(StepPoint { x: q, v: sign * v });
                 }
                 // The next half swing starts from its clearance, which is known more accurately than q - r.
-                (point.x, unit) = (N::of(2.0 * r) - x, 0);
+                (point.x, unit) = (N::from(2.0 * r) - x, 0);
             }
             if !q.value().is_finite() {
                 return Err(Reason::OutOfRange);
@@ -226,7 +226,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
                 // the polynomial of a step between two finite points.
                 if x.is_finite() && v.is_finite() {
                     samples.push(Sample {
-                        tau: time.plus(N::of(at + offset)).value(),
+                        tau: time.plus(N::from(at + offset)).value(),
                         q: side.displacement(times_power(x, unit), shift),
                         v: side.sign() * times_power(v, unit),
                     });
@@ -246,7 +246,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     /// The motion at its end time.
     fn stopped(&self, StepPoint { x: q, v }: StepPoint<N>) -> Result<Outcome<N>, Reason> {
         let is_finite = q.value().is_finite() && v.value().is_finite();
-        let tau = N::of(self.found.problem.until);
+        let tau = N::from(self.found.problem.until);
         if is_finite { Ok(Outcome::Moving { tau, q, v }) } else { Err(Reason::OutOfRange) }
     }
 }

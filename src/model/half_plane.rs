@@ -60,13 +60,13 @@ impl Side {
     /// Displacement `q` of a point `x` of this side's frame.
     #[must_use]
     pub fn displacement<N: Scalar>(self, x: N, r: f64) -> N {
-        N::of(self.sign()) * (x - N::of(r))
+        N::from(self.sign()) * (x - N::from(r))
     }
 
     /// Position `x` in this side's frame of a displacement `q`.
     #[must_use]
     pub fn position<N: Scalar>(self, q: N, r: f64) -> N {
-        N::of(self.sign()) * q + N::of(r)
+        N::from(self.sign()) * q + N::from(r)
     }
 }
 

@@ -109,7 +109,7 @@ impl StepSize {
     /// The smallest step size that is not below a positive number.
     pub fn at_least(value: f64) -> Self {
         let near = StepSize::near(value);
-        if near.value() < value { near.larger() } else { near }
+        if near.value() < value { near.moved(1) } else { near }
     }
 
     pub fn value(self) -> f64 {
@@ -124,18 +124,8 @@ impl StepSize {
     }
 
     /// The step size that is some places larger, or the one at the end of the range.
-    fn moved(self, places: i32) -> Self {
+    pub fn moved(self, places: i32) -> Self {
         StepSize { place: (self.place + places).clamp(*PLACES.start(), *PLACES.end()) }
-    }
-
-    /// The next larger step size, or this one at the end of the range.
-    pub fn larger(self) -> Self {
-        self.moved(1)
-    }
-
-    /// The next smaller step size, or this one at the end of the range.
-    pub fn smaller(self) -> Self {
-        self.moved(-1)
     }
 
     /// `value` moved by `count` steps, rounded to its own decimals and those of the step.
@@ -216,11 +206,11 @@ mod tests {
     fn sizes_go_one_two_five() {
         let mut step = StepSize::near(0.01);
         for wanted in [0.02, 0.05, 0.1, 0.2] {
-            step = step.larger();
+            step = step.moved(1);
             assert_eq!(step.value(), wanted);
         }
         for wanted in [0.1, 0.05, 0.02, 0.01, 0.005] {
-            step = step.smaller();
+            step = step.moved(-1);
             assert_eq!(step.value(), wanted);
         }
     }

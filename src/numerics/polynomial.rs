@@ -100,7 +100,7 @@ pub fn value_and_slope_in_two<N: Scalar>(coefficients: &[N], t: N) -> (N, N) {
         }
     }
     // With p(t) = e(t^2) + t o(t^2): p' = o + 2 t (e' + t o').
-    let twice = N::of(2.0) * t;
+    let twice = N::from(2.0) * t;
     (value[0] + t * value[1], value[1] + twice * (slope[0] + t * slope[1]))
 }
 

@@ -1,7 +1,7 @@
 //! The numbers in which a motion is computed: doubles, or pairs of them with twice the digits.
 
 use std::fmt::Debug;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::count::{real, reciprocals};
 use super::scaling::times_power;
@@ -19,9 +19,11 @@ pub trait Scalar:
     + Debug
     + Default
     + PartialOrd
+    + From<f64>
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
+    + Div<Output = Self>
     + Neg<Output = Self>
 {
     /// The part of a length whose own error may be a millionth and still matters to no digit of the length.
@@ -30,17 +32,11 @@ pub trait Scalar:
     /// Steps of Newton's method that make a root known to the digits of a double one to all digits.
     const POLISHING: usize;
 
-    /// From a double.
-    fn of(value: f64) -> Self;
-
     /// Rounded to a double.
     fn value(self) -> f64;
 
     /// `self * 2^power`.
     fn times_power(self, power: i32) -> Self;
-
-    /// The quotient by a number that is not 0.
-    fn over(self, divisor: Self) -> Self;
 
     /// The quotient by a count below 64 that is not 0.
     fn over_count(self, count: usize) -> Self;
@@ -49,11 +45,6 @@ pub trait Scalar:
 impl Scalar for f64 {
     const NEGLIGIBLE: f64 = 1e-12;
     const POLISHING: usize = 0;
-
-    #[inline]
-    fn of(value: f64) -> Self {
-        value
-    }
 
     #[inline]
     fn value(self) -> f64 {
@@ -66,11 +57,6 @@ impl Scalar for f64 {
     }
 
     #[inline]
-    fn over(self, divisor: Self) -> Self {
-        self / divisor
-    }
-
-    #[inline]
     fn over_count(self, count: usize) -> Self {
         self * INVERSE[count]
     }
@@ -80,10 +66,6 @@ impl Scalar for Twofold {
     const NEGLIGIBLE: f64 = 1e-27;
     const POLISHING: usize = 2;
 
-    fn of(value: f64) -> Self {
-        Twofold::of(value)
-    }
-
     fn value(self) -> f64 {
         Twofold::value(self)
     }
@@ -92,11 +74,7 @@ impl Scalar for Twofold {
         Twofold { high: times_power(self.high, power), low: times_power(self.low, power) }
     }
 
-    fn over(self, divisor: Self) -> Self {
-        Twofold::over(self, divisor)
-    }
-
     fn over_count(self, count: usize) -> Self {
-        self.over(Twofold::of(real(count)))
+        self / Twofold::from(real(count))
     }
 }

@@ -5,7 +5,7 @@
 //! derived from them is accurate to the last digits of a double (T. J. Dekker, *A floating-point technique for
 //! extending the available precision*, Numerische Mathematik 18, 1971).
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::numerics::elementary::{exp, exp_m1, sin_cos};
 
@@ -26,11 +26,6 @@ pub const PI: Twofold = Twofold { high: std::f64::consts::PI, low: 1.224_646_799
 pub const UNIT: f64 = 1e-31;
 
 impl Twofold {
-    /// A double as a [`Twofold`].
-    pub fn of(value: f64) -> Self {
-        Twofold { high: value, low: 0.0 }
-    }
-
     /// `a + b` without error.
     pub fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
@@ -46,9 +41,7 @@ impl Twofold {
 
     /// `abs(1 - d^2)`, accurate to all digits however near `abs(d)` is to 1.
     pub fn from_one_minus_square(d: f64) -> Self {
-        let square = Self::product(d, d);
-        let difference = Self::sum(1.0, -square.high);
-        let exact = Self::sum(difference.high, difference.low - square.low);
+        let exact = Self::product(d, d).one_minus();
         if exact.high < 0.0 { -exact } else { exact }
     }
 
@@ -64,19 +57,11 @@ impl Twofold {
         Self::sum(product.high, self.low.mul_add(factor, product.low))
     }
 
-    /// The quotient; the divisor must not be zero.
-    pub fn over(self, divisor: Self) -> Self {
-        let first = self.high / divisor.high;
-        let back = divisor.times(first);
-        let rest = (self.high - back.high) + (self.low - back.low);
-        Self::sum(first, rest / divisor.high)
-    }
-
     /// The square root; the number must not be negative.
     pub fn sqrt(self) -> Self {
         let root = self.high.sqrt();
         if root == 0.0 {
-            return Self::of(0.0);
+            return Self::default();
         }
         let rest = root.mul_add(-root, self.high) + self.low;
         Self::sum(root, rest / (2.0 * root))
@@ -108,7 +93,7 @@ impl Twofold {
 
 impl From<f64> for Twofold {
     fn from(value: f64) -> Self {
-        Self::of(value)
+        Twofold { high: value, low: 0.0 }
     }
 }
 
@@ -138,6 +123,18 @@ impl Mul for Twofold {
         let product = Self::product(self.high, other.high);
         let cross = self.high.mul_add(other.low, self.low * other.high);
         Self::sum(product.high, product.low + cross)
+    }
+}
+
+impl Div for Twofold {
+    type Output = Self;
+
+    /// The quotient; the divisor must not be zero.
+    fn div(self, divisor: Self) -> Self {
+        let first = self.high / divisor.high;
+        let back = divisor.times(first);
+        let rest = (self.high - back.high) + (self.low - back.low);
+        Self::sum(first, rest / divisor.high)
     }
 }
 
@@ -187,9 +184,9 @@ mod tests {
         #[test]
         fn quotients_and_roots_give_back_what_they_came_from(a in 1e-3..1e3, b in 1e-3..1e3) {
             let (a, b): (f64, f64) = (a, b);
-            let back = Twofold::of(a).over(Twofold::of(b)).times(b);
+            let back = (Twofold::from(a) / Twofold::from(b)).times(b);
             prop_assert!(((back.high - a) + back.low).abs() <= 4.0 * UNIT * a);
-            let root = Twofold::of(a).sqrt();
+            let root = Twofold::from(a).sqrt();
             let square = root * root;
             prop_assert!(((square.high - a) + square.low).abs() <= 8.0 * UNIT * a);
         }

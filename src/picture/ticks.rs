@@ -132,7 +132,7 @@ impl Ticks {
             if ticks.ticks.is_empty() || fit(&ticks.ticks) {
                 return ticks;
             }
-            step = step.larger();
+            step = step.moved(1);
         }
     }
 }

@@ -28,7 +28,7 @@ use crate::session::{
 const ACTIONS: &[(&str, CommandAction)] = &[
     ("select", Move(|s, [by, _]| parameters::select(s, by as isize))),
     ("step", Move(|s, [by, _]| s.attempt(|s| parameters::step(s, by)))),
-    ("step-size", Move(|s, [by, _]| s.attempt(|s| parameters::step_size(s, by > 0)))),
+    ("step-size", Move(|s, [by, _]| s.attempt(|s| parameters::step_size(s, by)))),
     ("half-width", Move(|s, [by, _]| s.attempt(|s| parameters::half_width(s, by)))),
     ("edit", Act(|s, _| parameters::edit(s))),
     ("type-number", Act(parameters::begin)),

@@ -20,7 +20,7 @@ type Series = [Twofold; ORDER + 1];
 const ZERO: Twofold = Twofold { high: 0.0, low: 0.0 };
 
 fn two(value: f64) -> Twofold {
-    Twofold::of(value)
+    Twofold::from(value)
 }
 
 fn sum(terms: impl Iterator<Item = Twofold>) -> Twofold {
@@ -35,8 +35,7 @@ fn at(series: &Series, t: Twofold) -> Twofold {
 /// `exp(x)` by its series at `x/4096`, followed by twelve squarings.
 fn exp(x: Twofold) -> Twofold {
     let small = x.times(1.0 / 4096.0);
-    let series =
-        (1..=12).rev().fold(two(1.0), |sum, k| (sum * small).over(two(f64::from(k))) + two(1.0));
+    let series = (1..=12).rev().fold(two(1.0), |sum, k| sum * small / two(f64::from(k)) + two(1.0));
     (0..12).fold(series, |power, _| power * power)
 }
 
@@ -76,7 +75,7 @@ impl Machine {
     }
 
     fn falling(&self, slip: Twofold) -> Twofold {
-        exp(slip.over(two(-self.velocity))).times(self.drop)
+        exp(slip / two(-self.velocity)).times(self.drop)
     }
 
     fn steady(&self) -> Twofold {
@@ -99,14 +98,14 @@ impl Machine {
             rate = rate - ys[k].times(self.damping) - cube[k].times(self.cubic);
             rate = if k == 0 { rate + constant } else { rate };
             let count = two(f64::from(u32::try_from(k + 1).unwrap()));
-            xs[k + 1] = ys[k].over(count);
-            ys[k + 1] = rate.over(count);
+            xs[k + 1] = ys[k] / count;
+            ys[k + 1] = rate / count;
             let products = (0..=k).map(|j| {
                 let order = f64::from(u32::try_from(k - j + 1).unwrap());
                 fall[j] * ys[k - j + 1].times(order)
             });
             // The slip decreases as the velocity rises, or increases with it.
-            fall[k + 1] = sum(products).times(side).over(two(self.velocity)).over(count);
+            fall[k + 1] = sum(products).times(side) / two(self.velocity) / count;
         }
         (xs, ys)
     }
@@ -153,7 +152,7 @@ impl Machine {
                         - damper.times(self.speed)
                         - two(self.guide)
                         - self.steady();
-                    t = t + (release - x).over(two(self.speed));
+                    t = t + (release - x) / two(self.speed);
                     (x, y, place) = (release, two(self.speed), ContactState::Slips(Phase::Between));
                 }
                 ContactState::Slips(phase) => loop {

@@ -26,7 +26,7 @@ fn without_damping_each_half_swing_takes_pi_and_two_r_to_thirty_digits() {
     assert_eq!(found.crossings.len(), 12);
     for (index, turn) in (0_i32..).zip(&found.crossings) {
         let place = (2.75 - 0.25 * f64::from(index)) * if index % 2 == 0 { -1.0 } else { 1.0 };
-        assert!(apart(turn.q, Twofold::of(place)) < 1e-28, "{turn:?}");
+        assert!(apart(turn.q, Twofold::from(place)) < 1e-28, "{turn:?}");
         assert!(apart(turn.tau, PI.times(f64::from(index + 1))) < 1e-28, "{turn:?}");
     }
     let last = found.crossings[11];
@@ -43,8 +43,8 @@ fn linear_half_swings_shrink_by_one_and_the_same_factor() {
     let ratio = |before: Twofold, after: Twofold| {
         // From q0 > r to q1: q1 - r = -(q0 - r) e^x in magnitudes, mirrored each time.
         let size = |q: Twofold| if q.high < 0.0 { -q } else { q };
-        let r = Twofold::of(r);
-        (size(after) + r).over(size(before) - r)
+        let r = Twofold::from(r);
+        (size(after) + r) / (size(before) - r)
     };
     let ratios: Vec<_> =
         found.crossings.windows(2).map(|pair| ratio(pair[0].q, pair[1].q)).collect();
@@ -86,7 +86,9 @@ fn an_escape_has_its_time() {
 #[test]
 fn a_rest_stays_and_a_budget_is_kept() {
     let rest = precise(&problem([-0.1, 0.0, 0.0, 0.5], 0.5, 9.0), FINE, &Limits::PATIENT);
-    assert!(matches!(rest.unwrap().outcome, Outcome::Captured { q, .. } if q == Twofold::of(0.5)));
+    assert!(
+        matches!(rest.unwrap().outcome, Outcome::Captured { q, .. } if q == Twofold::from(0.5))
+    );
     let limits = Limits { evaluations: 1000, ..Limits::PATIENT };
     let stiff = precise(&problem([0.0, 0.0, 1.0, 0.1], 1e6, 1e4), FINE, &limits);
     assert!(matches!(stiff, Err(Reason::Budget { .. })));

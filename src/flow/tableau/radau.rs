@@ -100,13 +100,13 @@ impl Collocation {
 
 /// Coefficients of the polynomial that is 1 at a node and 0 at the others.
 fn lagrange(nodes: &[Twofold], own: usize) -> Vec<Twofold> {
-    let mut coefficients = vec![Twofold::of(1.0)];
+    let mut coefficients = vec![Twofold::from(1.0)];
     for (_, &node) in nodes.iter().enumerate().filter(|(other, _)| *other != own) {
         let distance = nodes[own] - node;
         coefficients.push(Twofold::default());
         for power in (0..coefficients.len()).rev() {
             let shifted = if power == 0 { Twofold::default() } else { coefficients[power - 1] };
-            coefficients[power] = (shifted - node * coefficients[power]).over(distance);
+            coefficients[power] = (shifted - node * coefficients[power]) / distance;
         }
     }
     coefficients

@@ -131,7 +131,7 @@ fn resolved(equation: &mut Equation, u: f64) -> Result<Node, Reason> {
         (value, noise) = (weighed, bound);
     }
     if !decided(value, noise) && FINER * closing.noise < noise {
-        match equation.precisely_at(Route::Mixed, Twofold::of(closing.first.value)) {
+        match equation.precisely_at(Route::Mixed, Twofold::from(closing.first.value)) {
             Ok(found) => value = found.residual,
             Err(Some(Reason::Interrupted)) => return Err(Reason::Interrupted),
             // Too stiff, or out of range: doubles have to do.

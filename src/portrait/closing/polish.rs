@@ -210,7 +210,7 @@ fn sharpen(
     let route = Route::steadiest(rough.growth);
     let mut slope = equation.at(route, rough.node.at)?.node.slope;
     // The unknown is the start of the rough closing times e^s.
-    let start = Twofold::of(Length::from_log(rough.node.at).value);
+    let start = Twofold::from(Length::from_log(rough.node.at).value);
     // The ends of the bracket were decided by doubles, which may have been too few.
     let slack = 2.0 * rough.uncertainty.min(1.0);
     let mut ends = places(&bracket);

@@ -34,7 +34,7 @@ impl Equation<'_> {
         start: Twofold,
     ) -> Result<PreciseClosing, Option<Reason>> {
         use Direction::{Backward, Forward};
-        let gap = Twofold::of(2.0 * self.parameters.r);
+        let gap = Twofold::from(2.0 * self.parameters.r);
         let positive = |length: Twofold| Some(length).filter(|it| it.high > 0.0).ok_or(None);
         let mut duration = Twofold::default();
         let mut swing = |index, direction, start| -> Result<Twofold, Option<Reason>> {
@@ -59,7 +59,7 @@ impl Equation<'_> {
                 (second, start - end, end)
             }
         };
-        let residual = ln_1p(difference.over(unit).value());
+        let residual = ln_1p((difference / unit).value());
         let (second, duration) = (second.value(), duration.value());
         let sound = residual.is_finite() && second > 0.0;
         sound.then_some(PreciseClosing { residual, second, duration }).ok_or(None)

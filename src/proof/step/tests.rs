@@ -182,7 +182,7 @@ fn every_coefficient_obeys_the_equation_to_rounding() {
         let mut series = MotionSeries::<f64>::EMPTY;
         for (x, v) in [(-0.3, 0.0), (-0.7, 1.3), (0.4, 0.9)] {
             series.expand(field, x, v);
-            let of = Twofold::of;
+            let of = Twofold::from;
             let product = |one: &[Twofold], other: &[f64], k: usize| {
                 (0..=k).fold(of(0.0), |sum, i| sum + one[i].times(other[k - i]))
             };
@@ -484,11 +484,11 @@ fn the_roundings_of_an_area_are_held() {
         series.square[k] = size * f64::from(u8::try_from(k + 1).unwrap());
     }
     let sums = Sums::of(&series, h);
-    let exact = (0..ORDER).fold(Twofold::of(0.0), |sum, k| {
+    let exact = (0..ORDER).fold(Twofold::from(0.0), |sum, k| {
         let degree = f64::from(u8::try_from(k + 1).unwrap());
-        sum + Twofold::of(series.square[k] / degree)
+        sum + Twofold::from(series.square[k] / degree)
     });
-    let off = (exact - Twofold::of(sums.integral)).high;
+    let off = (exact - Twofold::from(sums.integral)).high;
     let bound = sums.area_roundings() * h;
     assert!(off > 0.6 * bound && off <= bound, "{off:e} {bound:e}");
 }

@@ -85,12 +85,12 @@ pub fn half_width(session: &mut Session, count: i32) -> Done {
     if differs { Ok(()) } else { Err(format!("{knob} has no half width")) }
 }
 
-/// Makes the step size of the selected row larger or smaller.
-pub fn step_size(session: &mut Session, larger: bool) -> Done {
+/// Makes the step size of the selected row this many places larger.
+pub fn step_size(session: &mut Session, by: i32) -> Done {
     let row = session.selected;
     let knob = row.stepped().ok_or_else(|| format!("{} has no step size", row.name()))?;
     let size = session.steps.of_mut(knob);
-    *size = if larger { size.larger() } else { size.smaller() };
+    *size = size.moved(by);
     Ok(())
 }
 

@@ -198,7 +198,7 @@ fn trade(cost: Cost) -> Trade {
         cost: Cost { evaluations, ..cost },
         seconds: 0.0,
     };
-    let zero = Twofold::of(0.0);
+    let zero = Twofold::from(0.0);
     let reference = Reference {
         turns: Vec::new(),
         end: Outcome::Moving { tau: zero, q: zero, v: zero },
