@@ -1,6 +1,7 @@
 //! The computations at a point of a scan: of the paper's oscillator, or of a machine by its whole model.
 
 use super::row::{Cells, Failed};
+use super::settling::{largest_and_mean, rested, starts};
 use super::table::{CYCLES, Measure, Value};
 use crate::branch::escape::escape_point;
 use crate::branch::fold::fold;
@@ -79,7 +80,16 @@ impl Cells<'_> {
             return self.motion(&follow(problem.initial));
         }
         let about = |model| conditions.about(model);
-        self.settling(&model.as_ref().map_or(conditions.window, about), follow)
+        let window = model.as_ref().map_or(conditions.window, about);
+        let mut times = Vec::new();
+        for start in starts(window) {
+            let motion = follow(start);
+            self.cost += motion.cost;
+            times.push(motion.outcome.rest()?);
+        }
+        self.fill(Measure::Settling, || largest_and_mean(&times).into_iter().flatten());
+        self.fill(Measure::FiniteTime, || rested(&times));
+        Ok(())
     }
 
     fn cycles_of(&mut self, parameters: &Parameters) -> Result<(), Reason> {

@@ -3,10 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 
-use super::settling::Settling;
 use super::table::{CYCLES, Conditions, Measure, Value};
 use crate::flow::{Cost, Limits, Outcome, Reason, Subject, Trajectory};
-use crate::model::State;
 use crate::portrait::{Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 
 /// What was measured at a point.
@@ -156,22 +154,5 @@ impl Cells<'_> {
     /// A fraction and its error, where it is known.
     fn share(&mut self, measure: Measure, share: impl FnOnce() -> Option<Share>) {
         self.fill(measure, || share().into_iter().flat_map(|it| [it.part, it.error]));
-    }
-
-    /// When the starts of a window come to rest. Fails with why one of their motions was given up.
-    pub fn settling(
-        &mut self,
-        window: &StartWindow,
-        follow: impl Fn(State) -> Trajectory,
-    ) -> Result<(), Reason> {
-        let cost = &mut self.cost;
-        let found = Settling::of(window, |start| {
-            let motion = follow(start);
-            *cost += motion.cost;
-            motion.outcome.rest()
-        })?;
-        self.fill(Measure::Settling, || found.times().into_iter().flatten());
-        self.fill(Measure::FiniteTime, || found.rested());
-        Ok(())
     }
 }
