@@ -155,11 +155,13 @@ fn cost_of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
         let questions = settle(&mut stepped, scene)?;
         Ok(AskedTogether { after: row.name_in(&session.problem), questions, reused })
     };
+    let opening = AskedTogether { after: OPENING, questions, reused: Vec::new() };
     Ok(SceneCost {
         scene: Arc::clone(scene),
         formulas: session.drawn_by_formulas().iter().map(|layer| layer.spec().name).collect(),
-        opening: AskedTogether { after: OPENING, questions, reused: Vec::new() },
-        steps: rows.map(step).collect::<Result<_, Failure>>()?,
+        asked: std::iter::once(Ok(opening))
+            .chain(rows.map(step))
+            .collect::<Result<_, Failure>>()?,
     })
 }
 

@@ -106,17 +106,13 @@ impl BasinCommand {
 pub struct KicksCommand {
     /// Displacement and velocity of a kick, mean and standard deviation; with uniform: before them, mean and
     /// half width
-    #[arg(
-        long = "kicks",
-        value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD",
-        allow_hyphen_values = true
-    )]
-    law: String,
+    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD", allow_hyphen_values = true)]
+    kicks: String,
 }
 
 impl KicksCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
-        let law = read("--kicks", &self.law, |text| asked.source.numbers().kicks(text))?;
+        let law = read("--kicks", &self.kicks, |text| asked.source.numbers().kicks(text))?;
         let case = asked.source.exact()?;
         let r = case.described.subject.source.get(Knob::R).unwrap_or(0.0);
         let (portrait, before) = case.portrait(&asked.output, law.reach() + r)?;

@@ -49,8 +49,7 @@ impl MergeCommand {
         let recheck = self.check.then_some(&Limits::PATIENT);
         let mut output = None;
         if let Some(path) = &self.output {
-            let file = NewFile::begin(path, Readers::Usual);
-            let file = file.map_err(|error| Failure::unwritten(path, &error))?;
+            let file = NewFile::begin(path, Readers::Usual).map_err(Failure::unwritten(path))?;
             output = Some((BufWriter::new(file), path));
         }
         // The first line is the heading.
@@ -58,7 +57,7 @@ impl MergeCommand {
         let mut write = |line: &[u8]| {
             checksum = Some(checksum.map_or(Checksum::NONE, |checksum| checksum.and(line)));
             let Some((output, path)) = &mut output else { return Ok(()) };
-            output.write_all(line).map_err(|error| Failure::unwritten(path, &error))
+            output.write_all(line).map_err(Failure::unwritten(path))
         };
         let missing = merge(&sources, recheck, &mut write)?;
         if !missing.is_empty() {
@@ -74,9 +73,8 @@ impl MergeCommand {
         if let Some((output, path)) = output {
             let written = output.into_inner().map_err(io::IntoInnerError::into_error);
             let how = Some("--force replaces it");
-            written
-                .and_then(|file| file.end(self.force))
-                .map_err(|error| Failure::not_replaced(path, &error, how))?;
+            let written = written.and_then(|file| file.end(self.force));
+            written.map_err(Failure::not_replaced(path, how))?;
             let command = command(without(&first.arguments, &OWN), first.part.form, path);
             let provenance = Provenance { command, checksum, ..first.provenance.clone() };
             provenance_file::write(path, &provenance)?;
@@ -152,7 +150,7 @@ fn must_belong_with(own: &PartFile, first: &PartFile) -> Result<(), Failure> {
 /// them.
 fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartFile]) {
     let all = sources[0].part.scan.points();
-    let shard = |source: &PartFile| ScanCommand::of_line(&source.arguments)?.shard();
+    let shard = |source: &PartFile| ScanCommand::of_line(&source.arguments)?.part.shard();
     let shard = sources.iter().find_map(shard);
     let shards = shard.into_iter().flat_map(Shard::siblings);
     let named = shards.map(|shard| (format!("shard {shard}: "), shard.points(all)));

@@ -13,7 +13,7 @@ use signal_hook::iterator::Signals;
 
 use super::input::{self, WINDOW};
 use super::output::holds_something;
-use super::part::{RowChoice, Shard};
+use super::part::RowChoice;
 use super::plan::Plan;
 use super::progress::{Outlet, StatusLine, message};
 use super::{Failure, SourceOptions, given, number, print, read};
@@ -88,7 +88,7 @@ pub struct ScanCommand {
     #[arg(long, requires = "output", conflicts_with = "resume")]
     force: bool,
     #[command(flatten)]
-    part: RowChoice,
+    pub part: RowChoice,
     /// Which parts begin with the header line; merge accepts both
     #[arg(long, value_enum, value_name = "WHEN", default_value_t = HeaderWhen::First)]
     header: HeaderWhen,
@@ -196,11 +196,6 @@ impl ScanCommand {
         // By default only the first part has a heading, so that `cat` can join the parts.
         let headed = points.start == 0 || self.header == HeaderWhen::Always;
         Ok(ScanPart { scan, form: self.form()?, points, headed })
-    }
-
-    /// The shard that its part is, if one was asked for.
-    pub fn shard(&self) -> Option<Shard> {
-        self.part.shard()
     }
 
     /// What is scanned, and what its measures depend on beside it.

@@ -83,15 +83,10 @@ fn help<T: NamedValue>(what: &str) -> String {
 /// Prefix of the file names of interrupted sessions.
 const INTERRUPTED: &str = "interrupted-";
 
-/// A path from the environment, if the variable is set and not empty.
-fn variable(name: &str) -> Option<PathBuf> {
-    std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)
-}
-
-/// The directory in a variable if that is an absolute path, else one below the user's home.
+/// The directory in a variable, else one below the user's home, of which only absolute paths count.
 fn base(name: &str, below_home: &str) -> Option<PathBuf> {
-    let named = variable(name).filter(|path| path.is_absolute());
-    named.or_else(|| variable("HOME").map(|home| home.join(below_home)))
+    let named = |name| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    named(name).or_else(|| Some(named("HOME")?.join(below_home)))
 }
 
 /// The user's own settings file, whether it exists or not; `None` if there is no directory for it.

@@ -117,18 +117,9 @@ fn methods_help() -> String {
 }
 
 impl StartOptions {
-    /// The scene with this name, or of the option, with the values set on the command line; a parameter set there is part
-    /// of the scene.
+    /// The scene with this name, or of the option, with the values set on the command line.
     pub fn scene(&self, named: Option<&str>) -> Result<Arc<Scene>, Failure> {
-        let scene = self.found(named)?;
-        let assigned = self.assigned(&OSCILLATOR)?;
-        if let Some((symbol, _)) = assigned.iter().find(|(_, value)| !value.ends.is_point()) {
-            let line = format!(
-                "{symbol}: only cycles and margin take an interval; this command takes a number"
-            );
-            return Err(Failure::Usage(line));
-        }
-        self.applied(scene)
+        self.applied(self.found(named)?)
     }
 
     /// The numbers that are set.
@@ -137,23 +128,24 @@ impl StartOptions {
         self.set.iter().map(one).collect()
     }
 
-    /// A scene with the values set on the command line.
+    /// A scene with the values set on the command line; a parameter set there is part of the scene.
     pub fn applied(&self, mut scene: Arc<Scene>) -> Result<Arc<Scene>, Failure> {
-        let dials = [self.tol, self.step, self.epsilon];
-        if self.set.is_empty() && self.method.is_none() && dials.iter().all(Option::is_none) {
-            return Ok(scene);
-        }
-        let changed = Arc::make_mut(&mut scene);
+        let Scene { problem, terms, .. } = Arc::make_mut(&mut scene);
         for (symbol, value) in self.assigned(&OSCILLATOR)? {
-            changed.problem.set(symbol, value.middle.value);
+            if !value.ends.is_point() {
+                return Err(Failure::Usage(format!(
+                    "{symbol}: only cycles and margin take an interval; this command takes a number"
+                )));
+            }
+            problem.set(symbol, value.middle.value);
             if symbol.is_parameter() {
-                changed.terms.insert(symbol);
+                terms.insert(symbol);
             }
         }
-        changed.problem.method = self.method.unwrap_or(changed.problem.method);
-        changed.problem.tolerance = self.tol.unwrap_or(changed.problem.tolerance);
-        changed.problem.step = self.step.unwrap_or(changed.problem.step);
-        changed.problem.epsilon = self.epsilon.unwrap_or(changed.problem.epsilon);
+        problem.method = self.method.unwrap_or(problem.method);
+        problem.tolerance = self.tol.unwrap_or(problem.tolerance);
+        problem.step = self.step.unwrap_or(problem.step);
+        problem.epsilon = self.epsilon.unwrap_or(problem.epsilon);
         Ok(scene)
     }
 

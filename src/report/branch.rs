@@ -6,7 +6,7 @@ use super::proof::{
     BorderProof, border_columns, decided, piece_columns, range_changes, range_pieces,
 };
 use super::table::digits;
-use super::{About, Answer, Columns, Quantity};
+use super::{About, Answer, Columns, Document, Quantity};
 use crate::branch::fold::{Boundary, BoundaryPoint};
 use crate::branch::machine::{MachineBranch, PortraitPoint};
 use crate::branch::{Branch, BranchPoint, Jump, Special};
@@ -24,19 +24,10 @@ struct PieceRow<'a> {
 }
 
 /// A point, or a part of the range of which something is proved.
-enum BranchRow<'a> {
-    Point(PieceRow<'a>),
-    Proved(&'a RangePiece),
-}
-
-impl<'a> BranchRow<'a> {
-    fn point(&self) -> Option<PieceRow<'a>> {
-        if let BranchRow::Point(point) = self { Some(*point) } else { None }
-    }
-
-    fn proved(&self) -> Option<&'a RangePiece> {
-        if let BranchRow::Proved(piece) = self { Some(piece) } else { None }
-    }
+#[derive(Default)]
+struct BranchRow<'a> {
+    point: Option<PieceRow<'a>>,
+    proved: Option<&'a RangePiece>,
 }
 
 /// The columns of points; `value` names the number that varies.
@@ -66,11 +57,15 @@ pub fn branch(
     let name = branch.parameter.spec().name;
     let shown = digits(tolerance).min(10);
     let proved = certified.map(|range| {
-        Columns::default().part("certified", piece_columns(range, name), BranchRow::proved)
+        Columns::default()
+            .part("certified", piece_columns(range, name), |row: &BranchRow| row.proved)
     });
-    let columns =
-        Columns::default().part("point", point_columns(name, shown), BranchRow::point).and(proved);
+    let columns = Columns::default()
+        .part("point", point_columns(name, shown), |row: &BranchRow| row.point)
+        .and(proved);
     let parts = certified.into_iter().flat_map(|range| &range.pieces);
+    let parts = parts.map(|part| BranchRow { proved: Some(part), ..BranchRow::default() });
+    let rows = points().map(|point| BranchRow { point: Some(point), ..BranchRow::default() });
     let special = Quantity::pure(digits(tolerance));
     let special = Columns::default()
         .text("special point", |it: &Special| it.kind.name(it.cycle.as_ref()).to_owned())
@@ -83,7 +78,7 @@ pub fn branch(
         .with("special", &branch.special)
         .with("vague", &branch.vague)
         .with_any("certified", certified.map(decided))
-        .csv(&columns, points().map(BranchRow::Point).chain(parts.map(BranchRow::Proved)))
+        .csv(&columns, rows.chain(parts))
         .table_of(&point_columns(name, shown), points())
         .lines(branch.pieces.is_empty().then_some("no limit cycle"))
         .table(special.table(&branch.special))
@@ -106,10 +101,7 @@ fn vague(branch: &Branch) -> Option<String> {
 }
 
 /// The fold and the escape point at one value of the second parameter, and what is proved of them.
-struct BorderRow<'a> {
-    point: &'a BoundaryPoint,
-    proof: Option<&'a BorderProof>,
-}
+type BorderRow<'a> = (&'a BoundaryPoint, Option<&'a BorderProof>);
 
 /// The fold and the escape point of the oscillator of the paper, one row for each value of the second parameter.
 pub fn border<'a>(
@@ -125,20 +117,20 @@ pub fn border<'a>(
     };
     let name = found.second.spec().name;
     let proved =
-        Columns::default().part("certified", border_columns(), |row: &BorderRow<'a>| row.proof);
+        Columns::default().part("certified", border_columns(), |(_, proof): &BorderRow<'a>| *proof);
     let columns = Columns::default()
-        .number(name, Quantity::pure(10), |row: &BorderRow<'a>| row.point.value)
-        .number("D_F", EXACT, |row| row.point.fold.map(|fold| fold.d))
-        .text("is a", move |row| kind(row.point).to_owned())
-        .number("q_max", SHORT, |row| row.point.fold.map(|fold| fold.q_max))
-        .number("period", SHORT, |row| row.point.fold.map(|fold| fold.period))
-        .number("D_F_harmonic", SHORT, |row| row.point.harmonic_fold)
-        .number("D_c", EXACT, |row| row.point.escape)
-        .file("reason", |row| row.point.reason.clone())
+        .number(name, Quantity::pure(10), |(point, _): &BorderRow<'a>| point.value)
+        .number("D_F", EXACT, |(point, _)| point.fold.map(|fold| fold.d))
+        .text("is a", move |(point, _)| kind(point).to_owned())
+        .number("q_max", SHORT, |(point, _)| point.fold.map(|fold| fold.q_max))
+        .number("period", SHORT, |(point, _)| point.fold.map(|fold| fold.period))
+        .number("D_F_harmonic", SHORT, |(point, _)| point.harmonic_fold)
+        .number("D_c", EXACT, |(point, _)| point.escape)
+        .file("reason", |(point, _)| point.reason.clone())
         .and(certified.map(|_| proved));
     let proof = move |index| certified.and_then(|all| all.get(index));
     let rows = found.points.iter().enumerate();
-    let rows = rows.map(move |(index, point)| BorderRow { point, proof: proof(index) });
+    let rows = rows.map(move |(index, point)| (point, proof(index)));
     let given_up = found.points.iter().filter_map(|point| {
         let reason = point.reason.as_ref()?;
         Some(format!("{name} = {}: {reason}", significant(point.value, 10)))
@@ -154,28 +146,23 @@ pub fn border<'a>(
         .cost(found.cost, seconds)
 }
 
-/// A cycle of a machine at a value; a value without an answer has one row, with the reason.
-struct MachineBranchRow {
-    value: f64,
-    cycle: Option<Cycle>,
-    reason: Option<String>,
-}
+/// A value, and a cycle of a machine there; one without an answer has one row, with the reason.
+type MachineBranchRow = (f64, Result<Cycle, String>);
 
 /// The branch of a machine: a row for each cycle at each value; below them in text, each change in a sentence.
 pub fn of_machine(about: &About, varied: Knob, found: &MachineBranch, seconds: f64) -> Answer {
     let (name, unit) = (varied.spec().name, varied.spec().unit);
     let columns = |name| {
         Columns::default()
-            .number(name, Quantity::of(unit, PLACES), |row: &MachineBranchRow| row.value)
-            .and(machine_cycles(|row: &MachineBranchRow| row.cycle))
-            .file("reason", |row| row.reason.clone())
+            .number(name, Quantity::of(unit, PLACES), |(value, _): &MachineBranchRow| *value)
+            .and(machine_cycles(|(_, cycle): &MachineBranchRow| cycle.as_ref().ok().copied()))
+            .file("reason", |(_, cycle)| cycle.as_ref().err().cloned())
     };
     let mut rows = Vec::new();
     for PortraitPoint { value, found } in &found.points {
-        let row = |cycle, reason| MachineBranchRow { value: *value, cycle, reason };
         match found {
-            Ok(found) => rows.extend(found.cycles.iter().map(|cycle| row(Some(*cycle), None))),
-            Err(why) => rows.push(row(None, Some(why.to_string()))),
+            Ok(found) => rows.extend(found.cycles.iter().map(|cycle| (*value, Ok(*cycle)))),
+            Err(why) => rows.push((*value, Err(why.to_string()))),
         }
     }
     let cost = Cost { steps: found.cost.steps, ..Cost::default() };
@@ -235,14 +222,14 @@ pub fn border_of_machine(
     let rows =
         found.iter().flat_map(|(value, all)| all.iter().map(move |special| (*value, special)));
     let nothing = rows.clone().next().is_none();
-    let points = Columns::default()
-        .field("value", |(value, _): &(f64, Vec<Special>)| *value)
-        .field("special", |(_, special)| special.clone());
+    let points = found
+        .iter()
+        .map(|(value, special)| Document::default().with("value", value).with("special", special));
     about
         .answer()
         .with("parameter", over_name)
         .with("along", along_name)
-        .with("points", points.objects(found))
+        .with("points", points.collect::<Vec<_>>())
         .rows(&columns, rows)
         .lines(nothing.then(|| format!("nothing changes along {along_name}")))
         .cost(Cost::default(), seconds)

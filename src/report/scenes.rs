@@ -71,15 +71,8 @@ pub struct SceneCost {
     pub scene: Arc<Scene>,
     /// The names of the layers that are drawn from formulas, without a question.
     pub formulas: Vec<&'static str>,
-    pub opening: AskedTogether,
-    /// What it asks again after a step of each of its numbers.
-    pub steps: Vec<AskedTogether>,
-}
-
-impl SceneCost {
-    fn asked(&self) -> impl Iterator<Item = &AskedTogether> {
-        std::iter::once(&self.opening).chain(&self.steps)
-    }
+    /// What it asks when it opens, then what it asks again after a step of each of its numbers.
+    pub asked: Vec<AskedTogether>,
 }
 
 fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
@@ -92,22 +85,24 @@ fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
 /// The costs of scenes: in rows one line for each question of each scene, when it opens and after each step; in text
 /// one table for each scene.
 pub fn costs(scenes: &[SceneCost]) -> Answer {
-    let each = |found| SceneCost::asked(found).flat_map(move |asked| singly(found, asked));
-    let answer = Answer::default()
-        .list(scenes.iter().map(document).collect())
-        .csv(&cost_columns(), scenes.iter().flat_map(each));
-    scenes.iter().fold(answer, |answer, found| {
-        let opening = singly(found, &found.opening);
-        let all = found.asked().map(|asked| AskedRow::new(found, asked, None));
-        let formulas = format!("by formulas: {}", found.formulas.join(", "));
+    let each = scenes.iter().flat_map(|SceneCost { scene, asked, .. }| {
+        asked.iter().flat_map(move |asked| singly(scene, asked))
+    });
+    let answer =
+        Answer::default().list(scenes.iter().map(document).collect()).csv(&cost_columns(), each);
+    scenes.iter().fold(answer, |answer, SceneCost { scene, formulas, asked }| {
+        let opening = asked.iter().take(1).flat_map(|asked| singly(scene, asked));
+        let all = asked.iter().map(|asked| AskedRow { scene, asked, question: None });
+        let by_formulas = format!("by formulas: {}", formulas.join(", "));
         answer
-            .lines([format!("{}: {}", found.scene.name, found.scene.title)])
+            .lines([format!("{}: {}", scene.name, scene.title)])
             .table(cost_columns().table(opening.chain(all)).unbroken(None))
-            .lines((!found.formulas.is_empty()).then_some(formulas))
+            .lines((!formulas.is_empty()).then_some(by_formulas))
     })
 }
 
 fn document(found: &SceneCost) -> Document {
+    let [opening, steps @ ..] = found.asked.as_slice() else { return Document::default() };
     let step = |step: &AskedTogether| {
         let (cost, seconds) = sum(&step.questions);
         Document::default()
@@ -118,33 +113,26 @@ fn document(found: &SceneCost) -> Document {
             .with("steps", cost.steps)
             .with("seconds", seconds)
     };
-    let (cost, seconds) = sum(&found.opening.questions);
+    let (cost, seconds) = sum(&opening.questions);
     Document::default()
         .with("scene", &found.scene.name)
-        .with("questions", &found.opening.questions)
+        .with("questions", &opening.questions)
         .with("formulas", &found.formulas)
         .with("evaluations", cost.evaluations)
         .with("seconds", seconds)
-        .with("steps", found.steps.iter().map(step).collect::<Vec<_>>())
+        .with("steps", steps.iter().map(step).collect::<Vec<_>>())
 }
 
-/// What a scene asks at once, and of that a question or, without one, all of it; with what that costs.
+/// What a scene asks at once, and of that a question or, without one, all of it.
 struct AskedRow<'a> {
-    found: &'a SceneCost,
+    scene: &'a Scene,
     asked: &'a AskedTogether,
     question: Option<&'a QuestionCost>,
-    cost: Cost,
-    seconds: f64,
 }
 
-impl<'a> AskedRow<'a> {
-    fn new(
-        found: &'a SceneCost,
-        asked: &'a AskedTogether,
-        question: Option<&'a QuestionCost>,
-    ) -> Self {
-        let (cost, seconds) = sum(question.map_or(&asked.questions, std::slice::from_ref));
-        AskedRow { found, asked, question, cost, seconds }
+impl AskedRow<'_> {
+    fn cost(&self) -> (Cost, f64) {
+        sum(self.question.map_or(&self.asked.questions, std::slice::from_ref))
     }
 
     fn what(&self) -> String {
@@ -166,22 +154,19 @@ impl<'a> AskedRow<'a> {
     }
 }
 
-fn singly<'a>(
-    found: &'a SceneCost,
-    asked: &'a AskedTogether,
-) -> impl Iterator<Item = AskedRow<'a>> {
-    asked.questions.iter().map(|question| AskedRow::new(found, asked, Some(question)))
+fn singly<'a>(scene: &'a Scene, asked: &'a AskedTogether) -> impl Iterator<Item = AskedRow<'a>> {
+    asked.questions.iter().map(move |question| AskedRow { scene, asked, question: Some(question) })
 }
 
 fn cost_columns<'a>() -> Columns<'a, AskedRow<'a>> {
     Columns::default()
-        .file("scene", |row: &AskedRow| row.found.scene.name.clone())
+        .file("scene", |row: &AskedRow| row.scene.name.clone())
         .file("after", |row| row.asked.after)
         .file("question", |row| row.question.map(|asked| asked.topic))
         .text("question", AskedRow::what)
-        .fields(&Cost::default(), |row| Some(row.cost))
-        .text("evaluations", |row| count(row.cost.evaluations))
-        .text("steps", |row| count(row.cost.steps))
-        .number("seconds", Quantity::of("s", 2), |row| row.seconds)
+        .fields(&Cost::default(), |row| Some(row.cost().0))
+        .text("evaluations", |row| count(row.cost().0.evaluations))
+        .text("steps", |row| count(row.cost().0.steps))
+        .number("seconds", Quantity::of("s", 2), |row| row.cost().1)
         .text("", AskedRow::remark)
 }

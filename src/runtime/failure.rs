@@ -1,8 +1,9 @@
 //! Why a command has no answer: one line for the user, and an exit code.
 
+use std::fmt;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::process::ExitCode;
-use std::{fmt, io};
 
 use thiserror::Error;
 
@@ -22,6 +23,15 @@ pub enum Failure {
     Said(u8),
 }
 
+/// Errors by which no file can have a path.
+const NO_FILE: [ErrorKind; 5] = [
+    ErrorKind::NotFound,
+    ErrorKind::AlreadyExists,
+    ErrorKind::NotADirectory,
+    ErrorKind::IsADirectory,
+    ErrorKind::InvalidFilename,
+];
+
 impl Failure {
     /// Wrong input.
     pub fn usage(line: impl Into<String>) -> Self {
@@ -33,26 +43,24 @@ impl Failure {
         Failure::Usage(format!("{}: {why}", path.display()))
     }
 
-    /// A file that cannot be written: wrong input if no file can have this path.
-    pub fn unwritten(path: &Path, error: &io::Error) -> Self {
-        let line = format!("{} not written: {error}", path.display());
-        match error.kind() {
-            io::ErrorKind::NotFound
-            | io::ErrorKind::AlreadyExists
-            | io::ErrorKind::NotADirectory
-            | io::ErrorKind::IsADirectory
-            | io::ErrorKind::InvalidFilename => Failure::Usage(line),
-            _ => Failure::Unanswered(line),
-        }
+    /// Why a file is not written, by the error.
+    pub fn unwritten(path: &Path) -> impl Fn(io::Error) -> Self {
+        Failure::not_replaced(path, None)
     }
 
-    /// A file that was not written; `how` says how it can be replaced if it holds something else.
-    pub fn not_replaced(path: &Path, error: &io::Error, how: Option<&str>) -> Self {
-        match how {
-            Some(how) if error.kind() == io::ErrorKind::AlreadyExists => {
-                Failure::Usage(format!("{} holds something else; {how}", path.display()))
+    /// Why a file is not written, by the error: wrong input if no file can have this path, or if the file holds something
+    /// else; `how` says how that can be replaced.
+    pub fn not_replaced(path: &Path, how: Option<&str>) -> impl Fn(io::Error) -> Self {
+        move |error| {
+            let name = path.display();
+            let line = format!("{name} not written: {error}");
+            match (error.kind(), how) {
+                (ErrorKind::AlreadyExists, Some(how)) => {
+                    Failure::Usage(format!("{name} holds something else; {how}"))
+                }
+                (kind, _) if NO_FILE.contains(&kind) => Failure::Usage(line),
+                _ => Failure::Unanswered(line),
             }
-            _ => Failure::unwritten(path, error),
         }
     }
 

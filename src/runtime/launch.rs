@@ -73,7 +73,7 @@ fn keep<M: Application, W: io::Write>(
     path: Option<&Path>,
 ) -> Result<(), String> {
     // After a panic, the state may be inconsistent.
-    let text = catch_unwind(AssertUnwindSafe(|| pump.running().what_to_keep())).ok().flatten();
+    let text = catch_unwind(AssertUnwindSafe(|| pump.application.what_to_keep())).ok().flatten();
     let Some(text) = text else { return Ok(()) };
     let path = path.ok_or("there is no folder for it; XDG_STATE_HOME names one")?;
     Files::write(path, &text, true, Readers::Owner).map(drop)

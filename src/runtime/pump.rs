@@ -71,7 +71,7 @@ impl Options {
 type Step = Result<(), LoopEnd>;
 
 pub struct Pump<M, W: Write> {
-    application: M,
+    pub(super) application: M,
     screen: Screen<W>,
     workers: Workers,
     events: Receiver<Event>,
@@ -132,11 +132,6 @@ impl<M: Application, W: Write> Pump<M, W> {
             unmet: None,
             terminal_size,
         }
-    }
-
-    /// The application that runs in the loop.
-    pub fn running(&self) -> &M {
-        &self.application
     }
 
     /// Runs until an event that concerns the whole process.
@@ -267,9 +262,9 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(())
     }
 
-    fn copy(&mut self, text: &str) -> io::Result<Result<String, String>> {
+    fn copy(&mut self, text: &str) -> Step {
         self.screen.control(&Files::clipboard(text))?;
-        Ok(self.options.files.copy(text))
+        self.told(self.options.files.copy(text).into(), Msg::Told)
     }
 
     /// Writes a file, and tells the session what became of it.
@@ -280,7 +275,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             Content::Scan(scan, rows) => scan_file::save(&path, &scan, &rows),
             Content::Text(text) => Files::write(&path, text, replace, Readers::Owner),
         };
-        self.told(done.into(), false)
+        self.told(done.into(), Msg::Told)
     }
 
     /// Begins to write a figure; if that fails, the session is told why.
@@ -288,11 +283,11 @@ impl<M: Application, W: Write> Pump<M, W> {
         let begun = Files::admit(&path, replace)
             .and_then(|()| self.application.figure(&path, plot))
             .and_then(|work| self.workers.write(path, replace, work));
-        self.writing |= begun.is_ok();
-        match begun {
-            Ok(()) => Ok(()),
-            Err(text) => self.told(Notice { error: true, text }, true),
-        }
+        let Err(text) = begun else {
+            self.writing = true;
+            return Ok(());
+        };
+        self.told(Notice { error: true, text }, Msg::Written)
     }
 
     /// Writes the recording to a file, without the key presses that asked for this.
@@ -313,12 +308,9 @@ impl<M: Application, W: Write> Pump<M, W> {
             let beat = self.beat.filter(|_| self.application.is_moving())?;
             return Some((beat + FRAME_TIME).max(self.screen.pacing.next(beat)));
         };
-        let answer = if self.workers.asked().all(Request::is_long) {
-            changed
-        } else {
-            changed + ANSWER_TIME
-        };
-        Some(answer.max(self.screen.pacing.next(changed)))
+        let is_long = self.workers.asked().all(Request::is_long);
+        let patience = if is_long { Duration::ZERO } else { ANSWER_TIME };
+        Some((changed + patience).max(self.screen.pacing.next(changed)))
     }
 
     /// Tells the session how much time has passed since it was last told, while something in it moves.
@@ -342,49 +334,39 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(())
     }
 
-    /// Tells the application what became of an effect, which may have further effects.
-    fn told(&mut self, notice: Notice, of_figure: bool) -> Step {
+    /// Tells the application by a message what became of an effect, which may have further effects.
+    fn told(&mut self, notice: Notice, message: fn(Notice) -> Msg) -> Step {
         self.note_unwritten(&notice);
-        self.update(if of_figure { Msg::Written(notice) } else { Msg::Told(notice) })
+        self.update(message(notice))
     }
 
     fn carry_out(&mut self, effect: Effect) -> Step {
         if let Some(text) = self.withheld(&effect) {
             let of_figure = matches!(effect, Effect::Write { content: Content::Figure { .. }, .. });
+            let message = if of_figure { Msg::Written } else { Msg::Told };
             let notice = Notice { error: true, text };
-            return if notice.text.is_empty() { Ok(()) } else { self.told(notice, of_figure) };
+            return if notice.text.is_empty() { Ok(()) } else { self.told(notice, message) };
         }
-        let done = match effect {
+        match effect {
             Effect::Quit => return Err(LoopEnd::Quit),
             Effect::Suspend => return Err(LoopEnd::Suspend),
             Effect::Mouse(on) => return Err(LoopEnd::Mouse(on)),
-            Effect::Repaint => {
-                self.resized();
-                return Ok(());
-            }
-            Effect::StopWriting => {
-                self.workers.stop_writing();
-                return Ok(());
-            }
-            Effect::PutAside(path) => {
-                Files::put_aside(&path);
-                return Ok(());
-            }
-            Effect::Write { path, content, replace } => {
-                return self.write(path, content, replace);
-            }
+            Effect::Repaint => self.resized(),
+            Effect::StopWriting => self.workers.stop_writing(),
+            Effect::PutAside(path) => Files::put_aside(&path),
+            Effect::Write { path, content, replace } => self.write(path, content, replace)?,
             Effect::Read { path, purpose } => {
                 let result = self.read(&path);
-                return self.update(Msg::Read { path, purpose, result });
+                self.update(Msg::Read { path, purpose, result })?;
             }
-            Effect::Play(script) => return self.begin(script),
+            Effect::Play(script) => self.begin(script)?,
             Effect::Copy(text) => self.copy(&text)?,
             Effect::CopyScreen => {
                 let picture = self.application.picture(self.screen.size());
-                self.copy(&view::screen::text(&picture))?
+                self.copy(&view::screen::text(&picture))?;
             }
-        };
-        self.told(done.into(), false)
+        }
+        Ok(())
     }
 }
 

@@ -49,7 +49,7 @@ impl ScanFile {
     /// writes to it.
     pub fn create(path: &Path, part: ScanPart, provenance: Provenance) -> Result<Self, Failure> {
         let heading = part.heading();
-        let unwritten = |error| Failure::unwritten(path, &error);
+        let unwritten = Failure::unwritten(path);
         let is_regular = new_file::is_regular(path);
         let (file, checksum) = if is_regular {
             if path.exists() {
@@ -60,11 +60,11 @@ impl ScanFile {
             let checksum = RunningChecksum::begin(path, provenance, Checksum::NONE)?;
             new_file::write(path, heading.as_bytes(), Readers::Usual, None)?;
             let mut file = opened(path)?;
-            file.seek(SeekFrom::End(0)).map_err(unwritten)?;
+            file.seek(SeekFrom::End(0)).map_err(&unwritten)?;
             (file, Some(checksum))
         } else {
-            let mut file = new_file::device(path).map_err(unwritten)?;
-            file.write_all(heading.as_bytes()).map_err(unwritten)?;
+            let mut file = new_file::device(path).map_err(&unwritten)?;
+            file.write_all(heading.as_bytes()).map_err(&unwritten)?;
             (file, None)
         };
         let journal = Journal::new(is_regular.then_some(path), &part);
@@ -79,23 +79,23 @@ impl ScanFile {
         provenance: Provenance,
         limits: &Limits,
     ) -> Result<Self, Failure> {
-        let unwritten = |error| Failure::unwritten(path, &error);
+        let unwritten = Failure::unwritten(path);
         let mut file = opened(path)?;
         let known = provenance_file::read(path).ok().and_then(|earlier| earlier.checksum);
-        let reading = file.try_clone().map_err(unwritten)?;
+        let reading = file.try_clone().map_err(&unwritten)?;
         let (bytes, checksum) = kept(RowReader::new(&part, path, reading, known)?, known, limits)?;
         let unchecked = if known == Some(checksum) { 0 } else { checksum.rows.saturating_sub(2) };
-        file.set_len(bytes).map_err(unwritten)?;
-        file.seek(SeekFrom::End(0)).map_err(unwritten)?;
+        file.set_len(bytes).map_err(&unwritten)?;
+        file.seek(SeekFrom::End(0)).map_err(&unwritten)?;
         if bytes == 0 {
-            file.write_all(part.heading().as_bytes()).map_err(unwritten)?;
+            file.write_all(part.heading().as_bytes()).map_err(&unwritten)?;
         }
         let points = part.points.start + checksum.rows..part.points.end;
         let part = ScanPart { points, ..part };
         let journal = Journal::resume(path, &part);
         let checksum = Some(RunningChecksum::begin(path, provenance, checksum)?);
         let mut this = ScanFile { part, file: Some(file), journal, checksum, unchecked };
-        this.catch_up().map_err(unwritten)?;
+        this.catch_up().map_err(&unwritten)?;
         Ok(this)
     }
 
@@ -157,9 +157,7 @@ fn kept(
     let mut kept = (rows.bytes, Checksum::NONE);
     let mut last: Option<FileRow> = None;
     while let Some(row) = rows.row()? {
-        if rows.has_gap() {
-            return Err(rows.out_of_turn(&row));
-        }
+        rows.in_turn(&row)?;
         if last.is_none() {
             rows.check(&row, limits)?;
         }
@@ -178,7 +176,7 @@ fn opened(path: &Path) -> Result<File, Failure> {
         return Err(Failure::Usage(format!("{}: not a file", path.display())));
     }
     let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-    let file = file.map_err(|error| Failure::unwritten(path, &error))?;
+    let file = file.map_err(Failure::unwritten(path))?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => {
             Err(Failure::Usage(format!("{}: another scan is writing to it", path.display())))
@@ -201,7 +199,7 @@ pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String
     let written =
         ScanFile::resume(path, part, provenance, &Limits::PATIENT).and_then(|mut file| {
             for index in file.open().take_while(|index| *index < rows.len()) {
-                file.add(index, &rows[index]).map_err(|error| Failure::unwritten(path, &error))?;
+                file.add(index, &rows[index]).map_err(Failure::unwritten(path))?;
             }
             Ok(scan.points() - file.left())
         });

@@ -77,11 +77,10 @@ impl<'a> RowReader<'a> {
             let expected = part.beginning(self.next.min(part.points.end - 1));
             let common = line.len().min(expected.len());
             let is_own = line[..common] == expected.as_bytes()[..common];
-            return if is_own {
-                Ok(None)
-            } else {
-                Err(self.foreign(self.number, "is of another point"))
-            };
+            if !is_own {
+                return Err(self.foreign(self.number, "is of another point"));
+            }
+            return Ok(None);
         }
         let mut left = self.next..part.points.end;
         let why =
@@ -104,25 +103,22 @@ impl<'a> RowReader<'a> {
         let again = self.part.scan.row(row.index, limits);
         let again = again.map_err(|_: Reason| self.refused("interrupted"))?;
         if self.part.line(row.index, &again).as_bytes() == row.line {
-            Ok(())
-        } else {
-            Err(self.foreign(row.number, "is different when computed again"))
+            return Ok(());
         }
+        Err(self.foreign(row.number, "is different when computed again"))
     }
 
     /// A line that is of something else than the part.
-    pub fn foreign(&self, number: usize, why: &str) -> Failure {
+    fn foreign(&self, number: usize, why: &str) -> Failure {
         self.refused(&format!("not a part of this scan: line {number} {why}"))
     }
 
-    /// Whether a point before that of the last row has none.
-    pub fn has_gap(&self) -> bool {
-        self.next > self.part.points.start + self.checksum.rows
-    }
-
-    /// A row of another point than the one that stands there in a file without gaps.
-    pub fn out_of_turn(&self, row: &FileRow) -> Failure {
-        self.foreign(row.number, "is of another point")
+    /// Refuses a row that was read last if a point before its own has none.
+    pub fn in_turn(&self, row: &FileRow) -> Result<(), Failure> {
+        if row.index < self.part.points.start + self.checksum.rows {
+            return Ok(());
+        }
+        Err(self.foreign(row.number, "is of another point"))
     }
 
     fn refused(&self, why: &str) -> Failure {

@@ -102,12 +102,8 @@ impl Workers {
             let tell = |result, complete| {
                 if !(limits.interrupted)() {
                     let (request, seconds) = (asked.clone(), started.elapsed().as_secs_f64());
-                    report(Msg::Answered(Box::new(Answered {
-                        request,
-                        result,
-                        seconds,
-                        complete,
-                    })));
+                    let answered = Answered { request, result, seconds, complete };
+                    report(Msg::Answered(Box::new(answered)));
                 }
             };
             let piece = |piece| tell(Ok(piece), false);

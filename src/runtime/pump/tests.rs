@@ -244,7 +244,7 @@ fn a_tour_waits_at_captions_goes_back_lets_keys_be_tried_and_is_left_by_escape()
             }
         }
         let (stop, pump) = running.join().unwrap();
-        assert_eq!((stop, pump.running().count), (LoopEnd::Quit, count), "{file}");
+        assert_eq!((stop, pump.application.count), (LoopEnd::Quit, count), "{file}");
     }
 }
 
