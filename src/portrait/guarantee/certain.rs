@@ -1,5 +1,6 @@
 //! What is certain of the oscillator of the paper, of a machine or of a mode, whose numbers are known to tolerances.
 
+use super::oscillator::TwoSided;
 use super::{Uncertain, machine, oscillator};
 use crate::flow::{Limits, Reason};
 use crate::model::{Body, Source, Tolerances};
@@ -41,9 +42,12 @@ pub fn hopeful(
 ) -> Result<Option<Portrait>, Reason> {
     match &source.body {
         Body::Paper(parameters) => {
-            oscillator::hopeful(&known.around(parameters), known.disturbance, reach, limits)
+            let best = TwoSided::best(&known.around(parameters), known.disturbance);
+            let found = (best.upper.d > -1.0).then(|| best.portrait(reach, limits)).transpose()?;
+            Ok(found.map(|(best, _)| best))
         }
-        Body::Belt(belt) => machine::hopeful(belt, known),
+        // With the largest friction and damping, if no other number is uncertain.
+        Body::Belt(belt) => known.best(belt).map(|best| Portrait::of_belt(&best)).transpose(),
         Body::Mode(_) => source.portrait().map(Some),
     }
 }

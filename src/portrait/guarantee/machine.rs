@@ -42,12 +42,6 @@ pub fn guaranteed(
     }))
 }
 
-/// The portrait of the machine outside of whose basin nothing comes to rest: with the largest friction and damping.
-/// `None` where other numbers are uncertain.
-pub fn hopeful(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Reason> {
-    known.best(belt).map(|best| Portrait::of_belt(&best)).transpose()
-}
-
 /// A portrait whose basin of rest is bordered by a cycle of slip, and the velocities along it, divided by the natural
 /// frequency.
 type SlipBorder = (Portrait, (f64, f64));

@@ -180,21 +180,6 @@ pub fn guaranteed(
     Ok(Ok((worst, margin)))
 }
 
-/// The best system, outside of whose first border nothing comes to rest; `None` where that is not known.
-///
-/// # Errors
-/// The [`Reason`] why the border could not be computed.
-pub fn hopeful(
-    known: &ParameterBox,
-    disturbance: f64,
-    reach: f64,
-    limits: &Limits,
-) -> Result<Option<Portrait>, Reason> {
-    let best = TwoSided::best(known, disturbance);
-    let found = (best.upper.d > -1.0).then(|| best.portrait(reach, limits)).transpose()?;
-    Ok(found.map(|(best, _)| best))
-}
-
 /// The margin within a border whose clearances have this relative error, rounded down.
 fn rounded_down(worst: &Portrait, farthest: f64, error: f64) -> Margin {
     let r = worst.model.guide;
