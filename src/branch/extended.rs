@@ -9,6 +9,8 @@
 //! Guarantee: what is found is a root of both, and the inner one of the two cycles is unstable. That there is no
 //! other one is the argument of [`super::regime`].
 
+use nalgebra::{Matrix2, Vector2};
+
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
@@ -18,46 +20,43 @@ use crate::portrait::{Closing, Equation, Route, first_side};
 /// A fold: the cycle at which two meet.
 #[derive(Clone, Copy, Debug)]
 pub struct FoldCycle {
-    pub parameters: Parameters,
+    /// Where it is.
+    pub place: FoldPlace,
     /// The cycle.
     pub closing: Closing,
     /// The side of its first swing.
     pub side: Side,
-    /// Its unknown `ln c0`.
-    u: f64,
-    /// Along which parameter it was found, and the derivatives of F and G by u and by the logarithm of it.
-    along: (Knob, Slopes),
 }
 
-/// A place near a fold.
+/// A place at a fold, or near one.
 #[derive(Clone, Copy, Debug)]
-pub struct FoldGuess {
+pub struct FoldPlace {
     pub parameters: Parameters,
     /// The unknown `ln c0`.
     pub u: f64,
-    /// Along which parameter slopes are known, and these.
+    /// Along which parameter slopes are known, and the derivatives of F and G by u and by the logarithm of it.
     pub slopes: Option<(Knob, Slopes)>,
 }
 
 /// The derivatives of both functions by u and by the logarithm of a parameter.
-pub type Slopes = [[f64; 2]; 2];
+pub type Slopes = Matrix2<f64>;
 
-impl FoldGuess {
+impl FoldPlace {
     /// The fold in D at these values of D2, D3 and r; `None` where there is none, or D2 bends the cycle too much.
     pub fn in_damping(parameters: &Parameters) -> Option<Self> {
         /// Largest product of D2 and the amplitude at which the estimate is any good.
         const BENT: f64 = 3.5;
         let FoldEstimate { d, u, bend } = FoldEstimate::of(parameters)?;
         let parameters = Parameters { d, ..*parameters };
-        (bend <= BENT).then_some(FoldGuess { parameters, u, slopes: None })
+        (bend <= BENT).then_some(FoldPlace { parameters, u, slopes: None })
     }
 
     /// The same beside a fold that is known: as far from the estimate as this one is.
-    pub fn beside(known: &FoldCycle, parameters: &Parameters) -> Option<Self> {
+    pub fn beside(known: &FoldPlace, parameters: &Parameters) -> Option<Self> {
         let (here, there) = (FoldEstimate::of(parameters)?, FoldEstimate::of(&known.parameters)?);
         let d = here.d * (known.parameters.d / there.d);
         let (parameters, u) = (Parameters { d, ..*parameters }, known.u + here.u - there.u);
-        Some(FoldGuess { parameters, u, slopes: Some(known.along) })
+        Some(FoldPlace { parameters, u, slopes: known.slopes })
     }
 }
 
@@ -92,7 +91,7 @@ impl FoldEstimate {
 /// Finds the fold next to a guess while `symbol` varies, to a relative error of `tolerance` of its clearance, and its
 /// square of the parameter; `None` where Newton's method leads nowhere. Fails with [`Reason::Interrupted`].
 pub fn fold_near(
-    guess: &FoldGuess,
+    guess: &FoldPlace,
     symbol: Knob,
     tolerance: f64,
     limits: &Limits,
@@ -107,15 +106,15 @@ pub fn fold_near(
 #[derive(Clone, Copy)]
 struct Values {
     step: f64,
-    f: f64,
-    g: f64,
+    /// Of F and G.
+    values: Vector2<f64>,
     slope: f64,
     closing: Closing,
 }
 
 /// The two equations. A place is a value of u and the logarithm of the parameter in units of the guess.
 struct System<'a> {
-    guess: &'a FoldGuess,
+    guess: &'a FoldPlace,
     symbol: Knob,
     side: Side,
     limits: &'a Limits<'a>,
@@ -129,19 +128,20 @@ impl System<'_> {
     }
 
     /// `None` where a swing does not end, or takes too long.
-    fn at(&mut self, [u, z]: [f64; 2], step: f64) -> Result<Option<Values>, Reason> {
+    fn at(&mut self, place: Vector2<f64>, step: f64) -> Result<Option<Values>, Reason> {
         /// Evaluations of one swing, some dozens of times the usual.
         const BUDGET: u64 = 5_000;
+        let [u, z] = place.into();
         let limits = Limits { evaluations: BUDGET, ..*self.limits };
         let mut equation = Equation::on_side(&self.parameters_at(z), self.side, step, &limits);
         equation.want_fastest(true);
         let closing = equation.at(Route::Mixed, u);
         self.cost += equation.cost();
         let Ok(closing) = Reason::tolerated(closing)? else { return Ok(None) };
-        let (f, g) = (closing.node.value, closing.growth[0] + closing.growth[1]);
+        let values = Vector2::new(closing.node.value, closing.growth[0] + closing.growth[1]);
         let slope = closing.node.slope;
-        let finite = f.is_finite() && g.is_finite() && slope.is_finite();
-        Ok(finite.then_some(Values { step, f, g, slope, closing }))
+        let finite = slope.is_finite() && is_finite(values);
+        Ok(finite.then_some(Values { step, values, slope, closing }))
     }
 
     fn solve(&mut self, tolerance: f64) -> Result<Option<FoldCycle>, Reason> {
@@ -152,11 +152,13 @@ impl System<'_> {
         const ROUGHLY: f64 = 1e-4;
         /// Smallest changes of u and of the logarithm of the parameter that matter: an error of u counts by its square.
         const SMALL: [f64; 2] = [1e-9, 1e-13];
+        /// Largest changes of both for Newton's method.
+        const LONGEST: Vector2<f64> = Vector2::new(1.0, 0.4);
         /// Largest change that can be due to rounding, beside weak damping.
         const ROUNDING: f64 = 1e-7;
         let fine = 1e-2 * (tolerance * tolerance).max(1e-13);
         let mut step = fine.max(COARSE);
-        let mut place = [self.guess.u, 0.0];
+        let mut place = Vector2::new(self.guess.u, 0.0);
         let Some(mut here) = self.at(place, step)? else { return Ok(None) };
         let known = self.guess.slopes.filter(|(symbol, _)| *symbol == self.symbol);
         let slopes = match known {
@@ -166,29 +168,29 @@ impl System<'_> {
         let Some(mut slopes) = slopes else { return Ok(None) };
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
-            slopes[0][0] = here.slope;
-            let Some(change) = solution(slopes, [-here.f, -here.g]) else { return Ok(None) };
-            let [du, dz] = change.map(f64::abs);
+            slopes[(0, 0)] = here.slope;
+            let solved = slopes.try_inverse().map(|inverse| -(inverse * here.values));
+            let Some(change) = solved.filter(|it| is_finite(*it)) else { return Ok(None) };
+            let [du, dz] = change.abs().into();
             let small = du <= SMALL[0].max(tolerance) && dz <= SMALL[1].max(tolerance * tolerance);
             let length = du.max(dz);
             let stands = length <= ROUNDING && length >= 0.5 * last;
             if step == fine && (small || stands) {
-                let fold = FoldCycle {
-                    parameters: self.parameters_at(place[1] + change[1]),
-                    closing: here.closing,
-                    side: self.side,
-                    u: place[0] + change[0],
-                    along: (self.symbol, slopes),
+                let place = FoldPlace {
+                    parameters: self.parameters_at(place.y + change.y),
+                    u: place.x + change.x,
+                    slopes: Some((self.symbol, slopes)),
                 };
+                let fold = FoldCycle { place, closing: here.closing, side: self.side };
                 // The inner one of both cycles is unstable there.
-                return Ok((slopes[1][0] < 0.0).then_some(fold));
+                return Ok((slopes[(1, 0)] < 0.0).then_some(fold));
             }
             last = if step == fine { length } else { f64::INFINITY };
             if length <= ROUGHLY {
                 step = fine;
             }
-            let change = limited(change);
-            place = [place[0] + change[0], place[1] + change[1]];
+            let change = change / change.abs().component_div(&LONGEST).max().max(1.0);
+            place += change;
             let Some(next) = self.at(place, step)? else { return Ok(None) };
             learn(&mut slopes, change, (&here, &next));
             here = next;
@@ -197,45 +199,36 @@ impl System<'_> {
     }
 
     /// The derivatives as difference quotients.
-    fn quotients(&mut self, [u, z]: [f64; 2], here: &Values) -> Result<Option<Slopes>, Reason> {
+    fn quotients(&mut self, place: Vector2<f64>, here: &Values) -> Result<Option<Slopes>, Reason> {
         /// Large beside the noise of coarse steps, small beside the bend of the functions.
         const STRIDE: f64 = 1e-3;
-        let Some(out) = self.at([u + STRIDE, z], here.step)? else { return Ok(None) };
-        let Some(up) = self.at([u, z + STRIDE], here.step)? else { return Ok(None) };
-        let quotient = |to: f64, from: f64| (to - from) / STRIDE;
-        let of_g = [quotient(out.g, here.g), quotient(up.g, here.g)];
-        Ok(Some([[here.slope, quotient(up.f, here.f)], of_g]))
+        let [aside, above] = [Vector2::x(), Vector2::y()].map(|axis| place + STRIDE * axis);
+        let Some(aside) = self.at(aside, here.step)? else { return Ok(None) };
+        let Some(above) = self.at(above, here.step)? else { return Ok(None) };
+        let changes = [aside, above].map(|there| there.values - here.values);
+        Ok(Some(Matrix2::from_columns(&changes) / STRIDE))
     }
 }
 
-/// The solution of two linear equations, if there is one.
-fn solution([[a, b], [c, d]]: Slopes, [f, g]: [f64; 2]) -> Option<[f64; 2]> {
-    let determinant = a * d - b * c;
-    let solution = [(f * d - b * g) / determinant, (a * g - c * f) / determinant];
-    solution.iter().all(|it| it.is_finite()).then_some(solution)
-}
-
-/// A change in the same direction that is not too long for Newton's method.
-fn limited([du, dz]: [f64; 2]) -> [f64; 2] {
-    const LONGEST: [f64; 2] = [1.0, 0.4];
-    let excess = (du.abs() / LONGEST[0]).max(dz.abs() / LONGEST[1]).max(1.0);
-    [du / excess, dz / excess]
+fn is_finite(both: Vector2<f64>) -> bool {
+    both.iter().all(|it| it.is_finite())
 }
 
 /// Learns from a step: of F what its exact slopes in u leave to the parameter, of G the least change of its slopes
 /// that explains it (Broyden). Differences over too little would say more about rounding than about slopes.
-fn learn(slopes: &mut Slopes, [du, dz]: [f64; 2], (from, to): (&Values, &Values)) {
+fn learn(slopes: &mut Slopes, change: Vector2<f64>, (from, to): (&Values, &Values)) {
     const LEAST: [f64; 2] = [1e-5, 1e-8];
     if from.step != to.step {
         return;
     }
-    if dz.abs() >= LEAST[1] {
-        slopes[0][1] = (to.f - from.f - 0.5 * (from.slope + to.slope) * du) / dz;
+    let (gained, foretold) = (to.values - from.values, *slopes * change);
+    if change.y.abs() >= LEAST[1] {
+        let in_u = 0.5 * (from.slope + to.slope) * change.x;
+        slopes[(0, 1)] = (gained.x - in_u) / change.y;
     }
-    if du.abs() >= LEAST[0] {
-        let [in_u, in_z] = &mut slopes[1];
-        let missed = (to.g - from.g - *in_u * du - *in_z * dz) / (du * du + dz * dz);
-        *in_u += missed * du;
-        *in_z += missed * dz;
+    if change.x.abs() >= LEAST[0] {
+        let missed = (gained.y - foretold.y) / change.norm_squared();
+        let mut of_g = slopes.row_mut(1);
+        of_g += missed * change.transpose();
     }
 }

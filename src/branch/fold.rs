@@ -23,7 +23,7 @@
 use serde::Serialize;
 
 use super::escape::escape_point;
-use super::extended::{FoldCycle, FoldGuess, fold_near};
+use super::extended::{FoldCycle, FoldPlace, fold_near};
 use super::fold_graph::highest_cycle;
 use super::special::FoldPoint;
 use crate::closed_form::harmonic;
@@ -63,19 +63,22 @@ pub fn fold_within(
     };
     let limits = &limits.up_to(BUDGET);
     let mut cost = Cost::default();
-    if let Some(guess) = FoldGuess::in_damping(parameters)
+    if let Some(guess) = FoldPlace::in_damping(parameters)
         && let Some(found) = cost.spend(fold_near(&guess, Knob::D, tolerance, limits)?)
     {
-        let FoldCycle { closing, parameters, side, .. } = found;
-        return Ok((Some(FoldPoint::of(&closing, &parameters, side)), cost));
+        let FoldCycle { place, closing, side } = found;
+        return Ok((Some(FoldPoint::of(&closing, &place.parameters, side)), cost));
     }
     // A rough fold, one of many on a map, need not be found at any cost.
     let thorough = tolerance <= TOLERANCE;
+    let grazing = |cost: &mut Cost| -> Result<Option<FoldPoint>, Reason> {
+        if !thorough {
+            return Ok(None);
+        }
+        Ok(Reason::tolerated(grazing_cycle(parameters, limits, cost))?.unwrap_or_default())
+    };
     let strong = harmonic.d < STRONG;
-    if thorough
-        && strong
-        && let Some(point) = grazing(parameters, limits, &mut cost)?
-    {
+    if strong && let Some(point) = grazing(&mut cost)? {
         return Ok((Some(point), cost));
     }
     let met = cost.spend(highest_cycle(parameters, tolerance, limits));
@@ -86,9 +89,8 @@ pub fn fold_within(
         Err(reason) => *reason != Reason::Interrupted,
     };
     if lost
-        && thorough
         && !strong
-        && let Some(point) = grazing(parameters, limits, &mut cost)?
+        && let Some(point) = grazing(&mut cost)?
     {
         return Ok((Some(point), cost));
     }
@@ -169,16 +171,7 @@ const CRITICAL: f64 = -1.0 - 1e-3;
 const LARGEST: f64 = -1e6;
 
 /// The damping at which the stable cycle grazes the sticking set, and that cycle; `None` where none does below
-/// `D = -1`, or it cannot be told. Fails with [`Reason::Interrupted`].
-fn grazing(
-    parameters: &Parameters,
-    limits: &Limits,
-    cost: &mut Cost,
-) -> Result<Option<FoldPoint>, Reason> {
-    Ok(Reason::tolerated(grazing_cycle(parameters, limits, cost))?.unwrap_or_default())
-}
-
-/// The same, or the [`Reason`] why a swing could not be computed.
+/// `D = -1`. Fails with the [`Reason`] why a swing could not be computed.
 fn grazing_cycle(
     parameters: &Parameters,
     limits: &Limits,

@@ -2,7 +2,7 @@
 //! boundary is bent.
 
 use crate::branch::escape::{escape_point, escape_product};
-use crate::branch::extended::{FoldCycle, FoldGuess, fold_near};
+use crate::branch::extended::{FoldPlace, fold_near};
 use crate::branch::fold::fold_within;
 use crate::branch::regime::Regime;
 use crate::closed_form::harmonic;
@@ -95,7 +95,7 @@ pub(crate) struct Tracer<'a> {
     /// The fold in units of the harmonic one, on the line before.
     pub ratio: f64,
     /// The fold found last.
-    pub known: Option<FoldCycle>,
+    pub known: Option<FoldPlace>,
 }
 
 impl Tracer<'_> {
@@ -159,15 +159,16 @@ impl Tracer<'_> {
     }
 
     /// The fold next to a guess, while `symbol` varies.
-    fn fold_near(&mut self, guess: &FoldGuess, symbol: Knob) -> Result<Option<Parameters>, Reason> {
+    fn fold_near(&mut self, guess: &FoldPlace, symbol: Knob) -> Result<Option<Parameters>, Reason> {
         let found = fold_near(guess, symbol, self.resolution.tolerance, self.limits)?;
         let found = self.cost.spend(found);
+        let found = found.map(|found| found.place);
         self.known = found.or(self.known);
         Ok(found.map(|found| found.parameters))
     }
 
     fn fold(&mut self, parameters: &Parameters) -> Result<f64, Reason> {
-        let beside = self.known.and_then(|known| FoldGuess::beside(&known, parameters));
+        let beside = self.known.and_then(|known| FoldPlace::beside(&known, parameters));
         if let Some(guess) = beside
             && let Some(found) = self.fold_near(&guess, Knob::D)?
         {
@@ -243,12 +244,12 @@ impl Tracer<'_> {
         let guess = guess * self.ratio;
         let near = here.with(self.plane.along(), guess);
         let beside = match &self.known {
-            Some(known) => FoldGuess::beside(known, &near),
-            None => FoldGuess::in_damping(&near),
+            Some(known) => FoldPlace::beside(known, &near),
+            None => FoldPlace::in_damping(&near),
         };
         if let Some(beside) = beside
             && let Some(found) =
-                self.fold_near(&FoldGuess { parameters: near, ..beside }, self.plane.along())?
+                self.fold_near(&FoldPlace { parameters: near, ..beside }, self.plane.along())?
         {
             return Ok(Some(found.value(self.plane.along())));
         }

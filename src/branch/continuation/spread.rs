@@ -4,6 +4,8 @@
 //! distances: they are interpolated between those that were followed. Next to a fold there may be no cycle at
 //! an interpolated parameter, so that those are corrected to the curve.
 
+use nalgebra::Vector3;
+
 use super::{CurvePoint, CycleCurve, Tangent, is_beside};
 use crate::flow::Reason;
 use crate::numerics::count::real;
@@ -112,22 +114,15 @@ fn between_steep([one, other]: [&CurvePoint; 2], (u, p): (f64, f64)) -> Option<C
 
 /// Length along a curve as it looks on a diagram, from its first point to each.
 fn arc_lengths(points: &[CurvePoint]) -> Vec<f64> {
-    let coordinates = |point: &CurvePoint| [point.p, point.u, point.closing.first.value];
-    let mut spans = [f64::MIN_POSITIVE; 3];
-    for (axis, span) in spans.iter_mut().enumerate() {
-        let values = points.iter().map(|point| coordinates(point)[axis]);
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
-        *span = span.max(high - low);
-    }
-    let mut total = 0.0;
+    let place = |point: &CurvePoint| Vector3::new(point.p, point.u, point.closing.first.value);
+    let places: Vec<Vector3<f64>> = points.iter().map(place).collect();
+    let low = places.iter().fold(Vector3::repeat(f64::INFINITY), |low, it| low.inf(it));
+    let high = places.iter().fold(Vector3::repeat(f64::NEG_INFINITY), |high, it| high.sup(it));
+    let spans = (high - low).sup(&Vector3::repeat(f64::MIN_POSITIVE));
     let mut lengths = vec![0.0];
-    for pair in points.windows(2) {
-        let (one, other) = (coordinates(&pair[0]), coordinates(&pair[1]));
-        let parts = (0..3).map(|axis| (other[axis] - one[axis]) / spans[axis]);
-        total += parts.map(|part| part * part).sum::<f64>().sqrt();
-        lengths.push(total);
+    for pair in places.windows(2) {
+        let apart = (pair[1] - pair[0]).component_div(&spans);
+        lengths.push(lengths[lengths.len() - 1] + apart.norm());
     }
     lengths
 }
