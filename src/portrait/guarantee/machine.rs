@@ -9,11 +9,13 @@
 //! every velocity, and need no addition; with these alone the border may touch the belt's line, where the worst
 //! machine is held longest.
 
+use nalgebra::{DMatrix, DVectorView};
+
 use super::Uncertain;
 use crate::flow::Reason;
 use crate::model::source::{MONOTONE, set};
 use crate::model::{Belt, Knob, Model, Phase, Tolerances};
-use crate::numerics::root::try_bisect;
+use crate::numerics::{real, try_bisect};
 use crate::portrait::{Margin, Portrait};
 
 /// The portrait of a machine whose basin lies within those of all others, and the kicks, in m and N s, that every one
@@ -205,37 +207,24 @@ impl Corners {
     /// Between the corners and between the velocities forces are taken to bend by no more than twice what
     /// their second differences say.
     fn bound(&self, low: f64, high: f64) -> (usize, f64) {
-        const VELOCITIES: u32 = 200;
+        const VELOCITIES: usize = 200;
         let sides = [(Phase::Below, low), (Phase::Between, high)];
-        // For each corner the forces along the motion, at velocities of both signs.
-        let forces: Vec<Vec<f64>> = self
-            .models
-            .iter()
-            .map(|model| {
-                let along = |(phase, end): &(Phase, f64)| {
-                    let (phase, end) = (*phase, *end);
-                    (0..=VELOCITIES).map(move |step| {
-                        let y = end * f64::from(step) / f64::from(VELOCITIES);
-                        phase.sign() * model.force(phase, y).0
-                    })
-                };
-                sides.iter().flat_map(along).collect()
-            })
-            .collect();
-        let places = forces[0].len();
-        let most: Vec<f64> = (0..places)
-            .map(|place| {
-                let highest = forces.iter().map(|row| row[place]).fold(f64::NEG_INFINITY, f64::max);
-                highest + self.bend(|corner| forces[corner][place])
-            })
-            .collect();
-        let needed = |row: &Vec<f64>| {
-            let excess: Vec<f64> = most.iter().zip(row).map(|(most, own)| most - own).collect();
-            let halves = excess.chunks(places / 2);
+        // The forces along the motion, at velocities of both signs: a row for each, a column for each corner.
+        let forces = DMatrix::from_fn(2 * (VELOCITIES + 1), self.models.len(), |place, corner| {
+            let (phase, end) = sides[place / (VELOCITIES + 1)];
+            let y = end * real(place % (VELOCITIES + 1)) / real(VELOCITIES);
+            phase.sign() * self.models[corner].force(phase, y).0
+        });
+        let bound =
+            |place: usize| forces.row(place).max() + self.bend(|corner| forces[(place, corner)]);
+        let most: Vec<f64> = (0..forces.nrows()).map(bound).collect();
+        let needed = |(corner, own): (usize, DVectorView<f64>)| {
+            let excess: Vec<f64> = most.iter().zip(&own).map(|(most, own)| most - own).collect();
+            let halves = excess.chunks(VELOCITIES + 1);
             let bend = halves.flat_map(|half| half.windows(3)).map(bent).fold(0.0, f64::max);
-            excess.iter().copied().fold(0.0, f64::max) + 0.25 * bend
+            (corner, excess.iter().copied().fold(0.0, f64::max) + 0.25 * bend)
         };
-        let needed = forces.iter().map(needed).enumerate();
+        let needed = forces.column_iter().enumerate().map(needed);
         needed.min_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((0, 0.0))
     }
 
