@@ -159,6 +159,13 @@ impl Effort {
         };
         passage
     }
+
+    /// The swings from rest in an interval of starts that end lowest and highest (lemma 8).
+    pub fn extremes(&mut self, field: &FieldBox, start: Interval) -> Option<[ProvedSwing; 2]> {
+        let low = self.run(&field.strongest(), Interval::point(start.lower()), None).arrived()?;
+        let high = self.run(&field.weakest(), Interval::point(start.upper()), None).arrived()?;
+        Some([low, high])
+    }
 }
 
 impl ProvedHalf {
@@ -318,11 +325,7 @@ impl ProvedHalf {
         if field.is_point() && start.radius() <= NARROW * start.lower() {
             return Some(whole);
         }
-        let mut end_of = |field: &FieldBox, start: f64| {
-            effort.run(field, Interval::point(start), None).arrived()
-        };
-        let low = end_of(&field.strongest(), start.lower())?;
-        let high = end_of(&field.weakest(), start.upper())?;
+        let [low, high] = effort.extremes(field, start)?;
         let end = Interval::new(low.end.lower(), high.end.upper());
         let squares = [low, high].map(|it| it.square_in(unit));
         let square = Interval::new(squares[0].lower(), squares[1].upper());

@@ -148,13 +148,10 @@ fn end(field: &FieldBox, start: &StartBox, whole: &ProvedSwing) -> Interval {
     if point || start.v != Interval::point(0.0) {
         return whole.end;
     }
-    let mut effort = Effort::default();
-    let mut bound =
-        |field: &FieldBox, x: f64| effort.run(field, Interval::point(-x), None).arrived();
-    let low = bound(&field.strongest(), start.x.upper());
-    let high = bound(&field.weakest(), start.x.lower());
-    let ends = low.zip(high).map(|(low, high)| Interval::new(low.end.lower(), high.end.upper()));
-    ends.and_then(|ends| ends.intersection(whole.end)).unwrap_or(whole.end)
+    let ends = Effort::default().extremes(field, -start.x).and_then(|[low, high]| {
+        Interval::new(low.end.lower(), high.end.upper()).intersection(whole.end)
+    });
+    ends.unwrap_or(whole.end)
 }
 
 impl Ball {
