@@ -145,6 +145,7 @@ impl Panel {
             from: span.from(),
             to: span.to(),
         };
+        let captions = picture.captions.iter();
         let mut panel = Panel {
             title: title.to_string(),
             x: axis(x, scales[0], window.x),
@@ -153,6 +154,8 @@ impl Panel {
             scales: *scales,
             map: picture.map.clone(),
             window: *window,
+            // What a screen writes beside a curve stands in the legend.
+            captions: captions.filter(|caption| !caption.long.is_empty()).cloned().collect(),
             ..Panel::default()
         };
         for item in &picture.items {
@@ -199,9 +202,6 @@ impl Panel {
                 self.arrows.extend(lattice(self.window).map(|at| (at, flow(at))));
             }
             Item::Marks(marks) => self.marks(marks),
-            // What a screen writes beside a curve stands in the legend.
-            Item::Caption(caption) if caption.long.is_empty() => {}
-            Item::Caption(caption) => self.captions.push(caption.clone()),
         }
     }
 

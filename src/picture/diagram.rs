@@ -210,7 +210,8 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
         let mut line = LineStyle::from(cycle_name(first.cycle.stable));
         if *present {
             let points: Vec<Point> = run.iter().map(place).collect();
-            picture.label_curve(&points, stability(first.cycle.stable), line.role);
+            let label = stability(first.cycle.stable);
+            picture.name_curve(&points, Text::default(), label, line.role);
         }
         if *beside {
             let pale = if first.cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
@@ -225,7 +226,7 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
     }
     let points: Vec<Point> = piece.iter().map(place).collect();
     let role = if *beside { Role::Quiet } else { Role::Special };
-    picture.name_curve(&points, &variant.label, role);
+    picture.name_curve(&points, variant.label.clone().into(), &variant.label, role);
 }
 
 /// The largest velocities of a piece.

@@ -157,7 +157,6 @@ pub enum Item<'a> {
     Arrows(Role, Flow<'a>),
     /// Marks of one meaning.
     Marks(Marks),
-    Caption(Caption),
 }
 
 /// A text beside a point, and a shorter one for where there is little room.
@@ -199,21 +198,21 @@ pub struct Picture<'a> {
     pub map: Option<ScanMap>,
     /// From back to front.
     pub items: Vec<Item<'a>>,
+    /// The texts, which find their places when all else is there.
+    pub captions: Vec<Caption>,
 }
 
 impl Item<'_> {
     /// Whether it is drawn in this window and says more than the axes and the present values.
     fn draws(&self, window: Window) -> bool {
-        let told = |role: Role| !matches!(role, Role::Axis | Role::Current | Role::Quiet);
         match self {
             // What the parts of a texture are is written on them.
             Item::Upright(..) | Item::Texture(_) => false,
             Item::Arrows(..) => true,
-            Item::Marks(marks) => {
-                told(marks.role) && marks.at.iter().any(|at| window.contains(*at))
+            Item::Marks(Marks { role, at, .. }) => {
+                role.tells() && at.iter().any(|at| window.contains(*at))
             }
-            Item::Caption(caption) => told(caption.role) && window.contains(caption.at),
-            item => item.seen(window).is_some_and(|line| told(line.role)),
+            item => item.seen(window).is_some_and(|line| line.role.tells()),
         }
     }
 
@@ -226,9 +225,7 @@ impl Item<'_> {
             Item::Shade(line, edge) | Item::Beyond(line, edge) => (line, !edge.is_empty()),
             Item::Columns(line, from, to) => (line, *from < window.x.to() && *to > window.x.from()),
             Item::Rows(line, from, to) => (line, *from < window.y.to() && *to > window.y.from()),
-            Item::Texture(_) | Item::Arrows(..) | Item::Marks(_) | Item::Caption(_) => {
-                return None;
-            }
+            Item::Texture(_) | Item::Arrows(..) | Item::Marks(_) => return None,
         };
         Some(line).filter(|line| seen && !line.name.is_empty())
     }
@@ -275,7 +272,10 @@ fn is_met(value: &Function, window: Window) -> bool {
 impl<'a> Picture<'a> {
     /// Whether anything is drawn besides axes and present values.
     pub fn draws(&self) -> bool {
-        self.items.iter().any(|item| item.draws(self.window))
+        let window = self.window;
+        let mut texts = self.captions.iter();
+        texts.any(|text| text.role.tells() && window.contains(text.at))
+            || self.items.iter().any(|item| item.draws(window))
     }
 
     pub fn new(
@@ -333,28 +333,19 @@ impl<'a> Picture<'a> {
     pub fn caption(&mut self, at: impl Into<Point>, text: impl Into<Text>, role: Role) {
         let (at, long) = (at.into(), text.into());
         let short = long.clone();
-        self.items.push(Item::Caption(Caption { at, or_at: Vec::new(), short, long, role }));
+        self.captions.push(Caption { at, or_at: Vec::new(), short, long, role });
     }
 
     /// Adds the letter of a special point, and its value where there is room.
     pub fn special(&mut self, at: Point, letter: &'static str, value: &str) {
         let long = format!("{letter} {value}").into();
-        let caption =
-            Caption { at, or_at: Vec::new(), long, short: letter.into(), role: Role::Special };
-        self.items.push(Item::Caption(caption));
+        let (or_at, short) = (Vec::new(), letter.into());
+        self.captions.push(Caption { at, or_at, long, short, role: Role::Special });
     }
 
-    /// Adds the name of a curve, beside the highest of its points in the window that has room.
-    pub fn name_curve(&mut self, curve: &[Point], name: &str, role: Role) {
-        self.name_along(curve, name.to_owned().into(), name, role);
-    }
-
-    /// Adds what a curve is, to stand beside it on screens where it hides nothing; figures have legends.
-    pub fn label_curve(&mut self, curve: &[Point], label: &str, role: Role) {
-        self.name_along(curve, Text::default(), label, role);
-    }
-
-    fn name_along(&mut self, curve: &[Point], long: Text, name: &str, role: Role) {
+    /// Adds the name of a curve, beside the highest of its points in the window that has room; a `long` one that is
+    /// empty is for screens alone, where it hides nothing, as figures have legends.
+    pub fn name_curve(&mut self, curve: &[Point], long: Text, name: &str, role: Role) {
         /// Points that are tried: more than a screen has rows.
         const PLACES: usize = 60;
         let mut points: Vec<Point> =
@@ -364,7 +355,7 @@ impl<'a> Picture<'a> {
         let mut places = points.into_iter().step_by(step);
         if let Some(at) = places.next().filter(|_| !name.is_empty()) {
             let (or_at, short) = (places.collect(), name.to_owned().into());
-            self.items.push(Item::Caption(Caption { at, or_at, long, short, role }));
+            self.captions.push(Caption { at, or_at, long, short, role });
         }
     }
 }

@@ -54,7 +54,7 @@ fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
         Item::Curve(line, _) | Item::Graph(line, _) | Item::Upright(line, _) => {
             LegendSample::Line(line.dash)
         }
-        Item::Texture(_) | Item::Caption(_) => return None,
+        Item::Texture(_) => return None,
     };
     let line = item.seen(picture.window)?;
     Some(told(sample, line.role, line.brief.unwrap_or(&line.name)))

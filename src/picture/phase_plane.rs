@@ -270,7 +270,7 @@ fn cycles(picture: &mut Picture, found: &Drawing, variant: &VariantTag, whole: b
         let (name, own) = if whole { kind(cycle) } else { (plain, variant.label.as_str()) };
         let points: Vec<Point> = points(curve);
         let line = LineStyle::from(plain);
-        picture.name_curve(&points, own, line.role);
+        picture.name_curve(&points, own.to_owned().into(), own, line.role);
         // Of a machine the caption says of which kind it is.
         picture.curve(LineStyle { name: name.into(), ..line.briefly(plain) }.of(variant), points);
     }

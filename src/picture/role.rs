@@ -76,6 +76,11 @@ impl Role {
     pub fn name(self) -> &'static str {
         self.into()
     }
+
+    /// Whether it says more than the axes and the present values.
+    pub fn tells(self) -> bool {
+        !matches!(self, Role::Axis | Role::Current | Role::Quiet)
+    }
 }
 
 /// How a stroke is interrupted; told apart without colour.

@@ -13,53 +13,36 @@ use crate::words::{count, significant};
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.axes("evaluations", "error");
     picture.reading = session.row_under_cursor(index).map(words);
-    if let Some(found) = session.trade() {
-        if session.layers.contains(&Layer::Rows) {
-            curves(picture, found);
+    let Some(found) = session.trade() else { return };
+    if session.layers.contains(&Layer::Rows) {
+        METHODS.iter().for_each(|spec| method(picture, found, spec));
+    }
+    if session.layers.contains(&Layer::Front) {
+        let is_best = |row: &&TradePoint| found.is_best(row, TradePoint::evaluations);
+        let at: Vec<Point> = found.rows.iter().filter(is_best).filter_map(place).collect();
+        if !at.is_empty() {
+            let marks = Marks::new(Mark::Stable, Role::Special, at);
+            picture.items.push(Item::Marks(Marks { brief: "best choices", ..marks }));
         }
-        if session.layers.contains(&Layer::Front) {
-            let is_best = |row: &&TradePoint| found.is_best(row, TradePoint::evaluations);
-            let at: Vec<Point> = found.rows.iter().filter(is_best).filter_map(place).collect();
-            if !at.is_empty() {
-                let marks = Marks::new(Mark::Stable, Role::Special, at);
-                picture.items.push(Item::Marks(Marks { brief: "best choices", ..marks }));
-            }
-        }
-        if session.layers.contains(&Layer::Rows) {
-            names(picture, found);
-        }
-        if let Some(at) = found.nearest_to(&session.problem).and_then(place) {
-            picture.mark(Mark::Head, at, Role::Cursor);
-            picture.caption(at, "now", Role::Cursor);
-        }
+    }
+    if let Some(at) = found.nearest_to(&session.problem).and_then(place) {
+        picture.mark(Mark::Head, at, Role::Cursor);
+        picture.caption(at, "now", Role::Cursor);
     }
 }
 
-/// The methods, each with its role and where its rows lie.
-fn methods(found: &Trade) -> impl Iterator<Item = (&MethodSpec, Role, Vec<Point>)> {
-    METHODS.iter().map(|spec| {
-        let role = if spec.events { Role::Trajectory } else { Role::Beside };
-        let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
-        (spec, role, own.filter_map(place).collect())
-    })
-}
-
-fn curves(picture: &mut Picture, found: &Trade) {
-    for (spec, role, points) in methods(found) {
-        let dash = if spec.events { Dash::Solid } else { Dash::Dotted };
-        picture.curve(LineStyle::new(spec.name, role, dash).captioned(), points.iter().copied());
-        picture.items.push(Item::Marks(Marks::new(Mark::Turn, role, points)));
-    }
-}
-
-/// The names of the methods at their finest rows, over everything else.
-fn names(picture: &mut Picture, found: &Trade) {
+/// A method: its rows, and its name at the finest of them.
+fn method(picture: &mut Picture, found: &Trade, spec: &MethodSpec) {
+    let (role, dash) =
+        if spec.events { (Role::Trajectory, Dash::Solid) } else { (Role::Beside, Dash::Dotted) };
+    let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
+    let points: Vec<Point> = own.filter_map(place).collect();
     // Where auto chooses a method, the curve of that method covers its own.
-    for (spec, role, points) in methods(found).filter(|(spec, ..)| spec.method != Method::Auto) {
-        if let Some(finest) = points.last() {
-            picture.caption(*finest, spec.name, role);
-        }
+    if let Some(finest) = points.last().filter(|_| spec.method != Method::Auto) {
+        picture.caption(*finest, spec.name, role);
     }
+    picture.curve(LineStyle::new(spec.name, role, dash).captioned(), points.iter().copied());
+    picture.items.push(Item::Marks(Marks::new(Mark::Turn, role, points)));
 }
 
 /// Where a row lies; nowhere if it has no error, or none that can be told from zero.

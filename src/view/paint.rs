@@ -15,22 +15,17 @@ const APART: usize = 4;
 
 pub fn paint(framed: &Framed, screen: &mut Surface) {
     let look = screen.look;
-    let Picture { window, cursor, items, map, .. } = &framed.picture;
+    let Picture { window, cursor, items, captions, map, .. } = &framed.picture;
     let mut plot = Canvas::new(framed, screen);
     if let Some(map) = map {
         scan_map::draw(&plot, map, screen);
     }
-    // Texts find their places when all else is there; names of curves last, since they have many places
-    // to go to.
-    let mut captions = Vec::new();
     for item in items {
-        match item {
-            Item::Caption(caption) => captions.push(caption),
-            item => put(&mut plot, item, *window, look),
-        }
+        put(&mut plot, item, *window, look);
     }
+    // Names of curves come last, since they have many places to go to.
     let (names, beside_points): (Vec<&Caption>, Vec<&Caption>) =
-        captions.into_iter().partition(|caption| !caption.or_at.is_empty());
+        captions.iter().partition(|caption| !caption.or_at.is_empty());
     for Caption { at, long, short, role, .. } in beside_points {
         let texts: [&str; 2] = [long, short];
         let texts = if plot.inner.width >= WIDE { &texts[..] } else { &texts[1..] };
@@ -87,7 +82,6 @@ fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {
                 }
             }
         }
-        Item::Caption(_) => {}
     }
 }
 

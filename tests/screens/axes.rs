@@ -121,12 +121,12 @@ fn beside_metres_a_displacement_is_called_x() {
         let session = settled(&scene.name, 120, 40, "");
         for picture in all_pictures(&session) {
             let physical = picture.scales.iter().any(|scale| scale.title("").starts_with("x ["));
-            for item in picture.items.iter().filter(|_| physical) {
-                let text = match item {
-                    Item::Caption(caption) => caption.short.to_string(),
-                    Item::Curve(line, _) => line.name.to_string(),
-                    _ => continue,
-                };
+            let curves = picture.items.iter().filter_map(|item| match item {
+                Item::Curve(line, _) => Some(&line.name),
+                _ => None,
+            });
+            let captions = picture.captions.iter().map(|caption| &caption.short);
+            for text in curves.chain(captions).filter(|_| physical) {
                 assert!(text.split(' ').all(|word| word != "q"), "{}: {text}", scene.name);
             }
         }

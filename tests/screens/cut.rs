@@ -62,13 +62,12 @@ fn whole(session: &Session) -> Vec<String> {
     texts.extend(entries(&pictures).into_iter().map(|entry| entry.text));
     for picture in pictures {
         for item in &picture.items {
-            match item {
-                Item::Caption(Caption { long, short, .. }) => {
-                    texts.extend([long.to_string(), short.to_string()]);
-                }
-                Item::Marks(Marks { brief, .. }) => texts.push((*brief).to_owned()),
-                _ => {}
+            if let Item::Marks(Marks { brief, .. }) = item {
+                texts.push((*brief).to_owned());
             }
+        }
+        for Caption { long, short, .. } in &picture.captions {
+            texts.extend([long.to_string(), short.to_string()]);
         }
         texts.extend([picture.title, picture.x, picture.y].map(String::from));
     }

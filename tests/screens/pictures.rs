@@ -5,7 +5,7 @@ use super::{all_pictures, braille, draw, letters, settled};
 use hopfscope::flow::Limits;
 use hopfscope::model::Knob;
 use hopfscope::picture;
-use hopfscope::picture::{Caption, Dash, Item, LineStyle, Mark, Role};
+use hopfscope::picture::{Dash, Item, LineStyle, Mark, Role};
 use hopfscope::question::answer;
 use hopfscope::scene::{Ordinate, Point, View, find, library};
 use hopfscope::session::{Msg, Session, Size, update};
@@ -95,14 +95,8 @@ fn rest_is_in_every_bifurcation_diagram() {
 #[test]
 fn an_h_stands_only_where_a_hopf_point_is() {
     let letters_h = |session: &Session| -> Vec<Point> {
-        let captions = all_pictures(session).into_iter().flat_map(|picture| {
-            let h = |item: &Item| match item {
-                Item::Caption(Caption { at, short, .. }) if short == "H" => Some(*at),
-                _ => None,
-            };
-            picture.items.iter().filter_map(h).collect::<Vec<_>>()
-        });
-        captions.collect()
+        let captions = all_pictures(session).into_iter().flat_map(|picture| picture.captions);
+        captions.filter(|caption| caption.short == "H").map(|caption| caption.at).collect()
     };
     let frictionless = letters_h(&computed("hopf"));
     assert!(frictionless.iter().all(|at| at.x == 0.0 && at.y == 0.0), "{frictionless:?}");
@@ -244,7 +238,7 @@ fn what_is_drawn_in_red_and_green_is_a_cycle_or_the_edge_of_a_basin() {
                 | Item::Rows(line, ..) => (line.role, line.name.to_string()),
                 Item::Arrows(role, _) => (*role, "direction of flow".to_owned()),
                 Item::Marks(marks) => (marks.role, marks.name.to_string()),
-                Item::Texture(_) | Item::Caption(_) => continue,
+                Item::Texture(_) => continue,
             };
             // That of a line whose name `assets/lines.txt` does not know.
             assert_ne!(role, Role::Failure, "{}: {name}", scene.name);
@@ -272,15 +266,13 @@ fn both_sides_of_the_unstable_cycle_stand_in_one_picture() {
     }
     let picture = picture::of(&session, 0);
     let mut motions = Vec::new();
-    let mut numbers = Vec::new();
+    let numbered = picture.captions.iter().filter(|it| it.long.parse::<usize>().is_ok());
+    let mut numbers: Vec<_> = numbered.map(|it| (it.long.to_string(), it.at)).collect();
     let mut rests = Vec::new();
     for item in &picture.items {
         match item {
             Item::Curve(line, points) if line.name.starts_with("motion ") => {
                 motions.push((line.name.to_string(), line.role, line.dash, points[0]));
-            }
-            Item::Caption(Caption { long, at, .. }) if long.parse::<usize>().is_ok() => {
-                numbers.push((long.to_string(), *at));
             }
             Item::Marks(marks) if marks.mark == Mark::Rest => rests.push(marks.role),
             _ => {}
