@@ -7,7 +7,8 @@ use super::{Dash, LineStyle, Picture, Role};
 use crate::flow::Sample;
 use crate::scene::{Layer, Point, Span, rectangle};
 use crate::session::Session;
-use crate::words::{significant, with_unit};
+use crate::words::motion::Writing;
+use crate::words::with_unit;
 
 /// Heights of the surfaces of the belt, from below.
 const BELT: (f64, f64) = (0.12, 0.26);
@@ -66,17 +67,10 @@ pub fn draw(picture: &mut Picture, session: &Session) {
 /// The moment in numbers, physical ones where the scene is of a machine.
 fn reading(session: &Session, moment: &Sample) -> String {
     let Sample { tau, q, v } = *moment;
-    let Some(running) = session.running() else {
-        let three = |value| significant(value, 3);
-        return format!("tau {}  q {}  v {}", three(tau), three(q), three(v));
-    };
-    let units = &running.reduced.units;
-    format!(
-        "t {}  x {}  v {}",
-        with_unit(tau * units.time, 3, "s"),
-        with_unit(q * units.displacement, 3, "m"),
-        with_unit(v * units.velocity, 3, "m/s")
-    )
+    let writing = Writing(session.running().map(|running| running.reduced.units));
+    let (time, place) = (writing.name("tau", "t"), writing.name("q", "x"));
+    let (tau, q, v) = (writing.time(tau, 3), writing.length(q, 3), writing.velocity(v, 3));
+    format!("{time} {tau}  {place} {q}  v {v}")
 }
 
 fn machine(picture: &mut Picture, session: &Session, moment: &Sample) {

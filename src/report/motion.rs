@@ -4,7 +4,7 @@
 use super::proof::{followed, point_columns};
 use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity, Table};
-use crate::accuracy::reference::{Reference, ReferenceSource};
+use crate::accuracy::reference::ReferenceSource;
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::{
     Crossing, Leg, METHODS, Method, MethodSpec, Outcome, Problem, Sample, Trajectory,
@@ -12,8 +12,8 @@ use crate::flow::{
 use crate::model::{ContactState, Knob, Ledger, State, Work};
 use crate::numerics::{Interval, log10, pow};
 use crate::proof::motion::{ProvedMotion, ProvedPoint};
-use crate::words::motion::{Writing, sentence};
-use crate::words::{count, counted, duration, exact, significant};
+use crate::words::motion::{Writing, ended, sentence};
+use crate::words::{count, duration, exact, significant};
 
 /// A point of a motion, its start, an arrival at `v = 0` or its end: what it is, `tau`, `q` and `v` as far as they are
 /// known, and what is proved of them.
@@ -236,6 +236,8 @@ pub fn trade(about: &About, trade: &Trade, plot: &str) -> Answer {
         .and(dial_columns())
         .file("reason", reason)
         .file("evaluations", |row| row.cost.evaluations);
+    let end = known.end.map(|number| number.high);
+    let end = ended(&end, known.turns.len(), Writing::default(), 12);
     let answer = if about.is_machine() { about.answer() } else { about.answer_to(&until) };
     let all = [answered.as_slice(), &unanswered].concat();
     let answer = answer
@@ -248,7 +250,7 @@ pub fn trade(about: &About, trade: &Trade, plot: &str) -> Answer {
         .with("rows", columns_of_trade(trade).objects(&answered))
         .with("unanswered", without_error.objects(&unanswered))
         .csv(&columns_of_trade(trade).file("reason", reason), all)
-        .lines([end_of(known), format!("reference: {}", reference(trade))])
+        .lines([end, format!("reference: {}", reference(trade))])
         .table(columns_of_trade(trade).table(&answered).unbroken(None))
         .lines(given_up)
         .lines([format!("*: nothing else is better for less time{in_use}")])
@@ -256,23 +258,6 @@ pub fn trade(about: &About, trade: &Trade, plot: &str) -> Answer {
         .table(price(trade));
     let seconds = rows.iter().map(|row| row.seconds).sum();
     if about.is_machine() { answer.cost(known.cost, seconds) } else { answer }
-}
-
-/// How the motion ends, in a sentence.
-fn end_of(reference: &Reference) -> String {
-    let swings = counted(reference.turns.len(), "half swing");
-    match reference.end {
-        Outcome::Captured { q, .. } => {
-            format!("rests at q = {} after {swings}", significant(q.high, 12))
-        }
-        Outcome::Moving { q, v, .. } => {
-            let [q, v] = [q, v].map(|number| significant(number.high, 12));
-            format!("moving still after {swings}: q = {q}, v = {v}")
-        }
-        Outcome::Escaped { tau } | Outcome::GaveUp { tau, .. } => {
-            format!("escapes at tau = {} after {swings}", significant(tau.high, 12))
-        }
-    }
 }
 
 /// The errors whose cost [`price`] shows.

@@ -5,6 +5,7 @@ use crate::fit::{Fitted, OMEGA0, row_of, rows};
 use crate::model::Knob;
 use crate::session::{Row, Session};
 use crate::words::fit::signed;
+use crate::words::motion::Writing;
 use crate::words::number::in_unit;
 use crate::words::{significant, with_unit};
 
@@ -55,12 +56,8 @@ pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
     let frequency =
         format!("f0 {frequency} {}{}", look.symbols().plus_minus, with_unit(error, 2, "Hz"));
     let spread = fit.margins.kicks.from_rest.displacement;
-    let scale = fit.units().map(|units| units.displacement);
-    let end = |end: Option<f64>| match (end, scale) {
-        (None, _) => "any".to_owned(),
-        (Some(end), Some(metres)) => with_unit(end * metres, 3, "m"),
-        (Some(end), None) => significant(end, 3),
-    };
+    let writing = Writing(fit.units());
+    let end = |end: Option<f64>| end.map_or("any".to_owned(), |end| writing.length(end, 3));
     let held = session.doubt.held.contains(&true);
     let rise = held.then(|| format!("held: chi^2 +{}", significant(*rise, 3)));
     let margin = if spread.lower.is_none() {

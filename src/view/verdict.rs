@@ -35,7 +35,7 @@ pub fn outcome(session: &Session) -> (String, Role) {
             let whole = whole.and_then(|running| Some((session.course()?, running)));
             if let Some((tau, q)) = session.contact().filter(|_| whole.is_none()) {
                 // The mass would overtake its belt earlier.
-                let (time, place) = (writing.time(tau, 3), writing.position(q, 3));
+                let (time, place) = (writing.moment(tau, 3), writing.position(q, 3));
                 let text = format!("sticks to the belt at {time}, {place}: the model ends there");
                 return (text, Role::Warning);
             }
@@ -89,10 +89,11 @@ fn verdict(end: End, among: Option<&Drawing>, motion: &Trajectory, writing: Writ
             return sentence(motion, writing);
         }
         (End::Rests, Outcome::Captured { q, .. }) => {
-            format!("comes to rest at {}{}", writing.position(q, 3), swings(motion))
+            let (place, swings) = (writing.position(q, 3), swings(motion.crossings.len()));
+            format!("comes to rest at {place}{swings}")
         }
         (End::Rests, _) => {
-            format!("comes to rest, after {}", writing.time(motion.problem.until, 3))
+            format!("comes to rest, after {}", writing.moment(motion.problem.until, 3))
         }
         (End::Onto { q_max, grows }, _) => {
             let way = if grows { "grows" } else { "falls" };

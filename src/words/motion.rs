@@ -12,54 +12,69 @@ pub struct Writing(pub Option<Units>);
 impl Writing {
     /// `q = 0.027`, or `x = 0.147 mm`.
     pub fn position(self, q: f64, digits: usize) -> String {
-        self.text(["q = ", "x = "], q, digits, |units| (units.displacement, "m"))
+        format!("{} = {}", self.name("q", "x"), self.length(q, digits))
     }
 
     /// `q_max 0.65`, or `x_max 3.57 mm`.
     pub fn amplitude(self, q_max: f64, digits: usize) -> String {
-        self.text(["q_max ", "x_max "], q_max, digits, |units| (units.displacement, "m"))
-    }
-
-    fn velocity(self, v: f64, digits: usize) -> String {
-        self.text(["v = "; 2], v, digits, |units| (units.velocity, "m/s"))
+        format!("{} {}", self.name("q_max", "x_max"), self.length(q_max, digits))
     }
 
     /// `tau = 9.47`, or `t = 0.189 s`.
-    pub fn time(self, tau: f64, digits: usize) -> String {
-        self.text(["tau = ", "t = "], tau, digits, |units| (units.time, "s"))
+    pub fn moment(self, tau: f64, digits: usize) -> String {
+        format!("{} = {}", self.name("tau", "t"), self.time(tau, digits))
     }
 
-    fn text(
-        self,
-        [own, physical]: [&str; 2],
-        value: f64,
-        digits: usize,
-        unit: fn(&Units) -> (f64, &'static str),
-    ) -> String {
+    /// The name of a quantity: as a number of the oscillator, or with a unit.
+    pub fn name(self, own: &'static str, physical: &'static str) -> &'static str {
+        if self.0.is_some() { physical } else { own }
+    }
+
+    /// `0.027`, or `0.147 mm`.
+    pub fn length(self, q: f64, digits: usize) -> String {
+        self.quantity(q, digits, |units| (units.displacement, "m"))
+    }
+
+    /// `0.65`, or `34 mm/s`.
+    pub fn velocity(self, v: f64, digits: usize) -> String {
+        self.quantity(v, digits, |units| (units.velocity, "m/s"))
+    }
+
+    /// `9.47`, or `0.189 s`.
+    pub fn time(self, tau: f64, digits: usize) -> String {
+        self.quantity(tau, digits, |units| (units.time, "s"))
+    }
+
+    fn quantity(self, value: f64, digits: usize, unit: fn(&Units) -> (f64, &str)) -> String {
         match self.0.as_ref().map(unit) {
-            None => format!("{own}{}", significant(value, digits)),
-            Some((one, name)) => format!("{physical}{}", with_unit(value * one, digits, name)),
+            None => significant(value, digits),
+            Some((one, name)) => with_unit(value * one, digits, name),
         }
     }
 }
 
 /// How a motion ended, in a sentence.
 pub fn sentence(motion: &Trajectory, writing: Writing) -> String {
-    let swings = swings(motion);
-    let (place, time) = (|q| writing.position(q, 3), |tau| writing.time(tau, 3));
-    match motion.outcome {
-        Outcome::Captured { q, .. } if motion.crossings.is_empty() => {
+    ended(&motion.outcome, motion.crossings.len(), writing, 3)
+}
+
+/// How a motion of so many half swings ended, in a sentence with numbers of so many digits.
+pub fn ended(outcome: &Outcome, count: usize, writing: Writing, digits: usize) -> String {
+    let swings = swings(count);
+    let (place, time) = (|q| writing.position(q, digits), |tau| writing.moment(tau, digits));
+    match *outcome {
+        Outcome::Captured { q, .. } if count == 0 => {
             format!("at rest at {} from the start", place(q))
         }
         Outcome::Captured { tau, q } => {
             format!("comes to rest at {}{swings}, {}", place(q), time(tau))
         }
         Outcome::Moving { tau, q, v } => {
-            let velocity = writing.velocity(v, 3);
-            format!("moving at {}{swings}: {}, {velocity}", time(tau), place(q))
+            let velocity = writing.velocity(v, digits);
+            format!("moving at {}{swings}: {}, v = {velocity}", time(tau), place(q))
         }
         Outcome::Escaped { tau } => {
-            format!("escapes at {}{swings}", writing.time(tau, 4))
+            format!("escapes at {}{swings}", writing.moment(tau, digits + 1))
         }
         Outcome::GaveUp { tau, reason } => {
             format!("gave up at {}{swings}: {reason}", time(tau))
@@ -102,8 +117,8 @@ pub fn of_machine(
 }
 
 /// ` after 3 half swings`; empty if there were none.
-pub fn swings(motion: &Trajectory) -> String {
-    match motion.crossings.len() {
+pub fn swings(count: usize) -> String {
+    match count {
         0 => String::new(),
         some => format!(" after {}", counted(some, "half swing")),
     }
