@@ -1,15 +1,9 @@
-//! A figure as data: one JSON document, or one CSV row a point.
+//! A figure as data: one row of comma-separated values a point.
 
 use super::{Figure, MarkedPoint, Outline, Panel};
 use crate::picture::{MapCell, ScanMap};
 use crate::report::Columns;
-use crate::report::json::text;
 use crate::words::printable;
-
-/// One document; what is not a number is `null`.
-pub fn json(figure: &Figure) -> String {
-    text(figure)
-}
 
 /// What it was computed with in lines that begin with `#`, then one row for each cell of a map, and each point of
 /// each curve, area and mark.

@@ -27,12 +27,13 @@ use std::path::Path;
 use clap::ValueEnum;
 use strum::EnumString;
 
-use data::{csv, json};
+use data::csv;
 
 use crate::fit::{Fitted, OMEGA0, parameters};
 use crate::flow::Problem;
 use crate::picture;
 use crate::picture::fit::pictures;
+use crate::report::json::text;
 use crate::session::{Key, Session};
 use crate::words::provenance::Provenance;
 
@@ -43,7 +44,7 @@ pub enum FigureForm {
     /// Drawn with characters.
     #[strum(disabled)]
     Text,
-    /// One JSON document, all digits.
+    /// One JSON document, all digits; what is not a number is `null`.
     Json,
     /// One row per point, all digits.
     Csv,
@@ -68,7 +69,7 @@ pub fn file(figure: &Figure, form: FigureForm) -> Result<Vec<u8>, String> {
     match form {
         FigureForm::Svg => Ok(svg(figure).into_bytes()),
         FigureForm::Csv => Ok(csv(figure).into_bytes()),
-        FigureForm::Json => Ok(json(figure).into_bytes()),
+        FigureForm::Json => Ok(text(figure).into_bytes()),
         #[cfg(feature = "png")]
         FigureForm::Png => png::png(&svg(figure)),
         FigureForm::Text => Err("the screen draws it with characters".into()),

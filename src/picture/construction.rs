@@ -25,24 +25,20 @@ fn falling(parameters: &Parameters, among: Span) -> Vec<(f64, f64)> {
     /// Velocities whose sign of V' is looked at; borders between them are bisected.
     const VELOCITIES: u16 = 400;
     let falls = |v: f64| energy_rate(parameters, State { q: 0.0, v }) <= 0.0;
-    let border = |inside: f64, outside: f64| bisect(inside, outside, TO_ROUNDING, |v| !falls(v)).0;
-    let mut found = Vec::new();
-    let mut from = falls(among.from()).then_some(among.from());
-    let mut last = among.from();
-    for index in 1..=VELOCITIES {
-        let v = among.at(f64::from(index) / f64::from(VELOCITIES));
-        match (from, falls(v)) {
-            (None, true) => from = Some(border(v, last)),
-            (Some(start), false) => {
-                found.push((start, border(last, v)));
-                from = None;
-            }
-            _ => {}
-        }
-        last = v;
-    }
-    found.extend(from.map(|start| (start, among.to())));
-    found
+    let velocities = (0..=VELOCITIES).map(|index| f64::from(index) / f64::from(VELOCITIES));
+    let velocities: Vec<f64> = velocities.map(|part| among.at(part)).collect();
+    let border = |pair: &[f64]| {
+        let (inside, outside) = match [falls(pair[0]), falls(pair[1])] {
+            [true, false] => (pair[0], pair[1]),
+            [false, true] => (pair[1], pair[0]),
+            _ => return None,
+        };
+        Some(bisect(inside, outside, TO_ROUNDING, |v| !falls(v)).0)
+    };
+    let [first, last] = [among.from(), among.to()].map(|end| falls(end).then_some(end));
+    let borders = velocities.windows(2).filter_map(border);
+    let ends: Vec<f64> = first.into_iter().chain(borders).chain(last).collect();
+    ends.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
 }
 
 /// The half turns of two spirals, one shifted to the left by r and one to the right, whose ends meet

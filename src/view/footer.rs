@@ -29,16 +29,16 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     });
     let mut right: Vec<Span> = always.into_iter().flat_map(|hint| spans(hint, look)).collect();
     right.push(Span::raw(" "));
-    let left = match (&session.overlay, &session.notice) {
-        _ if session.waiting.is_some() => waiting(session, look),
-        _ if session.pending.is_some() => vec![pending(session.pending, look)],
-        (Some(Overlay::Prompt(prompt)), _) => typed(prompt, session, area.width.into(), look),
-        (Some(Overlay::Offer(script)), _) => {
+    let left = match (&session.waiting, session.pending, &session.overlay, &session.notice) {
+        (Some(key), ..) => waiting(key.request.topic().name(), look),
+        (_, Some(key), ..) => vec![pending(key, look)],
+        (_, _, Some(Overlay::Prompt(prompt)), _) => typed(prompt, session, area.width.into(), look),
+        (_, _, Some(Overlay::Offer(script)), _) => {
             let text =
                 format!(" pasted {} steps of a keystroke file: press them?", script.steps.len());
             vec![look.span(text, Role::Warning)]
         }
-        (_, Some(Notice { error, text })) => {
+        (.., Some(Notice { error, text })) => {
             let role = if *error { Role::Failure } else { Role::Text };
             let text = pane::cut(&format!(" {text}"), usize::from(area.width), look);
             vec![look.span(text, role)]
@@ -69,8 +69,7 @@ fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
 }
 
 /// What the last key waits for.
-fn waiting(session: &Session, look: &Look) -> Vec<Span<'static>> {
-    let topic = session.waiting.as_ref().map_or("", |waiting| waiting.request.topic().name());
+fn waiting(topic: &str, look: &Look) -> Vec<Span<'static>> {
     vec![
         look.span(format!(" waiting for: {topic} "), Role::Title),
         look.span(" esc forgets the key that waits", Role::Quiet),
@@ -78,12 +77,11 @@ fn waiting(session: &Session, look: &Look) -> Vec<Span<'static>> {
 }
 
 /// What the next key is waited for.
-fn pending(pending: Option<Pending>, look: &Look) -> Span<'static> {
+fn pending(pending: Pending, look: &Look) -> Span<'static> {
     let text = match pending {
-        Some(Pending::Count(0)) => " how many times? a number, then a key".to_owned(),
-        Some(Pending::Count(count)) => format!(" {count} times: which key?"),
-        Some(Pending::Letter(what)) => format!(" {}", what.question()),
-        None => String::new(),
+        Pending::Count(0) => " how many times? a number, then a key".to_owned(),
+        Pending::Count(count) => format!(" {count} times: which key?"),
+        Pending::Letter(what) => format!(" {}", what.question()),
     };
     look.span(text, Role::Title)
 }

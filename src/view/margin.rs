@@ -3,7 +3,7 @@
 
 use super::{fitted::statement, pane};
 use crate::model::Knob;
-use crate::portrait::{Border, Margin};
+use crate::portrait::{Border, Margin, RestMargin};
 use crate::scene::Topic;
 use crate::session::{MachineMargins, Session};
 use crate::words::number::rounded_down;
@@ -17,17 +17,9 @@ const PLACES: usize = 4;
 
 const EVERY: &str = "every kick is survived";
 
-/// A shift and an impulse; `None` where every one of them is survived.
-type Kick = [Option<f64>; 2];
-
-/// The smallest kicks from the worst rest position.
-fn from_rest(margin: &Margin) -> Kick {
-    [margin.from_rest.displacement, margin.from_rest.impulse]
-}
-
 /// The smallest kicks from where the spring is relaxed.
-fn from_centre(margin: &Margin) -> Kick {
-    [margin.displacement, margin.impulse]
+fn from_centre(margin: &Margin) -> RestMargin {
+    RestMargin { displacement: margin.displacement, impulse: margin.impulse }
 }
 
 /// How kicks are written.
@@ -41,14 +33,10 @@ struct KickWriting<'a> {
     bound: bool,
 }
 
-impl<'a> KickWriting<'a> {
-    fn new(session: &'a Session, places: usize) -> Self {
-        KickWriting { session, places, named: true, bound: false }
-    }
-
+impl KickWriting<'_> {
     /// A shift and an impulse, in the units of the machine or the record; `None` where every kick is survived.
-    fn kick(self, kick: Kick) -> Option<String> {
-        if kick == [None; 2] {
+    fn kick(self, kick: RestMargin) -> Option<String> {
+        if kick == RestMargin::default() {
             return None;
         }
         let units = match self.session.units() {
@@ -58,7 +46,8 @@ impl<'a> KickWriting<'a> {
             }
             Some(units) => [("", units.displacement, "m"), ("", units.velocity, "m/s")],
         };
-        let texts = kick.into_iter().zip(units).map(|(size, (name, one, unit))| {
+        let sizes = [kick.displacement, kick.impulse];
+        let texts = sizes.into_iter().zip(units).map(|(size, (name, one, unit))| {
             let name = if self.named { name } else { "" };
             let size = size.map(|size| self.size(size * one, unit));
             format!("{name}{}", size.unwrap_or_else(|| "any".to_owned()))
@@ -84,7 +73,7 @@ impl<'a> KickWriting<'a> {
 
     /// The headline.
     fn headline(self, margin: &Margin) -> String {
-        match self.kick(from_rest(margin)) {
+        match self.kick(margin.from_rest) {
             Some(_) if *margin == Margin::ZERO => "no kick is survived".to_owned(),
             Some(kick) => format!("margin from rest: {kick}"),
             None => EVERY.to_owned(),
@@ -93,8 +82,10 @@ impl<'a> KickWriting<'a> {
 }
 
 /// The first of the texts that fits, with as many digits as possible.
-fn fitting(width: usize, texts: impl Fn(usize) -> Vec<String>) -> String {
-    pane::fitting((1..=PLACES).rev().flat_map(texts), width)
+fn fitting(session: &Session, width: usize, texts: impl Fn(KickWriting) -> Vec<String>) -> String {
+    let ways = (1..=PLACES).rev();
+    let ways = ways.map(|places| KickWriting { session, places, named: true, bound: false });
+    pane::fitting(ways.flat_map(texts), width)
 }
 
 /// The status line about margins, for a record what may be signed; `None` where they are not known.
@@ -111,7 +102,7 @@ pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
     let (_, sure) = margins(session)?;
     match sure {
         Err(_) => Some("sure: no kick".to_owned()),
-        Ok(sure) if from_rest(&sure) == [None; 2] => Some("sure: every kick".to_owned()),
+        Ok(sure) if sure.from_rest == RestMargin::default() => Some("sure: every kick".to_owned()),
         Ok(sure) => in_pane(session, "sure", &sure, width),
     }
 }
@@ -122,7 +113,7 @@ pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> 
     let all = (1..=PLACES).rev().flat_map(|places| [(places, true), (places, false)]);
     let mut texts = all.filter_map(|(places, named)| {
         let write = KickWriting { session, places, named, bound };
-        Some(format!("{name} {}", write.kick(from_rest(margin))?))
+        Some(format!("{name} {}", write.kick(margin.from_rest)?))
     });
     texts.find(|text| text.chars().count() < width)
 }
@@ -140,8 +131,7 @@ fn margins(session: &Session) -> Option<(Margin, Result<Margin, String>)> {
 /// Nominal and for certain.
 fn certain(session: &Session, width: usize) -> Option<String> {
     let (nominal, sure) = margins(session)?;
-    let texts = |places| {
-        let write = KickWriting::new(session, places);
+    let texts = |write: KickWriting| {
         let headline = write.headline(&nominal);
         let sure = match &sure {
             Ok(sure) => sure,
@@ -153,14 +143,14 @@ fn certain(session: &Session, width: usize) -> Option<String> {
         let [named, unnamed] =
             [true, false].map(|named| KickWriting { named, bound: true, ..write });
         let [told, brief] = [named, unnamed].map(|write| {
-            let kick = write.kick(from_rest(sure));
+            let kick = write.kick(sure.from_rest);
             format!("{headline}; for certain: {}", kick.as_deref().unwrap_or("every kick"))
         });
         let centre = write.centre(&nominal).zip(unnamed.kick(from_centre(sure)));
         let centre = centre.map(|(own, sure)| format!("{told}; {own}; for certain: {sure}"));
         centre.into_iter().chain([told, brief]).collect()
     };
-    Some(fitting(width, texts))
+    Some(fitting(session, width, texts))
 }
 
 fn oscillator(session: &Session, width: usize) -> Option<String> {
@@ -171,8 +161,7 @@ fn oscillator(session: &Session, width: usize) -> Option<String> {
     if found.portrait.border == Border::None {
         return Some(EVERY.to_owned());
     }
-    Some(fitting(width, |places| {
-        let write = KickWriting::new(session, places);
+    Some(fitting(session, width, |write| {
         let headline = write.headline(&found.margin);
         let centre = write.centre(&found.margin).map(|centre| format!("{headline}; {centre}"));
         let proved = centre.iter().zip(share(found.lyapunov_share));
@@ -205,8 +194,7 @@ fn machine(session: &Session, width: usize) -> Option<String> {
         (None, Some(_)) => "not every kick is survived".to_owned(),
         _ => "the same".to_owned(),
     };
-    Some(fitting(width, |places| {
-        let write = KickWriting::new(session, places);
+    Some(fitting(session, width, |write| {
         let [own, other] = [whole, cubic].map(|margin| write.headline(&margin));
         if session.draws_whole() {
             let both = format!("{own}; cubic expansion: {error}");

@@ -28,8 +28,7 @@ pub(super) struct Geometry {
 impl Geometry {
     pub fn of(area: Rect, window: Window, scales: [Scale; 2], upward: Option<Ticks>) -> Self {
         let body = pane::below(area, 1);
-        let roomy = body.width >= ROOMY.0 && body.height >= ROOMY.1;
-        let rows = rows(area);
+        let (roomy, rows) = (is_roomy(area), rows(area));
         let most = usize::from(rows / 3).clamp(2, 9);
         let upward =
             upward.unwrap_or_else(|| Ticks::on(scales[1], window.y, |ticks| ticks.len() <= most));
@@ -79,11 +78,14 @@ fn widened(area: Rect, session: &Session, index: usize, scales: [Scale; 2]) -> W
     equal(equal(window))
 }
 
+/// Whether the axes of a plot in `area` stand outside of its cells, below a title.
+fn is_roomy(area: Rect) -> bool {
+    area.width >= ROOMY.0 && area.height > ROOMY.1
+}
+
 /// Rows of the raster of a plot in `area`.
 pub fn rows(area: Rect) -> u16 {
-    let height = area.height.saturating_sub(1);
-    let roomy = area.width >= ROOMY.0 && height >= ROOMY.1;
-    if roomy { height - 2 } else { height }
+    area.height.saturating_sub(if is_roomy(area) { 3 } else { 1 })
 }
 
 /// The point of a picture in `area` that a cell stands for, to the digits that cells tell apart; `None`
