@@ -1,5 +1,7 @@
 //! Powers of two as units: multiplication by one of them is exact.
 
+use std::num::FpCategory;
+
 /// `value * 2^k` for every `k`, rounded at most once.
 #[inline]
 pub fn times_power(value: f64, k: i32) -> f64 {
@@ -11,18 +13,12 @@ pub fn times_power(value: f64, k: i32) -> f64 {
     }
 }
 
-/// The exponent `k` with `2^k <= abs(value) < 2^(k + 1)`; 0 for zero.
+/// The exponent `k` with `2^k <= abs(value) < 2^(k + 1)`; 0 for zero, 1024 for what is not finite.
 pub fn exponent(value: f64) -> i32 {
-    const FRACTION_BITS: i32 = 52;
-    const BIAS: i32 = 1023;
-    if value == 0.0 {
-        return 0;
-    }
-    let field = |bits: u64| i32::try_from((bits >> FRACTION_BITS) & 0x7ff).unwrap_or(0);
-    match field(value.to_bits()) {
-        // Subnormal: normalise by an exact multiplication first.
-        0 => field(times_power(value, BIAS).to_bits()) - 2 * BIAS,
-        biased => biased - BIAS,
+    match value.classify() {
+        FpCategory::Zero => 0,
+        FpCategory::Nan | FpCategory::Infinite => 1024,
+        FpCategory::Subnormal | FpCategory::Normal => libm::ilogb(value),
     }
 }
 
