@@ -69,21 +69,11 @@ pub fn harmonic_balance(
     Ok(HarmonicBalance { unknown, cost, ..balance })
 }
 
-/// The same for some numbers of harmonics from 1 to `most`, without curves, against cycles that are known.
+/// The same against cycles that are known.
 ///
 /// # Errors
 /// [`Reason::Interrupted`] and no other.
-pub fn convergence(
-    parameters: &Parameters,
-    exact: &[Cycle],
-    most: usize,
-    limits: &Limits,
-) -> Result<Vec<HarmonicBalance>, Reason> {
-    ladder(most).into_iter().map(|rung| compare(parameters, exact, rung, 0, limits)).collect()
-}
-
-/// What becomes of every first-order answer with N harmonics, with its error against the true cycles.
-fn compare(
+pub fn compare(
     parameters: &Parameters,
     exact: &[Cycle],
     harmonics: usize,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Failure, QuestionOptions, input, print, timed, troubled, write};
-use crate::accuracy::harmonic_error::{HarmonicBalance, convergence};
+use crate::accuracy::harmonic_error::{HarmonicBalance, compare, ladder};
 use crate::check::check;
 use crate::closed_form::harmonics::MOST;
 use crate::flow::{Limits, Reason};
@@ -84,8 +84,9 @@ impl CyclesCommand {
         let gave_up = |reason: Reason| Failure::Unanswered(format!("the search gave up: {reason}"));
         let found = cycles(parameters, limits).map_err(gave_up)?;
         let proof = proved(&found).map_err(|wrong| Failure::Unanswered(wrong.to_string()))?;
-        let compare = |most| convergence(parameters, &found.cycles, most, limits);
-        let rungs = self.harmonics.map(compare).transpose().map_err(gave_up)?;
+        let balance = |rung| compare(parameters, &found.cycles, rung, 0, limits);
+        let convergence = |most| ladder(most).into_iter().map(balance).collect();
+        let rungs = self.harmonics.map(convergence).transpose().map_err(gave_up)?;
         Ok((found, proof, rungs))
     }
 }
