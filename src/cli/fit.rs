@@ -101,9 +101,13 @@ impl FitCommand {
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
         // What contradicts itself is not the fault of the file.
         self.record.question().map_err(Failure::Usage)?;
-        self.half_widths().map_err(Failure::Usage)?;
+        let half_widths = self.half_widths().map_err(Failure::Usage)?;
         let opened = self.record.opened(&self.file, bytes).map_err(|problem| bad(&problem))?;
-        let asked = self.margin_question(&opened).map_err(|problem| bad(&problem))?;
+        let (inertia, record) = (opened.metric(), &opened.record);
+        let disturbance = self.disturbance.map_or(Ok(0.0), |it| disturbance(it, inertia, record));
+        let disturbance = disturbance.map_err(|problem| bad(&problem))?;
+        let FitCommand { draws, confidence, .. } = *self;
+        let asked = MarginQuestion { draws, confidence, disturbance, half_widths, inertia };
         let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
         let line = RefCell::new(StatusLine::new(place));
         let report = |motions| line.borrow_mut().renew(|_| format!("fitting: {motions} motions"));
@@ -127,16 +131,6 @@ impl FitCommand {
             }
         }
         Ok(half_widths.map(Option::unwrap_or_default))
-    }
-
-    fn margin_question(&self, opened: &Opened) -> Result<MarginQuestion, String> {
-        let inertia = opened.metric();
-        let half_widths = self.half_widths()?;
-        let record = &opened.record;
-        let disturbance =
-            self.disturbance.map_or(Ok(0.0), |it| disturbance(it, inertia, record))?;
-        let FitCommand { draws, confidence, .. } = *self;
-        Ok(MarginQuestion { draws, confidence, disturbance, half_widths, inertia })
     }
 }
 

@@ -235,8 +235,7 @@ fn around(picture: &Picture) -> Option<Window> {
         })
     };
     let span = |place: fn(&Point) -> f64| {
-        let places = curves().flatten().map(place);
-        let span = Span::covering(places.filter(|it| it.is_finite()))?;
+        let span = Span::covering(curves().flatten().map(place))?;
         Some(span.scaled(span.center(), 1.06))
     };
     Some(Window { x: span(|point| point.x)?, y: span(|point| point.y)? })

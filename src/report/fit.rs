@@ -8,7 +8,7 @@ use crate::fit::{
     OMEGA0, ProfileInterval, Q0, Record, StartKind, combination, left_out, rows,
 };
 use crate::portrait::Kicks;
-use crate::words::fit::{left_out as counts, sentences, signed, undetermined};
+use crate::words::fit::{Statement, left_out as counts, sentences, signed, undetermined};
 use crate::words::number::{in_unit, resolved, with_error};
 use crate::words::significant;
 
@@ -25,7 +25,7 @@ pub fn fit(fitted: &Fitted) -> Answer {
         .map(|it| EstimateRow::known(it.name, it.value, it.standard_error, it.unit.to_owned()));
     let table = |rows: Vec<EstimateRow>| estimate_columns().table(rows).lean();
     Answer::new(&fitted.name, subject(fitted))
-        .and(&document(fitted))
+        .and(&document(fitted, &statement))
         .csv(&name.and(estimate_columns()), numbers().chain(kick_rows(fitted)))
         .lines(broken.clone())
         .statement(statement.text.clone(), broken.is_none())
@@ -50,7 +50,7 @@ pub fn fit(fitted: &Fitted) -> Answer {
 }
 
 /// All that was found, as fields of a document.
-fn document(fitted: &Fitted) -> Document {
+fn document(fitted: &Fitted, statement: &Statement) -> Document {
     let Fitted { record, estimate, margins, .. } = fitted;
     let number = |row: &NameSpec| estimate_columns().object(&EstimateRow::of_number(fitted, row));
     let parameters = estimate.wanted().map(|row| (row.name, number(row)));
@@ -63,7 +63,6 @@ fn document(fitted: &Fitted) -> Document {
             .with("value", it.value)
             .with("standard_error", it.standard_error)
     };
-    let statement = signed(fitted);
     Document::default()
         .with("file", &fitted.name)
         .with("unit", &record.unit)
@@ -88,7 +87,7 @@ fn document(fitted: &Fitted) -> Document {
         .with("residuals", &estimate.whiteness)
         .with("margin", margins)
         .with_any("physical", physical(fitted))
-        .with("statement", &statement)
+        .with("statement", statement)
         .with("conditions", &statement.conditions)
         .with("draws", Document::default().with("effective", margins.effective))
         .with("sentences", sentences(fitted))
