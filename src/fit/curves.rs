@@ -49,15 +49,14 @@ impl Curves {
     pub fn of(estimate: &Estimate, margins: &Margins) -> Self {
         let (spread, spread_extent) = spread(estimate, margins);
         let motion = motion(estimate);
-        let largest =
-            |places: &mut dyn Iterator<Item = f64>| places.map(f64::abs).fold(0.0, f64::max);
-        let farthest = if motion.is_empty() {
+        let places: Vec<f64> = if motion.is_empty() {
             // What was measured at a peak less its residual is how far the fitted motion goes.
             let peaks = estimate.data.x.iter().zip(&estimate.residuals);
-            largest(&mut peaks.map(|(x, residual)| x - residual - estimate.p[OFFSET]))
+            peaks.map(|(x, residual)| x - residual - estimate.p[OFFSET]).collect()
         } else {
-            largest(&mut motion.iter().map(|[_, q, ..]| *q))
+            motion.iter().map(|[_, q, ..]| *q).collect()
         };
+        let farthest = places.into_iter().map(f64::abs).fold(0.0, f64::max);
         Curves { damping: damping(estimate, margins, farthest), motion, spread, spread_extent }
     }
 }

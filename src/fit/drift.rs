@@ -156,7 +156,7 @@ impl Task<'_> {
         if best.cost - least.cost <= FITTED * unit || !wider.explains(least) {
             return None;
         }
-        let bend = Covariance::white(&wider, least).map_or(0.0, |it| it.of(BEND, BEND));
+        let bend = Covariance::at(&wider, least, &[]).map_or(0.0, |it| it.of(BEND, BEND));
         if powi(least.p[BEND], 2) <= NOTHING * bend / independent(&values) {
             wider.free[BEND] = false;
             for minimum in &mut drifting {

@@ -170,7 +170,7 @@ impl SortedOut<'_> {
             self.leave_out(2, renew, |task, best, before| {
                 let variance = mean_square(&task.values(&best.seen));
                 let enough = noise.readings_at_rest(variance);
-                alike_at_rest(before, &all_but_some(task, best, enough))
+                alike_at_rest(task, best, enough, before)
             })?;
         }
         Some(())
@@ -214,18 +214,14 @@ fn beside_jumps(best: &Optimum, t: &[f64]) -> Vec<Option<Dropped>> {
     dropped
 }
 
-/// Beside what was left out before the readings of a mass at rest that only repeat the rounding error of others.
-fn alike_at_rest(before: &[Option<Dropped>], alike: &[bool]) -> Vec<Option<Dropped>> {
-    let why = |(before, alike): (&Option<Dropped>, &bool)| match before {
-        Some(Dropped::Jump) => *before,
-        _ if *alike => Some(Dropped::Alike),
-        _ => *before,
-    };
-    before.iter().zip(alike).map(why).collect()
-}
-
-/// Selects the samples held and those at rest except for `enough` (at least two) of each, evenly spread.
-fn all_but_some(task: &Task, best: &Optimum, enough: f64) -> Vec<bool> {
+/// Beside what was left out before the readings of a mass at rest that only repeat the rounding error of others: all of
+/// those held, and all of those at rest, except for `enough` (at least two) of each, evenly spread.
+fn alike_at_rest(
+    task: &Task,
+    best: &Optimum,
+    enough: f64,
+    before: &[Option<Dropped>],
+) -> Vec<Option<Dropped>> {
     const FEWEST: usize = 2;
     let t = &task.data.t;
     let (release, _) = best.start.beginning(&best.p, t);
@@ -233,18 +229,22 @@ fn all_but_some(task: &Task, best: &Optimum, enough: f64) -> Vec<bool> {
     let end = best.seen.turns.last().filter(|_| best.seen.rests);
     let rest =
         end.map_or(t.len(), |turn| t.partition_point(|&t| t < release + turn.tau / best.p[OMEGA0]));
-    let mut selected = vec![false; t.len()];
+    let kept = (truncated(enough.ceil().min(1e9))).max(FEWEST);
+    let mut dropped = before.to_vec();
     for stretch in [0..held, rest..t.len()] {
-        let kept = (truncated(enough.ceil().min(1e9))).max(FEWEST);
         let length = stretch.len();
-        if length > kept {
-            selected[stretch.clone()].fill(true);
-            for number in 0..kept {
-                selected[stretch.start + (2 * number + 1) * length / (2 * kept)] = false;
-            }
+        if length <= kept {
+            continue;
+        }
+        for why in &mut dropped[stretch.clone()] {
+            *why = why.filter(|why| *why == Dropped::Jump).or(Some(Dropped::Alike));
+        }
+        for number in 0..kept {
+            let index = stretch.start + (2 * number + 1) * length / (2 * kept);
+            dropped[index] = before[index];
         }
     }
-    selected
+    dropped
 }
 
 /// Beside what was left out before the samples that cannot belong to the motion.

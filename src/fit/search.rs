@@ -69,11 +69,11 @@ impl Task<'_> {
     fn released_elsewhere(&self, mut best: Optimum) -> Optimum {
         const ROUNDS: usize = 3;
         for _ in 0..ROUNDS {
-            let from = best.clone();
-            for guess in [-2, -1, 1, 2].into_iter().filter_map(|it| released_after(&from, it)) {
-                best = best.or_lower(self.solve(guess));
-            }
-            if best.cost == from.cost || self.explains(&best) {
+            let guesses = [-2, -1, 1, 2].into_iter().filter_map(|it| released_after(&best, it));
+            let found = guesses.filter_map(|guess| self.solve(guess)).min_by(by_cost);
+            let Some(lower) = found.filter(|it| it.cost < best.cost) else { break };
+            best = lower;
+            if self.explains(&best) {
                 break;
             }
         }
@@ -127,22 +127,17 @@ impl Task<'_> {
     /// For each way of beginning, the guess that is closest to the record before any descent. Guesses without D2 and
     /// D3 are also tried, since with wrong values of these every motion may escape.
     pub(crate) fn ranked(&self, guesses: &[Beginning]) -> Vec<(StartKind, Unknowns, bool)> {
-        let mut starts = Vec::new();
-        for Beginning { start, certain, guesses } in guesses {
+        let start = |Beginning { start, certain, guesses }: &Beginning| {
             let task = self.starting(*start);
-            let mut best = (f64::INFINITY, None);
             let plain = guesses.iter().map(|guess| self.without(*guess, &[D2, D3]));
-            for guess in guesses.iter().copied().chain(plain) {
-                if let Some(seen) = task.evaluated(&guess, false) {
-                    let cost = task.cost(&seen);
-                    if cost < best.0 {
-                        best = (cost, Some(guess));
-                    }
-                }
-            }
-            starts.extend(best.1.map(|guess| (*start, guess, *certain)));
-        }
-        starts
+            let tried = guesses.iter().copied().chain(plain).filter_map(|guess| {
+                let cost = task.cost(&task.evaluated(&guess, false)?);
+                cost.is_finite().then_some((cost, guess))
+            });
+            let (_, closest) = tried.min_by(|one, other| one.0.total_cmp(&other.0))?;
+            Some((*start, closest, *certain))
+        };
+        guesses.iter().filter_map(start).collect()
     }
 
     /// A guess with zero for some of the unknowns, as far as they are free.

@@ -72,13 +72,6 @@ pub struct Optimum {
     pub seen: Seen,
 }
 
-impl Optimum {
-    /// The lower of two minima with the same start.
-    pub fn or_lower(self, other: Option<Optimum>) -> Self {
-        other.filter(|other| other.cost < self.cost).unwrap_or(self)
-    }
-}
-
 /// Why a sample does not count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dropped {

@@ -35,11 +35,6 @@ pub struct Covariance {
 }
 
 impl Covariance {
-    /// The covariance at a minimum for white noise; `None` if an unknown has no influence at all.
-    pub fn white(task: &Task, optimum: &Optimum) -> Option<Self> {
-        Covariance::at(task, optimum, &[])
-    }
-
     /// The covariance at a minimum, for noise with these autocorrelations (none: white).
     ///
     /// With correlated noise `cov(J'e) = s^2 sum_l rho_l J_t' J_(t+l)`, which is multiplied by the inverse of
@@ -203,10 +198,8 @@ pub fn ratio_of_kinds(task: &Task, optimum: &Optimum, count: usize) -> f64 {
 
 /// The sum of the outer products of all pairs of rows, weighted by their correlation.
 fn correlated(rows: &[Unknowns], autocorrelation: &[f64]) -> UnknownsMatrix {
-    let mut meat = UnknownsMatrix::zeros();
-    for (row, ahead) in rows.iter().zip(blurred(rows, autocorrelation)) {
-        meat.ger(1.0, row, &ahead, 1.0);
-    }
+    let pairs = rows.iter().zip(blurred(rows, autocorrelation));
+    let meat: UnknownsMatrix = pairs.map(|(row, ahead)| row * ahead.transpose()).sum();
     meat + meat.transpose()
 }
 
@@ -232,10 +225,7 @@ pub fn left_over(q: &[Unknowns], noise: &[f64], lags: usize) -> Vec<f64> {
     // S Q and Q' S Q.
     let both = blurred(q, noise).zip(blurred(&reversed, noise).rev());
     let sq: Vec<Unknowns> = both.map(|(ahead, behind)| ahead + behind).collect();
-    let mut qsq = UnknownsMatrix::zeros();
-    for (one, other) in q.iter().zip(&sq) {
-        qsq.ger(1.0, one, other, 1.0);
-    }
+    let qsq: UnknownsMatrix = q.iter().zip(&sq).map(|(one, other)| one * other.transpose()).sum();
     let twice: Vec<Unknowns> = q.iter().map(|row| qsq.tr_mul(row)).collect();
     let at = |lag: usize| -> f64 {
         let rho = if lag == 0 { 1.0 } else { noise.get(lag - 1).copied().unwrap_or(0.0) };

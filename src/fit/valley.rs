@@ -26,7 +26,7 @@ impl Task<'_> {
             && (self.free[D2] || self.free[D3])
             && !self.data.has_peaks()
             && (r == 0.0
-                || optimum.seen.rests && Covariance::white(self, optimum).is_none_or(is_loose))
+                || optimum.seen.rests && Covariance::at(self, optimum, &[]).is_none_or(is_loose))
     }
 
     /// These minima, and those of neighbouring regions, the lowest first.
@@ -54,7 +54,7 @@ impl Task<'_> {
                 .find(|valley| valley.cost <= limit && !asked.contains(&valley.seen.region));
             let Some(from) = next.cloned() else { break };
             asked.push(from.seen.region);
-            let Some(covariance) = Covariance::white(self, &from) else { continue };
+            let Some(covariance) = Covariance::at(self, &from, &[]) else { continue };
             if from.p[R] == 0.0 {
                 continue;
             }
