@@ -115,27 +115,25 @@ impl BorderCommand {
             let (from, to) = (0.1 * belt_speed, 3.0 * belt_speed);
             Sweep { symbol: Knob::BeltSpeed, from, to, count: 60, spacing: Spacing::Even }
         };
-        let along = along.or_else(|| subject.of_belt().map(own)).ok_or_else(|| {
-            Failure::Usage(
-                "a mode has no belt speed: along what? --along NAME=FROM:TO:COUNT".into(),
-            )
-        })?;
-        let knobs = (along.symbol, over.symbol);
-        if knobs.0 == knobs.1 {
-            return Err(Failure::usage(format!(
-                "{} is varied twice, by --along and by --over",
-                over.symbol
-            )));
+        let along = along.or_else(|| subject.of_belt().map(own));
+        let Some(along) = along else {
+            let line = "a mode has no belt speed: along what? --along NAME=FROM:TO:COUNT";
+            return Err(Failure::usage(line));
+        };
+        let [first, second] = [&along, over].map(|sweep| sweep.symbol);
+        if first == second {
+            let line = format!("{second} is varied twice, by --along and by --over");
+            return Err(Failure::Usage(line));
         }
         let row = |index| {
             let value = over.value(index);
-            Ok((value, followed(&subject.with(over.symbol, value)?, &along)?.special))
+            Ok((value, followed(&subject.with(second, value)?, &along)?.special))
         };
         let follow = || (0..over.count).map(row).collect::<Result<Vec<_>, String>>();
         let (found, seconds) = timed(output.repeat, follow);
         let found = found.map_err(Failure::Usage)?;
-        let about = case.about().but(&[along.symbol, over.symbol]);
-        output.print(report::border_of_machine(&about, knobs, &found, seconds))
+        let about = case.about().but(&[first, second]);
+        output.print(report::border_of_machine(&about, (first, second), &found, seconds))
     }
 }
 

@@ -77,7 +77,8 @@ impl ExploreCommand {
         session.notice = session.unlikely_number().map(|text| Notice { error: false, text });
         let last = self.last.then(last).transpose()?;
         if let Some(path) = self.open.as_ref().or(last.as_ref()) {
-            open(&mut session, path)?;
+            let text = Files::read(path).map_err(Failure::Usage)?;
+            save::open(&mut session, &text).map_err(|why| Failure::file(path, why))?;
             let text = format!("opened {}", path.display());
             session.notice = Some(Notice { error: false, text });
         }
@@ -126,13 +127,6 @@ fn played(path: &Path) -> Result<Vec<Instruction>, Failure> {
     let name = path.display().to_string();
     let run = Instruction::Give(Msg::Run(format!("play {name}")));
     Ok(vec![Instruction::File { name, text }, run])
-}
-
-/// Replaces a session with the one saved in a file.
-pub fn open(session: &mut Session, path: &Path) -> Result<(), Failure> {
-    let text = Files::read(path).map_err(Failure::Usage)?;
-    let refused = |why| Failure::file(path, why);
-    save::open(session, &text).map_err(refused)
 }
 
 /// Runs the explorer until it is left. `play` holds the steps that are played first; `record` is the file to

@@ -162,16 +162,13 @@ fn margin(text: &str) -> Result<(Kick, f64), String> {
 
 /// A margin of a machine: the unit decides whether it is a displacement or an impulse.
 pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
+    const EXPECTED: &str =
+        "expected a displacement, such as \"2 mm\", or an impulse, such as \"0.1 N s\"";
     let read = measured(text)?;
     let kick = match read.dimension {
         Some(Dimension::LENGTH) => Kick::Displacement,
         Some(Dimension::IMPULSE) => Kick::Impulse,
-        _ => {
-            return Err(format!(
-                "{text:?} is not a margin; expected a displacement, such as \"2 mm\", or an impulse, such as \
-                 \"0.1 N s\""
-            ));
-        }
+        _ => return Err(format!("{text:?} is not a margin; {EXPECTED}")),
     };
     if read.value > 0.0 { Ok((kick, read.value)) } else { Err(format!("{text:?} is not positive")) }
 }

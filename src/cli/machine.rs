@@ -20,6 +20,10 @@ use crate::scene::machine::library::{find, machines};
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Machine, ScaledMachine, Scene};
 
+/// Why a mode takes no tolerances.
+const UNCERTAIN_MODE: &str =
+    "a mode takes no tolerances and no --disturbance: its guaranteed margins are not computed";
+
 /// What a command is about, and the motion to compute.
 pub struct CommandCase {
     pub described: Description,
@@ -45,18 +49,15 @@ impl CommandCase {
     pub fn named(name: &str) -> Result<Self, Failure> {
         let path = Path::new(name);
         // Read once: it may be a pipe.
-        let text = match bounded::text(path) {
-            Ok(text) => text,
-            Err(error) => {
-                let unknown = |_| {
-                    let known = machines().iter().map(|machine| machine.name.as_str());
-                    let known = known.collect::<Vec<_>>().join(", ");
-                    Failure::Usage(format!("{error}; the machines of the program are {known}"))
-                };
-                let described = find(name).map_err(unknown)?.described();
-                return Ok(CommandCase { described, sources: Vec::new() });
-            }
-        };
+        let text = bounded::text(path);
+        if let (Err(_), Ok(machine)) = (&text, find(name)) {
+            return Ok(CommandCase { described: machine.described(), sources: Vec::new() });
+        }
+        let text = text.map_err(|error| {
+            let known = machines().iter().map(|machine| machine.name.as_str());
+            let known = known.collect::<Vec<_>>().join(", ");
+            Failure::Usage(format!("{error}; the machines of the program are {known}"))
+        })?;
         let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
         let mut sources = vec![provenance_file::source(path, text.as_bytes())];
         let fetch = |table: &str| {
@@ -102,17 +103,11 @@ impl CommandCase {
     /// The same if its tolerances are within their ranges; warns of numbers that are hardly those of a machine.
     pub fn checked(self) -> Result<Self, Failure> {
         let Subject { source, tolerances, .. } = &self.described.subject;
-        let checked = match &source.body {
-            Body::Paper(_) => Ok(()),
-            Body::Belt(belt) => tolerances.check(belt),
-            Body::Mode(_) if tolerances.is_none() => Ok(()),
-            Body::Mode(_) => {
-                Err("a mode takes no tolerances and no --disturbance: its guaranteed margins are \
-                         not computed"
-                    .to_owned())
-            }
-        };
-        checked.map_err(Failure::Usage)?;
+        match &source.body {
+            Body::Belt(belt) => tolerances.check(belt).map_err(Failure::Usage)?,
+            Body::Mode(_) if !tolerances.is_none() => return Err(Failure::usage(UNCERTAIN_MODE)),
+            Body::Paper(_) | Body::Mode(_) => {}
+        }
         if let Some(line) = unlikely(&source.body, self.described.subject.start()) {
             tell(format!("warning: {line}"));
         }

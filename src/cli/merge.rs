@@ -91,7 +91,7 @@ impl MergeCommand {
                     sources.push(part_of(file)?);
                 }
             } else if path.exists() && !path.is_file() {
-                return Err(Failure::Usage(format!("{}: not a file", path.display())));
+                return Err(Failure::file(path, "not a file"));
             } else if path.exists() {
                 sources.push(part_of(path.clone())?);
             } else {
@@ -99,10 +99,7 @@ impl MergeCommand {
             }
         }
         if sources.is_empty() {
-            return Err(Failure::usage(format!(
-                "{}: there is no part of a scan",
-                self.parts[0].display()
-            )));
+            return Err(Failure::file(&self.parts[0], "there is no part of a scan"));
         }
         Ok((sources, absent))
     }
@@ -110,21 +107,17 @@ impl MergeCommand {
 
 /// A part, with the scan to which it belongs according to its provenance.
 fn part_of(path: PathBuf) -> Result<PartFile, Failure> {
-    let beside = provenance_file::beside(&path);
-    let provenance = provenance_file::read(&path).map_err(|error| {
-        let path = path.display();
-        Failure::Usage(format!("{path}: of which scan is it a part? {error}"))
-    })?;
+    let unknown = |why: Failure| Failure::file(&path, format!("of which scan is it a part? {why}"));
+    let provenance = provenance_file::read(&path).map_err(unknown)?;
     let arguments = provenance.arguments().unwrap_or_default();
     let Some(command) = ScanCommand::of_line(&arguments) else {
-        let (beside, command) = (beside.display(), &provenance.command);
-        return Err(Failure::Usage(format!("{beside}: {command:?} is not a scan")));
+        let why = format!("{:?} is not a scan", provenance.command);
+        return Err(Failure::file(&provenance_file::beside(&path), why));
     };
     let part = command.asked()?;
     if part.form == Format::Table {
-        let line =
-            format!("{}: a table rounds its numbers; merge needs csv or json", path.display());
-        return Err(Failure::Usage(line));
+        let why = "a table rounds its numbers; merge needs csv or json";
+        return Err(Failure::file(&path, why));
     }
     Ok(PartFile { path, part, provenance, arguments })
 }
@@ -153,7 +146,8 @@ fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartFile]) {
     let shard = |source: &PartFile| ScanCommand::of_line(&source.arguments)?.part.shard();
     let shard = sources.iter().find_map(shard);
     let shards = shard.into_iter().flat_map(Shard::siblings);
-    let named = shards.map(|shard| (format!("shard {shard}: "), shard.points(all)));
+    let name = |Shard { number, of }| format!("shard {number}/{of}: ");
+    let named = shards.map(|shard| (name(shard), shard.points(all)));
     let pieces: Vec<_> =
         if shard.is_some() { named.collect() } else { vec![(String::new(), 0..all)] };
     for (name, points) in pieces {

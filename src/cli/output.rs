@@ -129,17 +129,16 @@ pub fn holds_something(path: &Path) -> bool {
 
 /// Computes `times` times (at least once); returns the last answer and the median time in seconds.
 pub fn timed<T>(times: u32, mut compute: impl FnMut() -> T) -> (T, f64) {
+    let mut seconds = Vec::new();
     let mut once = || {
         let started = Instant::now();
         let answer = black_box(compute());
-        (answer, started.elapsed().as_secs_f64())
+        seconds.push(started.elapsed().as_secs_f64());
+        answer
     };
-    let (mut answer, first) = once();
-    let mut seconds = vec![first];
+    let mut answer = once();
     for _ in 1..times {
-        let (again, next) = once();
-        answer = again;
-        seconds.push(next);
+        answer = once();
     }
     (answer, median(&mut seconds))
 }

@@ -25,8 +25,8 @@ pub struct RowChoice {
 /// Part `number` of `of`, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    number: usize,
-    of: usize,
+    pub number: usize,
+    pub of: usize,
 }
 
 /// Maximum number of shards.
@@ -61,12 +61,6 @@ impl Shard {
     /// All shards of the scan, this one included.
     pub fn siblings(self) -> impl Iterator<Item = Shard> {
         (1..=self.of).map(move |number| Shard { number, of: self.of })
-    }
-}
-
-impl std::fmt::Display for Shard {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(out, "{}/{}", self.number, self.of)
     }
 }
 

@@ -66,11 +66,9 @@ impl Looks {
         DisplaySettings {
             glyphs: self.glyphs.or(config.glyphs).unwrap_or_default(),
             colors: self.color.or(config.colors).unwrap_or_default(),
-            fine: Colors::Auto,
             theme: self.theme.or(config.theme).unwrap_or_default(),
             mouse: self.mouse || config.mouse,
-            stretched: false,
-            dimensionless: false,
+            ..DisplaySettings::default()
         }
     }
 }

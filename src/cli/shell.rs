@@ -43,7 +43,7 @@ pub struct ManualCommand {
 impl ManualCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if !self.folder.is_dir() {
-            return Err(Failure::Usage(format!("{}: no such directory", self.folder.display())));
+            return Err(Failure::file(&self.folder, "no such directory"));
         }
         let mut all = program().disable_help_subcommand(true);
         all.build();

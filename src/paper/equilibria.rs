@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::measure::{ClaimCase, at_rest, missing, oscillator};
+use super::measure::{ClaimCase, at_rest, missing};
 use super::{Certain, Check, Evidence, Known, always, tends, worst};
 use crate::closed_form::lyapunov;
 use crate::closed_form::piecewise_linear::LinearCycle;
@@ -118,7 +118,7 @@ pub(super) const CHECKS: &[Check] = &[
 
 /// With linear damping only.
 fn linear(it: &Parameters) -> Parameters {
-    oscillator(it.d, 0.0, 0.0, it.r)
+    [it.d, 0.0, 0.0, it.r].into()
 }
 
 /// How many places on `v = 0` satisfy a condition on the two limits of `v'`, as printed and corrected,

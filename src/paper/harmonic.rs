@@ -3,7 +3,7 @@
 
 use std::f64::consts::{E, PI, TAU};
 
-use super::measure::{ClaimCase, at_rest, missing, oscillator};
+use super::measure::{ClaimCase, at_rest, missing};
 use super::{Certain, Check, Evidence, Known, always, tends, worst};
 use crate::accuracy::harmonic_error::harmonic_balance;
 use crate::branch::fold::fold;
@@ -125,7 +125,7 @@ pub(super) const CHECKS: &[Check] = &[
     worst("A_1 as an amplitude", |it| Ok(Evidence::equal(small(it), it.smallest()?.extent()))),
     worst("A_1 with D3", |it| Ok(Evidence::near(small(it), it.smallest()?.amplitude()))),
     worst("A_1 in short", |_| {
-        let root = largest_amplitude(&oscillator(-1.0, 0.0, 0.0, 1.0))?;
+        let root = largest_amplitude(&[-1.0, 0.0, 0.0, 1.0].into())?;
         Ok(Evidence::near(0.6, Known::relative(root, 1e-15)))
     }),
     worst("divided equation", |it| {
@@ -166,7 +166,7 @@ fn harmonic_against_extents(
 ) -> Result<Evidence, Reason> {
     Evidence::always((1..20).map(|number| {
         let d = -0.05 * f64::from(number);
-        let it = it.of(oscillator(d, 0.0, 0.0, 0.1));
+        let it = it.of([d, 0.0, 0.0, 0.1].into());
         let (cycle, harmonic) = (it.smallest()?, largest_amplitude(&it)?);
         let (low, high) = (cycle.v_max.min(cycle.q_max), cycle.v_max.max(cycle.q_max));
         let place = format!("D = {d}, r = 0.1: A = {harmonic:.5}, A_v = {low:.5}, A_q = {high:.5}");

@@ -62,11 +62,6 @@ impl BoundedCycle {
 /// All cycles of the search; certain, if it is proved that there are these and no others.
 pub type AllFound = Certain<Vec<BoundedCycle>>;
 
-/// An oscillator, in the order of the equation.
-pub fn oscillator(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
-    Parameters { d, d2, d3, r }
-}
-
 pub fn at_rest(q: f64) -> State {
     State { q, v: 0.0 }
 }
@@ -108,7 +103,7 @@ impl<'a> ClaimCase<'a> {
     /// The cases of a line of the table, such as `D = -0.9 -0.3, r = 0.1, from q = 1`: one for each combination of its
     /// values, the last of which vary fastest. Parameters that it does not name are 0.
     pub fn all(line: &str, limits: &Limits<'a>) -> Vec<Self> {
-        let (place, parameters) = (String::new(), oscillator(0.0, 0.0, 0.0, 0.0));
+        let (place, parameters) = (String::new(), Parameters::from([0.0; 4]));
         let nowhere = ClaimCase { place, parameters, more: 0.0, limits: *limits };
         line.split(", ").fold(vec![nowhere], |cases, part| {
             cases.iter().flat_map(|case| case.with(part)).collect()

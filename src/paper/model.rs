@@ -10,8 +10,8 @@ use crate::closed_form::harmonic::amplitudes;
 use crate::closed_form::linear::Linear;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Problem, Reason};
-use crate::model::Belt;
 use crate::model::belt::{FrictionLaw, ReducedBelt};
+use crate::model::{Belt, Parameters};
 use crate::numerics::interval::PI;
 use crate::numerics::{exp, ln, powi, try_bisect};
 use crate::portrait::on_belt::first_at;
@@ -210,24 +210,24 @@ fn stays_slower(case: &ClaimCase) -> Result<Certain<bool>, Reason> {
 /// The speed of the belt at which the stable cycle just reaches it, by one harmonic and computed. Fails with the
 /// [`Reason`] why a cycle was not found.
 pub fn contact(case: &ClaimCase) -> Result<Evidence, Reason> {
-    let harmonic = root(|speed| {
-        let ReducedBelt { parameters, sticking_velocity, .. } = at(speed)?;
-        let found = amplitudes(&parameters).into_iter().rfind(|answer| answer.stable);
-        Ok(found.map_or(0.0, |answer| answer.amplitude) - sticking_velocity)
+    let harmonic = reached(|parameters| {
+        let found = amplitudes(parameters).into_iter().rfind(|answer| answer.stable);
+        Ok(found.map_or(0.0, |answer| answer.amplitude))
     })?;
-    let computed = root(|speed| {
-        let ReducedBelt { parameters, sticking_velocity, .. } = at(speed)?;
-        Ok(case.of(parameters).largest()?.v_max - sticking_velocity)
-    })?;
+    let computed = reached(|parameters| Ok(case.of(*parameters).largest()?.v_max))?;
     // The cycle's velocity is known to more digits than the speeds between which its sign changes.
     Ok(Evidence::near(harmonic, Known::relative(computed, 1e-10)))
 }
 
-/// Where a function that falls over the speeds is zero, by bisection.
-fn root(mut function: impl FnMut(f64) -> Result<f64, Reason>) -> Result<f64, Reason> {
+/// The speed of the belt that is just reached by cycles with this largest velocity, by bisection.
+fn reached(velocity: impl Fn(&Parameters) -> Result<f64, Reason>) -> Result<f64, Reason> {
     /// Halvings: to the eleventh digit.
     const HALVINGS: u32 = 36;
     let [from, to] = SPEEDS;
-    let (low, high) = try_bisect(from, to, HALVINGS, |v| Ok(function(v)? <= 0.0))?;
+    let is_slower = |speed| {
+        let ReducedBelt { parameters, sticking_velocity, .. } = at(speed)?;
+        Ok(velocity(&parameters)? <= sticking_velocity)
+    };
+    let (low, high) = try_bisect(from, to, HALVINGS, is_slower)?;
     Ok(f64::midpoint(low, high))
 }

@@ -148,26 +148,27 @@ impl Certainty {
         }
     }
 
+    /// The mark of what certainly holds, or certainly fails.
+    fn decided(holds: bool, fails: bool) -> Option<Certainty> {
+        let refuted = fails.then_some(Certainty::Refuted);
+        refuted.or(holds.then_some(Certainty::Proved))
+    }
+
     /// The mark of a formula beside what it is compared with.
     pub(crate) fn of(sense: Sense, formula: f64, computed: &Known) -> Option<Certainty> {
         let bounds = computed.bounds?;
         let formula = with_rounding(formula, computed.error);
-        let decided = |holds: bool, fails: bool| match (holds, fails) {
-            (true, _) => Some(Certainty::Proved),
-            (_, true) => Some(Certainty::Refuted),
-            _ => bounds.is_finite().then_some(Certainty::Enclosed),
-        };
-        match sense {
-            Sense::Equal => decided(false, formula.intersection(bounds).is_none()),
-            Sense::AtMost => {
-                decided(formula.upper() <= bounds.lower(), formula.lower() > bounds.upper())
-            }
+        let [holds, fails] = match sense {
+            Sense::Equal => [false, formula.intersection(bounds).is_none()],
+            Sense::AtMost => [formula.upper() <= bounds.lower(), formula.lower() > bounds.upper()],
             Sense::Near => {
                 let miss = miss(formula, bounds);
-                decided(miss.upper() <= POOR, miss.lower() > POOR)
+                [miss.upper() <= POOR, miss.lower() > POOR]
             }
-            Sense::Tends | Sense::Always => None,
-        }
+            Sense::Tends | Sense::Always => return None,
+        };
+        let enclosed = bounds.is_finite().then_some(Certainty::Enclosed);
+        Certainty::decided(holds, fails).or(enclosed)
     }
 
     /// The mark of a limit, from the formula and what it is compared with far from it and nearer.
@@ -176,13 +177,8 @@ impl Certainty {
             Some(miss(with_rounding(formula, computed.error), computed.bounds?))
         };
         let (far, near) = (miss(far)?, miss(near)?);
-        if near.upper() < far.lower() {
-            Some(Certainty::Proved)
-        } else if near.lower() > far.upper() {
-            Some(Certainty::Refuted)
-        } else {
-            Some(Certainty::Enclosed)
-        }
+        let decided = Certainty::decided(near.upper() < far.lower(), near.lower() > far.upper());
+        decided.or(Some(Certainty::Enclosed))
     }
 }
 
@@ -301,11 +297,7 @@ impl Evidence {
         let place = failing.map(|(case, _)| format!("first fails at {case}"));
         let is_refuted = answers.iter().any(|(_, answer)| answer.certain && !answer.value);
         let is_proved = answers.iter().all(|(_, answer)| answer.certain);
-        let mark = match (is_refuted, is_proved && cases > 0) {
-            (true, _) => Some(Certainty::Refuted),
-            (false, true) => Some(Certainty::Proved),
-            (false, false) => None,
-        };
+        let mark = Certainty::decided(is_proved && cases > 0, is_refuted);
         let numbers = Self::new(Sense::Always, real(cases), Known::exact(real(held)));
         Ok(Evidence { place: place.unwrap_or_default(), cases, held, mark, ..numbers })
     }

@@ -7,7 +7,7 @@ use crate::accuracy::extremes::sets::{BUDGET as BUDGET_OF_SET, LatticeCycle, Set
 use crate::accuracy::extremes::verdict::{BUDGET, METHODS};
 use crate::accuracy::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
 use crate::flow::{Method, Outcome, Reason};
-use crate::model::Parameters;
+use crate::model::{Knob, Parameters};
 use crate::words::{exact as short, significant, stability};
 
 /// Few digits of what has more in files.
@@ -65,13 +65,11 @@ fn method_columns<'a>() -> Columns<'a, MethodRow<'a>> {
 
 /// The columns of parameters; text has them in the order of the lattice.
 fn parameter_columns<'a, R: 'a>(parameters: fn(&R) -> Parameters) -> Columns<'a, R> {
-    let example = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
-    Columns::default()
-        .fields(&example, move |row| Some(parameters(row)))
-        .text("D", move |row| short(parameters(row).d, 12))
-        .text("r", move |row| short(parameters(row).r, 12))
-        .text("D2", move |row| short(parameters(row).d2, 12))
-        .text("D3", move |row| short(parameters(row).d3, 12))
+    let example = Parameters::from([0.0; 4]);
+    let files = Columns::default().fields(&example, move |row| Some(parameters(row)));
+    [Knob::D, Knob::R, Knob::D2, Knob::D3].into_iter().fold(files, |columns, knob| {
+        columns.text(knob.spec().name, move |row| short(parameters(row).value(knob), 12))
+    })
 }
 
 /// How well a method answered.

@@ -50,24 +50,21 @@ impl ScanFile {
     pub fn create(path: &Path, part: ScanPart, provenance: Provenance) -> Result<Self, Failure> {
         let heading = part.heading();
         let unwritten = Failure::unwritten(path);
-        let is_regular = new_file::is_regular(path);
-        let (file, checksum) = if is_regular {
-            if path.exists() {
-                // Another scan that is writing to it keeps it.
-                drop(opened(path)?);
-            }
-            // Before the old rows go: where there is no room for this, there is none for rows.
-            let checksum = RunningChecksum::begin(path, provenance, Checksum::NONE)?;
-            new_file::write(path, heading.as_bytes(), Readers::Usual, None)?;
-            let mut file = opened(path)?;
-            file.seek(SeekFrom::End(0)).map_err(&unwritten)?;
-            (file, Some(checksum))
-        } else {
+        if !new_file::is_regular(path) {
             let mut file = new_file::device(path).map_err(&unwritten)?;
-            file.write_all(heading.as_bytes()).map_err(&unwritten)?;
-            (file, None)
-        };
-        let journal = Journal::new(is_regular.then_some(path), &part);
+            file.write_all(heading.as_bytes()).map_err(unwritten)?;
+            return Ok(ScanFile { file: Some(file), ..ScanFile::standard(part) });
+        }
+        if path.exists() {
+            // Another scan that is writing to it keeps it.
+            drop(opened(path)?);
+        }
+        // Before the old rows go: where there is no room for this, there is none for rows.
+        let checksum = Some(RunningChecksum::begin(path, provenance, Checksum::NONE)?);
+        new_file::write(path, heading.as_bytes(), Readers::Usual, None)?;
+        let mut file = opened(path)?;
+        file.seek(SeekFrom::End(0)).map_err(unwritten)?;
+        let journal = Journal::new(Some(path), &part);
         Ok(ScanFile { part, file: Some(file), journal, checksum, unchecked: 0 })
     }
 
@@ -95,7 +92,7 @@ impl ScanFile {
         let journal = Journal::resume(path, &part);
         let checksum = Some(RunningChecksum::begin(path, provenance, checksum)?);
         let mut this = ScanFile { part, file: Some(file), journal, checksum, unchecked };
-        this.catch_up().map_err(&unwritten)?;
+        this.catch_up().map_err(unwritten)?;
         Ok(this)
     }
 
@@ -173,14 +170,12 @@ fn kept(
 /// Opens a file for one scan at a time, without changing its content.
 fn opened(path: &Path) -> Result<File, Failure> {
     if !new_file::is_regular(path) {
-        return Err(Failure::Usage(format!("{}: not a file", path.display())));
+        return Err(Failure::file(path, "not a file"));
     }
     let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
     let file = file.map_err(Failure::unwritten(path))?;
     match file.try_lock() {
-        Err(TryLockError::WouldBlock) => {
-            Err(Failure::Usage(format!("{}: another scan is writing to it", path.display())))
-        }
+        Err(TryLockError::WouldBlock) => Err(Failure::file(path, "another scan is writing to it")),
         // Where files cannot be locked, the user must make sure that no other process writes.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }

@@ -91,9 +91,8 @@ impl<'a> RowReader<'a> {
         self.checksum = self.checksum.and(&line);
         let rows = self.checksum.rows;
         if self.known.is_some_and(|known| known.rows == rows && known != self.checksum) {
-            return Err(self.refused(&format!(
-                "altered: the checksum of its first {rows} rows is another in .provenance"
-            )));
+            let why = format!("the checksum of its first {rows} rows is another in .provenance");
+            return Err(Failure::file(self.path, format!("altered: {why}")));
         }
         Ok(Some(FileRow { number: self.number, index, line }))
     }
@@ -101,7 +100,7 @@ impl<'a> RowReader<'a> {
     /// Computes a row again and compares it: the same program writes the same line for the same scan.
     pub fn check(&self, row: &FileRow, limits: &Limits) -> Result<(), Failure> {
         let again = self.part.scan.row(row.index, limits);
-        let again = again.map_err(|_: Reason| self.refused("interrupted"))?;
+        let again = again.map_err(|_: Reason| Failure::file(self.path, "interrupted"))?;
         if self.part.line(row.index, &again).as_bytes() == row.line {
             return Ok(());
         }
@@ -110,7 +109,7 @@ impl<'a> RowReader<'a> {
 
     /// A line that is of something else than the part.
     fn foreign(&self, number: usize, why: &str) -> Failure {
-        self.refused(&format!("not a part of this scan: line {number} {why}"))
+        Failure::file(self.path, format!("not a part of this scan: line {number} {why}"))
     }
 
     /// Refuses a row that was read last if a point before its own has none.
@@ -119,10 +118,6 @@ impl<'a> RowReader<'a> {
             return Ok(());
         }
         Err(self.foreign(row.number, "is of another point"))
-    }
-
-    fn refused(&self, why: &str) -> Failure {
-        Failure::Usage(format!("{}: {why}", self.path.display()))
     }
 
     /// The next line, with its end unless it was cut; one that is longer than `most` bytes is cut there. Fails if it is
@@ -134,7 +129,8 @@ impl<'a> RowReader<'a> {
         self.number += 1;
         if line.len() as u64 == LONGEST {
             let (number, most) = (self.number, LONGEST >> 20);
-            return Err(self.refused(&format!("line {number} is longer than {most} MB")));
+            let why = format!("line {number} is longer than {most} MB");
+            return Err(Failure::file(self.path, why));
         }
         if line.last() == Some(&b'\n') {
             self.bytes += line.len() as u64;

@@ -56,15 +56,12 @@ pub fn summary(examined: &[ClaimResult]) -> String {
         ("refuted", "refuted"),
         ("enclosed", "enclosed"),
     ];
-    let mut parts = Vec::new();
-    for (name, words) in NAMES {
+    let parts = NAMES.into_iter().filter_map(|(name, words)| {
         let carries = |one: &&ClaimResult| {
             self::name(one) == name || one.mark().is_some_and(|mark| mark.name() == name)
         };
         let count = examined.iter().filter(carries).count();
-        if count > 0 {
-            parts.push(format!("{count} {words}"));
-        }
-    }
-    format!("{} claims: {}", examined.len(), parts.join(", "))
+        (count > 0).then(|| format!("{count} {words}"))
+    });
+    format!("{} claims: {}", examined.len(), parts.collect::<Vec<_>>().join(", "))
 }
