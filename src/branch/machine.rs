@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::special::{Jump, Jumps, Special, SpecialKind};
+use super::special::{Jump, JumpEnd, Jumps, Special, SpecialKind};
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
 use crate::model::{ContactState, Knob, Model, Phase, Source};
 use crate::numerics::{PlaceTolerance, exp, illinois, ln, real, try_bisect};
@@ -341,12 +341,13 @@ fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
     let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.q_max);
     rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
         let fate = to.fate(state.max(KICK * size), 0.0).unwrap_or_else(Fate::Unknown);
-        let x_max = match fate {
-            Fate::Rest => 0.0,
-            Fate::Cycle(index) => to.cycles[index].q_max,
+        let to = match fate {
+            Fate::Rest => JumpEnd::Rest,
+            Fate::Cycle(index) => JumpEnd::Cycle { q_max: to.cycles[index].q_max },
             Fate::Neutral => return None,
-            Fate::Moving | Fate::Escapes | Fate::Unknown(_) => f64::INFINITY,
+            Fate::Escapes => JumpEnd::Escaped,
+            Fate::Moving | Fate::Unknown(_) => JumpEnd::Unknown,
         };
-        Some(Jump { from: state, to: fate, x_max }).filter(|jump| jump.size() > MOVED * size)
+        Some(Jump { from: state, to }).filter(|jump| jump.size() > MOVED * size)
     })
 }

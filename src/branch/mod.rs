@@ -16,4 +16,4 @@ pub mod regime;
 pub(crate) mod special;
 
 pub use along::{Branch, BranchPoint};
-pub use special::{Jump, Special, SpecialKind};
+pub use special::{Jump, JumpEnd, Special, SpecialKind};

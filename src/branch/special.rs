@@ -1,8 +1,7 @@
 //! The special points of a branch of limit cycles, and what motions do there.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
-use crate::flow::Fate;
 use crate::model::{Parameters, Side};
 use crate::portrait::{Closing, Cycle, CycleErrors};
 
@@ -100,43 +99,45 @@ impl Special {
 }
 
 /// The end of a stable state.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Jump {
     /// Largest displacement of the cycle that ends, in m; 0 for rest.
     pub from: f64,
     /// What its motions become.
-    pub to: Fate,
-    /// Largest displacement of the cycle to which they tend, in m; 0 for rest, else infinite.
-    pub x_max: f64,
+    pub to: JumpEnd,
+}
+
+/// What the motions of a stable state become where it ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum JumpEnd {
+    /// They come to rest.
+    Rest,
+    /// They tend to a cycle.
+    Cycle {
+        /// Its largest displacement, in m.
+        q_max: f64,
+    },
+    /// They grow beyond all bounds.
+    Escaped,
+    /// They leave the friction law.
+    Unknown,
 }
 
 impl Jump {
+    /// The displacement up to which the motions go on to swing, in m; infinite where that is not known.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        match self.to {
+            JumpEnd::Rest => 0.0,
+            JumpEnd::Cycle { q_max } => q_max,
+            JumpEnd::Escaped | JumpEnd::Unknown => f64::INFINITY,
+        }
+    }
+
     /// How far it goes, in m.
     pub(super) fn size(&self) -> f64 {
-        (self.x_max - self.from).abs()
-    }
-}
-
-impl Serialize for Jump {
-    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct To {
-            kind: &'static str,
-            #[serde(rename = "q_max", skip_serializing_if = "Option::is_none")]
-            x_max: Option<f64>,
-        }
-        #[derive(Serialize)]
-        struct Told {
-            from: f64,
-            to: To,
-        }
-        let (kind, x_max) = match self.to {
-            Fate::Rest => ("rest", None),
-            Fate::Cycle(_) => ("cycle", Some(self.x_max)),
-            Fate::Escapes => ("escaped", None),
-            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => ("unknown", None),
-        };
-        Told { from: self.from, to: To { kind, x_max } }.serialize(out)
+        (self.reach() - self.from).abs()
     }
 }
 

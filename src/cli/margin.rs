@@ -8,8 +8,9 @@ use super::{
 };
 use crate::flow::{Limits, Subject};
 use crate::model::{Knob, Parameters};
+use crate::portrait::Portrait;
 use crate::portrait::guarantee::machine;
-use crate::portrait::guarantee::oscillator::{guaranteed, nominal};
+use crate::portrait::guarantee::oscillator::guaranteed;
 use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::proved_kicks;
 use crate::report::About;
@@ -34,7 +35,7 @@ impl MarginCommand {
         }
         let (known, bound) = (asked.source.start.known()?, bound.unwrap_or(0.0));
         let ask = || {
-            let nominal = nominal(&known, &Limits::PATIENT)?;
+            let nominal = Portrait::innermost(&known.middle(), 0.0, &Limits::PATIENT)?;
             Ok((nominal, guaranteed(&known, bound, 0.0, &Limits::PATIENT)?))
         };
         let timed = asked.output.timed("the margin could not be computed", ask)?;

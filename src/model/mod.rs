@@ -26,6 +26,7 @@
 //! assert!((r - 1.5 / (60.0 * 0.4)).abs() < 1e-15);
 //! ```
 
+pub(crate) mod basin;
 pub(crate) mod force;
 #[expect(clippy::module_inception, reason = "the model itself, beside what belongs to it")]
 pub(crate) mod model;
@@ -42,6 +43,7 @@ pub(crate) mod parameters;
 #[doc(hidden)]
 pub mod unit;
 
+pub use basin::{Border, Kicks, Margin, Reach, RestKicks, RestMargin};
 pub use belt::Belt;
 pub use half_plane::{Field, HalfPlane, PlaneField, Side};
 pub use interval::{Interval, ParameterBox};

@@ -184,7 +184,7 @@ fn least_kick(it: &ClaimCase) -> Result<Known, Reason> {
     let least = border.iter().map(|point| hypot(point.q, point.v)).fold(f64::INFINITY, f64::min);
     // It is at most that of two of its points, where these are enclosed.
     let kicks = proved_kicks(it, &basin);
-    let nearest = kicks.displacement.zip(kicks.impulse);
+    let nearest = kicks.sizes.displacement.zip(kicks.sizes.impulse);
     let bounds = nearest
         .map(|(one, other)| Interval::new(f64::NEG_INFINITY, one.upper().min(other.upper())));
     Ok(Known::relative(least, POINTS.1).within(bounds))

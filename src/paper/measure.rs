@@ -268,7 +268,7 @@ impl<'a> ClaimCase<'a> {
         let found = Portrait::of_oscillator(self, 10.0, &self.limits)?;
         let proof = prove(&ParameterBox::from(&self.parameters), &[]);
         let proved = kicks::edge(&proof, found.margin.displacement);
-        let certain = proved.map(Border::from) == Some(found.border);
+        let certain = proved == Some(found.border);
         Ok(Certain { value: found.border, certain })
     }
 

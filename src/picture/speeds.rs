@@ -3,7 +3,7 @@
 //! stable state ends, the jump to the one that is left.
 
 use super::{Picture, phase_plane};
-use crate::branch::{Jump, Special};
+use crate::branch::Special;
 use crate::portrait::{Border, Cycle, Portrait};
 use crate::scene::{Layer, Point};
 use crate::session::Session;
@@ -80,9 +80,10 @@ fn changes(picture: &mut Picture, special: &Special) {
     let ways = ["jump on a faster belt", "jump on a slower belt"];
     let jumps = special.jumps.unwrap_or_default();
     for (jump, name) in [jumps.up, jumps.down].into_iter().zip(ways) {
-        let Some(Jump { from, x_max, .. }) = jump else { continue };
-        let to = if x_max.is_finite() { x_max } else { picture.window.y.to() };
-        picture.curve(name, [[at, from], [at, to]]);
+        let Some(jump) = jump else { continue };
+        // What leaves all that is known leaves the picture.
+        let to = if jump.reach().is_finite() { jump.reach() } else { picture.window.y.to() };
+        picture.curve(name, [[at, jump.from], [at, to]]);
     }
     let place = Point { x: at, y: special.q_max.unwrap_or(0.0) };
     picture.special(place, special.kind.letter(None), &with_unit(at, 4, "m/s"));

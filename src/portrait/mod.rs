@@ -41,7 +41,6 @@ pub mod return_map;
 
 mod border;
 mod cycle;
-mod margin;
 #[expect(clippy::module_inception, reason = "the portrait itself, beside what belongs to it")]
 mod portrait;
 mod without_belt;
@@ -51,8 +50,8 @@ pub(crate) use basin::cycle::picture_reach;
 pub use basin::cycle::{Cycles, Drawing, cycles};
 pub use basin::stability::Share;
 pub use basin::{Counts, StartWindow};
-pub use border::{Border, Edge};
-pub(crate) use closing::all::{STEP, all_closings, closings, first_closings};
+pub use border::Edge;
+pub(crate) use closing::all::{STEP, all_closings, closings};
 pub(crate) use closing::balance::weighed_closing;
 pub(crate) use closing::equation::{Equation, Route, WayFromRim, first_side};
 pub(crate) use closing::half_map::{Direction, Length};
@@ -65,5 +64,6 @@ pub use cycle::{Cycle, CycleErrors, Ride};
 pub(crate) use design::{FrictionNeeded, Kick, friction_for};
 pub(crate) use kicks::RandomKick;
 pub(crate) use kicks::repeated::Repeated;
-pub use margin::{Kicks, Margin, Reach, RestMargin};
 pub use portrait::Portrait;
+
+pub use crate::model::{Border, Kicks, Margin, Reach, RestMargin};

@@ -8,11 +8,10 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::margin::RestKicks;
 use super::{Border, Cycle, Edge, Kicks, Margin, Reach};
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
-use crate::model::{ContactState, Model, Phase};
+use crate::model::{ContactState, Model, Phase, RestKicks};
 use crate::numerics::root::bisect;
 use crate::portrait::basin::orbit::Orbit;
 use crate::portrait::basin::stability::{Share, part_within};
@@ -351,7 +350,7 @@ impl Portrait {
                     }
                     _ => portrait.fate(x, *v),
                 };
-                counts.add(fate.unwrap_or_else(Fate::Unknown), 1);
+                counts.add(fate.unwrap_or_else(Fate::Unknown));
             }
             Ok(counts)
         };

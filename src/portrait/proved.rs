@@ -8,9 +8,9 @@ use thiserror::Error;
 use super::basin::cycle::Cycles;
 use crate::model::Parameters;
 use crate::numerics::Interval;
-use crate::portrait::{Border, Cycle, Margin, Portrait};
+use crate::portrait::{Cycle, Portrait};
 use crate::proof::cycles::ProvedCycle;
-use crate::proof::kicks::{ProvedEdge, ProvedKicks, kicks};
+use crate::proof::kicks::{ProvedKicks, kicks};
 use crate::proof::{ParameterBox, Proof, prove};
 
 /// The search and the proof say different things: an error of this program.
@@ -52,40 +52,22 @@ pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     Ok(())
 }
 
-impl From<ProvedEdge> for Border {
-    fn from(edge: ProvedEdge) -> Self {
-        match edge {
-            ProvedEdge::None => Border::None,
-            ProvedEdge::Cycle => Border::Cycle,
-            ProvedEdge::Separatrix => Border::Separatrix,
-        }
-    }
-}
-
 /// What is proved about the edge of the basin of the oscillator with these parameters, of which this was found.
 #[must_use]
 pub fn proved_kicks(parameters: &Parameters, found: &Portrait) -> ProvedKicks {
-    let Margin { displacement, impulse, from_rest } = found.margin;
     let proof = prove(&ParameterBox::from(parameters), &[]);
-    agreed(kicks(&proof, [displacement, impulse, from_rest.impulse]), found)
+    agreed(kicks(&proof, &found.margin), found)
 }
 
 /// What is proved about the edge of a basin; nothing where the search says otherwise.
 #[must_use]
 pub fn agreed(proved: ProvedKicks, found: &Portrait) -> ProvedKicks {
     const DIFFERENT: &str = "not proved, because the proof contradicts the numbers above";
-    let Margin { displacement, impulse, from_rest } = found.margin;
-    let pairs = [
-        (proved.displacement, displacement),
-        (proved.impulse, impulse),
-        (proved.rest_displacement, from_rest.displacement),
-        (proved.rest_impulse, from_rest.impulse),
-    ];
-    let agree = |(bounds, value): (Option<Interval>, Option<f64>)| {
-        bounds.zip(value).is_none_or(|(bounds, value)| is_near(bounds, value))
+    let agree = |(bounds, value): (&Option<Interval>, &Option<f64>)| {
+        bounds.zip(*value).is_none_or(|(bounds, value)| is_near(bounds, value))
     };
-    let edge = proved.edge.map(Border::from);
-    if edge.is_none_or(|edge| edge == found.border) && pairs.into_iter().all(agree) {
+    let same = proved.edge.is_none_or(|edge| edge == found.border);
+    if same && proved.sizes.all().into_iter().zip(found.margin.all()).all(agree) {
         return proved;
     }
     ProvedKicks { open: Some(DIFFERENT), ..ProvedKicks::default() }

@@ -7,7 +7,7 @@
 use super::basin::arc::Arc;
 use super::basin::cycle::{described, picture_reach};
 use super::basin::orbit::Orbit;
-use super::closing::all::{STEP, all_closings};
+use super::closing::all::{STEP, first_closings};
 use super::closing::equation::{Equation, first_side};
 use super::closing::pair::Closing;
 use super::portrait::Portrait;
@@ -63,19 +63,27 @@ impl Portrait {
         reach: f64,
         limits: &Limits,
     ) -> Result<Self, Reason> {
-        Self::by_closings(&Model::of_paper(parameters)?, parameters, reach, limits)
+        Self::by_closings(&Model::of_paper(parameters)?, parameters, (usize::MAX, reach), limits)
     }
 
-    /// The portrait of what the oscillator with these parameters is in other units, from all pairs of half swings that
-    /// close.
+    /// The same with what lies within its innermost cycle alone, which takes half the work.
+    ///
+    /// # Errors
+    /// As [`Self::of_oscillator`].
+    pub fn innermost(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Self, Reason> {
+        Self::by_closings(&Model::of_paper(parameters)?, parameters, (1, reach), limits)
+    }
+
+    /// The portrait of what the oscillator with these parameters is in other units, from as many pairs of half swings that
+    /// close as are wanted.
     fn by_closings(
         model: &Model,
         parameters: &Parameters,
-        reach: f64,
+        (most, reach): (usize, f64),
         limits: &Limits,
     ) -> Result<Self, Reason> {
         let mut equation = Equation::new(parameters, STEP, limits);
-        let found = all_closings(&mut equation)?;
+        let found = first_closings(&mut equation, most)?;
         let mut portrait = Self::around(model, parameters, &found, reach, limits)?;
         portrait.cost += equation.cost();
         Ok(portrait)
@@ -96,17 +104,15 @@ impl Portrait {
         let cycles = described(parameters, found);
         let border = Border::around(parameters, &cycles);
         let mut orbits = Vec::new();
-        let mut fates = Vec::new();
         if border == Border::Separatrix {
             orbits.push(Orbit::separatrix(parameters, reach, limits)?);
-            fates.push(if is_centre(parameters) { Fate::Neutral } else { Fate::Rest });
         }
         for closing in found {
             let repels = closing.log_multiplier(parameters) > 0.0;
             let (both, side) = ([parameters; 2], first_side(parameters));
             orbits.push(Orbit::of_closing(both, side, closing, repels, limits)?);
         }
-        fates.extend(fates_between(parameters, &cycles, fates.is_empty()));
+        let fates = fates_between(parameters, border, &cycles);
         let cycles = cycles.iter().map(|cycle| cycle.scaled(1.0, model.omega_0)).collect();
         let blank = Portrait { cycles, border, fates, ..Portrait::blank(model) };
         Ok(Portrait { followed: reach, ..blank.parted(orbits) })
@@ -156,8 +162,8 @@ fn without_belt(model: &Model) -> Option<Portrait> {
     if is_centre(&parameters) || (node && model.holds_more_at_rest()) {
         return None;
     }
-    let reach = picture_reach(parameters.d2);
-    let mut portrait = Portrait::by_closings(model, &parameters, reach, &Limits::PATIENT).ok()?;
+    let all = (usize::MAX, picture_reach(parameters.d2));
+    let mut portrait = Portrait::by_closings(model, &parameters, all, &Limits::PATIENT).ok()?;
     let held = |cycle: &Cycle| cycle.q_max.min(-cycle.q_min) <= model.guide_static;
     if model.holds_more_at_rest() && portrait.cycles.iter().any(held) {
         return None;
@@ -171,21 +177,18 @@ fn without_belt(model: &Model) -> Option<Portrait> {
     Some(portrait)
 }
 
-/// The fates of the regions that nested cycles make, from the inside out. A separatrix may already have
-/// taken the sticking set's own region.
-fn fates_between(parameters: &Parameters, cycles: &[Cycle], with_centre: bool) -> Vec<Fate> {
-    let within = |outer: usize| {
-        let stable = |index: usize| cycles.get(index).map(|cycle| cycle.stable);
-        match (outer.checked_sub(1).and_then(stable), stable(outer)) {
-            (None, Some(true)) if parameters.r > 0.0 && with_centre => Fate::Rest,
-            (_, Some(true)) => Fate::Cycle(outer),
-            (None, Some(false)) => Fate::Rest,
-            (None, None) if with_centre => centre_fate(parameters),
-            (None | Some(false), None) => Fate::Escapes,
-            (Some(_), _) => Fate::Cycle(outer - 1),
-        }
-    };
-    (0..=cycles.len()).map(within).collect()
+/// The fates of the regions that nested orbits make, from the inside out. Motions of a region go to what attracts on its
+/// inner side, rest or a cycle, else to what is on its outer side, a cycle or infinity.
+fn fates_between(parameters: &Parameters, border: Border, cycles: &[Cycle]) -> Vec<Fate> {
+    let centre = Some(centre_fate(parameters)).filter(|fate| *fate != Fate::Escapes);
+    let separatrix = (border == Border::Separatrix).then_some(None);
+    let cycle = |(index, cycle): (usize, &Cycle)| cycle.stable.then_some(Fate::Cycle(index));
+    let mut attracting = vec![centre];
+    attracting.extend(separatrix);
+    attracting.extend(cycles.iter().enumerate().map(cycle));
+    attracting.push(Some(Fate::Escapes));
+    let between = |sides: &[Option<Fate>]| sides[0].or(sides[1]).unwrap_or(Fate::Escapes);
+    attracting.windows(2).map(between).collect()
 }
 
 /// The fate of the whole plane where nothing parts it, and next to rest.

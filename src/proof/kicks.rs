@@ -12,33 +12,17 @@ use super::field::ParameterBox;
 use super::map::{Effort, ProvedHalf, ProvedMap};
 use super::range::narrowed;
 use super::swing::{Passage, swing};
+use crate::model::{Border, Kicks, Margin, RestKicks};
 use crate::numerics::{Interval, powi};
-
-/// What provably borders the basin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ProvedEdge {
-    /// Nothing: every motion comes to rest.
-    None,
-    /// The innermost cycle.
-    Cycle,
-    /// An orbit that is not a cycle.
-    Separatrix,
-}
 
 /// The smallest kicks that are not captured: kicks below the lower bound come to rest, kicks above the upper
 /// bound do not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProvedKicks {
-    /// What borders the basin, where that is proved.
-    pub edge: Option<ProvedEdge>,
-    /// Smallest displacement at rest; `None` where all are captured or nothing is known.
-    pub displacement: Option<Interval>,
-    /// Smallest impulse at `q = 0`; `None` likewise.
-    pub impulse: Option<Interval>,
-    /// Smallest change of position out of any rest position in `-r .. r`; `None` likewise.
-    pub rest_displacement: Option<Interval>,
-    /// Smallest impulse at any of them; `None` likewise.
-    pub rest_impulse: Option<Interval>,
+    /// What borders the basin, where that is proved: nothing, the innermost cycle, or a separatrix.
+    pub edge: Option<Border>,
+    /// Their sizes; `None` where all are captured or nothing is known.
+    pub sizes: Kicks<Option<Interval>>,
     /// Why part of the answer is open.
     pub open: Option<&'static str>,
 }
@@ -50,12 +34,11 @@ const ATTRACTS: &str = "the innermost cycle attracts";
 /// Turns for which a motion is followed before its fate is left open.
 const TURNS: usize = 300;
 
-/// Bounds of the kicks. `proof` is about the cycles for the same parameters; `hints` are approximate values of
-/// the displacement, of the impulse at `q = 0`, and of the smallest one at a rest position.
-pub fn kicks(proof: &Proof, hints: [Option<f64>; 3]) -> ProvedKicks {
+/// Bounds of the kicks. `proof` is about the cycles for the same parameters; `near` has approximate values.
+pub fn kicks(proof: &Proof, near: &Margin) -> ProvedKicks {
     let parameters = &proof.parameters;
     let mut map = ProvedMap::new(parameters);
-    let (edge, clearances) = match border(&mut map, proof, hints[0]) {
+    let (edge, clearances) = match border(&mut map, proof, near.displacement) {
         Ok(found) => found,
         Err(reason) => return ProvedKicks { open: Some(reason), ..ProvedKicks::default() },
     };
@@ -68,22 +51,19 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 3]) -> ProvedKicks {
             .map(|half| threshold(hint, |speed| pushed(&mut map, half, x, speed, clearances)));
         one.zip(other).map(|(one, other)| smaller(one, other))
     };
-    let impulse = at(r, hints[1]);
+    let impulse = at(r, near.impulse);
     // Over the rest positions the edge is lowest at an end (lemma 22).
-    let ends = [Interval::point(0.0), r + r].map(|x| at(x, hints[2]));
+    let ends = [Interval::point(0.0), r + r].map(|x| at(x, near.from_rest.impulse));
     let rest_impulse = ends[0].zip(ends[1]).map(|(one, other)| smaller(one, other));
-    ProvedKicks {
-        edge,
-        displacement: Some(smaller(clearances[0] + r, clearances[1] + r)),
-        impulse,
-        rest_displacement: Some(smaller(clearances[0], clearances[1])),
-        rest_impulse,
-        open: (impulse.is_none() || rest_impulse.is_none()).then_some(NO_EDGE),
-    }
+    let [right, left] = clearances;
+    let from_rest = RestKicks { displacement: Some(smaller(right, left)), impulse: rest_impulse };
+    let displacement = Some(smaller(right + r, left + r));
+    let open = (impulse.is_none() || rest_impulse.is_none()).then_some(NO_EDGE);
+    ProvedKicks { edge, sizes: Kicks { displacement, impulse, from_rest }, open }
 }
 
 /// What certainly borders the basin; `hint` is an approximate value of the smallest displacement.
-pub fn edge(proof: &Proof, hint: Option<f64>) -> Option<ProvedEdge> {
+pub fn edge(proof: &Proof, hint: Option<f64>) -> Option<Border> {
     border(&mut ProvedMap::new(&proof.parameters), proof, hint).ok()?.0
 }
 
@@ -93,21 +73,21 @@ fn border(
     map: &mut ProvedMap,
     proof: &Proof,
     hint: Option<f64>,
-) -> Result<(Option<ProvedEdge>, Option<[Interval; 2]>), &'static str> {
+) -> Result<(Option<Border>, Option<[Interval; 2]>), &'static str> {
     let r = proof.parameters.r;
     if !(r.lower() > 0.0) {
         return Err(NO_FRICTION);
     }
     let none = proof.is_complete() && proof.cycles.is_empty();
     if none && is_bounded(map, proof) {
-        return Ok((Some(ProvedEdge::None), None));
+        return Ok((Some(Border::None), None));
     }
     let innermost = innermost(proof);
     if innermost.is_some_and(|cycle| cycle.stable) {
         return Err(ATTRACTS);
     }
     if let Some(it) = innermost.and_then(|cycle| cycle.enclosure) {
-        return Ok((Some(ProvedEdge::Cycle), Some([it.clearance, -it.q_min - r])));
+        return Ok((Some(Border::Cycle), Some([it.clearance, -it.q_min - r])));
     }
     let guess = hint.map(|hint| hint - r.middle());
     let sides = [0, 1].map(|side| {
@@ -118,7 +98,7 @@ fn border(
     if right.upper().min(left.upper()) == f64::INFINITY {
         return Err(NO_EDGE);
     }
-    Ok((none.then_some(ProvedEdge::Separatrix), Some([right, left])))
+    Ok((none.then_some(Border::Separatrix), Some([right, left])))
 }
 
 /// The innermost cycle, if there is certainly none inside it.

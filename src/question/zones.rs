@@ -3,7 +3,7 @@
 
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Body, Source, State, Tolerances};
-use crate::portrait::guarantee::{certain, oscillator};
+use crate::portrait::guarantee::certain;
 use crate::portrait::{Margin, Portrait, picture_reach};
 
 /// A region of the phase plane around the sticking set.
@@ -42,7 +42,7 @@ pub(super) fn zones(
         Body::Paper(parameters) => {
             let known = known.around(parameters);
             let d2 = known.d2.lower().abs().min(known.d2.upper().abs());
-            (picture_reach(d2), oscillator::nominal(&known, limits)?)
+            (picture_reach(d2), Portrait::innermost(&known.middle(), 0.0, limits)?)
         }
         // On a belt every border is closed.
         Body::Belt(_) | Body::Mode(_) => (0.0, source.portrait()?),

@@ -9,8 +9,8 @@ use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity};
 use crate::branch::fold::{Boundary, BoundaryPoint};
 use crate::branch::machine::{MachineBranch, PortraitPoint};
-use crate::branch::{Branch, BranchPoint, Jump, Special};
-use crate::flow::{Cost, Fate};
+use crate::branch::{Branch, BranchPoint, Jump, JumpEnd, Special};
+use crate::flow::Cost;
 use crate::model::Knob;
 use crate::portrait::Cycle;
 use crate::proof::range::{MOST_STEPS, Range, RangePiece};
@@ -189,17 +189,15 @@ fn special_columns<'a, R: 'a>(along: Knob, of: fn(&R) -> &Special) -> Columns<'a
 /// The stable states that end at a change, as the number increases and as it decreases.
 fn jumps(special: &Special) -> String {
     let sentence = |jump: Option<Jump>, way: &str| {
-        jump.map_or_else(String::new, |Jump { from, to, x_max }| {
+        jump.map_or_else(String::new, |Jump { from, to }| {
             let length = |x| with_unit(x, 5, "m");
             let from =
                 if from == 0.0 { "rest".to_owned() } else { format!("x = {}", length(from)) };
             let to = match to {
-                Fate::Rest => "rest".to_owned(),
-                Fate::Cycle(_) => format!("x = {}", length(x_max)),
-                Fate::Escapes => "beyond all bounds".to_owned(),
-                Fate::Neutral | Fate::Moving | Fate::Unknown(_) => {
-                    "where the friction law ends".to_owned()
-                }
+                JumpEnd::Rest => "rest".to_owned(),
+                JumpEnd::Cycle { q_max } => format!("x = {}", length(q_max)),
+                JumpEnd::Escaped => "beyond all bounds".to_owned(),
+                JumpEnd::Unknown => "where the friction law ends".to_owned(),
             };
             format!("; {way}, from {from} to {to}")
         })

@@ -6,8 +6,8 @@ use super::{About, Answer, Columns, Document, Format, Quantity};
 use crate::branch::fold::BoundaryPoint;
 use crate::check::{Bounds, Certificate, StepKind};
 use crate::numerics::Interval;
+use crate::portrait::Cycle;
 use crate::portrait::proved::matching;
-use crate::portrait::{Border, Cycle};
 use crate::proof::cycles::ProvedCycle;
 use crate::proof::kicks::ProvedKicks;
 use crate::proof::motion::{ProvedMotion, ProvedPoint};
@@ -203,11 +203,11 @@ pub(super) fn followed(motion: &ProvedMotion) -> Document {
 pub(super) fn kick_columns<'a>() -> Columns<'a, &'a ProvedKicks> {
     const NO_EDGE: &str = "what borders the basin";
     Columns::default()
-        .word("edge", |kicks: &&ProvedKicks| kicks.edge.map(Border::from))
-        .bounds("displacement", |kicks| kicks.displacement)
-        .bounds("impulse", |kicks| kicks.impulse)
-        .bounds("from_rest_displacement", |kicks| kicks.rest_displacement)
-        .bounds("from_rest_impulse", |kicks| kicks.rest_impulse)
+        .word("edge", |kicks: &&ProvedKicks| kicks.edge)
+        .bounds("displacement", |kicks| kicks.sizes.displacement)
+        .bounds("impulse", |kicks| kicks.sizes.impulse)
+        .bounds("from_rest_displacement", |kicks| kicks.sizes.from_rest.displacement)
+        .bounds("from_rest_impulse", |kicks| kicks.sizes.from_rest.impulse)
         .file("proved", |kicks| kicks.open.is_none() && kicks.edge.is_some())
         .word("open", |kicks| kicks.open.or_else(|| kicks.edge.is_none().then_some(NO_EDGE)))
 }

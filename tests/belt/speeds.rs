@@ -2,8 +2,8 @@
 //! where the motions of the machine leave the end of a stable state.
 
 use hopfscope::branch::machine::{MachineBranch, PortraitPoint};
-use hopfscope::branch::{Jump, Special, SpecialKind};
-use hopfscope::flow::{Fate, Limits};
+use hopfscope::branch::{Jump, JumpEnd, Special, SpecialKind};
+use hopfscope::flow::Limits;
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, Group, Knob, Source};
 use hopfscope::picture::Item;
@@ -33,15 +33,16 @@ fn rest_and_stick_slip_end_at_different_speeds() {
         let [hopf, end] = found[..] else { panic!("{found:?}") };
         assert_eq!((hopf.kind, end.kind), (SpecialKind::Hopf, SpecialKind::Annihilation));
         assert_eq!((hopf.jumps.unwrap().up, end.jumps.unwrap().down), (None, None), "{found:?}");
-        let Some(Jump { from: 0.0, to: Fate::Cycle(_), x_max }) = hopf.jumps.unwrap().down else {
+        let Some(Jump { from: 0.0, to: JumpEnd::Cycle { q_max } }) = hopf.jumps.unwrap().down
+        else {
             panic!("{hopf:?}")
         };
         // The stick-slip cycle at that speed.
         let there = Belt { belt_speed: hopf.value, ..machine("bstab") };
         let cycles = Portrait::of_belt(&there).unwrap().cycles;
         let stuck = cycles.iter().find(|cycle| cycle.sticks()).unwrap();
-        assert!((x_max / stuck.q_max - 1.0).abs() < 1e-6, "{x_max} {stuck:?}");
-        let Some(Jump { from, to: Fate::Rest, .. }) = end.jumps.unwrap().up else {
+        assert!((q_max / stuck.q_max - 1.0).abs() < 1e-6, "{q_max} {stuck:?}");
+        let Some(Jump { from, to: JumpEnd::Rest }) = end.jumps.unwrap().up else {
             panic!("{end:?}")
         };
         assert!((from / end.q_max.unwrap() - 1.0).abs() < 0.01, "{end:?}");
@@ -57,7 +58,7 @@ fn a_cycle_that_grows_into_the_line_does_not_jump_and_one_that_folds_does() {
         (touch.jumps.unwrap().up, touch.jumps.unwrap().down, fold.jumps.unwrap().down),
         (None, None, None)
     );
-    assert!(matches!(fold.jumps.unwrap().up, Some(Jump { to: Fate::Rest, .. })), "{fold:?}");
+    assert!(matches!(fold.jumps.unwrap().up, Some(Jump { to: JumpEnd::Rest, .. })), "{fold:?}");
 }
 
 #[test]
@@ -65,7 +66,7 @@ fn where_friction_at_rest_is_higher_stick_slip_and_slip_change_into_each_other()
     let belt = Belt { static_coefficient: Some(0.6), ..machine("textbook") };
     let found = specials(&belt, "v0", (0.1, 0.5), 9);
     let cycle = |jump: Option<Jump>| match jump {
-        Some(Jump { from, to: Fate::Cycle(_), x_max }) => Some((from, x_max)),
+        Some(Jump { from, to: JumpEnd::Cycle { q_max } }) => Some((from, q_max)),
         _ => None,
     };
     // Downwards: the slipping cycle touches the line, and the motion goes on to the larger cycle that sticks.

@@ -26,7 +26,7 @@ struct Row {
     /// Logarithm of the multiplier, if the border is a cycle.
     log_multiplier: Option<f64>,
     window: [f64; 4],
-    captured: u64,
+    captured: usize,
 }
 
 fn rows() -> Vec<Row> {

@@ -7,7 +7,7 @@ use hopfscope::model::{Body, Interval, Knob, ParameterBox, Parameters, State, To
 use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::Portrait;
-use hopfscope::portrait::guarantee::oscillator::{TwoSided, guaranteed, nominal};
+use hopfscope::portrait::guarantee::oscillator::{TwoSided, guaranteed};
 use hopfscope::portrait::{Border, Margin};
 use hopfscope::question::answer;
 use hopfscope::scene::{Finding, Request, Topic};
@@ -199,7 +199,7 @@ fn the_margin_known_from_elsewhere() {
         let (_, margin) = guaranteed(&known, w, 0.0, &Limits::PATIENT).unwrap().unwrap();
         let displacement = margin.displacement.unwrap();
         assert!((displacement - expected).abs() < 5e-5, "w = {w}: {displacement}");
-        let nominal = nominal(&known, &Limits::PATIENT).unwrap().margin;
+        let nominal = Portrait::innermost(&known.middle(), 0.0, &Limits::PATIENT).unwrap().margin;
         assert!(displacement < nominal.displacement.unwrap());
     }
 }

@@ -143,7 +143,7 @@ fn ordered_basins_agree_with_brute_force() {
         for index in 0..GRID * GRID {
             let place = |index: usize| -3.0 + 6.0 * index as f64 / (GRID - 1) as f64;
             let fate = ordered.fate(place(index % GRID), place(index / GRID));
-            one_by_one.add(fate.unwrap(), 1);
+            one_by_one.add(fate.unwrap());
         }
         assert_eq!(counts, one_by_one, "{parameters:?}");
     });

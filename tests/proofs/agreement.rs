@@ -2,14 +2,14 @@
 
 use hopfscope::branch::fold::fold;
 use hopfscope::flow::Limits;
-use hopfscope::model::Parameters;
+use hopfscope::model::{Border, Kicks, Margin, Parameters};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::pow;
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::Portrait;
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::proved::{agreed, matching, proved};
-use hopfscope::proof::kicks::{ProvedEdge, kicks};
+use hopfscope::proof::kicks::kicks;
 use hopfscope::proof::{ParameterBox, prove};
 
 /// Compares search and proof; returns how many cycles are proved.
@@ -61,22 +61,23 @@ fn next_to_a_fold_search_and_proof_agree() {
 fn a_proof_that_contradicts_the_basin_found_is_not_shown() {
     let all = |d: f64| Parameters { d, d2: 0.2, d3: 0.5, r: 0.1 };
     let survey = |parameters| Portrait::of_oscillator(&parameters, 1.0, &Limits::PATIENT);
-    let kicks =
-        |parameters: Parameters| kicks(&prove(&ParameterBox::from(&parameters), &[]), [None; 3]);
+    let kicks = |parameters: Parameters| {
+        kicks(&prove(&ParameterBox::from(&parameters), &[]), &Margin::ENDLESS)
+    };
     let [cycle, none] = [-0.2, 0.2].map(all);
-    for (parameters, edge) in [(cycle, ProvedEdge::Cycle), (none, ProvedEdge::None)] {
+    for (parameters, edge) in [(cycle, Border::Cycle), (none, Border::None)] {
         let shown = agreed(kicks(parameters), &survey(parameters).unwrap());
         assert_eq!((shown.edge, shown.open), (Some(edge), None));
     }
     let off = |bounds: Option<Interval>| bounds.map(|it| it * 1.001);
     let same = kicks(cycle);
     let mut displaced = same;
-    displaced.displacement = off(same.displacement);
+    displaced.sizes.displacement = off(same.sizes.displacement);
     let mut pushed = same;
-    pushed.impulse = off(same.impulse);
+    pushed.sizes.impulse = off(same.sizes.impulse);
     for proved in [kicks(none), displaced, pushed] {
         let shown = agreed(proved, &survey(cycle).unwrap());
-        assert_eq!((shown.edge, shown.displacement, shown.impulse), (None, None, None));
+        assert_eq!((shown.edge, shown.sizes), (None, Kicks::default()));
         assert!(shown.open.unwrap().starts_with("not proved, because"), "{shown:?}");
     }
 }

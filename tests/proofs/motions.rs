@@ -2,11 +2,11 @@
 //! plain computation.
 
 use hopfscope::flow::Limits;
-use hopfscope::model::{Knob, Parameters};
+use hopfscope::model::{Border, Knob, Margin, Parameters};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{exp, powi, sin_cos};
 use hopfscope::portrait::Portrait;
-use hopfscope::proof::kicks::{ProvedEdge, ProvedKicks, kicks};
+use hopfscope::proof::kicks::{ProvedKicks, kicks};
 use hopfscope::proof::motion::{ProvedFate, ProvedMotion, follow};
 use hopfscope::proof::range::{MOST_STEPS, change_within, range};
 use hopfscope::proof::{ParameterBox, prove};
@@ -107,26 +107,24 @@ fn intervals_hold_the_motions_inside() {
 }
 
 fn kicked(parameters: &Parameters) -> ProvedKicks {
-    kicks(&prove(&ParameterBox::from(parameters), &[]), [None; 3])
+    kicks(&prove(&ParameterBox::from(parameters), &[]), &Margin::ENDLESS)
 }
 
 /// Margins of the piecewise linear oscillator in closed form, and of reference cycles.
 #[test]
 fn margins_hold_their_references() {
     let linear = kicked(&Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.1 });
-    let displacement = linear.displacement.unwrap();
+    let displacement = linear.sizes.displacement.unwrap();
     assert!(displacement.contains(0.638_682_318_435_773_5) && displacement.width() < 1e-13);
-    assert_eq!(linear.edge, Some(ProvedEdge::Cycle));
+    assert_eq!(linear.edge, Some(Border::Cycle));
     let found = kicked(&Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 });
-    assert!(found.displacement.unwrap().contains(0.350_058_845_389_937_26));
-    assert!(found.impulse.unwrap().width() < 1e-11);
-    assert_eq!(
-        kicked(&Parameters { d: 0.1, d2: 0.0, d3: 0.5, r: 0.1 }).edge,
-        Some(ProvedEdge::None)
-    );
+    assert!(found.sizes.displacement.unwrap().contains(0.350_058_845_389_937_26));
+    assert!(found.sizes.impulse.unwrap().width() < 1e-11);
+    let captured = kicked(&Parameters { d: 0.1, d2: 0.0, d3: 0.5, r: 0.1 });
+    assert_eq!(captured.edge, Some(Border::None));
     let escape = kicked(&Parameters { d: -0.02, d2: 0.5, d3: 0.0, r: 0.1 });
-    assert_eq!(escape.edge, Some(ProvedEdge::Separatrix));
-    assert!(escape.displacement.unwrap().width() < 1e-9);
+    assert_eq!(escape.edge, Some(Border::Separatrix));
+    assert!(escape.sizes.displacement.unwrap().width() < 1e-9);
     assert!(kicked(&Parameters { d: -0.1, d2: 0.0, d3: 0.5, r: 0.0 }).open.is_some());
 }
 
@@ -150,21 +148,15 @@ fn margins_are_never_larger_than_the_truth() {
             Parameters { d: roll(-0.8, 0.1), d2: roll(-0.5, 0.5), d3, r: roll(0.05, 0.5) };
         let margin = Portrait::of_oscillator(&parameters, 10.0, &Limits::PATIENT).unwrap().margin;
         let proof = prove(&ParameterBox::from(&parameters), &[]);
-        let from_rest = margin.from_rest;
-        let found = kicks(&proof, [margin.displacement, margin.impulse, from_rest.impulse]);
+        let found = kicks(&proof, &margin);
         open += usize::from(found.open.is_some());
-        for (plain, bounds) in [
-            (margin.displacement, found.displacement),
-            (margin.impulse, found.impulse),
-            (from_rest.displacement, found.rest_displacement),
-            (from_rest.impulse, found.rest_impulse),
-        ] {
-            let Some(bounds) = bounds else { continue };
+        for (plain, bounds) in margin.all().into_iter().zip(found.sizes.all()) {
+            let Some(bounds) = *bounds else { continue };
             let plain = plain.unwrap_or_else(|| panic!("{parameters:?}: no margin, {bounds}"));
             compared += 1;
             assert!(near(bounds, plain, 1e-9 * plain), "{parameters:?}: {plain} {bounds}");
         }
-        if let Some(impulse) = found.impulse {
+        if let Some(impulse) = found.sizes.impulse {
             let ends = |v: f64| motion(&parameters, 0.0, v, 1e5).fate;
             for sign in [-1.0, 1.0] {
                 let inside = ends(sign * impulse.lower() * (1.0 - 1e-9));

@@ -15,6 +15,7 @@ pub mod stability;
 use serde::Serialize;
 
 use crate::flow::Fate;
+use crate::numerics::real;
 
 /// A rectangle of starts, both ends included.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,13 +30,13 @@ pub struct StartWindow {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
     /// On the sticking set.
-    pub captured: u64,
+    pub captured: usize,
     /// On a stable limit cycle.
-    pub cycle: u64,
+    pub cycle: usize,
     /// Beyond all bounds.
-    pub escaped: u64,
+    pub escaped: usize,
     /// On none of these.
-    pub undecided: u64,
+    pub undecided: usize,
 }
 
 impl StartWindow {
@@ -51,9 +52,7 @@ impl Counts {
     #[must_use]
     pub fn captured_part(&self) -> f64 {
         let all = self.captured + self.cycle + self.escaped + self.undecided;
-        #[expect(clippy::cast_precision_loss, reason = "at most 1e10 starts")]
-        let part = self.captured as f64 / all as f64;
-        part
+        real(self.captured) / real(all)
     }
 
     /// Both together.
@@ -67,14 +66,14 @@ impl Counts {
         }
     }
 
-    /// Counts starts with one fate.
-    pub fn add(&mut self, fate: Fate, starts: u64) {
-        match fate {
-            Fate::Rest => self.captured += starts,
-            Fate::Cycle(_) => self.cycle += starts,
-            Fate::Escapes => self.escaped += starts,
-            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => self.undecided += starts,
-        }
+    /// Counts a start with this fate.
+    pub fn add(&mut self, fate: Fate) {
+        *match fate {
+            Fate::Rest => &mut self.captured,
+            Fate::Cycle(_) => &mut self.cycle,
+            Fate::Escapes => &mut self.escaped,
+            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => &mut self.undecided,
+        } += 1;
     }
 }
 
@@ -83,7 +82,6 @@ pub(crate) fn between(range: (f64, f64), index: usize, count: usize) -> f64 {
     if index + 1 == count && count > 1 {
         return range.1;
     }
-    #[expect(clippy::cast_precision_loss, reason = "grids of starts are small")]
-    let fraction = if count > 1 { index as f64 / (count - 1) as f64 } else { 0.5 };
+    let fraction = if count > 1 { real(index) / real(count - 1) } else { 0.5 };
     range.0 + fraction * (range.1 - range.0)
 }

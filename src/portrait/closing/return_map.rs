@@ -11,6 +11,7 @@ use super::equation::Equation;
 use super::half_map::{Direction, Length};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Parameters, Side};
+use crate::portrait::basin::between;
 
 /// Tolerance of the integration steps.
 const STEP: f64 = 1e-13;
@@ -69,9 +70,9 @@ impl Equation<'_> {
         if near >= far {
             return Ok(Vec::new());
         }
-        let part = |index: u16| f64::from(index) / f64::from(count.max(2) - 1);
-        let mut starts: Vec<f64> =
-            (0..count.max(2)).map(|index| near + (far - near) * part(index)).collect();
+        let count = usize::from(count.max(2));
+        let even = (0..count).map(|index| between((near, far), index, count));
+        let mut starts: Vec<f64> = even.collect();
         starts.extend(self.kinks()?.into_iter().filter(|kink| near < *kink && *kink < far));
         starts.sort_by(f64::total_cmp);
         starts.dedup();

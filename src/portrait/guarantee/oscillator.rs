@@ -131,19 +131,6 @@ impl TwoSided {
 /// Relative error of a clearance, of rounding and of steps, where the closing equation is not flat.
 const NOISE: f64 = 1e-12;
 
-/// What the innermost border at the middle of a box parts, undisturbed.
-///
-/// # Errors
-/// The [`Reason`] why a border could not be computed.
-pub fn nominal(known: &ParameterBox, limits: &Limits) -> Result<Portrait, Reason> {
-    let middle = known.middle();
-    if middle.d > -1.0 {
-        Ok(TwoSided { upper: middle, lower: middle }.portrait(0.0, limits)?.0)
-    } else {
-        Portrait::of_oscillator(&middle, 0.0, limits)
-    }
-}
-
 /// The worst system, inside whose first border every motion stays for all parameters of a box and all
 /// disturbances up to `disturbance`, and the margin that holds for certain, or why nothing is certain; `reach` as for
 /// [`Portrait::of_oscillator`].

@@ -12,9 +12,10 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::basin::stability::{Share, over_scales, support};
-use super::border::{Border, Edge};
+use super::border::Edge;
 use super::portrait::Portrait;
 use crate::flow::Reason;
+use crate::model::Border;
 use crate::model::unit::quantity;
 use crate::numerics::{Integral, erfc, exp};
 

@@ -11,7 +11,7 @@ use crate::numerics::Interval;
 use crate::portrait::guarantee::certain::guaranteed;
 use crate::portrait::kicks::repeated::repeated;
 use crate::portrait::proved::proved;
-use crate::portrait::{Equation, Portrait, STEP, cycles, first_closings, friction_for};
+use crate::portrait::{Portrait, cycles, friction_for};
 
 impl Cells<'_> {
     /// Computes a measure, and fills its cells and those of all that are computed with it. Fails with why it gave up.
@@ -103,20 +103,17 @@ impl Cells<'_> {
     fn basin_of(&mut self, parameters: &Parameters) -> Result<(), Reason> {
         let conditions = self.conditions;
         // What is beyond the edge does not matter here.
-        let inner = if let Some(found) = &self.known {
-            found.closings.first().copied()
-        } else {
-            let mut equation = Equation::new(parameters, STEP, self.limits);
-            let inner = first_closings(&mut equation, 1);
-            self.cost += equation.cost();
-            inner?.first().copied()
-        };
         // It has to be followed as far as the window or the kicks reach only if these matter.
         let reach = |measure, reach| if self.asks(measure) { reach } else { 0.0 };
         let reach = reach(Measure::Stability, conditions.window.reach())
             .max(reach(Measure::Lost, conditions.kicks.reach()));
-        let model = Model::of_paper(parameters)?;
-        let portrait = Portrait::around(&model, parameters, inner.as_slice(), reach, self.limits)?;
+        let portrait = if let Some(found) = &self.known {
+            let model = Model::of_paper(parameters)?;
+            let inner = found.closings.first().copied();
+            Portrait::around(&model, parameters, inner.as_slice(), reach, self.limits)?
+        } else {
+            Portrait::innermost(parameters, reach, self.limits)?
+        };
         self.cost += portrait.cost;
         self.around_rest(&portrait);
         Ok(())

@@ -1,6 +1,54 @@
-//! The kicks that are survived.
+//! What is said of a basin of rest, found or proved: what borders it, and the kicks that are survived.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+
+use super::reason::Reason;
+
+/// What borders the basin of rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Border {
+    /// Nothing: everything comes to rest.
+    #[default]
+    None,
+    /// An unstable limit cycle.
+    Cycle,
+    /// A motion that separates rest from escape.
+    Separatrix,
+    /// An orbit that touches the belt's line, with a piece of that line.
+    Grazing,
+    /// The motion that just reaches the end of what the guide holds.
+    Capture,
+    /// Nothing, because rest itself repels.
+    NoBasin,
+    /// Not known: what could be followed comes to rest.
+    Unknown(Reason),
+}
+
+impl Serialize for Border {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.serialize_str(self.name())
+    }
+}
+
+impl Border {
+    /// One word, the same for all that a guide or a belt holds, and one where no border was met.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Border::None | Border::Unknown(_) => "none",
+            Border::Cycle => "cycle",
+            Border::Separatrix => "separatrix",
+            Border::Grazing | Border::Capture => "grazing",
+            Border::NoBasin => "no-basin",
+        }
+    }
+
+    /// Whether an orbit that is no cycle borders the basin.
+    #[must_use]
+    pub fn parts_without_cycle(self) -> bool {
+        matches!(self, Border::Separatrix | Border::Grazing | Border::Capture)
+    }
+}
 
 /// What is known of each of the smallest kicks that are not captured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -40,6 +88,12 @@ impl<T> Kicks<T> {
                 impulse: told(|it| it.from_rest.impulse),
             },
         }
+    }
+
+    /// That of the displacement and of the impulse, and of those from rest.
+    pub fn all(&self) -> [&T; 4] {
+        let RestKicks { displacement, impulse } = &self.from_rest;
+        [&self.displacement, &self.impulse, displacement, impulse]
     }
 
     /// What follows from that of the displacements, and from that of the impulses.
