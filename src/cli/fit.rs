@@ -1,6 +1,6 @@
 //! `hopfscope fit`: the parameters of the oscillator from a recorded motion.
 
-use std::cell::RefCell;
+use std::cell::{LazyCell, RefCell};
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
@@ -78,14 +78,13 @@ impl FitCommand {
         let fitted = self.fitted(&bytes)?;
         let provenance = provenance_file::of_process();
         // Contours of a figure take motions of their own: it is drawn once for both files.
-        let figure = (self.pictures.is_some() || self.report.is_some())
-            .then(|| Figure::of_fit(&fitted).from(provenance.clone()));
-        if let Some(((path, form), drawn)) = self.pictures.as_ref().zip(figure.as_ref()) {
-            let content = figure::file(drawn, *form).map_err(Failure::Unanswered)?;
+        let drawn = LazyCell::new(|| Figure::of_fit(&fitted).from(provenance.clone()));
+        if let Some((path, form)) = &self.pictures {
+            let content = figure::file(&drawn, *form).map_err(Failure::Unanswered)?;
             write(path, &content, self.force)?;
         }
-        if let Some((path, drawn)) = self.report.as_ref().zip(figure.as_ref()) {
-            let pictures = figure::panels(drawn);
+        if let Some(path) = &self.report {
+            let pictures = figure::panels(&drawn);
             let source = provenance_file::source(&self.file, &bytes);
             let title = "Fit of a recorded motion";
             let page = forms::fit(&fitted).page(title, &pictures, &provenance, &[source]);

@@ -249,11 +249,9 @@ impl ScanCommand {
             return Ok(ScanFile::standard(part));
         };
         let name = path.display();
-        let refused = |line| Err(Failure::Usage(line));
         if !self.resume && !self.force && holds_something(path) {
-            return refused(format!(
-                "{name} is not empty; --resume continues it, --force starts over"
-            ));
+            let line = format!("{name} is not empty; --resume continues it, --force starts over");
+            return Err(Failure::Usage(line));
         }
         let provenance = provenance_file::of_process();
         if !self.resume {
@@ -262,9 +260,8 @@ impl ScanCommand {
         let earlier = provenance_file::read(path).ok().filter(|_| holds_something(path));
         let builds = earlier.map(|earlier| (earlier.build(), provenance.build()));
         if let Some((earlier, now)) = builds.filter(|(earlier, now)| earlier != now) {
-            return refused(format!(
-                "{name} was begun by {earlier}, and this is {now}; --force starts over"
-            ));
+            let begun = format!("{name} was begun by {earlier}, and this is {now}");
+            return Err(Failure::Usage(format!("{begun}; --force starts over")));
         }
         let limits = Limits { interrupted, ..Limits::PATIENT };
         let file = ScanFile::resume(path, part, provenance, &limits)?;

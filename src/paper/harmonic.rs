@@ -186,14 +186,12 @@ fn harmonic_against_extents(
     }))
 }
 
-/// How many real roots (42) has: changes of its sign between the places where it turns.
+/// How many real roots (42) has: changes of its sign between the places where it turns, or beside 0 where it does not.
 fn real_roots(parameters: &Parameters) -> usize {
     let Parameters { d, d3, r, .. } = *parameters;
     let cubic = |a: f64| 4.0 * r / PI + a * (2.0 * d + 0.75 * d3 * a * a);
-    let square = -8.0 * d / (9.0 * d3);
-    let turns = if square > 0.0 { vec![-square.sqrt(), square.sqrt()] } else { Vec::new() };
-    let far = 1e6;
-    let places = [vec![-far], turns, vec![far]].concat();
+    let turn = (-8.0 * d / (9.0 * d3)).max(0.0).sqrt();
+    let places = [-1e6, -turn, turn, 1e6];
     places.windows(2).filter(|pair| (cubic(pair[0]) > 0.0) != (cubic(pair[1]) > 0.0)).count()
 }
 

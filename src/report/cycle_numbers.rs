@@ -33,33 +33,28 @@ impl CycleNumber {
     }
 }
 
+const fn number(
+    name: &'static str,
+    unit: &'static str,
+    value: fn(&Cycle) -> Option<f64>,
+    bounds: fn(&Enclosure) -> Interval,
+) -> CycleNumber {
+    CycleNumber { name, unit, value, bounds }
+}
+
 /// The time per turn on the belt, which only a machine has.
-const STICKING: CycleNumber = CycleNumber {
-    name: "stick_duration",
-    unit: "s",
-    value: |it| Some(it.stick_duration()),
-    bounds: |_| Interval::point(0.0),
-};
+const STICKING: CycleNumber =
+    number("stick_duration", "s", |it| Some(it.stick_duration()), |_| Interval::point(0.0));
 
 /// The numbers that describe a cycle of the oscillator of the paper.
 pub(super) const NUMBERS: [CycleNumber; 7] = [
-    CycleNumber { name: "q_min", unit: "m", value: |it| Some(it.q_min), bounds: |it| it.q_min },
-    CycleNumber { name: "q_max", unit: "m", value: |it| Some(it.q_max), bounds: |it| it.q_max },
-    CycleNumber { name: "v_min", unit: "m/s", value: |it| Some(it.v_min), bounds: |it| it.v_min },
-    CycleNumber { name: "v_max", unit: "m/s", value: |it| Some(it.v_max), bounds: |it| it.v_max },
-    CycleNumber { name: "period", unit: "s", value: |it| Some(it.period), bounds: |it| it.period },
-    CycleNumber {
-        name: "multiplier",
-        unit: "",
-        value: |it| it.multiplier,
-        bounds: |it| it.multiplier,
-    },
-    CycleNumber {
-        name: "clearance",
-        unit: "m",
-        value: |it| Some(it.clearance).filter(|it| *it > 0.0),
-        bounds: |it| it.clearance,
-    },
+    number("q_min", "m", |it| Some(it.q_min), |it| it.q_min),
+    number("q_max", "m", |it| Some(it.q_max), |it| it.q_max),
+    number("v_min", "m/s", |it| Some(it.v_min), |it| it.v_min),
+    number("v_max", "m/s", |it| Some(it.v_max), |it| it.v_max),
+    number("period", "s", |it| Some(it.period), |it| it.period),
+    number("multiplier", "", |it| it.multiplier, |it| it.multiplier),
+    number("clearance", "m", |it| Some(it.clearance).filter(|it| *it > 0.0), |it| it.clearance),
 ];
 
 /// Those that describe a cycle of a machine.

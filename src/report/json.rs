@@ -59,10 +59,8 @@ impl Document {
 /// # Panics
 /// Never: strings, numbers and structs of them can always be written, and keys are strings.
 pub(super) fn value(it: &impl Serialize) -> Value {
-    match serde_json::to_value(it) {
-        Ok(value) => value,
-        Err(error) => unreachable!("a document cannot hold it: {error}"),
-    }
+    serde_json::to_value(it)
+        .unwrap_or_else(|error| unreachable!("a document cannot hold it: {error}"))
 }
 
 /// The document on one line, with a newline.
@@ -70,8 +68,7 @@ pub(super) fn value(it: &impl Serialize) -> Value {
 /// # Panics
 /// Never: strings, numbers and structs of them can always be written, and keys are strings.
 pub fn text(document: &impl Serialize) -> String {
-    match serde_json::to_string(document) {
-        Ok(text) => printable::json(&text).into_owned() + "\n",
-        Err(error) => unreachable!("a document cannot be written: {error}"),
-    }
+    let text = serde_json::to_string(document)
+        .unwrap_or_else(|error| unreachable!("a document cannot be written: {error}"));
+    printable::json(&text).into_owned() + "\n"
 }
