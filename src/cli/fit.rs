@@ -14,7 +14,7 @@ use crate::fit::{
 };
 use crate::flow::Limits;
 use crate::model::Knob;
-use crate::model::unit::{Dimension, Measured, measured};
+use crate::model::unit::{LENGTH, Measured, measured};
 use crate::question::{Opened, record::RecordOptions};
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file};
@@ -143,7 +143,7 @@ fn disturbance(
     match (inertia, read.dimension) {
         (Some(_), _) => read.in_unit("N").map_err(refused),
         (None, None) => Ok(read.value),
-        (None, Some(Dimension::LENGTH)) => {
+        (None, Some(LENGTH)) => {
             let unit = record.unit.as_deref().and_then(length_in_metres);
             let unknown = "is a length, but the file names no unit of length; give it with --unit";
             unit.map(|metres| read.value / metres).ok_or_else(|| refused(unknown.to_owned()))

@@ -8,7 +8,7 @@ use std::str::FromStr;
 use super::Failure;
 use crate::figure::FigureForm;
 use crate::flow::{METHODS, Method, Subject};
-use crate::model::unit::{Dimension, WithTolerance, measured};
+use crate::model::unit::{IMPULSE, LENGTH, WithTolerance, measured};
 use crate::model::{Group, Knob};
 use crate::portrait::{Kick, RandomKick, StartWindow};
 use crate::scan::sweep::{Spacing, Sweep};
@@ -166,8 +166,8 @@ pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
         "expected a displacement, such as \"2 mm\", or an impulse, such as \"0.1 N s\"";
     let read = measured(text)?;
     let kick = match read.dimension {
-        Some(Dimension::LENGTH) => Kick::Displacement,
-        Some(Dimension::IMPULSE) => Kick::Impulse,
+        Some(LENGTH) => Kick::Displacement,
+        Some(IMPULSE) => Kick::Impulse,
         _ => return Err(format!("{text:?} is not a margin; {EXPECTED}")),
     };
     if read.value > 0.0 { Ok((kick, read.value)) } else { Err(format!("{text:?} is not positive")) }

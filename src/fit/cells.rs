@@ -2,7 +2,7 @@
 //! them; and the header above the numbers, with names of columns and their units.
 
 use super::{Signal, quantity};
-use crate::model::unit::{Dimension, in_si};
+use crate::model::unit::{TIME, in_si};
 
 /// What instruments write for a missing number, in lower case.
 const MISSING: [&str; 14] = [
@@ -194,7 +194,7 @@ pub struct ColumnHeader {
 
 /// The value of a unit of time in seconds; `None` if it is unknown.
 pub fn seconds_in(unit: &str) -> Option<f64> {
-    in_si(&unit.to_lowercase(), Dimension::TIME)
+    in_si(&unit.to_lowercase(), TIME)
 }
 
 impl ColumnHeader {

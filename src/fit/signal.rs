@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::unit::{Dimension, in_si};
+use crate::model::unit::{LENGTH, in_si};
 
 /// A measured quantity: the displacement, differentiated so many times by the time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -89,7 +89,7 @@ pub const LENGTHS: [&str; 7] = ["m", "mm", "um", "cm", "nm", "in", "km"];
 /// The value of a unit of length in metres; `None` if it is none, or made of several such as mm^2/m.
 #[must_use]
 pub fn length_in_metres(unit: &str) -> Option<f64> {
-    in_si(unit, Dimension::LENGTH).filter(|_| unit.chars().all(char::is_alphabetic))
+    in_si(unit, LENGTH).filter(|_| unit.chars().all(char::is_alphabetic))
 }
 
 /// What the column of a record holds.

@@ -7,53 +7,24 @@
 use crate::numerics::{Interval, powi};
 
 /// Exponents of kilogram, metre and second.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Dimension {
-    /// Exponent of the kilogram.
-    pub kg: i8,
-    /// Exponent of the metre.
-    pub m: i8,
-    /// Exponent of the second.
-    pub s: i8,
-}
+pub type Dimension = [i8; 3];
 
-impl Dimension {
-    /// A pure number.
-    pub const ONE: Self = Self::new(0, 0, 0);
-    /// A length.
-    pub const LENGTH: Self = Self::new(0, 1, 0);
-    /// A time.
-    pub const TIME: Self = Self::new(0, 0, 1);
-    /// An impulse (momentum), in N s.
-    pub const IMPULSE: Self = Self::new(1, 1, -1);
-    /// A force, in N.
-    pub const FORCE: Self = Self::new(1, 1, -2);
+/// The dimension of a pure number.
+const NONE: Dimension = [0; 3];
 
-    /// From the exponents.
-    #[must_use]
-    pub const fn new(kg: i8, m: i8, s: i8) -> Self {
-        Dimension { kg, m, s }
-    }
+/// The dimension of a length.
+pub const LENGTH: Dimension = [0, 1, 0];
 
-    /// That of an SI unit, such as `N s/m`; that of a pure number for the empty text.
-    #[must_use]
-    pub fn of_unit(unit: &str) -> Self {
-        if unit.is_empty() {
-            return Self::ONE;
-        }
-        read_unit(unit).map_or(Self::ONE, |(_, dimension)| dimension)
-    }
+/// The dimension of a time.
+pub const TIME: Dimension = [0, 0, 1];
 
-    /// The dimension of a product with a power of another one; `None` beyond all sense.
-    #[must_use]
-    pub fn times(self, other: Self, power: i8) -> Option<Self> {
-        let sum = |own: i8, other: i8| own.checked_add(other.checked_mul(power)?);
-        Some(Dimension {
-            kg: sum(self.kg, other.kg)?,
-            m: sum(self.m, other.m)?,
-            s: sum(self.s, other.s)?,
-        })
-    }
+/// The dimension of an impulse, in N s.
+pub const IMPULSE: Dimension = [1, 1, -1];
+
+/// The dimension of an SI unit, such as `N s/m`; that of a pure number for the empty text.
+#[must_use]
+pub fn dimension_of(unit: &str) -> Dimension {
+    read_unit(unit).map_or(NONE, |(_, dimension)| dimension)
 }
 
 /// A number and its dimension.
@@ -71,7 +42,7 @@ impl Measured {
     /// # Errors
     /// What is wrong with the unit that was written, to follow the text of the number.
     pub fn in_unit(&self, unit: &str) -> Result<f64, String> {
-        if self.dimension.is_none_or(|written| written == Dimension::of_unit(unit)) {
+        if self.dimension.is_none_or(|written| written == dimension_of(unit)) {
             Ok(self.value)
         } else if unit.is_empty() {
             Err("has a unit; it takes none".to_owned())
@@ -113,19 +84,19 @@ const fn bare(name: &'static str, value: f64, dimension: Dimension) -> UnitRow {
 }
 
 const UNITS: [UnitRow; 12] = [
-    unit("g", 1e-3, Dimension::new(1, 0, 0)),
-    unit("m", 1.0, Dimension::LENGTH),
-    unit("s", 1.0, Dimension::TIME),
-    unit("N", 1.0, Dimension::FORCE),
-    unit("Ns", 1.0, Dimension::IMPULSE),
-    unit("Hz", 1.0, Dimension::new(0, 0, -1)),
+    unit("g", 1e-3, [1, 0, 0]),
+    unit("m", 1.0, LENGTH),
+    unit("s", 1.0, TIME),
+    unit("N", 1.0, [1, 1, -2]),
+    unit("Ns", 1.0, IMPULSE),
+    unit("Hz", 1.0, [0, 0, -1]),
     // The weight of a kilogram under standard gravity.
-    bare("kgf", 9.806_65, Dimension::FORCE),
-    bare("in", 0.0254, Dimension::LENGTH),
-    bare("inch", 0.0254, Dimension::LENGTH),
-    bare("sec", 1.0, Dimension::TIME),
-    bare("min", 60.0, Dimension::TIME),
-    bare("h", 3600.0, Dimension::TIME),
+    bare("kgf", 9.806_65, [1, 1, -2]),
+    bare("in", 0.0254, LENGTH),
+    bare("inch", 0.0254, LENGTH),
+    bare("sec", 1.0, TIME),
+    bare("min", 60.0, TIME),
+    bare("h", 3600.0, TIME),
 ];
 
 /// Prefixes of units, none first.
@@ -253,6 +224,15 @@ impl UnitReader<'_> {
         )
     }
 
+    /// The dimension of a product with a power of another one. Fails beyond all sense.
+    fn times(&self, mut one: Dimension, other: Dimension, power: i8) -> Result<Dimension, String> {
+        for (exponent, other) in one.iter_mut().zip(other) {
+            let sum = other.checked_mul(power).and_then(|other| exponent.checked_add(other));
+            *exponent = sum.ok_or_else(|| self.wrong())?;
+        }
+        Ok(one)
+    }
+
     /// Consumes this character and the blanks after it, if it comes next.
     fn take(&mut self, char: char) -> bool {
         let taken = self.rest.strip_prefix(char);
@@ -279,7 +259,7 @@ impl UnitReader<'_> {
             let (value, dimension) = self.factor()?;
             let power = if dividing { -1 } else { 1 };
             unit.0 *= powi(value, i32::from(power));
-            unit.1 = unit.1.times(dimension, power).ok_or_else(|| self.wrong())?;
+            unit.1 = self.times(unit.1, dimension, power)?;
         }
         Ok(unit)
     }
@@ -294,12 +274,12 @@ impl UnitReader<'_> {
             inner
         } else if self.rest.starts_with('1') {
             self.take('1');
-            (1.0, Dimension::ONE)
+            (1.0, NONE)
         } else {
             self.name()?
         };
         let power = self.power()?;
-        let dimension = Dimension::ONE.times(dimension, power).ok_or_else(|| self.wrong())?;
+        let dimension = self.times(NONE, dimension, power)?;
         Ok((powi(value, i32::from(power)), dimension))
     }
 
@@ -347,12 +327,12 @@ mod tests {
 
     #[test]
     fn units_are_read_as_engineers_write_them() {
-        let stiffness = Dimension::new(1, 0, -2);
-        let damping = Dimension::new(1, 0, -1);
-        let cubic = Dimension::new(1, -2, 1);
+        let stiffness = [1, 0, -2];
+        let damping = [1, 0, -1];
+        let cubic = [1, -2, 1];
         for (text, value, dimension) in [
-            ("2 kg", 2.0, Dimension::new(1, 0, 0)),
-            ("250g", 0.25, Dimension::new(1, 0, 0)),
+            ("2 kg", 2.0, [1, 0, 0]),
+            ("250g", 0.25, [1, 0, 0]),
             ("800 N/m", 800.0, stiffness),
             ("0.8 kN/m", 800.0, stiffness),
             ("1.2e3 N / mm", 1.2e6, stiffness),
@@ -364,19 +344,19 @@ mod tests {
             ("40 N s^3/m^3", 40.0, cubic),
             ("40 N/(m/s)^3", 40.0, cubic),
             ("40 N\u{b7}s\u{b3}/m\u{b3}", 40.0, cubic),
-            ("-15 cm/s", -0.15, Dimension::new(0, 1, -1)),
-            ("30 m/min", 0.5, Dimension::new(0, 1, -1)),
-            ("3.6 km/h", 1.0, Dimension::new(0, 1, -1)),
-            ("2 ms", 0.002, Dimension::TIME),
-            ("2 m s", 2.0, Dimension::new(0, 1, 1)),
-            ("5 1/s", 5.0, Dimension::new(0, 0, -1)),
-            ("5 Hz", 5.0, Dimension::new(0, 0, -1)),
-            ("5 kHz", 5e3, Dimension::new(0, 0, -1)),
-            ("5 mHz", 5e-3, Dimension::new(0, 0, -1)),
-            ("2 kgf", 19.6133, Dimension::FORCE),
+            ("-15 cm/s", -0.15, [0, 1, -1]),
+            ("30 m/min", 0.5, [0, 1, -1]),
+            ("3.6 km/h", 1.0, [0, 1, -1]),
+            ("2 ms", 0.002, TIME),
+            ("2 m s", 2.0, [0, 1, 1]),
+            ("5 1/s", 5.0, [0, 0, -1]),
+            ("5 Hz", 5.0, [0, 0, -1]),
+            ("5 kHz", 5e3, [0, 0, -1]),
+            ("5 mHz", 5e-3, [0, 0, -1]),
+            ("2 kgf", 19.6133, [1, 1, -2]),
             ("2 kgf/mm", 19613.3, stiffness),
-            ("7 \u{b5}m", 7e-6, Dimension::LENGTH),
-            ("7 um", 7e-6, Dimension::LENGTH),
+            ("7 \u{b5}m", 7e-6, LENGTH),
+            ("7 um", 7e-6, LENGTH),
         ] {
             let found = measured(text).unwrap_or_else(|error| panic!("{text}: {error}"));
             assert_eq!(found.dimension, Some(dimension), "{text}");

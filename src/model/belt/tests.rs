@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::model::unit::Dimension;
+use crate::model::unit::dimension_of;
 use crate::model::{Field, Group, HalfPlane, Knob, Reason, Side};
 use crate::numerics::{SmoothingSpline, exp, log10, powi};
 
@@ -187,7 +187,7 @@ fn in_other_units(belt: &Belt, kg: f64, m: f64, s: f64) -> Belt {
         unreachable!("the machine of these tests")
     };
     let scale = |knob: Knob| {
-        let Dimension { kg: a, m: b, s: c } = Dimension::of_unit(knob.spec().unit);
+        let [a, b, c] = dimension_of(knob.spec().unit);
         knob.of_belt(belt).unwrap()
             / (powi(kg, i32::from(a)) * powi(m, i32::from(b)) * powi(s, i32::from(c)))
     };
