@@ -194,17 +194,13 @@ impl<F: Field> Stiff<F> {
         f64::EPSILON * self.field.magnitude(x, v) * part / damped
     }
 
-    /// Tolerance for the embedded solution over a step of length `h` to `end`.
-    fn tolerance_of(&self, h: f64, end: StepPoint) -> f64 {
+    /// The error allowed in the embedded solution for an attempt over a step of length `h` to `end`.
+    fn scale(&self, h: f64, end: StepPoint) -> StepPoint {
         let rate = |v: f64| self.field.divergence(v).abs();
         let damping_times = h * rate(self.start.v).max(rate(end.v));
         let reduced = self.asked / self.scheme.reduced_order(damping_times);
-        self.tolerance.min(reduced.max(ROUNDING))
-    }
-
-    /// The error allowed for an attempt over a step of length `h` to `end`.
-    fn scale(&self, h: f64, end: StepPoint) -> StepPoint {
-        let scale = allowed_error(self.tolerance_of(h, end), self.start, end);
+        let tolerance = self.tolerance.min(reduced.max(ROUNDING));
+        let scale = allowed_error(tolerance, self.start, end);
         StepPoint { v: scale.v.max(NOISE * self.rounding(h)), ..scale }
     }
 

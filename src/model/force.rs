@@ -20,13 +20,6 @@ pub struct ForcePiece {
     pub falls: bool,
 }
 
-impl ForcePiece {
-    /// Value and slope.
-    fn at(&self, y: f64) -> (f64, f64) {
-        value_and_slope(&self.coefficients, y - self.center)
-    }
-}
-
 /// The polynomial with these coefficients, in powers of the distance from a point `by` further on.
 pub fn shifted(coefficients: &[f64], by: f64) -> Vec<f64> {
     let mut shifted = coefficients.to_vec();
@@ -151,7 +144,7 @@ impl ForceBranch {
     pub fn at(&self, y: f64) -> (f64, f64) {
         let found = self.pieces.iter().find(|piece| y <= piece.high).or(self.pieces.last());
         let Some(piece) = found else { return (0.0, 0.0) };
-        let (value, slope) = piece.at(y);
+        let (value, slope) = value_and_slope(&piece.coefficients, y - piece.center);
         let fall = self.fall.filter(|_| piece.falls);
         fall.map_or((value, slope), |fall| (value + fall.value(y), slope + fall.slope(y)))
     }
@@ -167,9 +160,8 @@ impl LawParts {
     /// The law as a force: coefficients times `force`, velocities divided by `omega_0`.
     pub(crate) fn scaled(&self, force: f64, omega_0: f64) -> Self {
         let scaled = |(from, to, coefficients): LawPiece| {
-            let power = |power| powi(omega_0, i32::try_from(power).unwrap_or(i32::MAX));
-            let numbers = coefficients.iter().enumerate();
-            let numbers = numbers.map(|(k, number)| force * number * power(k)).collect();
+            let numbers = (0..).zip(coefficients);
+            let numbers = numbers.map(|(k, number)| force * number * powi(omega_0, k)).collect();
             (from / omega_0, to / omega_0, numbers)
         };
         // What falls ends within the first piece.

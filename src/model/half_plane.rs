@@ -42,19 +42,13 @@ impl Side {
     /// The other side.
     #[must_use]
     pub fn opposite(self) -> Self {
-        match self {
-            Side::Upper => Side::Lower,
-            Side::Lower => Side::Upper,
-        }
+        if self == Side::Upper { Side::Lower } else { Side::Upper }
     }
 
     /// `+1` above, `-1` below.
     #[must_use]
     pub fn sign(self) -> f64 {
-        match self {
-            Side::Upper => 1.0,
-            Side::Lower => -1.0,
-        }
+        if self == Side::Upper { 1.0 } else { -1.0 }
     }
 
     /// Displacement `q` of a point `x` of this side's frame.

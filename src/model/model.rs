@@ -122,12 +122,11 @@ impl Model {
             guide: belt.friction * per_stiffness,
             guide_static: belt.static_guide.unwrap_or(belt.friction) * per_stiffness,
             pull,
-            lines: None,
-            damping: 0.0,
             tolerance: FINEST,
             slower: side(false),
             faster: side(true),
             damper,
+            ..Model::default()
         };
         if model.guide_static < model.guide {
             let at_rest = belt.static_guide.unwrap_or(belt.friction);
@@ -177,11 +176,9 @@ impl Model {
             return Err(Reason::GuideStatic { at_rest: guide_static, moving: guide });
         }
         let stiffness = mass * omega_0 * omega_0;
-        let ratio = |(k, number): (usize, &f64)| {
-            2.0 * number * powi(omega_0, i32::try_from(k).unwrap_or(i32::MAX))
-        };
-        let damper: Vec<f64> =
-            [0.0].into_iter().chain(damping_ratio.iter().enumerate().map(ratio)).collect();
+        let ratio = |(k, number): (i32, &f64)| 2.0 * number * powi(omega_0, k);
+        let ratios = (0..).zip(damping_ratio).map(ratio);
+        let damper: Vec<f64> = [0.0].into_iter().chain(ratios).collect();
         let coefficients = damper.iter().map(|number| 0.0 - number).collect();
         let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
         let model = Model {
@@ -191,16 +188,14 @@ impl Model {
             speed: f64::INFINITY,
             guide: guide / stiffness,
             guide_static: guide_static / stiffness,
-            pull: 0.0,
-            lines: None,
             damping: damper.get(1).copied().unwrap_or(0.0),
             tolerance: FINEST,
             slower: ForceBranch {
                 pieces: vec![ForcePiece { low, high, center: 0.0, coefficients, falls: false }],
                 fall: None,
             },
-            faster: ForceBranch::default(),
             damper,
+            ..Model::default()
         };
         let finite = model.damper.iter().all(|number| number.is_finite());
         if finite && stiffness.is_finite() && stiffness > 0.0 {
@@ -251,26 +246,19 @@ impl Model {
 
     /// The state of contact at displacement `x` and velocity `y` (divided by the natural frequency).
     pub fn place(&self, x: f64, y: f64) -> ContactState {
-        if y == 0.0 {
-            return if self.rests_at(x) {
-                ContactState::Rests
-            } else {
-                ContactState::Slips(if x > 0.0 { Phase::Below } else { Phase::Between })
-            };
+        if y == 0.0 && self.rests_at(x) {
+            return ContactState::Rests;
         }
-        match (self.lines, y.total_cmp(&self.speed)) {
-            (Some(lines), std::cmp::Ordering::Equal) => {
-                if x > lines.release {
-                    ContactState::Slips(Phase::Between)
-                } else if x < lines.low {
-                    ContactState::Slips(Phase::Above)
-                } else {
-                    ContactState::Sticks
-                }
-            }
-            (_, std::cmp::Ordering::Greater) => ContactState::Slips(Phase::Above),
-            _ => ContactState::Slips(if y < 0.0 { Phase::Below } else { Phase::Between }),
-        }
+        let on_belt = self.lines.filter(|_| y == self.speed);
+        let phase = match on_belt {
+            Some(lines) if x > lines.release => Phase::Between,
+            Some(lines) if x < lines.low => Phase::Above,
+            Some(_) => return ContactState::Sticks,
+            None if y > self.speed => Phase::Above,
+            None if y < 0.0 || (y == 0.0 && x > 0.0) => Phase::Below,
+            None => Phase::Between,
+        };
+        ContactState::Slips(phase)
     }
 
     /// The length, in m, for which 1 stands in drawings: `x0` as in the paper; without a belt 1 m.

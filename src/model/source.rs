@@ -192,7 +192,7 @@ impl Tolerances {
             let knob = Knob::named(name, Group::SOURCE)?;
             for end in knob.of_belt(belt).into_iter().flat_map(|value| [value - half, value + half])
             {
-                knob.check(end).map_err(|refused| refused.to_string())?;
+                knob.check(end)?;
             }
         }
         Ok(())

@@ -130,11 +130,14 @@ pub fn measured(text: &str) -> Result<Measured, String> {
     let begins_a_unit = |first: char| first.is_alphabetic() || matches!(first, '1' | '(' | '/');
     let value = number.parse().ok().filter(|_| unit.is_empty() || unit.starts_with(begins_a_unit));
     let value: f64 = value.ok_or_else(|| format!("{text:?} is not a number"))?;
-    if unit.is_empty() {
-        return finite(text, value, None);
+    let unit = if unit.is_empty() { None } else { Some(read_unit(unit)?) };
+    let (value, dimension) =
+        unit.map_or((value, None), |(factor, dimension)| (value * factor, Some(dimension)));
+    if value.is_finite() {
+        Ok(Measured { value, dimension })
+    } else {
+        Err(format!("{text:?} is not a finite number"))
     }
-    let (factor, dimension) = read_unit(unit)?;
-    finite(text, value * factor, Some(dimension))
 }
 
 /// A number and its tolerance, in SI units.
@@ -154,28 +157,25 @@ pub struct WithTolerance {
 /// One line that says what could not be read.
 pub fn toleranced(text: &str) -> Result<WithTolerance, String> {
     let text = &text.replace('\u{b1}', "+-");
-    let two = |one: &str, other: &str| {
-        let (one, other) = (measured(one)?, measured(other)?);
-        if one.dimension == other.dimension {
-            Ok((one, other.value))
-        } else {
-            Err(format!("{text:?}: both numbers take the same unit, or none (SI units)"))
-        }
+    let beside = |one: Measured, other: &str| {
+        let other = measured(other)?;
+        let is_alike = one.dimension == other.dimension;
+        let unlike = || format!("{text:?}: both numbers take the same unit, or none (SI units)");
+        is_alike.then_some(other.value).ok_or_else(unlike)
     };
     let around = |middle: Measured, half_width: f64| {
         (middle, half_width, Interval::around(middle.value, half_width.max(0.0)))
     };
     let (middle, half_width, ends) = if let Some((value, half)) = text.split_once("+-") {
-        let (middle, half_width) = match half.trim().strip_suffix('%') {
-            Some(percent) => {
-                let middle = measured(value)?;
-                (middle, 0.01 * measured(percent)?.value * middle.value.abs())
-            }
-            None => two(value, half)?,
+        let middle = measured(value)?;
+        let half_width = match half.trim().strip_suffix('%') {
+            Some(percent) => 0.01 * measured(percent)?.value * middle.value.abs(),
+            None => beside(middle, half)?,
         };
         around(middle, half_width)
     } else if let Some((low, high)) = text.split_once("..") {
-        let (low, high) = two(low, high)?;
+        let low = measured(low)?;
+        let high = beside(low, high)?;
         let middle = Measured { value: 0.5 * low.value + 0.5 * high, ..low };
         (middle, 0.5 * high - 0.5 * low.value, Interval::new(low.value, high))
     } else {
@@ -185,14 +185,6 @@ pub fn toleranced(text: &str) -> Result<WithTolerance, String> {
         Ok(WithTolerance { middle, half_width, ends })
     } else {
         Err(format!("{text:?}: a tolerance is 0 or more, and LOW .. HIGH ascend"))
-    }
-}
-
-fn finite(text: &str, value: f64, dimension: Option<Dimension>) -> Result<Measured, String> {
-    if value.is_finite() {
-        Ok(Measured { value, dimension })
-    } else {
-        Err(format!("{text:?} is not a finite number"))
     }
 }
 
@@ -272,8 +264,7 @@ impl UnitReader<'_> {
                 return Err(self.wrong());
             }
             inner
-        } else if self.rest.starts_with('1') {
-            self.take('1');
+        } else if self.take('1') {
             (1.0, NONE)
         } else {
             self.name()?

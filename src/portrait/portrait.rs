@@ -186,10 +186,11 @@ impl Portrait {
         self.fate_within(x, v, usize::MAX)
     }
 
-    /// The same, if a motion that starts beyond [`Self::known`] is followed for so many half swings at `most`.
+    /// The same, if a motion that starts beyond [`Self::known`] is followed for so many half swings at `most`:
+    /// [`Fate::Moving`] if it takes more.
     ///
     /// # Errors
-    /// As for [`Self::fate`], and if it takes more.
+    /// As for [`Self::fate`].
     pub fn fate_within(&self, x: f64, v: f64, most: usize) -> Result<Fate, Reason> {
         let y = self.model.scaled_velocity(v);
         if self.model.place(x, y) == ContactState::Rests {
@@ -217,7 +218,7 @@ impl Portrait {
         while x > self.known {
             half_swings += 2;
             if half_swings > most {
-                return Err(Reason::HalfSwings { most });
+                return Ok(Fate::Moving);
             }
             let Some(image) = flow.returned(x)? else { return Ok(Fate::Rest) };
             if image.x >= x {

@@ -54,20 +54,19 @@ impl FrictionLaw {
     #[must_use]
     pub fn parts(&self) -> LawParts {
         let whole = |coefficients: &[f64]| vec![(0.0, f64::INFINITY, coefficients.to_vec())];
-        match self {
-            FrictionLaw::Constant { mu } => LawParts { pieces: whole(&[*mu]), fall: None },
-            FrictionLaw::Polynomial { coefficients } => {
-                LawParts { pieces: whole(coefficients), fall: None }
+        let (pieces, fall) = match self {
+            FrictionLaw::Constant { mu } => (whole(&[*mu]), None),
+            FrictionLaw::Polynomial { coefficients } => (whole(coefficients), None),
+            FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
+                let fall = (rest - kinetic, *velocity, *exponent);
+                (whole(&[*kinetic, *viscous]), Some(fall))
             }
-            FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => LawParts {
-                pieces: whole(&[*kinetic, *viscous]),
-                fall: Some((rest - kinetic, *velocity, *exponent)),
-            },
-            FrictionLaw::Table(spline) => LawParts {
-                pieces: spline.polynomials().map(|(from, to, c)| (from, to, c.to_vec())).collect(),
-                fall: None,
-            },
-        }
+            FrictionLaw::Table(spline) => {
+                let pieces = spline.polynomials().map(|(from, to, c)| (from, to, c.to_vec()));
+                (pieces.collect(), None)
+            }
+        };
+        LawParts { pieces, fall }
     }
 
     /// The coefficient and its derivatives with respect to the relative velocity, at `v`.
@@ -204,17 +203,6 @@ pub struct Belt {
     /// Force up to which the friction element holds the mass, in N; R where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub static_guide: Option<f64>,
-}
-
-impl Belt {
-    /// The force on the mass at displacement `x` (from the static one) and velocity `v`, in N and SI units,
-    /// without the friction element; `None` where the friction law does not reach.
-    #[must_use]
-    pub fn force(&self, x: f64, v: f64) -> Option<f64> {
-        let drag = self.law.mu(self.belt_speed - v)? - self.law.mu(self.belt_speed)?;
-        let damping = v * (self.damping + v * v * self.cubic_damping);
-        Some(self.normal_force * drag - damping - self.stiffness * x)
-    }
 }
 
 #[cfg(test)]

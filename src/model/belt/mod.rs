@@ -17,4 +17,4 @@ pub use friction::{Belt, Derivatives, FrictionLaw};
 pub use reduce::{ReducedBelt, TaylorError, Units};
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

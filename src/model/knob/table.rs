@@ -128,34 +128,18 @@ macro_rules! at {
     };
 }
 
-/// A number of a friction law.
+/// A number of a friction law: a field of one, or the coefficient of a power in a polynomial.
 macro_rules! law {
     ($law:ident $number:ident) => {
-        Some(&Access {
-            get: |belt: &Belt| match &belt.law {
-                FrictionLaw::$law { $number, .. } => Some(*$number),
-                _ => None,
-            },
-            place: |belt: &mut Belt| match &mut belt.law {
-                FrictionLaw::$law { $number, .. } => Some($number),
-                _ => None,
-            },
-        })
+        law!(FrictionLaw::$law { $number, .. } => Some($number))
     };
-}
-
-/// A coefficient of a polynomial law.
-macro_rules! coefficient {
     ($power:literal) => {
+        law!(FrictionLaw::Polynomial { coefficients } => coefficients.into_iter().nth($power))
+    };
+    ($law:pat => $number:expr) => {
         Some(&Access {
-            get: |belt: &Belt| match &belt.law {
-                FrictionLaw::Polynomial { coefficients } => coefficients.get($power).copied(),
-                _ => None,
-            },
-            place: |belt: &mut Belt| match &mut belt.law {
-                FrictionLaw::Polynomial { coefficients } => coefficients.get_mut($power),
-                _ => None,
-            },
+            get: |belt: &Belt| if let $law = &belt.law { $number.copied() } else { None },
+            place: |belt: &mut Belt| if let $law = &mut belt.law { $number } else { None },
         })
     };
 }
@@ -234,12 +218,12 @@ knobs! {
     Velocity "velocity" "velocity over which friction falls" "m/s" POSITIVE { belt: law!(Stribeck velocity) };
     Exponent "exponent" "1 exponential, 2 Gaussian" "" (0.1, 10.0) { default: Some(1.0), belt: law!(Stribeck exponent) };
     Viscous "viscous" "rise by lubrication" "s/m" ANY { default: Some(0.0), belt: law!(Stribeck viscous) };
-    Mu0 "mu0" "coefficient of friction at rest" "" ANY { belt: coefficient!(0) };
-    Mu1 "mu1" "its slope at rest" "s/m" ANY { belt: coefficient!(1) };
-    Mu2 "mu2" "coefficient of v^2" "s^2/m^2" ANY { belt: coefficient!(2) };
-    Mu3 "mu3" "coefficient of v^3" "s^3/m^3" ANY { belt: coefficient!(3) };
-    Mu4 "mu4" "coefficient of v^4" "s^4/m^4" ANY { belt: coefficient!(4) };
-    Mu5 "mu5" "coefficient of v^5" "s^5/m^5" ANY { belt: coefficient!(5) };
+    Mu0 "mu0" "coefficient of friction at rest" "" ANY { belt: law!(0) };
+    Mu1 "mu1" "its slope at rest" "s/m" ANY { belt: law!(1) };
+    Mu2 "mu2" "coefficient of v^2" "s^2/m^2" ANY { belt: law!(2) };
+    Mu3 "mu3" "coefficient of v^3" "s^3/m^3" ANY { belt: law!(3) };
+    Mu4 "mu4" "coefficient of v^4" "s^4/m^4" ANY { belt: law!(4) };
+    Mu5 "mu5" "coefficient of v^5" "s^5/m^5" ANY { belt: law!(5) };
 
     [Mode]
     Frequency "frequency" "natural frequency" "Hz" (1e-9, 1e12) { mode: at!(frequency) };

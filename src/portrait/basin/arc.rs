@@ -7,7 +7,6 @@
 
 use std::sync::Arc as Shared;
 
-use crate::flow::auto::KeptStep;
 use crate::flow::exact::Exact;
 use crate::flow::step::{Powers, Stepper};
 use crate::flow::{Cost, Limits, Reason};
@@ -27,7 +26,8 @@ const BUDGET: u64 = 400_000;
 /// One integration step of an arc.
 #[derive(Clone, Debug)]
 struct ArcStep {
-    step: KeptStep,
+    /// The method that took it.
+    step: Shared<dyn Stepper + Send + Sync>,
     unit: i32,
     duration: f64,
     /// Position at its end, in the direction of the computation.
@@ -76,9 +76,8 @@ impl Arc {
         let mut pieces: Vec<ArcStep> = Vec::new();
         let limits = limits.up_to(BUDGET);
         let swing = map.swing_watched(length, true, &limits, |stepper, unit, duration| {
-            let step = stepper.last_step();
-            let end = times_power(step.at(duration).x, unit);
-            pieces.push(ArcStep { step, unit, duration, end });
+            let end = times_power(stepper.at(duration).x, unit);
+            pieces.push(ArcStep { step: Shared::new(stepper.clone()), unit, duration, end });
         })?;
         Ok(Arc {
             side,

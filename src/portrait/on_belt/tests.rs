@@ -2,6 +2,7 @@ use super::*;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Problem};
 use crate::model::Belt;
+use crate::model::belt::tests::force;
 use crate::model::belt::{FrictionLaw, ReducedBelt, TaylorError, Units};
 use crate::numerics::elementary::{asin, pow, powi, tanh};
 use crate::paper::model::machine as paper;
@@ -47,9 +48,8 @@ fn turning_points(belt: &Belt, start: (f64, f64), until: f64) -> Vec<(f64, f64)>
     if v != 0.0 {
         sign = f64::signum(v);
     }
-    let slope = |x: f64, v: f64, sign: f64| {
-        (v, (belt.force(x, v).unwrap() - sign * belt.friction) / belt.mass)
-    };
+    let slope =
+        |x: f64, v: f64, sign: f64| (v, (force(belt, x, v) - sign * belt.friction) / belt.mass);
     let step = |x: f64, v: f64, sign: f64, h: f64| {
         let k1 = slope(x, v, sign);
         let k2 = slope(x + 0.5 * h * k1.0, v + 0.5 * h * k1.1, sign);

@@ -44,7 +44,7 @@ fn told(portrait: &Portrait, start: State) -> Option<(Fate, bool)> {
     /// Half swings after which a start far out is given up: a key must not wait for it.
     const MOST: usize = 100;
     let (x, v) = portrait.from_drawing(start);
-    let fate = portrait.fate_within(x, v, MOST).ok()?;
+    let fate = portrait.fate_within(x, v, MOST).ok().filter(|fate| *fate != Fate::Moving)?;
     let cycle = portrait.tends_to(fate);
     Some((fate, cycle.is_some_and(|cycle| portrait.starts_within(cycle, x, v))))
 }

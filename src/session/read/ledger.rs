@@ -4,7 +4,6 @@
 //! lines at every size and the cursor points at one of them.
 
 use crate::model::{Ledger, State};
-use crate::numerics::count::real;
 use crate::portrait::Cycle;
 use crate::portrait::basin::orbit::works_until;
 use crate::scene::Layer;
@@ -65,19 +64,13 @@ impl Session {
 
     /// The start that a line of the ledger leads to: on its cycle, or that of its motion.
     pub fn start_of_line(&self, height: f64) -> Option<State> {
-        let lines = self.ledger();
-        let line = lines.iter().enumerate().rev().find(|(index, entry)| {
-            let top = -(real(*index));
-            matches!(entry, LedgerLine::Title(_)) && height <= top
-        });
-        match line {
-            Some((_, LedgerLine::Title(Owner::Cycle(cycle)))) => {
-                Some(State { q: cycle.q_max, v: 0.0 })
-            }
-            Some((_, LedgerLine::Title(Owner::Motion(place, _)))) => {
-                self.problems().get(*place).map(|problem| problem.initial)
-            }
-            _ => None,
+        let lines = self.ledger().into_iter().zip(0_u32..);
+        let above = lines.filter(|(_, index)| height <= -f64::from(*index));
+        let owner =
+            |(line, _)| if let LedgerLine::Title(owner) = line { Some(owner) } else { None };
+        match above.filter_map(owner).last()? {
+            Owner::Cycle(cycle) => Some(State { q: cycle.q_max, v: 0.0 }),
+            Owner::Motion(place, _) => self.problems().get(place).map(|problem| problem.initial),
         }
     }
 }
