@@ -85,12 +85,10 @@ impl Source {
     /// The same with other friction of the guide, in N, which at rest is at least that.
     #[must_use]
     pub fn with_friction(&self, friction: f64) -> Self {
-        let mut other = self.clone();
+        // The oscillator of the paper has no other friction at rest.
+        let (mut other, mut none) = (self.clone(), None);
         let (moving, at_rest) = match &mut other.body {
-            Body::Paper(parameters) => {
-                parameters.r = friction;
-                return other;
-            }
+            Body::Paper(parameters) => (&mut parameters.r, &mut none),
             Body::Belt(belt) => (&mut belt.friction, &mut belt.static_guide),
             Body::Mode(mode) => (&mut mode.friction, &mut mode.static_guide),
         };

@@ -76,11 +76,8 @@ impl Session {
     pub fn machine_margins(&self) -> Option<MachineMargins> {
         let (found, other) = self.answer(Topic::Cycles, self.plot)?.try_as_cycles_ref()?;
         let (drawn, other) = (found.margin, (*other)?);
-        Some(if self.draws_whole() {
-            MachineMargins { whole: drawn, cubic: other }
-        } else {
-            MachineMargins { whole: other, cubic: drawn }
-        })
+        let (whole, cubic) = if self.draws_whole() { (drawn, other) } else { (other, drawn) };
+        Some(MachineMargins { whole, cubic })
     }
 
     /// The uncertainty of `setup` with another half width of a parameter, or tolerance of a number of the
