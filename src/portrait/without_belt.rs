@@ -134,10 +134,7 @@ impl Portrait {
         let edge = self.edge()?;
         let Edge::Orbit(orbit) = edge else { return None };
         // What turns within the places that the guide holds rests there.
-        let turn = |arc: &Arc| {
-            let clearance = arc.clearance().map_or(f64::INFINITY, |clearance| clearance.value);
-            (guide + clearance).max(guide_static)
-        };
+        let turn = |arc: &Arc| (guide + arc.clearance().value).max(guide_static);
         let displacement = (turn(&orbit.lower), turn(&orbit.upper));
         Some(Reach { displacement, velocity: self.kept_within(edge, 0.0) })
     }

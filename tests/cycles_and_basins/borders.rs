@@ -98,9 +98,9 @@ fn beside_the_border(found: &Portrait, part: f64) -> Vec<(State, bool)> {
     const BESIDE: f64 = 1e-5;
     let r = found.model.guide;
     let Edge::Orbit(border) = &found.borders[0] else { panic!("no belt") };
-    let reach = |clearance: Option<f64>| clearance.map_or(5.0 * r, |it| r + it);
-    let left = -reach(border.upper.clearance().map(|length| length.value));
-    let right = reach(border.lower.clearance().map(|length| length.value));
+    let reach = |clearance: f64| if clearance.is_finite() { r + clearance } else { 5.0 * r };
+    let left = -reach(border.upper.clearance().value);
+    let right = reach(border.lower.clearance().value);
     let q = left + part * (right - left);
     let Some((low, high)) = border.span_at(q) else { return Vec::new() };
     let mut starts = Vec::new();
@@ -195,8 +195,8 @@ fn areas_are_those_of_the_captured_part_of_a_window() {
         let found = Portrait::of_oscillator(&row.parameters, 1.0, &LIMITS).unwrap();
         let Edge::Orbit(cycle) = &found.borders[0] else { panic!("no belt") };
         let width = 2.0
-            * (row.parameters.r + cycle.upper.clearance().unwrap().value)
-                .max(row.parameters.r + cycle.lower.clearance().unwrap().value);
+            * (row.parameters.r + cycle.upper.clearance().value)
+                .max(row.parameters.r + cycle.lower.clearance().value);
         let height =
             2.0 * found.borders[0].curve(8).iter().fold(0.0_f64, |top, it| top.max(it.v.abs()));
         let window = StartWindow { q: (-width, width), v: (-height, height) };

@@ -52,10 +52,13 @@ fn judged(parameters: &Parameters) -> Option<Result<(), String>> {
             tried.extend(tried.clone().iter().map(|(q, inside)| (-q, *inside)));
         }
         (Border::Cycle | Border::Separatrix, Some(Edge::Orbit(border))) => {
-            let left = border.upper.clearance().map(|it| starts(r, it.value));
-            let right = border.lower.clearance().map(|it| starts(r, it.value));
-            tried.extend(left.into_iter().flatten().map(|(q, inside)| (-q, inside)));
-            tried.extend(right.into_iter().flatten());
+            let [left, right] = [&border.upper, &border.lower].map(|arc| arc.clearance().value);
+            if left.is_finite() {
+                tried.extend(starts(r, left).map(|(q, inside)| (-q, inside)));
+            }
+            if right.is_finite() {
+                tried.extend(starts(r, right));
+            }
         }
         _ => {}
     }

@@ -133,13 +133,13 @@ impl Arc {
         is_near.then(|| speed * (1.0 - 2.0 / 3.0 * d * (speed / end)))
     }
 
-    /// The clearance at which the swing starts: 0 where it leaves a node that repels, `None` where it comes
+    /// The clearance at which the swing starts: 0 where it leaves a node that repels, infinite where it comes
     /// from infinity.
-    pub fn clearance(&self) -> Option<Length> {
-        if self.direction == Direction::Forward {
-            return Some(self.clearance);
+    pub fn clearance(&self) -> Length {
+        match self.direction {
+            Direction::Forward => self.clearance,
+            Direction::Backward => self.swing.end,
         }
-        Some(self.swing.end).filter(|end| *end != Length::INFINITE)
     }
 
     /// The integrals of powers of the speed over time: that of `v^2` is the area between the arc and `v = 0`.

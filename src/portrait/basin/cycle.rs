@@ -77,7 +77,7 @@ impl Portrait {
         for edge in orbits {
             if let Edge::Orbit(orbit) = edge {
                 curves.push(self.places(edge, points));
-                works.extend(works_over(orbit, parameters));
+                works.push(works_over(orbit, parameters));
             }
         }
         let area = self.area().filter(|_| !self.fates.is_empty());

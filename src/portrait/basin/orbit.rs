@@ -88,7 +88,7 @@ impl Orbit {
     ) -> Result<Self, Reason> {
         let arc = |of, side, next| Arc::new(of, side, Direction::Backward, next, limits);
         let out = arc(other, side.opposite(), forgotten(other, reach))?;
-        let before = arc(braking, side, out.clearance().unwrap_or(Length::ZERO))?;
+        let before = arc(braking, side, out.clearance().or(Length::ZERO))?;
         Ok(Orbit::of(side, [before, out], false))
     }
 
@@ -99,17 +99,13 @@ impl Orbit {
         const TURNS: usize = 100;
         /// Relative change of a clearance that counts as none.
         const SAME: f64 = 1e-13;
-        let mut captured = [Some(Length::ZERO); 2];
+        let mut captured = [Length::ZERO; 2];
         let mut change = f64::INFINITY;
         for _ in 0..TURNS {
             let mut turn = |index: usize, side| -> Result<(Arc, f64), Reason> {
-                let next = captured[1 - index].unwrap_or(far);
+                let next = captured[1 - index].or(far);
                 let arc = Arc::new(parameters, side, Direction::Backward, next, limits)?;
-                let change = match (captured[index], arc.clearance()) {
-                    (Some(before), Some(now)) => now.apart(before),
-                    (None, None) => 0.0,
-                    (_, _) => f64::INFINITY,
-                };
+                let change = arc.clearance().apart(captured[index]);
                 captured[index] = arc.clearance();
                 Ok((arc, change))
             };
@@ -117,7 +113,7 @@ impl Orbit {
             let (lower, of_lower) = turn(1, Side::Lower)?;
             change = f64::max(of_upper, of_lower);
             if change <= SAME {
-                let closed = captured.iter().all(Option::is_some);
+                let closed = captured.iter().all(|it| *it != Length::INFINITE);
                 return Ok(Orbit { upper, lower, closed });
             }
         }
@@ -128,7 +124,8 @@ impl Orbit {
     /// with the arc that comes from infinity if one does; a closed one ends with its first point.
     pub fn curve(&self, count: u16) -> Vec<State> {
         let [upper, lower] = [&self.upper, &self.lower];
-        let arcs = if lower.clearance().is_none() { [lower, upper] } else { [upper, lower] };
+        let comes_first = lower.clearance() == Length::INFINITE;
+        let arcs = if comes_first { [lower, upper] } else { [upper, lower] };
         let mut points: Vec<State> = arcs.iter().flat_map(|arc| arc.points(count)).collect();
         if self.closed {
             points.extend(points.first().copied());
@@ -138,8 +135,7 @@ impl Orbit {
 
     /// How far outside of the sticking set it turns on the nearer side; infinite where it comes from infinity on both.
     pub fn clearance(&self) -> f64 {
-        let clearances = [&self.upper, &self.lower].into_iter().filter_map(Arc::clearance);
-        clearances.map(|clearance| clearance.value).fold(f64::INFINITY, f64::min)
+        self.upper.clearance().value.min(self.lower.clearance().value)
     }
 
     /// The velocities at displacement `q` between which a start lies inside; `None` where none does.
@@ -206,18 +202,16 @@ fn attracting(
 // relative precision, so that their sum says how well the cycle is closed.
 
 /// The ledger of one turn of a cycle; `residual` is what the works fail to cancel by.
-///
-/// `None` for a border that is not closed.
-pub fn works(border: &Orbit, parameters: &Parameters) -> Option<Ledger> {
+pub fn works(border: &Orbit, parameters: &Parameters) -> Ledger {
     let Parameters { d, d2, d3, r } = *parameters;
-    let [left, right] = [border.upper.clearance()?.value, border.lower.clearance()?.value];
+    let [left, right] = [&border.upper, &border.lower].map(|arc| arc.clearance().value);
     let path = 2.0 * (left + right + 2.0 * r);
     // Below `v = 0` the speed is that of the mirror image.
     let lower = border.lower.powers().component_mul(&Powers::new(1.0, -1.0, 1.0));
     let [second, third, fourth] = (border.upper.powers() + lower).into();
     let stored = energy(State { q: r + right, v: 0.0 });
     let works = [-2.0 * d * second, -d2 * third, -d3 * fourth, -r * path];
-    Some(Ledger::of_terms(parameters, (stored, stored), works))
+    Ledger::of_terms(parameters, (stored, stored), works)
 }
 
 /// The ledger of a motion from its start until a time, by quadrature over its samples.

@@ -55,6 +55,11 @@ impl Length {
         Length { value: exp(log), log }
     }
 
+    /// This length, another one where it is beyond all.
+    pub fn or(self, other: Self) -> Self {
+        if self == Length::INFINITE { other } else { self }
+    }
+
     /// Difference of the logarithms, which is the relative difference where that is small.
     pub fn apart(self, other: Self) -> f64 {
         if self.log == other.log { 0.0 } else { (self.log - other.log).abs() }
