@@ -63,10 +63,7 @@ impl Application for Explorer {
         let provenance = provenance_file::of_process();
         Ok(Box::new(move |limits: &Limits| {
             print::refine(&mut session, limits);
-            let plots: Vec<usize> = match plot {
-                Some(plot) => vec![plot],
-                None => session.on_show().collect(),
-            };
+            let plots = plot.map_or_else(|| session.on_show().collect(), |plot| vec![plot]);
             let limits = Limits { evaluations: print::MOST, ..*limits };
             let drawn = print::figure(&mut session, &plots, &limits).from(provenance);
             figure::file(&drawn, form)

@@ -63,7 +63,8 @@ impl Journal {
 
     /// Adds a row. Fails if it cannot be written.
     pub fn note(&mut self, index: usize, row: String) -> io::Result<()> {
-        let line = format!("{index}\t{}\t{row}", Checksum::NONE.and(row.as_bytes()));
+        let checksum = String::from(Checksum::NONE.and(row.as_bytes()));
+        let line = format!("{index}\t{checksum}\t{row}");
         self.rows.insert(index, row);
         let Some(path) = &self.path else { return Ok(()) };
         let file = match &mut self.file {
@@ -110,6 +111,6 @@ fn row(part: &ScanPart, line: &[u8]) -> Option<(usize, String)> {
     let index = index.parse().ok().filter(|index| part.points.contains(index))?;
     let is_own = row.ends_with('\n')
         && row.starts_with(&part.beginning(index))
-        && Checksum::NONE.and(row.as_bytes()).to_string() == checksum;
+        && String::from(Checksum::NONE.and(row.as_bytes())) == checksum;
     is_own.then(|| (index, row.to_owned()))
 }

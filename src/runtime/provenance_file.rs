@@ -62,7 +62,7 @@ impl RunningChecksum {
         write(path, &provenance)?;
         let path = beside(path);
         let unwritten = Failure::unwritten(&path);
-        let at = bounded::text(&path)?.rfind(&checksum.to_string());
+        let at = bounded::text(&path)?.rfind(&String::from(checksum));
         let at = at.ok_or_else(|| unwritten(io::ErrorKind::InvalidData.into()))? as u64;
         let file = OpenOptions::new().write(true).open(&path).map_err(unwritten)?;
         Ok(RunningChecksum { file, at, checksum })
@@ -71,7 +71,7 @@ impl RunningChecksum {
     /// Counts a row that has been written. Fails if its checksum cannot be.
     pub fn count(&mut self, row: &[u8]) -> io::Result<()> {
         self.checksum = self.checksum.and(row);
-        self.file.write_all_at(self.checksum.to_string().as_bytes(), self.at)
+        self.file.write_all_at(String::from(self.checksum).as_bytes(), self.at)
     }
 }
 

@@ -244,12 +244,12 @@ fn an_altered_row_is_refused_and_one_without_a_checksum_computed_again() {
     // Killed between a row and its checksum: the rows up to the checksum stay, the others are computed.
     let all = rows[1..].iter().fold(Checksum::NONE, |sum, row| sum.and(row.as_bytes()));
     let four = rows[1..5].iter().fold(Checksum::NONE, |sum, row| sum.and(row.as_bytes()));
-    assert!(provenance.contains(&all.to_string()), "{provenance}");
-    fs::write(&beside, provenance.replace(&all.to_string(), &four.to_string())).unwrap();
+    assert!(provenance.contains(&String::from(all)), "{provenance}");
+    fs::write(&beside, provenance.replace(&String::from(all), &String::from(four))).unwrap();
     let resumed = resume();
     assert_eq!((resumed.code, resumed.err.as_str()), (0, ""));
     assert_eq!(fs::read_to_string(&path).unwrap(), whole);
-    assert!(fs::read_to_string(&beside).unwrap().contains(&all.to_string()));
+    assert!(fs::read_to_string(&beside).unwrap().contains(&String::from(all)));
     // Where nothing can be known, that is said.
     fs::remove_file(&beside).unwrap();
     fs::write(&path, &altered).unwrap();
