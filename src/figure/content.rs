@@ -8,7 +8,7 @@ use super::areas::polygons;
 use super::lines::{graph, kept, lattice, missed};
 use crate::model::{Knob, Parameters, State};
 use crate::picture::{
-    self, Caption, Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap,
+    self, Caption, Dash, Fill, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap,
 };
 use crate::report::Document;
 use crate::scene::{Point, Span, Window, rectangle};
@@ -190,12 +190,9 @@ impl Panel {
                 self.area(picture, line, &rectangle([x.from(), x.to()], [*from, *to]));
             }
             Item::Texture(at) => {
-                for (fill, corners) in polygons(at, self.window) {
-                    self.area(
-                        picture,
-                        &LineStyle::new(fill.name, fill.role, Dash::Solid),
-                        &corners,
-                    );
+                for (Fill { role, name }, corners) in polygons(at, self.window) {
+                    let line = LineStyle::new(name, role, Dash::Solid);
+                    self.area(picture, &line, &corners);
                 }
             }
             Item::Arrows(_, flow) => {

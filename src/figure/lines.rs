@@ -94,15 +94,12 @@ pub(super) fn missed(line: &[[f64; 2]], window: Window) -> f64 {
 
 /// The points around the window, and every nth of the others.
 pub(super) fn kept(line: &[[f64; 2]], window: Window, times: usize) -> Vec<[f64; 2]> {
-    let around = |index: usize| {
-        let near = &line[index.saturating_sub(times)..(index + times + 1).min(line.len())];
-        in_sight(near, window)
-    };
     let needed = |index: usize, point: &[f64; 2]| {
+        let near = &line[index.saturating_sub(times)..(index + times + 1).min(line.len())];
         let ends = index == 0 || index + 1 == line.len();
         ends || index.is_multiple_of(times)
             || point.iter().any(|value| !value.is_finite())
-            || around(index)
+            || in_sight(near, window)
     };
     let all = line.iter().enumerate();
     all.filter(|(index, point)| needed(*index, point)).map(|(_, point)| *point).collect()

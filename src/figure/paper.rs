@@ -14,6 +14,9 @@ pub(super) const PLOT: (f64, f64) = (380.0, 300.0);
 /// Room around it: left, right, above, below.
 pub(super) const MARGIN: (f64, f64, f64, f64) = (64.0, 16.0, 30.0, 44.0);
 
+/// Size of a panel with the room around its plot.
+pub(super) const PANEL: (f64, f64) = (MARGIN.0 + PLOT.0 + MARGIN.1, MARGIN.2 + PLOT.1 + MARGIN.3);
+
 /// Room for the title of the figure.
 pub(super) const HEAD: f64 = 34.0;
 
@@ -36,8 +39,8 @@ impl Frame {
     pub fn of(number: u32, panels: u32, window: Window) -> Self {
         let across = columns(panels);
         let (column, row) = (f64::from(number % across), f64::from(number / across));
-        let (width, height) = panel();
-        Frame { left: column * width + MARGIN.0, top: HEAD + row * height + MARGIN.2, window }
+        let (left, top) = (column * PANEL.0 + MARGIN.0, HEAD + row * PANEL.1 + MARGIN.2);
+        Frame { left, top, window }
     }
 
     /// Where a point stands.
@@ -48,17 +51,9 @@ impl Frame {
     }
 }
 
-pub(super) fn panel() -> (f64, f64) {
-    (MARGIN.0 + PLOT.0 + MARGIN.1, MARGIN.2 + PLOT.1 + MARGIN.3)
-}
-
 /// Panels beside each other.
 pub(super) fn columns(panels: u32) -> u32 {
     if panels == 4 { 2 } else { panels.clamp(1, 3) }
-}
-
-pub(super) fn rows(panels: u32) -> u32 {
-    panels.div_ceil(columns(panels))
 }
 
 /// Width and colour of the lines of roles, on white paper: the lines of `assets/paper.txt`.

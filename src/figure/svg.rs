@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::elements::{Anchor, circle, path, rectangle, text};
-use super::paper::{self, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot, ink, shading, stroke};
+use super::paper::{self, ENTRY, Frame, HEAD, MARGIN, PANEL, PLOT, Spot, ink, shading, stroke};
 use super::{Figure, MarkedPoint, Outline, Panel, areas::loops, captions, data::remarks, map};
 use crate::numerics::{atan2, hypot, real, truncated};
 use crate::picture::legend::distinct;
@@ -30,9 +30,9 @@ pub fn panels(figure: &Figure) -> Vec<String> {
 /// names of its parts differ from those of the others.
 fn picture(figure: &Figure, alone: Option<u32>) -> String {
     let panels = u32::try_from(figure.panels.len()).unwrap_or(u32::MAX).max(1);
-    let (width, height) = paper::panel();
-    let width = width * f64::from(paper::columns(panels));
-    let below = HEAD + height * f64::from(paper::rows(panels));
+    let columns = paper::columns(panels);
+    let width = PANEL.0 * f64::from(columns);
+    let below = HEAD + PANEL.1 * f64::from(panels.div_ceil(columns));
     let entries = legend(figure);
     let across = truncated(((width - 2.0 * MARGIN.1) / ENTRY.0).floor().max(1.0));
     let lines = real(entries.len().div_ceil(across));

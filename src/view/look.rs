@@ -168,13 +168,11 @@ impl Look {
         const ARROWS: [(Code, char); 4] =
             [(Code::Left, '←'), (Code::Right, '→'), (Code::Up, '↑'), (Code::Down, '↓')];
         let arrow = ARROWS.iter().find(|(code, _)| *code == key.code);
-        if let (Some((_, arrow)), false) = (arrow, self.glyphs == Glyphs::Ascii) {
-            let modifier = [(key.control, "C-"), (key.alt, "A-"), (key.shift, "S-")];
-            let held: String =
-                modifier.into_iter().filter_map(|(on, text)| on.then_some(text)).collect();
-            return format!("{held}{arrow}");
+        match arrow.filter(|_| self.glyphs != Glyphs::Ascii) {
+            // It stands behind the keys that are held with it.
+            Some((code, arrow)) => key.said().replace(&code.to_string(), &arrow.to_string()),
+            None => key.said(),
         }
-        key.said()
     }
 
     /// Several keys, side by side; single characters need no space between them.

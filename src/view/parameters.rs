@@ -285,9 +285,8 @@ fn counted(session: &Session, found: &Drawing, width: usize) -> (String, Role) {
     match compare(&found.cycles, proof) {
         Err(_) => (format!("{count}, proof differs"), Role::Failure),
         Ok(()) if proof.is_complete() => {
-            let full = format!("{count}, proved");
-            let short = format!("{}, proved", found.cycles.len());
-            (if full.chars().count() < width { full } else { short }, Role::Text)
+            let texts = [format!("{count}, proved"), format!("{}, proved", found.cycles.len())];
+            (pane::fitting(texts, width.saturating_sub(1)), Role::Text)
         }
         Ok(()) => (format!("{count}, others open"), Role::Quiet),
     }
@@ -343,8 +342,8 @@ fn on_the_machine(session: &Session, found: &Drawing, width: usize) -> Vec<Strin
     let units = &running.reduced.units;
     let d = significant(session.value(Knob::D), 3);
     let hertz = with_unit(units.omega_0 / std::f64::consts::TAU, 3, "Hz");
-    let natural = format!("f0 {hertz}, damping ratio {d}");
-    let natural = Some(natural).filter(|text| text.len() < width).unwrap_or(format!("f0 {hertz}"));
+    let natural = [format!("f0 {hertz}, damping ratio {d}"), format!("f0 {hertz}")];
+    let natural = pane::fitting(natural, width.saturating_sub(1));
     std::iter::once(natural).chain(alarms).collect()
 }
 
@@ -362,7 +361,7 @@ fn balance(session: &Session, width: usize) -> Vec<String> {
         (Ok(_), Some(error)) => {
             let amplitude = format!("{lead}q {} %", percent(error.amplitude));
             let both = format!("{amplitude}, rate {} %", percent(error.frequency));
-            if both.len() < width { both } else { amplitude }
+            pane::fitting([both, amplitude], width.saturating_sub(1))
         }
     };
     match &found.balanced[..] {

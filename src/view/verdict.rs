@@ -25,30 +25,27 @@ pub fn outcome(session: &Session) -> (String, Role) {
     if let Some(failure) = session.failure(Topic::Trajectory, session.plot) {
         return (format!("no motion: {failure}"), Role::Failure);
     }
-    match session.trajectory() {
+    let Some(found) = session.trajectory() else {
         // Where no plot shows it, it is not computed.
-        None if !asked => ("the motion is not shown".into(), Role::Quiet),
-        None => ("computing the motion".into(), Role::Quiet),
-        Some(found) => {
-            let writing = Writing(units::shown(session));
-            let whole = session.running().filter(|_| session.draws_whole());
-            let whole = whole.and_then(|running| Some((session.course()?, running)));
-            if let Some((tau, q)) = session.contact().filter(|_| whole.is_none()) {
-                // The mass would overtake its belt earlier.
-                let (time, place) = (writing.moment(tau, 3), writing.position(q, 3));
-                let text = format!("sticks to the belt at {time}, {place}: the model ends there");
-                return (text, Role::Warning);
-            }
-            let text = match (whole, session.fate()) {
-                (Some((course, running)), _) => {
-                    by_whole_model(course, &running.reduced.units, found)
-                }
-                (None, Some(end)) => verdict(end, session.cycles_beside(found), found, writing),
-                (None, None) => sentence(found, writing),
-            };
-            (text, Role::Text)
-        }
+        let text = if asked { "computing the motion" } else { "the motion is not shown" };
+        return (text.into(), Role::Quiet);
+    };
+    let running = session.running().filter(|_| session.draws_whole());
+    if let Some((running, course)) = running.zip(session.course()) {
+        return (by_whole_model(course, &running.reduced.units, found), Role::Text);
     }
+    let writing = Writing(units::shown(session));
+    if let Some((tau, q)) = session.contact() {
+        // The mass would overtake its belt earlier.
+        let (time, place) = (writing.moment(tau, 3), writing.position(q, 3));
+        let text = format!("sticks to the belt at {time}, {place}: the model ends there");
+        return (text, Role::Warning);
+    }
+    let text = match session.fate() {
+        Some(end) => verdict(end, session.cycles_beside(found), found, writing),
+        None => sentence(found, writing),
+    };
+    (text, Role::Text)
 }
 
 /// What became of the motions that plots hold, where there are any and all are known.
