@@ -140,13 +140,11 @@ pub fn go(
 ) -> Result<(), Failure> {
     let environment = Environment::of_process();
     environment.admit().map_err(Failure::Usage)?;
-    let started = provenance_file::of_process().command;
-    let mut recorder = opening(&session).map_err(Failure::Unanswered)?;
-    recorder.extend(play.iter().cloned());
-    let mut recorder = Recorder::new(recorder);
+    let mut steps = opening(&session).map_err(Failure::Unanswered)?;
+    steps.extend(play.iter().cloned());
+    let mut recorder = Recorder::new(provenance_file::of_process().command, steps);
     // A file that cannot be written is reported before the session, not after it.
-    let record =
-        record.map(|(path, force)| RecordingFile::begin(path, force, &started, &mut recorder));
+    let record = record.map(|(path, force)| RecordingFile::begin(path, force, &mut recorder));
     let record = record.transpose().map_err(Failure::Usage)?;
     let memory = Memory::open();
     if let Some(memory) = &memory {
@@ -159,7 +157,7 @@ pub fn go(
     let mouse = session.display.mouse;
     let (keep, last) = memory.map(|memory| (memory.keep, memory.last)).unzip();
     let replay = (!play.is_empty()).then(|| Script::of(play.to_vec()));
-    let options = Options { replay, started, recorder, record, keep, last, mouse, files };
+    let options = Options { replay, recorder, record, keep, last, mouse, files };
     let ended = explore(session, environment, options)
         .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))?;
     if ended == 0 { Ok(()) } else { Err(Failure::Said(ended)) }

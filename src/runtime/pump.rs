@@ -42,8 +42,6 @@ const ANSWER_TIME: Duration = Duration::from_millis(8);
 pub struct Options {
     /// Keys to play at the start: each is given once the answers to the last one are on the screen.
     pub replay: Option<Script>,
-    /// How the session was started, in words, for the heading of a recording.
-    pub started: String,
     /// The steps that stand for this start in a recording, to which the user's actions are added; the command that
     /// plays the script in `replay` is the last of them.
     pub recorder: Recorder,
@@ -295,7 +293,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         RecordingFile::admit(path, replace, "! behind the command replaces it")?;
         let mut recorder = self.options.recorder.clone();
         recorder.forget(forget);
-        Files::write(path, recorder.text(&self.options.started), true, Readers::Owner)
+        Files::write(path, recorder.text(), true, Readers::Owner)
     }
 
     /// When to draw; `None` if the screen is up to date and nothing moves.

@@ -14,7 +14,6 @@ use crate::session::replay::{HEADER, Recorder};
 pub struct RecordingFile {
     path: PathBuf,
     file: File,
-    started: String,
     /// What the file holds.
     text: String,
 }
@@ -25,18 +24,17 @@ impl RecordingFile {
     pub fn begin(
         path: &Path,
         replace: bool,
-        started: &str,
         recorder: &mut Recorder,
     ) -> Result<RecordingFile, String> {
         RecordingFile::admit(path, replace, "--force replaces it")?;
         let path = &at_home(path);
-        recorder.unchanged();
-        let text = recorder.text(started);
+        recorder.changed();
+        let text = recorder.text();
         new_file::write(path, text.as_bytes(), Readers::Owner, None)
             .map_err(|why| why.to_string())?;
         let file = OpenOptions::new().write(true).open(path);
         let file = file.map_err(|why| format!("{}: {why}", path.display()))?;
-        Ok(RecordingFile { path: path.to_owned(), file, started: started.to_owned(), text })
+        Ok(RecordingFile { path: path.to_owned(), file, text })
     }
 
     /// Whether a recording may be written to a file: it does not exist, is empty, or is a recording itself.
@@ -61,10 +59,10 @@ impl RecordingFile {
 
     /// Writes the changes since the last call. Fails with one line if the file cannot be written.
     pub fn keep(&mut self, recorder: &mut Recorder) -> Result<(), String> {
-        if recorder.unchanged() == recorder.steps().len() {
+        if !recorder.changed() {
             return Ok(());
         }
-        let text = recorder.text(&self.started);
+        let text = recorder.text();
         let same = text.bytes().zip(self.text.bytes()).take_while(|(new, old)| new == old).count();
         let written = self.file.write_all_at(&text.as_bytes()[same..], same as u64);
         let written = written.and_then(|()| self.file.set_len(text.len() as u64));
@@ -87,7 +85,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.keys");
         let mut recorder = Recorder::default();
-        let mut record = RecordingFile::begin(&path, false, "hopfscope", &mut recorder).unwrap();
+        let mut record = RecordingFile::begin(&path, false, &mut recorder).unwrap();
         for round in 0..200_u32 {
             note(&mut recorder, ["<right>", "u", "<S-left>"][round as usize / 2 % 3]);
             if round % 17 == 0 {
@@ -99,7 +97,7 @@ mod tests {
             if round % 3 > 0 {
                 record.keep(&mut recorder).unwrap();
                 let found = std::fs::read_to_string(&path).unwrap();
-                assert_eq!(found, recorder.text("hopfscope"));
+                assert_eq!(found, recorder.text());
             }
         }
     }

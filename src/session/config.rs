@@ -142,10 +142,8 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
 /// gives no keys for the walk.
 fn follows(read: &BTreeMap<Spanned<String>, Keys>, command: &Command) -> bool {
     let own = |at: Context| command.keys.iter().find(|(context, _)| *context == at);
-    let alike = match (own(Context::Everywhere), own(Context::Walk)) {
-        (Some((_, everywhere)), Some((_, walk))) => everywhere == walk,
-        _ => false,
-    };
+    let everywhere = own(Context::Everywhere).map(|(_, keys)| keys);
+    let alike = everywhere.is_some() && everywhere == own(Context::Walk).map(|(_, keys)| keys);
     let walk = read.iter().filter(|(context, _)| context.get_ref() == Context::Walk.spec().name);
     let said = walk.flat_map(|(_, commands)| commands.keys());
     alike && said.into_iter().all(|name| name.get_ref() != command.name)

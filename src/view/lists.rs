@@ -13,7 +13,7 @@ use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
 use crate::scene::{Answered, Finding, Layer, letters};
 use crate::session::wants::{CostRow, Requirement, consequence};
-use crate::session::{AnswerState, List, Listed, Overlay, PaletteRow, Session};
+use crate::session::{List, Listed, Overlay, PaletteRow, Session};
 use crate::words::{claim, count, duration, significant};
 
 /// Columns of keys in the help.
@@ -160,10 +160,7 @@ fn names(layers: &[Layer]) -> String {
 /// What a question took, and for which layers it is asked.
 fn asked(session: &Session, requirement: &Requirement) -> (&'static str, String) {
     let topic = requirement.request.topic();
-    let held = match session.answers.standing(&requirement.request) {
-        AnswerState::Fresh(held) => Some(held),
-        _ => None,
-    };
+    let held = session.answers.standing(&requirement.request).fresh().answered();
     let price = held.map_or_else(|| "not answered".to_owned(), price);
     (topic.name(), format!("{price} for {}", names(&requirement.layers)))
 }

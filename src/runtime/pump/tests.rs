@@ -252,8 +252,8 @@ fn a_tour_waits_at_captions_goes_back_lets_keys_be_tried_and_is_left_by_escape()
 fn what_was_pressed_is_written_without_what_asks_for_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("walk.keys");
-    let started = "hopfscope basin".to_owned();
-    let Bench { mut pump, .. } = bench_with(Options { started, ..Options::default() });
+    let recorder = Recorder::new("hopfscope basin".to_owned(), Vec::new());
+    let Bench { mut pump, .. } = bench_with(Options { recorder, ..Options::default() });
     for name in ["<right>", "<right>", ":"] {
         pump.handle(key(name)).unwrap();
     }

@@ -33,16 +33,10 @@ pub fn table(file: &str, text: &str) -> Result<Vec<(f64, f64)>, String> {
             unit = bracketed.map_or_else(String::new, |(unit, _)| unit.to_owned());
             continue;
         }
-        let velocity = if v.ends_with(|last: char| last.is_ascii_digit() || last == '.') {
-            quantity(&format!("{v} {unit}"), "m/s")
-        } else {
-            quantity(v, "m/s")
-        };
-        let mu = quantity(mu, "");
-        points.push((
-            velocity.map_err(|message| wrong(&message))?,
-            mu.map_err(|message| wrong(&message))?,
-        ));
+        let number = |text: &str, unit| quantity(text, unit).map_err(|message| wrong(&message));
+        let is_bare = v.ends_with(|last: char| last.is_ascii_digit() || last == '.');
+        let velocity = if is_bare { format!("{v} {unit}") } else { v.clone() };
+        points.push((number(&velocity, "m/s")?, number(mu, "")?));
     }
     Ok(points)
 }

@@ -138,9 +138,7 @@ pub fn home(session: &mut Session) {
     let usual = PlotSetup { view: plot.view, axes: plot.axes, window: None, family: None };
     let plot_setup = session.plot_of_scene(index, plot.view).unwrap_or(usual);
     if let Some(plot) = session.focused_mut() {
-        let cursor = plot.cursor;
-        *plot = Plot::opened(&plot_setup);
-        plot.cursor = cursor;
+        *plot = Plot { cursor: plot.cursor, ..Plot::opened(&plot_setup) };
     }
 }
 

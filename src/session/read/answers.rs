@@ -73,8 +73,7 @@ impl Session {
 
     /// The proof about the cycles at the present parameters; `None` until it is there.
     pub fn proof(&self) -> Option<&Proof> {
-        let standing = self.standing(Topic::Proof, self.plot);
-        standing.answer()?.try_as_proof_ref().filter(|_| standing.is_fresh())
+        self.standing(Topic::Proof, self.plot).fresh().answer()?.try_as_proof_ref()
     }
 
     /// The fit of the record on show with the held numbers; until it is there, the most similar one.
@@ -102,8 +101,7 @@ impl Session {
 
     /// The fit of all numbers; `None` until it is there.
     fn fit_of_all(&self) -> Option<&Fit> {
-        let standing = self.standing(Topic::Fit, self.plot);
-        standing.answer()?.try_as_fit_ref().filter(|_| standing.is_fresh())
+        self.standing(Topic::Fit, self.plot).fresh().answer()?.try_as_fit_ref()
     }
 
     /// The question for the fit with the held numbers, if `drawn` with the distribution of the margin; `None`

@@ -12,7 +12,7 @@ use crate::flow::Problem;
 use crate::model::{Belt, Knob};
 use crate::numerics::{distinct, exp2, hypot, log2};
 use crate::scene::{Axes, Finding, Layer, Request, Span, TOPICS, Topic, View, Window};
-use crate::session::{AnswerState, Framing, List, Listed, Overlay, Pane, Row, Session};
+use crate::session::{Framing, List, Listed, Overlay, Pane, Row, Session};
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
 /// questions on it are first answered by drafts.
@@ -82,10 +82,7 @@ impl Session {
 
     /// The answers for the point that was left.
     pub fn answers_left(&self) -> impl Iterator<Item = &Finding> {
-        self.compared().filter_map(|request| match self.answers.standing(request) {
-            AnswerState::Fresh(found) => found.result.as_ref().ok(),
-            _ => None,
-        })
+        self.compared().filter_map(|request| self.answers.standing(request).fresh().answer())
     }
 
     /// Whether to measure the error of the motion on show: the row of the accuracy or of the method is

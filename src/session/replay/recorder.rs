@@ -12,15 +12,17 @@ pub const HEADER: &str = "# A recording of hopfscope";
 /// The actions of a user, as steps of a keystroke file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recorder {
+    /// How the session was started, in words, for the heading.
+    started: String,
     steps: Vec<Instruction>,
-    /// Number of initial steps that have not changed since this was last asked for.
-    unchanged: usize,
+    /// Whether steps have changed since this was last asked for.
+    changed: bool,
 }
 
 impl Recorder {
-    /// A recording that begins with these steps.
-    pub fn new(steps: Vec<Instruction>) -> Self {
-        Recorder { steps, unchanged: 0 }
+    /// A recording of a session that was started in this way, which begins with these steps.
+    pub fn new(started: String, steps: Vec<Instruction>) -> Self {
+        Recorder { started, steps, changed: true }
     }
 
     /// Records a message that has an equivalent in a keystroke file. Other messages, such as answers of the
@@ -33,7 +35,7 @@ impl Recorder {
 
     /// Adds a step, merged with the last one if possible.
     pub fn add(&mut self, step: Instruction) {
-        self.touch(self.steps.len().saturating_sub(1));
+        self.changed = true;
         match (self.steps.last_mut(), step) {
             (
                 Some(Instruction::Key { key, count }),
@@ -58,13 +60,9 @@ impl Recorder {
         &self.steps
     }
 
-    /// Number of initial steps that have not changed since the last call of this function.
-    pub fn unchanged(&mut self) -> usize {
-        std::mem::replace(&mut self.unchanged, self.steps.len())
-    }
-
-    fn touch(&mut self, step: usize) {
-        self.unchanged = self.unchanged.min(step);
+    /// Whether steps have changed since the last call of this function.
+    pub fn changed(&mut self) -> bool {
+        std::mem::take(&mut self.changed)
     }
 
     /// Removes the last presses of keys, pastes and clicks. Resizes and the passing of time are not presses,
@@ -108,13 +106,13 @@ impl Recorder {
                 _ => presses -= 1,
             }
         }
-        self.touch(at.saturating_sub(1));
+        self.changed = true;
         at
     }
 
     /// The file so far, below comments that describe it and how the session was started.
-    pub fn text(&self, started: &str) -> String {
-        text(&heading(started), &self.steps)
+    pub fn text(&self) -> String {
+        text(&heading(&self.started), &self.steps)
     }
 }
 
@@ -191,7 +189,7 @@ mod tests {
                     wanted.push(format!("{:?}", Msg::Key(key)));
                 }
             }
-            let text = recorder.text("a session");
+            let text = recorder.text();
             let text = text.trim_start_matches(|char| char != '\n').trim_start().to_owned();
             prop_assert!(text.lines().all(|line| line.chars().count() <= LINE));
             prop_assert_eq!(played(&text), wanted);

@@ -48,6 +48,11 @@ impl<'a> AnswerState<'a> {
     pub fn is_fresh(self) -> bool {
         matches!(self, AnswerState::Fresh(_))
     }
+
+    /// The same without an answer that only stands in.
+    pub fn fresh(self) -> Self {
+        if self.is_fresh() { self } else { AnswerState::None }
+    }
 }
 
 /// What becomes of a start. It is kept for the motion on show, so that it is computed once per answer, not wherever

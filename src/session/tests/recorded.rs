@@ -27,7 +27,7 @@ fn started(scene: Arc<Scene>, look: DisplaySettings) -> (Trial, Recorder) {
 
 /// A session that begins, with its recording.
 fn recording(session: Session) -> (Trial, Recorder) {
-    let recorder = Recorder::new(opening(&session).unwrap());
+    let recorder = Recorder::new("hopfscope".to_owned(), opening(&session).unwrap());
     let mut trial = Trial { session, asked: Vec::new(), effects: Vec::new() };
     trial.settle();
     (trial, recorder)
@@ -176,7 +176,7 @@ proptest! {
                 break;
             }
         }
-        let recorded = recorder.text("hopfscope");
+        let recorded = recorder.text();
         let mut other = Trial::open(&library()[before].name);
         other.session.display = DisplaySettings::default();
         other.press(&recorded);
