@@ -11,7 +11,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::machine::{ScaledMachine, library};
+use super::machine::{ScaledMachine, Setting, library};
 use super::plot_setup::{Arrangement, PlotSetup};
 use super::views::Layer;
 use crate::flow::Problem;
@@ -73,7 +73,7 @@ impl<'de> Visitor<'de> for NamedOrWhole {
         let refused = |it| E::custom(format!("\"{it}\" is no speed of its belt: a number of m/s"));
         let speed = speed.map(|it| it.parse().map_err(|_| refused(it))).transpose()?;
         let speed = speed.unwrap_or(machine.belt.belt_speed);
-        let scaled = ScaledMachine::at(machine, speed).map_err(E::custom)?;
+        let scaled = Setting::of_speed(speed).on(machine).map_err(E::custom)?;
         Ok(Some(Box::new(scaled)))
     }
 

@@ -123,14 +123,6 @@ impl ScaledMachine {
         [Knob::D, Knob::R].into_iter().chain(varied).collect()
     }
 
-    /// A machine with its belt at `speed` m/s instead of its own speed. Fails with one line that says what is allowed:
-    /// the range of speeds, or what the friction law lacks there.
-    pub fn at(machine: &Machine, speed: f64) -> Result<Self, String> {
-        let mut machine = machine.clone();
-        machine.belt.belt_speed = Knob::BeltSpeed.check(speed)?;
-        ScaledMachine::try_from(machine).map_err(|refused| refused.to_string())
-    }
-
     /// The start of the machine's motion, in the units at this speed.
     pub fn start(&self) -> State {
         let units = &self.reduced.units;
@@ -270,8 +262,10 @@ impl Setting {
     }
 
     /// A machine with these numbers. The static friction of its guide, where it is not set, is raised to the sliding
-    /// friction where it would be less. Fails with one line if the machine lacks a number, or is none with it.
+    /// friction where it would be less. Fails with one line if a number is outside its range, or the machine lacks it or is
+    /// none with it, such as at a speed that its friction law does not reach.
     pub fn on(&self, machine: &Machine) -> Result<ScaledMachine, String> {
+        self.check()?;
         let mut set = machine.clone();
         for (knob, value) in &self.0 {
             knob.set_in_belt(&mut set.belt, *value)?;
@@ -341,7 +335,7 @@ mod tests {
         for machine in machines().iter().filter(|it| it.belt.cubic_damping == 0.0) {
             for percent in 50..150_u8 {
                 let speed = f64::from(percent) / 100.0 * machine.belt.belt_speed;
-                let Ok(running) = ScaledMachine::at(machine, speed) else { continue };
+                let Ok(running) = Setting::of_speed(speed).on(machine) else { continue };
                 let value = running.reduced.parameters.d3;
                 let (_, found) = running.meaning(Knob::D3, value).unwrap();
                 assert_eq!(found, 0.0, "{} at {speed} m/s", machine.name);
@@ -359,7 +353,7 @@ mod tests {
             let mut faster = machine.clone();
             faster.belt.belt_speed = speed;
             let faster = ScaledMachine::try_from(faster).unwrap();
-            let running = ScaledMachine::at(machine, speed).unwrap();
+            let running = Setting::of_speed(speed).on(machine).unwrap();
             let moved = own.brought_to(&running, own.problem());
             assert_eq!(moved, faster.problem(), "{}", machine.name);
             assert_eq!(running.brought_to(&own, moved), own.problem());
@@ -386,7 +380,7 @@ mod tests {
             ("slideway", 10.0, "v0 = 10 m/s is outside the friction law; it reaches from"),
             ("straight", 1.25, "mu = 0 at v0 = 1.25 m/s; it must be positive"),
         ] {
-            let refused = ScaledMachine::at(find(machine), speed).unwrap_err();
+            let refused = Setting::of_speed(speed).on(find(machine)).unwrap_err();
             assert!(refused.contains(words) && !refused.contains('\n'), "{machine}: {refused}");
         }
     }
