@@ -62,7 +62,7 @@ impl PaletteRow {
     fn names(self) -> Vec<&'static str> {
         let [name, other, ..] = self.texts();
         let own = [name, other].into_iter().filter(|name| !name.is_empty());
-        own.chain(aliases(name).iter().copied()).collect()
+        own.chain(SYNONYMS.get(name).into_iter().flatten().copied()).collect()
     }
 }
 
@@ -214,11 +214,6 @@ pub(crate) static SYNONYMS: LazyLock<BTreeMap<&str, Vec<&str>>> = LazyLock::new(
     let rows = lines.filter_map(|line| line.split_once(": "));
     rows.map(|(name, words)| (name, words.split(", ").collect())).collect()
 });
-
-/// The synonyms for this name.
-pub(crate) fn aliases(name: &str) -> &'static [&'static str] {
-    SYNONYMS.get(name).map_or(&[], Vec::as_slice)
-}
 
 /// The rank of a row in a search, by its names and its meaning; 0 is best. Rows whose name is the searched text
 /// come first, then those with words that begin with it, names before meanings. Without a search, all rows have

@@ -239,13 +239,17 @@ pub enum CostRow {
 
 impl Session {
     pub fn cost_rows(&self, list: &List) -> Vec<CostRow> {
+        let present = self.requirements();
+        let is_asked = |request: &Request| present.iter().any(|it| it.request == *request);
         let topics = |requests: Vec<Request>| requests.iter().map(Request::topic).collect();
-        let asked = self.requirements().into_iter().map(CostRow::Asked);
-        let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
         let steps = self.rows().into_iter().map(|row| {
-            let (reused, recomputed) = self.after_a_step(row);
-            CostRow::Step(row, topics(reused), topics(recomputed))
+            let stepped = self.stepped_once(row).requirements();
+            let requests = stepped.into_iter().map(|requirement| requirement.request);
+            let (reused, anew) = requests.partition(is_asked);
+            CostRow::Step(row, topics(reused), topics(anew))
         });
+        let asked = present.iter().cloned().map(CostRow::Asked);
+        let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
         let name = |row: &CostRow| match row {
             CostRow::Asked(requirement) => requirement.request.topic().name(),
             CostRow::Formulas(_) => "formulas",
@@ -280,15 +284,6 @@ impl Session {
     pub fn drawn_by_formulas(&self) -> Vec<Layer> {
         let shown = self.layers.iter().filter(|layer| self.shows(**layer));
         shown.filter(|layer| layer.spec().needs.is_none()).copied().collect()
-    }
-
-    /// The questions after a step of this row: first those that are asked at present, too, then the new ones.
-    pub fn after_a_step(&self, row: Row) -> (Vec<Request>, Vec<Request>) {
-        let asked = |session: &Session| -> Vec<Request> {
-            session.requirements().into_iter().map(|requirement| requirement.request).collect()
-        };
-        let present = asked(self);
-        asked(&self.stepped_once(row)).into_iter().partition(|request| present.contains(request))
     }
 }
 
