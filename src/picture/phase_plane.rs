@@ -39,12 +39,8 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
             construction::levels(picture, &parameters);
         }
     }
-    let all_cycles = session.found(Topic::Cycles, index).into_iter().filter_map(|it| match it {
-        (variant, Finding::Cycles(found, _)) => Some((variant, found)),
-        _ => None,
-    });
-    let all_cycles: Vec<(VariantTag, &Drawing)> = all_cycles.collect();
-    for (variant, found) in all_cycles.iter().filter(|_| shows(Layer::Basin)) {
+    let all_cycles = session.found(Topic::Cycles, index, Finding::try_as_cycles_ref);
+    for (variant, (found, _)) in all_cycles.iter().filter(|_| shows(Layer::Basin)) {
         basin(picture, found, variant, shows(Layer::Cycles));
     }
     let zones = session.zones();
@@ -81,7 +77,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
             construction::spirals(picture, &shown.problem.parameters);
         }
     }
-    for (variant, found) in all_cycles.iter().filter(|_| shows(Layer::Cycles)) {
+    for (variant, (found, _)) in all_cycles.iter().filter(|_| shows(Layer::Cycles)) {
         cycles(picture, found, variant, session.draws_whole());
     }
     let balance = session.balance().filter(|_| shows(Layer::Balance));
@@ -159,30 +155,28 @@ pub(super) fn kind(cycle: &Cycle) -> (&'static str, &'static str) {
 /// The motions of a plot.
 fn motions(picture: &mut Picture, session: &Session, index: usize) {
     let family = session.variants(index).is_some();
-    let mut found = session.found(Topic::Trajectory, index);
+    let mut found = session.found(Topic::Trajectory, index, Finding::try_as_trajectory_ref);
     if !family {
         // The present one over the others.
         found.reverse();
     }
-    for (variant, answer) in found {
-        if let Finding::Trajectory(found) = answer {
-            let place = variant.index;
-            let (line, variant) = if family {
-                ("motion".into(), variant)
-            } else {
-                (motion(session, place), VariantTag::default())
-            };
-            // Where the mass sticks to its belt the model ends, and the curve with it.
-            let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
-            let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
-            let points: Vec<Point> = samples.map(|sample| sample.state().into()).collect();
-            // One of several motions has its number at its end, as at its start: dashes repeat.
-            let number = session.number(place).filter(|_| !family);
-            if let Some((number, end)) = number.zip(points.last()) {
-                picture.caption(*end, number.to_string(), line.role);
-            }
-            picture.curve(line.of(&variant), points);
+    for (variant, found) in found {
+        let place = variant.index;
+        let (line, variant) = if family {
+            ("motion".into(), variant)
+        } else {
+            (motion(session, place), VariantTag::default())
+        };
+        // Where the mass sticks to its belt the model ends, and the curve with it.
+        let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
+        let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
+        let points: Vec<Point> = samples.map(|sample| sample.state().into()).collect();
+        // One of several motions has its number at its end, as at its start: dashes repeat.
+        let number = session.number(place).filter(|_| !family);
+        if let Some((number, end)) = number.zip(points.last()) {
+            picture.caption(*end, number.to_string(), line.role);
         }
+        picture.curve(line.of(&variant), points);
     }
 }
 
@@ -299,15 +293,15 @@ fn ghost(picture: &mut Picture, session: &Session) {
 /// for its cycles and has no marks; the present motion that does has the one of its rest.
 fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMotion]) {
     let family = session.variants(index).is_some();
-    for (VariantTag { index: place, .. }, answer) in session.found(Topic::Trajectory, index) {
-        if let Finding::Trajectory(found) = answer
-            && session.contact_of(found).is_none()
-            && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))
-        {
-            let role = if family { Role::Trajectory } else { motion(session, place).role };
-            if let (Some(mark), Some(at)) = (end_mark(&found.outcome), found.outcome.state()) {
-                picture.mark(mark, at, role);
-            }
+    let found = session.found(Topic::Trajectory, index, Finding::try_as_trajectory_ref);
+    for (VariantTag { index: place, .. }, found) in found {
+        let rests = family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. });
+        if session.contact_of(found).is_some() || rests {
+            continue;
+        }
+        let role = if family { Role::Trajectory } else { motion(session, place).role };
+        if let (Some(mark), Some(at)) = (end_mark(&found.outcome), found.outcome.state()) {
+            picture.mark(mark, at, role);
         }
     }
     let problems =

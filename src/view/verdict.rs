@@ -52,16 +52,15 @@ pub fn outcome(session: &Session) -> (String, Role) {
 fn held_motions(session: &Session) -> Option<String> {
     let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
     let mut ends = [(0, "come to rest"), (0, "still move"), (0, "escape"), (0, "given up")];
-    for (_, answer) in plots.flat_map(|plot| session.found(Topic::Trajectory, plot)) {
-        if let Finding::Trajectory(found) = answer {
-            let end = match found.outcome {
-                Outcome::Captured { .. } => 0,
-                Outcome::Moving { .. } => 1,
-                Outcome::Escaped { .. } => 2,
-                Outcome::GaveUp { .. } => 3,
-            };
-            ends[end].0 += 1;
-        }
+    let motions = |plot| session.found(Topic::Trajectory, plot, Finding::try_as_trajectory_ref);
+    for (_, found) in plots.flat_map(motions) {
+        let end = match found.outcome {
+            Outcome::Captured { .. } => 0,
+            Outcome::Moving { .. } => 1,
+            Outcome::Escaped { .. } => 2,
+            Outcome::GaveUp { .. } => 3,
+        };
+        ends[end].0 += 1;
     }
     let all: usize = ends.iter().map(|(count, _)| count).sum();
     let there = ends.iter().filter(|(count, _)| *count > 0);

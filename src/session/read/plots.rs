@@ -177,14 +177,19 @@ impl Session {
         text(held.filter(|(symbol, value)| symbol.is_parameter() && alike(all, **symbol, **value)))
     }
 
-    /// The answers on this topic for the problems that a plot shows, stale or not.
-    pub fn found(&self, topic: Topic, plot: usize) -> Vec<(VariantTag, &Finding)> {
+    /// The answers on this topic for the problems that a plot shows, stale or not, as `read` makes them out.
+    pub fn found<'a, T>(
+        &'a self,
+        topic: Topic,
+        plot: usize,
+        read: fn(&'a Finding) -> Option<T>,
+    ) -> Vec<(VariantTag, T)> {
         let starts = topic == Topic::Trajectory;
         let labels = self.variants(plot).map(|all| labels(all, &self.problem, starts));
         let label = |index: usize| labels.as_ref()?.get(index).cloned();
         let tag = |index| VariantTag { index, label: label(index).unwrap_or_default() };
         let asked = self.requests(topic, plot).into_iter();
-        let answer = |request: &Request| self.answers.standing(request).answer();
+        let answer = |request: &Request| self.answers.standing(request).answer().and_then(read);
         asked.filter_map(|(index, request)| Some((tag(index), answer(&request)?))).collect()
     }
 
@@ -192,10 +197,9 @@ impl Session {
     /// problems that the plot shows.
     pub fn branches(&self, plot: usize) -> Vec<(usize, &Branch)> {
         let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
-        let found = self.found(Topic::Branch, plot).into_iter();
-        let found =
-            found.filter_map(|(variant, it)| Some((variant.index, it.try_as_branch_ref()?)));
-        found.filter(|(_, branch)| Some(branch.parameter) == over).collect()
+        let found = self.found(Topic::Branch, plot, Finding::try_as_branch_ref).into_iter();
+        let found = found.filter(|(_, branch)| Some(branch.parameter) == over);
+        found.map(|(variant, branch)| (variant.index, branch)).collect()
     }
 
     /// The measure of heights for the cycles of a variant in a diagram, at the friction of the branch on show,

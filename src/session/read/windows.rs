@@ -98,16 +98,14 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         let (start, r) = (shown.problem.initial, shown.problem.parameters.r);
         points.extend([at(start.q, start.v), at(-r, 0.0), at(r, 0.0)]);
     }
-    let answers = |layer, topic| {
-        let shown = session.shows_in(layer, plot).then(|| session.found(topic, plot));
-        shown.unwrap_or_default().into_iter().map(|(.., answer)| answer)
-    };
-    let drawn = answers(Layer::Cycles, Topic::Cycles).filter_map(Finding::try_as_cycles_ref);
-    for cycle in drawn.flat_map(|(found, _)| &found.cycles) {
+    let drawn = session.found(Topic::Cycles, plot, Finding::try_as_cycles_ref).into_iter();
+    let drawn = drawn.filter(|_| session.shows_in(Layer::Cycles, plot));
+    for cycle in drawn.flat_map(|(_, (found, _))| &found.cycles) {
         points.extend([at(cycle.q_min, cycle.v_min), at(cycle.q_max, cycle.v_max)]);
     }
-    let motions = answers(Layer::Trajectory, Topic::Trajectory);
-    for found in motions.filter_map(Finding::try_as_trajectory_ref) {
+    let motions = session.found(Topic::Trajectory, plot, Finding::try_as_trajectory_ref);
+    let motions = motions.into_iter().filter(|_| session.shows_in(Layer::Trajectory, plot));
+    for (_, found) in motions {
         let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
         let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
         let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });

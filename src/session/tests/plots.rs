@@ -92,8 +92,8 @@ fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
         assert_eq!(trial.session.plots[index].framing, Framing::Fitted, "{scene}");
         let window = trial.session.plots[index].window;
         let mut seen = Vec::new();
-        for (VariantTag { label, .. }, answer) in trial.session.found(Topic::Cycles, index) {
-            let Finding::Cycles(found, _) = answer else { continue };
+        let found = trial.session.found(Topic::Cycles, index, Finding::try_as_cycles_ref);
+        for (VariantTag { label, .. }, (found, _)) in found {
             for cycle in &found.cycles {
                 let corners = [(cycle.q_min, cycle.v_min), (cycle.q_max, cycle.v_max)];
                 for (x, y) in corners {
