@@ -288,7 +288,7 @@ fn rows_that_wait_behind_a_slow_one_outlive_a_kill() {
     let (second, third) = (line_of("1\t"), line_of("2\t"));
     let row = |line: &str| line.splitn(3, '\t').nth(2).unwrap().to_owned();
     let marked = format!("{},from the journal", row(&second).trim_end_matches(','));
-    let checksum = Checksum::NONE.and(format!("{marked}\n").as_bytes());
+    let checksum = String::from(Checksum::NONE.and(format!("{marked}\n").as_bytes()));
     let cut = journal.len() - last.len() / 2;
     let altered = journal[..cut]
         .replace(&second, &format!("1\t{checksum}\t{marked}"))
