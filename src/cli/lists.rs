@@ -168,6 +168,7 @@ fn cost_of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
 /// Answers the questions of a session until it asks no more, and returns their costs.
 fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>, Failure> {
     let mut answered = Vec::new();
+    let mut failed = None;
     session::settle(session, |session, request| {
         let layers = session.requirements().into_iter();
         let layers = layers.filter(|part| part.request == *request).flat_map(|part| part.layers);
@@ -176,11 +177,16 @@ fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>, Fai
         let (result, once) = timed(1, ask);
         let seconds = if once < QUICK { timed(TIMES, ask).1 } else { once };
         let topic = request.topic();
-        let found = result.map_err(|reason| {
-            Failure::Unanswered(format!("scene {}: {}: {reason}", scene.name, topic.name()))
-        })?;
-        answered.push(QuestionCost { topic, layers, cost: found.cost(), seconds });
-        Ok(Msg::answered(request.clone(), Ok(found), seconds))
-    })?;
-    Ok(answered)
+        match result {
+            Ok(found) => {
+                answered.push(QuestionCost { topic, layers, cost: found.cost(), seconds });
+                Some(Msg::answered(request.clone(), Ok(found), seconds))
+            }
+            Err(reason) => {
+                failed = Some(format!("scene {}: {}: {reason}", scene.name, topic.name()));
+                None
+            }
+        }
+    });
+    failed.map_or(Ok(answered), |why| Err(Failure::Unanswered(why)))
 }

@@ -40,20 +40,18 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
 /// and a press may wait for the answers about several motions in turn.
 const ROUNDS: usize = 12;
 
-/// Answers the questions of a session until there are none left. Fails with the first error of `answer`.
-pub fn settle<E>(
-    session: &mut Session,
-    mut answer: impl FnMut(&Session, &Request) -> Result<Msg, E>,
-) -> Result<(), E> {
+/// Answers the questions of a session until there are none left; questions for which `answer` returns no
+/// message stay open.
+pub fn settle(session: &mut Session, mut answer: impl FnMut(&Session, &Request) -> Option<Msg>) {
     for _ in 0..ROUNDS {
         let mut open = session.wants();
         open.retain(|request| session.is_open(request));
         for request in open {
-            let message = answer(session, &request)?;
-            update(session, message);
+            if let Some(message) = answer(session, &request) {
+                update(session, message);
+            }
         }
     }
-    Ok(())
 }
 
 /// Takes a message in that does not have to wait.

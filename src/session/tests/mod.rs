@@ -123,11 +123,10 @@ impl Trial {
     }
 
     fn settle(&mut self) {
-        let settled = super::settle(&mut self.session, |_, request| {
+        super::settle(&mut self.session, |_, request| {
             self.asked.push(request.clone());
-            Ok::<_, ()>(answered(request.clone()))
+            Some(answered(request.clone()))
         });
-        assert_eq!(settled, Ok(()));
         assert!(!self.session.is_busy(), "answers make the session ask again and again");
     }
 
