@@ -17,7 +17,7 @@
 //! Mechanics and Engineering 177, 1999).
 
 use super::motion::Cost;
-use super::step::{Powers, Step, StepPoint, Stepper, powers_of_stages};
+use super::step::{Powers, Step, StepPoint, Stepper, check_stability, powers_of_stages};
 use crate::model::{Field, HalfPlane, Parameters, PlaneField, Reason, Side};
 use crate::numerics::{tanh, times_power};
 
@@ -80,9 +80,6 @@ impl PlaneField for SmoothField {
 /// Newton iterations for the velocity at the end of a step. The residual is nearly linear.
 const ITERATIONS: usize = 50;
 
-/// Below this many damping times the equation of a step is a contraction and can be solved.
-const STABLE: f64 = 2.0;
-
 /// The time stepper, in coordinates `(q, v)` of the whole phase plane. Of its field it needs the smooth part and the
 /// intensity of the friction.
 #[derive(Clone, Debug)]
@@ -142,10 +139,7 @@ impl Stepper<SmoothField> for TimeStepping {
     fn advance(&mut self, from: StepPoint, longest: f64, _: bool) -> Result<Step, Reason> {
         let h = self.length.min(longest);
         self.start = from;
-        let rate = self.field.smooth.divergence(from.v).abs();
-        if h * rate > STABLE {
-            return Err(Reason::StepTooLong { step: h, stable: STABLE / rate });
-        }
+        check_stability(h, self.field.smooth.divergence(from.v).abs())?;
         let to_rest = self.missing(h, 0.0);
         let strongest = h * self.field.r;
         let v = if to_rest.abs() <= strongest {

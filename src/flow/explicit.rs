@@ -8,8 +8,8 @@ use std::cell::Cell;
 
 use super::motion::Cost;
 use super::step::{
-    LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length, powers_of_stages,
-    stopping_time,
+    LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, check_stability, first_length,
+    powers_of_stages, stopping_time,
 };
 use super::tableau::{ErrorEstimate, Scheme};
 use crate::model::{Field, HalfPlane, Reason};
@@ -18,10 +18,6 @@ use crate::numerics::{Bracket, PlaceTolerance, newton, rough_exp2, rough_log2};
 /// Relative change of the length of the last step below which it counts as settled. This takes about four
 /// attempts; one more would change the length by the square of this.
 const SETTLED: f64 = 1e-9;
-
-/// A step of the classical method counts as stable below this many damping times. (The bound is 2.785 for real
-/// eigenvalues, but the eigenvalue may grow within the step.)
-const STABLE: f64 = 2.0;
 
 /// An explicit Runge-Kutta stepper.
 #[derive(Clone, Debug)]
@@ -187,19 +183,6 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         let end = StepPoint { x: end.x + rest * end.v + 0.5 * rest * rest * slope, v: 0.0 };
         Step { duration: (length + rest).max(0.0), end, crossed: true }
     }
-
-    /// Rejects a step of fixed length if damping is too fast at any of its stages.
-    fn check_stability(&self, length: f64) -> Result<(), Reason> {
-        if !self.is_fixed() {
-            return Ok(());
-        }
-        let rate = |v: &f64| self.field.divergence(*v).abs();
-        let fastest = self.velocity.iter().map(rate).fold(0.0, f64::max);
-        if length * fastest > STABLE {
-            return Err(Reason::StepTooLong { step: length, stable: STABLE / fastest });
-        }
-        Ok(())
-    }
 }
 
 impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> {
@@ -224,7 +207,10 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
             // A step that turned around passed two crossings and is repeated with a shorter length.
             let makes_sense = |end: StepPoint| !arrives || end.v <= 0.0 || end.x >= from.x;
             let (duration, end) = self.accepted(longest, makes_sense)?;
-            self.check_stability(duration)?;
+            if self.is_fixed() {
+                let rates = self.velocity.iter().map(|v| self.field.divergence(*v).abs());
+                check_stability(duration, rates.fold(0.0, f64::max))?;
+            }
             if !arrives || end.v > 0.0 {
                 return Ok(Step { duration, end, crossed: false });
             }

@@ -50,6 +50,18 @@ pub fn allowed_error(tolerance: f64, start: StepPoint, end: StepPoint) -> StepPo
 /// swing of a linear oscillator (pi), rounded up. No step of at most this length passes two crossings.
 pub const LONGEST: f64 = 2.0;
 
+/// Refuses a step of fixed length in which damping at this rate is too fast.
+pub fn check_stability(step: f64, rate: f64) -> Result<(), Reason> {
+    /// A step counts as stable below this many damping times. The bound of the classical method is 2.785 for real
+    /// eigenvalues, but the eigenvalue may grow within the step; the equation of a time step is a contraction below
+    /// this number, and can be solved.
+    const STABLE: f64 = 2.0;
+    if step * rate > STABLE {
+        return Err(Reason::StepTooLong { step, stable: STABLE / rate });
+    }
+    Ok(())
+}
+
 /// The longest first step worth trying when the velocity falls at once: a few times the time in which it would
 /// reach zero at this rate. Without this bound an arrival after 1e-300 would be sought in steps of 1.
 pub fn stopping_time(v: f64, acceleration: f64) -> f64 {
