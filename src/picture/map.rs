@@ -18,30 +18,16 @@ pub enum Dangerous {
     Large,
 }
 
-/// A line of `assets/columns.txt`: a column, its unit, which of its values are dangerous, and what it means that there is
-/// none.
-#[derive(Clone, Copy)]
-struct ColumnSpec {
-    column: &'static str,
-    unit: &'static str,
-    dangerous: &'static str,
-    nothing: &'static str,
-}
-
-static COLUMNS: LazyLock<Vec<ColumnSpec>> = LazyLock::new(|| {
-    let spec = |line| {
-        let [column, unit, dangerous, nothing] = cells(line)?;
-        Some(ColumnSpec { column, unit, dangerous, nothing })
-    };
-    include_str!("../../assets/columns.txt").lines().filter_map(spec).collect()
-});
+/// The lines of `assets/columns.txt`: a column, its unit, which of its values are dangerous, and what it means that there
+/// is none.
+static COLUMNS: LazyLock<Vec<[&str; 4]>> =
+    LazyLock::new(|| include_str!("../../assets/columns.txt").lines().filter_map(cells).collect());
 
 /// What [`COLUMNS`] says of the column that is plotted.
-fn plotted(scanned: &ScanOnShow) -> ColumnSpec {
+fn plotted(scanned: &ScanOnShow) -> [&'static str; 4] {
     let column = measured(scanned);
-    let row = COLUMNS.iter().find(|row| row.column == column);
-    let unknown = ColumnSpec { column, unit: "-", dangerous: "-", nothing: "none" };
-    row.copied().unwrap_or(unknown)
+    let row = COLUMNS.iter().find(|[known, ..]| *known == column);
+    row.copied().unwrap_or([column, "-", "-", "none"])
 }
 
 /// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.
@@ -54,17 +40,18 @@ pub fn measured(scanned: &ScanOnShow) -> &'static str {
 
 /// What is plotted, with the unit of a length, a velocity or a time.
 pub fn with_unit(scanned: &ScanOnShow) -> String {
-    let ColumnSpec { column, unit, .. } = plotted(scanned);
+    let [column, unit, ..] = plotted(scanned);
     if unit == "-" { column.to_owned() } else { format!("{column} [{unit}]") }
 }
 
 /// What it means that there is no number at a point; `None` where there is one.
 pub fn nothing(scanned: &ScanOnShow, index: usize) -> Option<&'static str> {
     let row = scanned.rows.get(index)?;
+    let [.., nothing] = plotted(scanned);
     match (scanned.height(index), &row.reason) {
         (Some(_), _) => None,
         (None, Some(_)) => Some("gave up"),
-        (None, None) => Some(plotted(scanned).nothing),
+        (None, None) => Some(nothing),
     }
 }
 
@@ -83,9 +70,9 @@ impl Danger {
     /// The scale of what is plotted; `None` without a number.
     pub fn of(scanned: &ScanOnShow) -> Option<Self> {
         let (low, high) = scanned.range()?;
-        let dangerous = named(plotted(scanned).dangerous);
+        let [.., dangerous, _] = plotted(scanned);
         let logarithmic = low > 0.0 && high / low >= SPREAD;
-        Some(Danger { low, high, logarithmic, dangerous })
+        Some(Danger { low, high, logarithmic, dangerous: named(dangerous) })
     }
 
     /// How far a value is on the way from the lowest to the highest, from 0 to 1.
@@ -154,10 +141,12 @@ impl ScanMap {
             (0..sweep.count).map(|index| ScanOnShow::coordinate(sweep, index)).collect()
         };
         let words = scanned.plots_words();
-        let cell = |index: usize| match (nothing(scanned, index), scanned.height(index)) {
-            (None, Some(value)) if !words => MapCell::Number(value),
-            (None, _) => MapCell::Word(word(scanned, index)),
+        let cell = |index: usize| match (nothing(scanned, index), scanned.value(index)) {
             (Some(none), _) => MapCell::Word(none),
+            (None, Some(Value::Word(word))) => MapCell::Word(word),
+            (None, value) => {
+                value.and_then(Value::number).map_or(MapCell::Word("none"), MapCell::Number)
+            }
         };
         let cells: Vec<MapCell> = (0..scanned.rows.len()).step_by(stride).map(cell).collect();
         Some(ScanMap {
@@ -178,13 +167,6 @@ impl ScanMap {
     }
 }
 
-fn word(scanned: &ScanOnShow, index: usize) -> &'static str {
-    match scanned.rows[index].values.get(scanned.column) {
-        Some(Value::Word(word)) => word,
-        _ => "none",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -195,7 +177,7 @@ mod tests {
         let lines = include_str!("../../assets/columns.txt").lines();
         let told = lines.filter(|line| !(line.is_empty() || line.starts_with('#')));
         assert_eq!(told.count(), COLUMNS.len(), "every line of the file is read");
-        for ColumnSpec { column, dangerous, .. } in COLUMNS.iter() {
+        for [column, _, dangerous, _] in COLUMNS.iter() {
             assert!(MEASURES.iter().any(|row| row.columns.contains(column)), "{column}");
             let known = *dangerous == "-" || named::<Dangerous>(dangerous).is_some();
             assert!(known, "{column}: {dangerous}");

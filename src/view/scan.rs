@@ -78,11 +78,11 @@ fn reading(scanned: &ScanOnShow, width: usize) -> String {
     let Some(row) = scanned.rows.get(scanned.at) else { return String::new() };
     let name = measured(scanned);
     let place = scanned.scan.place(scanned.at);
-    let found = |digits: usize| match (&row.reason, row.values.get(scanned.column)) {
+    let found = |digits: usize| match (&row.reason, scanned.value(scanned.at)) {
         (Some(reason), _) => format!("- {reason}"),
-        (None, Some(Value::Number(value))) => significant(*value, digits),
+        (None, Some(Value::Number(value))) => significant(value, digits),
         (None, Some(value)) => {
-            nothing(scanned, scanned.at).map_or(measurement(*value, Some(8)), str::to_owned)
+            nothing(scanned, scanned.at).map_or(measurement(value, Some(8)), str::to_owned)
         }
         (None, None) => String::new(),
     };

@@ -69,12 +69,8 @@ fn point(session: &Session) -> Vec<NamedNumber> {
     }
     if let (View::Scan, Some(scanned)) = (plot.view, &session.scanned) {
         let column = scanned.scan.measured().get(scanned.column).copied();
-        let value = scanned.rows.get(scanned.at).and_then(|row| row.values.get(scanned.column));
-        return column
-            .zip(value)
-            .map(|(name, value)| (name.to_string(), measured(value)))
-            .into_iter()
-            .collect();
+        let known = column.zip(scanned.value(scanned.at)).into_iter();
+        return known.map(|(name, value)| (name.to_string(), measured(&value))).collect();
     }
     let Some(at) = plot.cursor else { return Vec::new() };
     let (x, y) = match plot.view {

@@ -75,13 +75,24 @@ impl ScanOnShow {
         self.scan.over().len() > 1
     }
 
-    /// The value that is plotted at a point, if it is known and a number.
+    /// What was measured at a point, of the column that is plotted; `None` while it is not known.
+    pub fn value(&self, index: usize) -> Option<Value> {
+        self.rows.get(index)?.values.get(self.column).copied()
+    }
+
+    /// The height of a point: its value as a number; a word becomes its index in [`WORDS`].
     pub fn height(&self, index: usize) -> Option<f64> {
-        number(self.rows.get(index)?, self.column)
+        match self.value(index)? {
+            Value::Word(word) => {
+                let place = WORDS.iter().position(|known| *known == word)?;
+                u32::try_from(place).ok().map(f64::from)
+            }
+            value => value.number(),
+        }
     }
 
     pub fn plots_words(&self) -> bool {
-        let mut values = self.rows.iter().filter_map(|row| row.values.get(self.column));
+        let mut values = (0..self.rows.len()).filter_map(|index| self.value(index));
         values.any(|value| matches!(value, Value::Word(_)))
     }
 
@@ -132,16 +143,5 @@ impl ScanOnShow {
             |which: usize| Some(Self::coordinate(over.get(which)?, *place.get(which)?));
         let y = if self.is_grid() { coordinate(1)? } else { self.height(index)? };
         Some(Point { x: coordinate(0)?, y })
-    }
-}
-
-/// The value of a cell as a number; a word becomes its index in [`WORDS`].
-fn number(row: &ScanRow, column: usize) -> Option<f64> {
-    match *row.values.get(column)? {
-        Value::Word(word) => {
-            let place = WORDS.iter().position(|known| *known == word)?;
-            u32::try_from(place).ok().map(f64::from)
-        }
-        value => value.number(),
     }
 }
