@@ -7,7 +7,7 @@ use super::reference::{Deviation, NoComparison, Reference};
 use crate::flow::{Cost, Detail, Limits, METHODS, Method, Outcome, Problem, Reason, Trajectory};
 use crate::model::model::FINEST;
 use crate::model::{Knob, Model};
-use crate::numerics::elementary::{ln, log10};
+use crate::numerics::{amount, ln, log10};
 
 /// Tolerances, one for each digit.
 const TOLERANCES: [f64; 14] =
@@ -105,9 +105,7 @@ impl TradePoint {
 
     /// Its evaluations, as a cost that can be compared.
     pub fn evaluations(&self) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-        let evaluations = self.cost.evaluations as f64;
-        evaluations
+        amount(self.cost.evaluations)
     }
 
     /// Whether the motion ends as it should: right kind of outcome, right number of half swings.

@@ -3,6 +3,7 @@
 
 use super::{Signal, quantity};
 use crate::model::unit::{TIME, in_si};
+use crate::numerics::amount;
 
 /// What instruments write for a missing number, in lower case.
 const MISSING: [&str; 14] = [
@@ -125,8 +126,7 @@ pub fn clock_seconds(cell: &str) -> Option<f64> {
         [minutes, seconds] if seconds < 61.0 => minutes * 60.0 + seconds,
         _ => return None,
     };
-    #[expect(clippy::cast_precision_loss, reason = "less than a thousand")]
-    let before = days.rem_euclid(REPEAT) as f64;
+    let before = amount(days.rem_euclid(REPEAT).unsigned_abs());
     Some(before * 86400.0 + within)
 }
 

@@ -78,7 +78,7 @@ impl Noise {
         let told = || least_squares(x.windows(3).map(|it| ([1.0, it[1], it[0]], it[2])));
         let few = samples_per_period < FEW;
         let [level, one, two] = few.then(told).flatten().unwrap_or([0.0, 2.0, -1.0]);
-        let second: Vec<f64> = x
+        let mut second: Vec<f64> = x
             .windows(3)
             .map(|three| (three[2] - one * three[1] - two * three[0] - level).abs())
             .collect();
@@ -86,14 +86,13 @@ impl Noise {
         let least = steps.fold(f64::INFINITY, f64::min);
         let step = if least.is_finite() { least } else { 0.0 };
         let quantised = step / 12.0_f64.sqrt();
-        let deviation = median(second.clone()) / 0.6745 / (1.0 + one * one + two * two).sqrt();
-        let mut sorted = second.clone();
-        sorted.sort_by(f64::total_cmp);
+        second.sort_by(f64::total_cmp);
+        let at = |tenths: usize| second.get(second.len() * tenths / 10).copied().unwrap_or(0.0);
+        let deviation = at(5) / 0.6745 / (1.0 + one * one + two * two).sqrt();
         // If one sample in twelve is spoiled, a quarter of the second differences are.
-        let high = sorted.get(sorted.len() * 7 / 10).copied().unwrap_or(0.0);
-        let impossible = (8.0 * median(second)).max(4.0 * high);
-        let jumps = sorted.iter().filter(|value| **value > impossible).count();
-        let has_outliers = impossible > 0.0 && real(jumps) > SHARE * real(sorted.len());
+        let impossible = (8.0 * at(5)).max(4.0 * at(7));
+        let jumps = second.iter().filter(|value| **value > impossible).count();
+        let has_outliers = impossible > 0.0 && real(jumps) > SHARE * real(second.len());
         // If most differences vanish, the rounding error of the converter or of the decimals remains.
         let deviation = deviation.max(quantised);
         let is_audible = deviation > step && alternates(x);

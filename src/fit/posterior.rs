@@ -12,7 +12,7 @@ use super::{
     D, D2, D3, Estimate, R, Runs, Seen, Task, Unknowns, UnknownsMatrix, chi_squared, normal_at,
 };
 use crate::flow::{Limits, Reason};
-use crate::numerics::{exp, ln, pow, real};
+use crate::numerics::{amount, exp, ln, pow, real};
 
 /// Unknowns drawn, all of equal weight.
 pub struct Drawn {
@@ -62,7 +62,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
             points.extend(found);
             motions += computed;
         }
-        let spent = real(usize::try_from(motions).unwrap_or(usize::MAX)) * real(frame.along.len());
+        let spent = amount(motions) * real(frame.along.len());
         if effective(&weights(&points)) >= FEWEST.max(real(draws)) || spent > MOST {
             break;
         }

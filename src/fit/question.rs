@@ -64,9 +64,7 @@ impl StartKind {
 
 /// The direction along which only one of the unknowns changes.
 pub fn direction(place: usize) -> Unknowns {
-    let mut by = Unknowns::zeros();
-    by[place] = 1.0;
-    by
+    Unknowns::ith(place, 1.0)
 }
 
 /// The parameters of the motion among the unknowns.

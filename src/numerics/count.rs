@@ -6,6 +6,12 @@ pub const fn real(count: usize) -> f64 {
     count as f64
 }
 
+/// A count of 64 bits as a double; the same holds of it.
+#[expect(clippy::cast_precision_loss, reason = "counts are below 2^53")]
+pub const fn amount(count: u64) -> f64 {
+    count as f64
+}
+
 /// The integer part of a number; 0 for negative numbers and NaN.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
 pub fn truncated(number: f64) -> usize {

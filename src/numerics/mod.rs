@@ -24,7 +24,7 @@ pub(crate) mod sum;
 pub(crate) mod table;
 pub mod twofold;
 
-pub(crate) use count::{distinct, real, reciprocals, truncated};
+pub(crate) use count::{amount, distinct, real, reciprocals, truncated};
 pub(crate) use decimal::{StepSize, brief, decade, decimal, shortest};
 pub(crate) use elementary::{
     asin, atan, atan2, cbrt, cos, erfc, exp, exp_m1, exp2, hypot, ln, ln_1p, log2, log10, pow,

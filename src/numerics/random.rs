@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::numerics::elementary::{cos, ln};
+use super::count::amount;
+use super::elementary::{cos, ln};
 
 /// A stream of numbers (splitmix64).
 #[derive(Clone, Debug)]
@@ -23,9 +24,8 @@ impl Random {
         mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         mixed ^= mixed >> 31;
-        #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
-        let even = ((mixed >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0;
-        even
+        // 53 bits fit.
+        (amount(mixed >> 11) + 0.5) / 9_007_199_254_740_992.0
     }
 
     /// A number normally distributed with mean 0 and standard deviation 1 (Box and Muller).

@@ -1,7 +1,7 @@
 //! Numbers as text: with a few significant digits, with a prefix and a unit, or exactly, within a given width.
 
 pub use crate::numerics::decimal::{in_unit, resolved, significant, with_error};
-use crate::numerics::real;
+use crate::numerics::{amount, real};
 use crate::scan::measure::Value;
 
 /// A positive `value` with all but this many significant digits cut off, so that it is not above `value`.
@@ -34,8 +34,7 @@ pub fn exact(value: f64, width: usize) -> String {
 
 /// Writes a count in at most six columns: `950`, `12.4k`, `3.1M`.
 pub fn count(value: u64) -> String {
-    #[expect(clippy::cast_precision_loss, reason = "three digits are shown of a large one")]
-    let number = value as f64;
+    let number = amount(value);
     // Up to five columns there is room for all digits.
     let fits = |(_, scale): &&(&str, f64)| *scale > 1.0 && number >= scale.max(1e4);
     PREFIXES.iter().find(fits).map_or_else(

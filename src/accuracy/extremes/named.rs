@@ -7,7 +7,7 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Trajectory};
 use crate::model::parameters::energy;
 use crate::model::{Parameters, State};
-use crate::numerics::scaling::times_power;
+use crate::numerics::{amount, times_power};
 
 /// One of them by one method.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -112,9 +112,8 @@ fn far_out(method: Method, limits: &Limits) -> NamedExtreme {
     let problem = Problem { method, ..problem };
     let what = "far out at q0 = 1e6, D3 = 1, until it rests";
     NamedExtreme::of(what, ("steps", 5_000.0), &problem, limits, |motion| {
-        #[expect(clippy::cast_precision_loss, reason = "the budget ends it long before")]
-        let steps = motion.cost.steps as f64;
-        matches!(motion.outcome, Outcome::Captured { .. }).then_some(steps)
+        let rests = matches!(motion.outcome, Outcome::Captured { .. });
+        rests.then_some(amount(motion.cost.steps))
     })
 }
 

@@ -61,8 +61,9 @@ pub struct BalanceResidual {
     /// The powers of `p = q'(t)` from 0 to 3: the first as long as it is, the square up to harmonic `2 N`, the cube up
     /// to harmonic N.
     powers: [Fourier; 4],
-    /// Where p changes its sign, with `e^(i k t)` there for every harmonic k.
-    crossings: Vec<(SignChange, Vec<Complex<f64>>)>,
+    /// Where p changes its sign, so that the ansatz stands on `v = 0`, twice at a cycle; with `e^(i k t)` there for every
+    /// harmonic k.
+    pub crossings: Vec<(SignChange, Vec<Complex<f64>>)>,
 }
 
 impl BalanceResidual {
@@ -81,11 +82,6 @@ impl BalanceResidual {
         let one = Fourier { coefficients: vec![Complex::from(1.0)] };
         let powers = [one, p, square, cube];
         BalanceResidual { parameters: *parameters, ansatz, powers, crossings }
-    }
-
-    /// Number of instants in a turn at which the ansatz stands on `v = 0`; two at a cycle.
-    pub fn crossings(&self) -> usize {
-        self.crossings.len()
     }
 
     /// The unknowns. For `D2 = 0` the oscillator is symmetric and its cycles have odd harmonics only; the others, and the
@@ -352,7 +348,7 @@ mod tests {
         let parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 1.0 };
         let ansatz = Ansatz { frequency: 1.0, q };
         let residual = BalanceResidual::new(&parameters, 9, &ansatz);
-        assert_eq!(residual.crossings(), 6);
+        assert_eq!(residual.crossings.len(), 6);
         for k in 0..=9 {
             let expected = match k {
                 3 => 2.0 / PI,

@@ -196,7 +196,7 @@ impl<'a> Followed<'a> {
             mean: sized(q.mean()),
             frequency,
             period: TAU / frequency,
-            crossings: residual.crossings(),
+            crossings: residual.crossings.len(),
             residual: residual.relative(),
             displacement: q.map(sized),
         };
