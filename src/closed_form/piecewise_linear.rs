@@ -93,31 +93,26 @@ impl LinearCycle {
     /// half plane, because near `D = -1` almost all of the time passes next to the turning points.
     #[must_use]
     pub fn curve(&self, points: usize) -> Vec<State> {
-        let upper = |index: usize| self.point(index, points);
-        let half: Vec<State> = (0..points).map(upper).collect();
-        let lower = half.iter().map(|state| state.mirrored());
-        half.iter().copied().chain(lower).chain(half.first().copied()).collect()
-    }
-
-    /// Point number `index` of `points` on the upper half.
-    fn point(&self, index: usize, points: usize) -> State {
-        let Self { d, r, .. } = *self;
+        let Self { d, r, q_max, .. } = *self;
         let linear = Linear::new(d);
+        // There is a cycle only where motions oscillate.
         let (Some(omega), Some(growth)) = (linear.omega(), linear.log_growth()) else {
-            return State { q: -r, v: 0.0 };
+            return Vec::new();
         };
-        if index == 0 {
-            return State { q: -self.q_max, v: 0.0 };
-        }
-        let direction = std::f64::consts::PI * (real(index) / real(points));
-        let (sin, cos) = sin_cos(direction);
-        // Phase angle left until the end of the half swing.
-        let left = atan2(omega.high * sin, d * sin - cos);
         let arrival = 2.0 * r / -exp_m1(-growth.high);
-        let size = arrival * exp(d * (left / omega.high));
-        let (sin, cos) = sin_cos(left);
-        let sine = sin / omega.high;
-        State { q: size * (cos - d * sine) - r, v: size * sine }
+        let upper = |index: usize| {
+            let (sin, cos) = sin_cos(std::f64::consts::PI * (real(index) / real(points)));
+            // Phase angle left until the end of the half swing.
+            let left = atan2(omega.high * sin, d * sin - cos);
+            let size = arrival * exp(d * (left / omega.high));
+            let (sin, cos) = sin_cos(left);
+            let sine = sin / omega.high;
+            State { q: size * (cos - d * sine) - r, v: size * sine }
+        };
+        let start = State { q: -q_max, v: 0.0 };
+        let half: Vec<State> = std::iter::once(start).chain((1..points).map(upper)).collect();
+        let lower = half.iter().map(|state| state.mirrored());
+        half.iter().copied().chain(lower).chain([start]).collect()
     }
 }
 

@@ -4,7 +4,7 @@
 
 use super::ScaledMachine;
 use crate::model::{Knob, Parameters};
-use crate::numerics::elementary::{exp, ln, log10};
+use crate::numerics::{decade, exp, ln};
 
 /// Slowest speed of a path, relative to the machine's own speed; the fastest is its reciprocal. The range of
 /// the friction law may limit both.
@@ -32,8 +32,7 @@ impl ScaledMachine {
     /// Points of the path at round speeds, the roundest first.
     pub fn milestones(&self) -> Vec<Station> {
         let (slow, fast) = self.speeds();
-        #[expect(clippy::cast_possible_truncation, reason = "exponents of speeds have two digits")]
-        let exponents = log10(slow).floor() as i32..=log10(fast).ceil() as i32;
+        let exponents = decade(slow)..=decade(fast) + 1;
         let of = |digits: &'static [u32]| {
             let decade = move |exponent: i32| {
                 // Parsed from decimal, so that it equals the typed number to the last bit.
