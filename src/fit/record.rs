@@ -182,11 +182,10 @@ impl<'a> RecordTable<'a> {
         let last_of_header = rows[first.saturating_sub(1)].0;
         let numbers = rows.split_off(first);
         let header: Vec<Vec<&str>> = rows.into_iter().map(|(_, cells)| cells).collect();
+        let header = Header::of(&header);
         // Blanks cannot separate names that consist of several words.
-        let header = Some(Header::of(&header));
-        let width = numbers[0].1.len();
-        let header = header.filter(|it| separator.is_some() || it.columns.len() <= width);
-        let header = header.unwrap_or_default();
+        let is_apart = separator.is_some() || header.columns.len() <= numbers[0].1.len();
+        let header = if is_apart { header } else { Header::default() };
         Ok(RecordTable { header, last_of_header, rows: numbers, comma_is_decimal })
     }
 

@@ -6,7 +6,7 @@ pub const fn real(count: usize) -> f64 {
     count as f64
 }
 
-/// A count of 64 bits as a double; the same holds of it.
+/// A count of 64 bits as a double, exact below `2^53`, too.
 #[expect(clippy::cast_precision_loss, reason = "counts are below 2^53")]
 pub const fn amount(count: u64) -> f64 {
     count as f64

@@ -290,6 +290,7 @@ fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
     let (low, high) = fitted.estimate.amplitudes();
     let unit = fitted.unit();
     let range = in_unit(&format!("{} .. {}", significant(low, 3), significant(high, 3)), unit);
+    let measured = format!("amplitudes measured were {range}");
     let holds = reach.is_some_and(|it| it == 0.0 || (it <= 1.0 && it * high >= low));
     let detail = match (reach, fitted.margins.allowed) {
         (Some(reach), _) if holds || reach > 1.0 => format!(
@@ -301,17 +302,13 @@ fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
             significant(reach * high / low, 2)
         ),
         (None, Some(AllowedLoss { name, value, displacement: at })) => format!(
-            "amplitudes measured were {range}; with {name} = {}, which the record does not exclude, a displacement of {} \
+            "{measured}; with {name} = {}, which the record does not exclude, a displacement of {} \
              is not survived, {} times the largest amplitude",
             significant(value, 2),
             in_unit(&significant(at, 3), unit),
             significant(at / high, 2)
         ),
-        (None, None) => {
-            format!(
-                "amplitudes measured were {range}; no D2 or D3 within its interval changes that"
-            )
-        }
+        (None, None) => format!("{measured}; no D2 or D3 within its interval changes that"),
     };
     Condition { name: "amplitudes", holds, essential: false, detail }
 }
