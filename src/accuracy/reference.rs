@@ -103,8 +103,7 @@ impl Reference {
     }
 
     fn by_two_methods(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
-        let linear = problem.parameters.is_piecewise_linear();
-        let (source, first, second) = if linear {
+        let (source, first, second) = if problem.parameters.is_piecewise_linear() {
             (ReferenceSource::ClosedForm, Method::Exact, Method::Taylor)
         } else {
             (ReferenceSource::Implicit, Method::Stiff, Method::Auto)

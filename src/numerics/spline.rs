@@ -132,8 +132,7 @@ impl SmoothingSpline {
 
 fn quadratic_mean(one: &[f64], other: &[f64]) -> f64 {
     let squares: f64 = one.iter().zip(other).map(|(one, other)| powi(one - other, 2)).sum();
-    let count = real(one.len());
-    (squares / count).sqrt()
+    (squares / real(one.len())).sqrt()
 }
 
 /// The seven diagonals of a symmetric matrix: `row[k]` is the element `k` columns to the right.

@@ -183,6 +183,7 @@ impl<'a> Followed<'a> {
     /// Reads everything out, in the units of the question.
     fn describe(&self, count: usize, residual: &BalanceResidual) -> Result<HarmonicCycle, Reason> {
         let sized = |value| times_power(value, self.unit);
+        let in_units = |c: &Complex<f64>| Complex::new(sized(c.re), sized(c.im));
         let Ansatz { frequency, q } = &residual.ansatz;
         let (frequency, (q_min, q_max)) = (*frequency, extremes(q));
         let (p_min, p_max) = extremes(&q.derivative());
@@ -198,7 +199,7 @@ impl<'a> Followed<'a> {
             period: TAU / frequency,
             crossings: residual.crossings.len(),
             residual: residual.relative(),
-            displacement: q.map(sized),
+            displacement: Fourier { coefficients: q.coefficients.iter().map(in_units).collect() },
         };
         let numbers =
             [cycle.q_min, cycle.q_max, cycle.v_min, cycle.v_max, cycle.mean, cycle.period];
