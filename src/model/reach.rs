@@ -9,7 +9,11 @@ pub fn first_below_zero(law: &LawParts) -> f64 {
     if let (Some(fall), Some((_, _, rest))) = (law.fall, law.pieces.first()) {
         return falling_zero(fall, rest);
     }
-    let zero = |(from, to, c): &LawPiece| falls_below_zero(c, to - from).map(|at| from + at);
+    let zero = |(from, to, coefficients): &LawPiece| {
+        let begins_below = polynomial::value(coefficients, 0.0) < 0.0;
+        let at = if begins_below { 0.0 } else { *zeros(coefficients, to - from).first()? };
+        Some(from + at)
+    };
     law.pieces.iter().find_map(zero).unwrap_or(f64::INFINITY)
 }
 
@@ -33,14 +37,6 @@ fn falling_zero((drop, velocity, exponent): (f64, f64, f64), rest: &[f64]) -> f6
         below = slip;
     }
     f64::INFINITY
-}
-
-/// Where a polynomial first becomes negative on `0 .. end`.
-fn falls_below_zero(coefficients: &[f64], end: f64) -> Option<f64> {
-    if polynomial::value(coefficients, 0.0) < 0.0 {
-        return Some(0.0);
-    }
-    zeros(coefficients, end).first().copied()
 }
 
 /// The zeros in `0 .. end` at which a polynomial changes its sign, in their order: between two zeros of its
