@@ -63,6 +63,12 @@ impl Fourier {
         Fourier { coefficients: (0..=degree).map(coefficient).collect() }
     }
 
+    /// The function with every coefficient passed through `change`.
+    pub fn map(&self, change: impl Fn(f64) -> f64) -> Self {
+        let both = |c: &Complex<f64>| Complex::new(change(c.re), change(c.im));
+        Fourier { coefficients: self.coefficients.iter().map(both).collect() }
+    }
+
     /// The value and the derivatives at an angle, as many as there is room for.
     ///
     /// Rounding of the value: at most about `f64::EPSILON * (abs(mean) + bound(1))`.

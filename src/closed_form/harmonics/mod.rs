@@ -183,7 +183,6 @@ impl<'a> Followed<'a> {
     /// Reads everything out, in the units of the question.
     fn describe(&self, count: usize, residual: &BalanceResidual) -> Result<HarmonicCycle, Reason> {
         let sized = |value| times_power(value, self.unit);
-        let in_units = |c: &Complex<f64>| Complex::new(sized(c.re), sized(c.im));
         let Ansatz { frequency, q } = &residual.ansatz;
         let (frequency, (q_min, q_max)) = (*frequency, extremes(q));
         let (p_min, p_max) = extremes(&q.derivative());
@@ -199,7 +198,7 @@ impl<'a> Followed<'a> {
             period: TAU / frequency,
             crossings: residual.crossings.len(),
             residual: residual.relative(),
-            displacement: Fourier { coefficients: q.coefficients.iter().map(in_units).collect() },
+            displacement: q.map(sized),
         };
         let numbers =
             [cycle.q_min, cycle.q_max, cycle.v_min, cycle.v_max, cycle.mean, cycle.period];
