@@ -99,7 +99,6 @@ pub fn compare(
 pub const RUNGS: [usize; 9] = [1, 3, 5, 9, 15, 31, 63, 127, 255];
 
 /// The rungs below `most`, and `most` itself.
-#[must_use]
 pub fn ladder(most: usize) -> Vec<usize> {
     RUNGS.into_iter().filter(|rung| *rung < most).chain([most]).collect()
 }

@@ -22,7 +22,6 @@ pub const TIME: Dimension = [0, 0, 1];
 pub const IMPULSE: Dimension = [1, 1, -1];
 
 /// The dimension of an SI unit, such as `N s/m`; that of a pure number for the empty text.
-#[must_use]
 pub fn dimension_of(unit: &str) -> Dimension {
     read_unit(unit).map_or(NONE, |(_, dimension)| dimension)
 }
@@ -61,7 +60,6 @@ pub fn quantity(text: &str, unit: &str) -> Result<f64, String> {
 }
 
 /// The value of a unit in SI units; `None` if it is not one of this dimension.
-#[must_use]
 pub fn in_si(unit: &str, dimension: Dimension) -> Option<f64> {
     read_unit(unit).ok().filter(|(_, found)| *found == dimension).map(|(value, _)| value)
 }

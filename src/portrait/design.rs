@@ -26,7 +26,6 @@ pub enum Kick {
 
 impl Kick {
     /// One word.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Kick::Displacement => "displacement",
@@ -35,7 +34,6 @@ impl Kick {
     }
 
     /// The margin of this kick; infinite where every kick is survived.
-    #[must_use]
     pub fn margin(self, margin: &Margin) -> f64 {
         match self {
             Kick::Displacement => margin.displacement,
@@ -67,7 +65,6 @@ pub enum FrictionNeeded {
 
 impl FrictionNeeded {
     /// The least friction; `None` if any suffices.
-    #[must_use]
     pub fn least(self) -> Option<f64> {
         match self {
             FrictionNeeded::Any => None,

@@ -53,14 +53,12 @@ pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
 }
 
 /// What is proved about the edge of the basin of the oscillator with these parameters, of which this was found.
-#[must_use]
 pub fn proved_kicks(parameters: &Parameters, found: &Portrait) -> ProvedKicks {
     let proof = prove(&ParameterBox::from(parameters), &[]);
     agreed(kicks(&proof, &found.margin), found)
 }
 
 /// What is proved about the edge of a basin; nothing where the search says otherwise.
-#[must_use]
 pub fn agreed(proved: ProvedKicks, found: &Portrait) -> ProvedKicks {
     const DIFFERENT: &str = "not proved, because the proof contradicts the numbers above";
     let agree = |(bounds, value): (&Option<Interval>, &Option<f64>)| {

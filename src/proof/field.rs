@@ -33,59 +33,50 @@ pub struct FieldBox {
 
 impl FieldBox {
     /// The field on one side of the switching line.
-    #[must_use]
     pub fn new(parameters: &ParameterBox, side: Side) -> Self {
         let b = if side == Side::Upper { parameters.d2 } else { -parameters.d2 };
         FieldBox { a: parameters.d.twice(), b, c: parameters.d3 }
     }
 
     /// The field of motions run backward, in the frame `y = -x`.
-    #[must_use]
     pub fn reversed(&self) -> Self {
         FieldBox { a: -self.a, b: -self.b, c: -self.c }
     }
 
     /// The same field for motions in units of `2^k`.
-    #[must_use]
     pub fn in_units_of(&self, k: i32) -> Self {
         FieldBox { a: self.a, b: scaled(self.b, k), c: scaled(scaled(self.c, k), k) }
     }
 
     /// The member with the least damping: of all fields here its motion from a given start is the highest.
-    #[must_use]
     pub fn weakest(&self) -> Self {
         let least = |it: Interval| Interval::point(it.lower());
         FieldBox { a: least(self.a), b: least(self.b), c: least(self.c) }
     }
 
     /// The member with the most damping.
-    #[must_use]
     pub fn strongest(&self) -> Self {
         let most = |it: Interval| Interval::point(it.upper());
         FieldBox { a: most(self.a), b: most(self.b), c: most(self.c) }
     }
 
     /// Whether it is a single field.
-    #[must_use]
     pub fn is_point(&self) -> bool {
         [self.a, self.b, self.c].iter().all(|it| it.is_point())
     }
 
     /// All accelerations at a point.
-    #[must_use]
     pub fn acceleration(&self, x: Interval, v: Interval) -> Interval {
         -x - v * (self.a + v * (self.b + v * self.c))
     }
 
     /// All damping slopes `a + 2 b v + 3 c v^2`, minus the divergence of the field.
-    #[must_use]
     pub fn slope(&self, v: Interval) -> Interval {
         v.polynomial(&[self.a, self.b.twice(), self.c * Interval::point(3.0)])
     }
 }
 
 /// `value * 2^k`; exact, unless it leaves the normal range, where it is widened by one double on each side.
-#[must_use]
 pub fn scaled(value: Interval, k: i32) -> Interval {
     let bound = |bound: f64, widen: fn(f64) -> f64| {
         let scaled = times_power(bound, k);

@@ -40,7 +40,6 @@ pub trait SeriesScalar:
     /// `1 / k`, rounded.
     fn inverse(k: usize) -> Self;
     /// A finished coefficient, taken as exact from now on.
-    #[must_use]
     fn taken(self) -> Self;
 }
 
@@ -137,7 +136,6 @@ impl<T: SeriesScalar> MotionSeries<T> {
     /// Position and velocity of the polynomial at a time, by Horner's rule in even and odd powers, two
     /// independent chains. A coefficient of degree k passes at most `2 + 3 k/2` roundings: its own sum, three
     /// for each square of the time, one for an odd power of it, and the last sum.
-    #[must_use]
     pub fn at(&self, time: T) -> (T, T) {
         let square = time * time;
         let value = |terms: &[T; LENGTH]| {
@@ -154,7 +152,6 @@ impl<T: SeriesScalar> MotionSeries<T> {
 
 impl MotionSeries {
     /// A step length for which the last two terms are about `tolerance` of the state.
-    #[must_use]
     pub fn step(&self, tolerance: f64) -> f64 {
         /// Longer steps gain nothing: a half turn takes 3.14.
         const LONGEST: f64 = 1.6;
@@ -168,7 +165,6 @@ impl MotionSeries {
     }
 
     /// Velocity and acceleration of the polynomial at a time, without bounds.
-    #[must_use]
     pub fn velocity(&self, time: f64) -> (f64, f64) {
         value_and_slope_in_two(&self.v[..=ORDER], time)
     }

@@ -91,7 +91,6 @@ pub struct StepField {
 
 impl StepField {
     /// Prepares a field.
-    #[must_use]
     pub fn new(field: &FieldBox) -> Self {
         let FieldBox { a, b, c } = *field;
         let spread = [a, b, c].map(Interval::radius);
@@ -103,7 +102,6 @@ impl StepField {
     /// beyond, including the cost of changing the norm.
     ///
     /// Any norm is valid; this one keeps balls small.
-    #[must_use]
     pub fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
         /// Time for which the present conditions are assumed to last, if the step is shorter.
         const WHILE: f64 = 0.6;
@@ -293,7 +291,6 @@ impl StepField {
     /// Carries a ball around the start of a series over a step of length h to its `end` by [`MotionSeries::at`];
     /// `None` where nothing can be stated, because the ball grows too much or the motion might cross `v = 0`
     /// and return unseen.
-    #[must_use]
     pub fn carry(
         &self,
         norm: Norm,

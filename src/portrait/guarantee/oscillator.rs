@@ -37,7 +37,6 @@ pub struct TwoSided {
 impl TwoSided {
     /// The system that keeps the smallest basin, for disturbances up to `disturbance`, which is less than the
     /// friction.
-    #[must_use]
     pub fn worst(known: &ParameterBox, disturbance: f64) -> Self {
         let mut upper = known.map(Interval::lower);
         if disturbance > 0.0 {
@@ -47,7 +46,6 @@ impl TwoSided {
     }
 
     /// The system that keeps the largest basin.
-    #[must_use]
     pub fn best(known: &ParameterBox, disturbance: f64) -> Self {
         let mut upper = known.map(Interval::upper);
         if disturbance > 0.0 {

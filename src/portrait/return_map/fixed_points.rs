@@ -390,7 +390,6 @@ impl Flow<'_> {
 impl Model {
     /// The logarithm by which a small motion grows in one swing around a rest without friction of the guide;
     /// infinite where it does not swing.
-    #[must_use]
     pub fn linear_growth(&self) -> f64 {
         let d = 0.5 * self.damping;
         let turning = (1.0 - d * d).sqrt();
