@@ -106,8 +106,8 @@ pub fn fold_near(
 #[derive(Clone, Copy)]
 struct Values {
     step: f64,
-    /// Of F and G.
-    values: Vector2<f64>,
+    /// F and G.
+    both: Vector2<f64>,
     slope: f64,
     closing: Closing,
 }
@@ -138,10 +138,10 @@ impl System<'_> {
         let closing = equation.at(Route::Mixed, u);
         self.cost += equation.cost();
         let Ok(closing) = Reason::tolerated(closing)? else { return Ok(None) };
-        let values = Vector2::new(closing.node.value, closing.growth[0] + closing.growth[1]);
+        let both = Vector2::new(closing.node.value, closing.growth[0] + closing.growth[1]);
         let slope = closing.node.slope;
-        let finite = slope.is_finite() && is_finite(values);
-        Ok(finite.then_some(Values { step, values, slope, closing }))
+        let finite = slope.is_finite() && is_finite(both);
+        Ok(finite.then_some(Values { step, both, slope, closing }))
     }
 
     fn solve(&mut self, tolerance: f64) -> Result<Option<FoldCycle>, Reason> {
@@ -169,7 +169,7 @@ impl System<'_> {
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             slopes[(0, 0)] = here.slope;
-            let solved = slopes.try_inverse().map(|inverse| -(inverse * here.values));
+            let solved = slopes.try_inverse().map(|inverse| -(inverse * here.both));
             let Some(change) = solved.filter(|it| is_finite(*it)) else { return Ok(None) };
             let [du, dz] = change.abs().into();
             let small = du <= SMALL[0].max(tolerance) && dz <= SMALL[1].max(tolerance * tolerance);
@@ -205,7 +205,7 @@ impl System<'_> {
         let [aside, above] = [Vector2::x(), Vector2::y()].map(|axis| place + STRIDE * axis);
         let Some(aside) = self.at(aside, here.step)? else { return Ok(None) };
         let Some(above) = self.at(above, here.step)? else { return Ok(None) };
-        let changes = [aside, above].map(|there| there.values - here.values);
+        let changes = [aside, above].map(|there| there.both - here.both);
         Ok(Some(Matrix2::from_columns(&changes) / STRIDE))
     }
 }
@@ -221,7 +221,7 @@ fn learn(slopes: &mut Slopes, change: Vector2<f64>, (from, to): (&Values, &Value
     if from.step != to.step {
         return;
     }
-    let (gained, foretold) = (to.values - from.values, *slopes * change);
+    let (gained, foretold) = (to.both - from.both, *slopes * change);
     if change.y.abs() >= LEAST[1] {
         let in_u = 0.5 * (from.slope + to.slope) * change.x;
         slopes[(0, 1)] = (gained.x - in_u) / change.y;

@@ -15,7 +15,9 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.reading = session.row_under_cursor(index).map(words);
     let Some(found) = session.trade() else { return };
     if session.layers.contains(&Layer::Rows) {
-        METHODS.iter().for_each(|spec| method(picture, found, spec));
+        for spec in METHODS {
+            method(picture, found, spec);
+        }
     }
     if session.layers.contains(&Layer::Front) {
         let is_best = |row: &&TradePoint| found.is_best(row, TradePoint::evaluations);

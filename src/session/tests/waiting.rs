@@ -116,7 +116,7 @@ fn what_waits_is_forgotten_by_escape_as_if_it_had_not_been_pressed() {
     update(&mut trial.session, Msg::Key("i".parse().unwrap()));
     assert!(trial.session.waiting.is_some());
     update(&mut trial.session, Msg::Key("<esc>".parse().unwrap()));
-    assert!(!trial.session.waiting.is_some());
+    assert!(trial.session.waiting.is_none());
     assert_eq!(trial.session.problem, before.problem);
     trial.settle();
     assert_eq!(trial.session.problem, before.problem, "and it stays forgotten");
