@@ -36,7 +36,8 @@ pub struct MergeCommand {
 }
 
 /// Options for which rows a scan computes and where they are written.
-const OWN: [&str; 6] = ["--shard", "--shard-index0", "--rows", "--output", "--resume", "--force"];
+pub(super) const OWN: [&str; 6] =
+    ["--shard", "--shard-index0", "--rows", "--output", "--resume", "--force"];
 
 impl MergeCommand {
     /// Merges; exit code 1 if rows are missing.
@@ -49,7 +50,8 @@ impl MergeCommand {
         let recheck = self.check.then_some(&Limits::PATIENT);
         let mut output = None;
         if let Some(path) = &self.output {
-            let file = NewFile::begin(path, Readers::Usual).map_err(Failure::unwritten(path))?;
+            let file = NewFile::begin(path, Readers::Usual)
+                .map_err(|error| Failure::unwritten(path, error))?;
             output = Some((BufWriter::new(file), path));
         }
         // The first line is the heading.
@@ -57,7 +59,7 @@ impl MergeCommand {
         let mut write = |line: &[u8]| {
             checksum = Some(checksum.map_or(Checksum::NONE, |checksum| checksum.and(line)));
             let Some((output, path)) = &mut output else { return Ok(()) };
-            output.write_all(line).map_err(Failure::unwritten(path))
+            output.write_all(line).map_err(|error| Failure::unwritten(path, error))
         };
         let missing = merge(&sources, recheck, &mut write)?;
         if !missing.is_empty() {
@@ -74,7 +76,7 @@ impl MergeCommand {
             let written = output.into_inner().map_err(io::IntoInnerError::into_error);
             let how = Some("--force replaces it");
             let written = written.and_then(|file| file.end(self.force));
-            written.map_err(Failure::not_replaced(path, how))?;
+            written.map_err(|error| Failure::not_replaced(path, error, how))?;
             let command = command(without(&first.arguments, &OWN), first.part.form, path);
             let provenance = Provenance { command, checksum, ..first.provenance.clone() };
             provenance_file::write(path, &provenance)?;

@@ -104,7 +104,7 @@ pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     new_file::write(path, content, Readers::Usual, (!force).then_some("--force replaces it"))
 }
 
-/// The options among those that are taken out of command lines that have no value.
+/// Of the options that are taken out of command lines, those without a value.
 const FLAGS: [&str; 2] = ["--resume", "--force"];
 
 /// A command line without these options and their values.
@@ -196,6 +196,16 @@ fn median(values: &mut [f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn options_that_are_taken_out_have_a_value_where_the_command_line_says_so() {
+        let scan = crate::cli::scan::ScanCommand::augment_args(clap::Command::new("scan"));
+        for name in crate::cli::merge::OWN.iter().chain(&crate::cli::plan::OWN) {
+            let option = scan.get_arguments().find(|it| it.get_long() == Some(&name[2..]));
+            let has_value = option.unwrap().get_action().takes_values();
+            assert_eq!(has_value, !FLAGS.contains(name), "{name}");
+        }
+    }
 
     #[test]
     fn options_are_taken_out_with_their_values() {

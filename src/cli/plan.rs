@@ -45,7 +45,8 @@ const RETRIES: usize = 3;
 const ROWS: &str = "rows.csv";
 
 /// Options of the scan that are not passed to its shards.
-const OWN: [&str; 6] = ["--plan", "--shards", "--output", "--force", "--jobs", "--header"];
+pub(super) const OWN: [&str; 6] =
+    ["--plan", "--shards", "--output", "--force", "--jobs", "--header"];
 
 impl Engine {
     fn template(self) -> &'static str {

@@ -58,7 +58,8 @@ impl ReplayCommand {
         let light = session.display.theme == Theme::Light;
         let played = play(session, anywhere(), script, self.allow_write);
         if let Some(directory) = &self.screens {
-            std::fs::create_dir_all(directory).map_err(Failure::unwritten(directory))?;
+            std::fs::create_dir_all(directory)
+                .map_err(|error| Failure::unwritten(directory, error))?;
             let paper = if light { Paper::LIGHT } else { Paper::DARK };
             for (name, screen) in &played.kept {
                 let (ending, content) = match self.screen_format {

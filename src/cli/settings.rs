@@ -81,10 +81,11 @@ fn help<T: NamedValue>(what: &str) -> String {
 /// Prefix of the file names of interrupted sessions.
 const INTERRUPTED: &str = "interrupted-";
 
-/// The directory in a variable, else one below the user's home, of which only absolute paths count.
+/// The directory in a variable if that is an absolute path, else one below the user's home.
 fn base(name: &str, below_home: &str) -> Option<PathBuf> {
-    let named = |name| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
-    named(name).or_else(|| Some(named("HOME")?.join(below_home)))
+    let set = |name| std::env::var_os(name).filter(|it| !it.is_empty()).map(PathBuf::from);
+    let named = set(name).filter(|path| path.is_absolute());
+    named.or_else(|| Some(set("HOME")?.join(below_home)))
 }
 
 /// The user's own settings file, whether it exists or not; `None` if there is no directory for it.

@@ -23,7 +23,7 @@ pub enum Failure {
     Said(u8),
 }
 
-/// Errors by which no file can have a path.
+/// Errors that say that no file can be made at a path.
 const NO_FILE: [ErrorKind; 5] = [
     ErrorKind::NotFound,
     ErrorKind::AlreadyExists,
@@ -44,23 +44,22 @@ impl Failure {
     }
 
     /// Why a file is not written, by the error.
-    pub fn unwritten(path: &Path) -> impl Fn(io::Error) -> Self {
-        Failure::not_replaced(path, None)
+    pub fn unwritten(path: &Path, error: io::Error) -> Self {
+        Failure::not_replaced(path, error, None)
     }
 
-    /// Why a file is not written, by the error: wrong input if no file can have this path, or if the file holds something
-    /// else; `how` says how that can be replaced.
-    pub fn not_replaced(path: &Path, how: Option<&str>) -> impl Fn(io::Error) -> Self {
-        move |error| {
-            let name = path.display();
-            let line = format!("{name} not written: {error}");
-            match (error.kind(), how) {
-                (ErrorKind::AlreadyExists, Some(how)) => {
-                    Failure::Usage(format!("{name} holds something else; {how}"))
-                }
-                (kind, _) if NO_FILE.contains(&kind) => Failure::Usage(line),
-                _ => Failure::Unanswered(line),
+    /// Why a file is not written, by the error: wrong input if no file can be made at this path, or if the file holds
+    /// something else; `how` says how that can be replaced.
+    #[expect(clippy::needless_pass_by_value, reason = "as what becomes of errors takes them")]
+    pub fn not_replaced(path: &Path, error: io::Error, how: Option<&str>) -> Self {
+        let name = path.display();
+        let line = format!("{name} not written: {error}");
+        match (error.kind(), how) {
+            (ErrorKind::AlreadyExists, Some(how)) => {
+                Failure::Usage(format!("{name} holds something else; {how}"))
             }
+            (kind, _) if NO_FILE.contains(&kind) => Failure::Usage(line),
+            _ => Failure::Unanswered(line),
         }
     }
 

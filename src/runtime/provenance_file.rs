@@ -41,7 +41,7 @@ pub fn write(path: &Path, provenance: &Provenance) -> Result<(), Failure> {
     }
     let path = beside(path);
     let text = serde_json::to_string_pretty(provenance);
-    let text = text.map_err(|error| Failure::unwritten(&path)(error.into()))? + "\n";
+    let text = text.map_err(|error| Failure::unwritten(&path, error.into()))? + "\n";
     new_file::write(&path, text.as_bytes(), Readers::Usual, None)
 }
 
@@ -61,7 +61,7 @@ impl RunningChecksum {
         let provenance = Provenance { checksum: Some(checksum), ..provenance };
         write(path, &provenance)?;
         let path = beside(path);
-        let unwritten = Failure::unwritten(&path);
+        let unwritten = |error| Failure::unwritten(&path, error);
         let at = bounded::text(&path)?.rfind(&String::from(checksum));
         let at = at.ok_or_else(|| unwritten(io::ErrorKind::InvalidData.into()))? as u64;
         let file = OpenOptions::new().write(true).open(&path).map_err(unwritten)?;

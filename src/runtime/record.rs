@@ -28,7 +28,7 @@ impl RecordingFile {
     ) -> Result<RecordingFile, String> {
         RecordingFile::admit(path, replace, "--force replaces it")?;
         let path = &at_home(path);
-        recorder.changed();
+        recorder.take_changed();
         let text = recorder.text();
         new_file::write(path, text.as_bytes(), Readers::Owner, None)
             .map_err(|why| why.to_string())?;
@@ -59,7 +59,7 @@ impl RecordingFile {
 
     /// Writes the changes since the last call. Fails with one line if the file cannot be written.
     pub fn keep(&mut self, recorder: &mut Recorder) -> Result<(), String> {
-        if !recorder.changed() {
+        if !recorder.take_changed() {
             return Ok(());
         }
         let text = recorder.text();

@@ -49,9 +49,9 @@ impl ScanFile {
     /// writes to it.
     pub fn create(path: &Path, part: ScanPart, provenance: Provenance) -> Result<Self, Failure> {
         let heading = part.heading();
-        let unwritten = Failure::unwritten(path);
+        let unwritten = |error| Failure::unwritten(path, error);
         if !new_file::is_regular(path) {
-            let mut file = new_file::device(path).map_err(&unwritten)?;
+            let mut file = new_file::device(path).map_err(unwritten)?;
             file.write_all(heading.as_bytes()).map_err(unwritten)?;
             return Ok(ScanFile { file: Some(file), ..ScanFile::standard(part) });
         }
@@ -76,16 +76,16 @@ impl ScanFile {
         provenance: Provenance,
         limits: &Limits,
     ) -> Result<Self, Failure> {
-        let unwritten = Failure::unwritten(path);
+        let unwritten = |error| Failure::unwritten(path, error);
         let mut file = opened(path)?;
         let known = provenance_file::read(path).ok().and_then(|earlier| earlier.checksum);
-        let reading = file.try_clone().map_err(&unwritten)?;
+        let reading = file.try_clone().map_err(unwritten)?;
         let (bytes, checksum) = kept(RowReader::new(&part, path, reading, known)?, known, limits)?;
         let unchecked = if known == Some(checksum) { 0 } else { checksum.rows.saturating_sub(2) };
-        file.set_len(bytes).map_err(&unwritten)?;
-        file.seek(SeekFrom::End(0)).map_err(&unwritten)?;
+        file.set_len(bytes).map_err(unwritten)?;
+        file.seek(SeekFrom::End(0)).map_err(unwritten)?;
         if bytes == 0 {
-            file.write_all(part.heading().as_bytes()).map_err(&unwritten)?;
+            file.write_all(part.heading().as_bytes()).map_err(unwritten)?;
         }
         let points = part.points.start + checksum.rows..part.points.end;
         let part = ScanPart { points, ..part };
@@ -173,7 +173,7 @@ fn opened(path: &Path) -> Result<File, Failure> {
         return Err(Failure::file(path, "not a file"));
     }
     let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-    let file = file.map_err(Failure::unwritten(path))?;
+    let file = file.map_err(|error| Failure::unwritten(path, error))?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(Failure::file(path, "another scan is writing to it")),
         // Where files cannot be locked, the user must make sure that no other process writes.
@@ -194,7 +194,7 @@ pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String
     let written =
         ScanFile::resume(path, part, provenance, &Limits::PATIENT).and_then(|mut file| {
             for index in file.open().take_while(|index| *index < rows.len()) {
-                file.add(index, &rows[index]).map_err(Failure::unwritten(path))?;
+                file.add(index, &rows[index]).map_err(|error| Failure::unwritten(path, error))?;
             }
             Ok(scan.points() - file.left())
         });

@@ -112,7 +112,7 @@ impl<'a> RowReader<'a> {
         Failure::file(self.path, format!("not a part of this scan: line {number} {why}"))
     }
 
-    /// Refuses a row that was read last if a point before its own has none.
+    /// Refuses the row that was read last if a point before its own has no row.
     pub fn in_turn(&self, row: &FileRow) -> Result<(), Failure> {
         if row.index < self.part.points.start + self.checksum.rows {
             return Ok(());

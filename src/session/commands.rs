@@ -175,8 +175,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     (":record!", Line(nothing, |s, rest| files::record(s, rest, true))),
     (":play", Line(nothing, |s, rest| files::ask(s, rest, Purpose::Play))),
     (":theme", Line(|_, _| all(choices::<Theme>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.theme = it))),
-    (":units", Line(completion::switch, |s, state| values::is_on(state).map(|on| s.display.dimensionless = !on))),
-    (":equal", Line(completion::switch, |s, state| values::is_on(state).map(|on| s.display.stretched = !on))),
+    (":units", Line(completion::switch, |s, state| values::is_on("units", state).map(|on| s.display.dimensionless = !on))),
+    (":equal", Line(completion::switch, |s, state| values::is_on("equal units", state).map(|on| s.display.stretched = !on))),
     (":glyphs", Line(|_, _| all(choices::<Glyphs>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.glyphs = it))),
     (":color", Line(|_, _| all(choices::<Colors>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.colors = it))),
 ];

@@ -143,8 +143,8 @@ pub enum Effect {
     Write {
         path: PathBuf,
         content: Content,
-        /// Whether an existing file may be replaced. One with rows of the same scan always is; one of another scan is left
-        /// alone.
+        /// Whether a file with other content may be replaced. A recording may be in any case; rows continue a file of the
+        /// same scan and leave any other alone, whatever this says.
         replace: bool,
     },
     /// Stop the figure in progress.

@@ -1,11 +1,12 @@
 //! The session: a pure state machine of state, commands and keys.
 //!
-//! It stands on floors, and each file uses only files further down:
+//! It stands on floors, and each file uses only files further down, but for the default keys of a session, which
+//! `commands` knows:
 //!
 //! - [`message`] is what can happen to a session, [`replay`] the same as text;
 //! - [`state`] is plain data, with [`state::session::Session`] on top;
 //! - [`read`] answers questions about the state and changes nothing;
-//! - [`act`] changes the state, one family of commands per file;
+//! - [`act`] changes the state, one family of commands per file, and runs commands and typed lines in `act/run.rs`;
 //! - [`save`] converts a session to text and back;
 //! - `commands` is the table of everything that can be run by name, with the functions that do it, and [`config`]
 //!   applies a settings file to the keys;

@@ -139,13 +139,12 @@ fn a_dumb_terminal_is_refused_in_one_line() {
 
 /// The rows that a draw on an empty screen changes, before and after it.
 fn damaged(terminal: &mut Terminal) -> Vec<[String; 2]> {
-    terminal.wait("the answers", |it| !it.text().contains("computing"));
-    terminal.quiet(QUIET);
+    terminal.rest();
     let (before, text) = (terminal.cells(), terminal.text());
     let frames = terminal.frames();
     terminal.types("\x0c");
     terminal.wait("a fresh draw", |terminal| terminal.frames() > frames);
-    terminal.quiet(QUIET);
+    terminal.rest();
     let (after, width) = (terminal.cells(), usize::from(terminal.screen().size().1.get()));
     let rows = before.chunks(width).zip(after.chunks(width)).map(|(before, after)| before == after);
     let texts = text

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::support::{Answers, PROGRAM, QUIET, Terminal, all_at_once, poll};
+use crate::support::{Answers, PROGRAM, QUIET, Terminal, all_at_once};
 use rustix::process::Signal;
 
 /// The explorer, with its own folder for kept sessions, once its first picture is complete.
@@ -160,20 +160,6 @@ fn screen(text: &str) -> Vec<String> {
     rows.filter(|row| !row.is_empty() && !costs(row)).collect()
 }
 
-/// Waits until everything is computed and shown.
-fn rest(terminal: &mut Terminal) {
-    const LONG: Duration = Duration::from_millis(150);
-    let works = ["computing", "waiting for", "stale"];
-    poll("rest", || {
-        terminal.quiet(LONG);
-        // A busy machine is silent before it has read the keys, too.
-        let slept = terminal.sleeps();
-        let silent = terminal.quiet(LONG) == 0;
-        let shown = terminal.text();
-        slept && silent && terminal.sleeps() && works.iter().all(|word| !shown.contains(word))
-    });
-}
-
 /// The last screen of a recording, from the command `replay`.
 fn replayed(file: &Path) -> Vec<String> {
     let arguments = ["replay", file.to_str().unwrap()];
@@ -205,7 +191,7 @@ fn a_recording_plays_what_was_recorded_without_the_key_that_left() {
         let mut terminal = explorer(&all, memory.path());
         for key in keys.split_inclusive(|char: char| char != '\x1b' && char != '[') {
             terminal.types(key);
-            rest(&mut terminal);
+            terminal.rest();
         }
         let last = screen(&terminal.text());
         terminal.leave();
@@ -275,7 +261,7 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
             let mut terminal = explorer(&[scene], memory.path());
             for keys in writes {
                 terminal.types(keys);
-                rest(&mut terminal);
+                terminal.rest();
             }
             let last = screen(&terminal.text());
             terminal.leave();

@@ -24,8 +24,11 @@ pub fn all_at_once<T: Sync>(cases: &[T], check: impl Fn(&T) + Sync) {
     });
 }
 
-/// Time within which a condition must become true, however busy the machine is.
+/// Time within which a screen must be as expected, however busy the machine is.
 const DEADLINE: Duration = Duration::from_secs(120);
+
+/// Time within which a program must end, or anything else happen.
+const SHORT: Duration = Duration::from_secs(30);
 
 /// The program under test.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_hopfscope");
@@ -71,7 +74,7 @@ pub struct Terminal {
 
 /// Polls a condition until it holds.
 pub fn poll(what: &str, mut condition: impl FnMut() -> bool) {
-    let deadline = Instant::now() + DEADLINE;
+    let deadline = Instant::now() + SHORT;
     while !condition() {
         assert!(Instant::now() < deadline, "no {what} in time");
         std::thread::yield_now();
@@ -293,6 +296,25 @@ impl Terminal {
         self.written.len() - before
     }
 
+    /// Waits until everything is computed and shown.
+    pub fn rest(&mut self) {
+        const LONG: Duration = Duration::from_millis(150);
+        let works = ["computing", "waiting for", "stale"];
+        let deadline = Instant::now() + DEADLINE;
+        loop {
+            self.quiet(LONG);
+            // A busy machine is silent before it has read the keys, too.
+            let slept = self.sleeps();
+            let silent = self.quiet(LONG) == 0;
+            let shown = self.text();
+            if slept && silent && self.sleeps() && works.iter().all(|word| !shown.contains(word)) {
+                return;
+            }
+            let alive = self.child.try_wait().unwrap().is_none();
+            assert!(alive && Instant::now() < deadline, "no rest in time\n{shown}");
+        }
+    }
+
     /// Number of bytes of the next piece of output; 0 if none comes within this time.
     pub fn next(&mut self, time: Duration) -> usize {
         let before = self.written.len();
@@ -316,11 +338,11 @@ impl Terminal {
 
     /// Waits for the end of the program and returns its exit code.
     pub fn end(&mut self) -> u32 {
-        let deadline = Instant::now() + DEADLINE;
+        let deadline = Instant::now() + SHORT;
         loop {
             if let Some(status) = self.child.try_wait().unwrap() {
-                // Its last output may still be in transit.
-                self.quiet(Duration::from_millis(50));
+                // Its last output may still be in transit: the terminal closes after it.
+                while Instant::now() < deadline && self.listen(deadline) {}
                 return status.exit_code();
             }
             assert!(Instant::now() < deadline, "the program does not end\n{}", self.text());

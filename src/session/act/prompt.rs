@@ -29,7 +29,9 @@ pub fn open(session: &mut Session, text: impl Into<String>) {
 pub fn accept(session: &mut Session) {
     let Some(Overlay::Prompt(prompt)) = session.overlay.clone() else { return };
     let text = prompt.input.text().trim().to_owned();
-    if let (None, Some(found)) = (prompt.row, search(session, &text)) {
+    if prompt.row.is_none()
+        && let Some(found) = search(session, &text)
+    {
         session.overlay = Some(Overlay::List(Listed::Palette, found));
         return;
     }

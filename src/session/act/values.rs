@@ -84,7 +84,7 @@ pub fn layer(session: &mut Session, rest: &str) -> Done {
     let rows = LAYERS.iter().map(|row| (row.name, row.layer));
     let layer = views::named(name).map_or_else(|| one_of("layer", name, rows), Ok)?;
     let was_on = session.layers.contains(&layer);
-    let wanted = if state.trim().is_empty() { !was_on } else { is_on(state.trim())? };
+    let wanted = if state.trim().is_empty() { !was_on } else { is_on(name, state.trim())? };
     if wanted != was_on {
         general::toggle(session, layer);
     }
@@ -163,7 +163,11 @@ pub fn letter(text: &str) -> Result<char, String> {
     }
 }
 
-/// Whether something is to be on. Fails with one line if that is not said.
-pub(crate) fn is_on(state: &str) -> Result<bool, String> {
-    one_of("state", state, [("on", true), ("off", false)])
+/// Whether a setting is to be on. Fails with one line if that is not said.
+pub(crate) fn is_on(what: &str, state: &str) -> Result<bool, String> {
+    match state {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err(format!("{what} can be on or off, not {state:?}")),
+    }
 }

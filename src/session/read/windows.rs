@@ -98,23 +98,24 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         let (start, r) = (shown.problem.initial, shown.problem.parameters.r);
         points.extend([at(start.q, start.v), at(-r, 0.0), at(r, 0.0)]);
     }
-    let drawn = session.found(Topic::Cycles, plot, Finding::try_as_cycles_ref).into_iter();
-    let drawn = drawn.filter(|_| session.shows_in(Layer::Cycles, plot));
-    for cycle in drawn.flat_map(|(_, (found, _))| &found.cycles) {
-        points.extend([at(cycle.q_min, cycle.v_min), at(cycle.q_max, cycle.v_max)]);
+    if session.shows_in(Layer::Cycles, plot) {
+        let drawn = session.found(Topic::Cycles, plot, Finding::try_as_cycles_ref);
+        for cycle in drawn.iter().flat_map(|(_, (found, _))| &found.cycles) {
+            points.extend([at(cycle.q_min, cycle.v_min), at(cycle.q_max, cycle.v_max)]);
+        }
     }
-    let motions = session.found(Topic::Trajectory, plot, Finding::try_as_trajectory_ref);
-    let motions = motions.into_iter().filter(|_| session.shows_in(Layer::Trajectory, plot));
-    for (_, found) in motions {
-        let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
-        let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
-        let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });
-        if let Outcome::Escaped { .. } = found.outcome {
-            let extent = points.iter().map(|point| hypot(point.x, point.y)).fold(0.0, f64::max);
-            let near = |point: &Point| hypot(point.x, point.y) <= ESCAPE * extent;
-            points.extend(samples.filter(near));
-        } else {
-            points.extend(samples);
+    if session.shows_in(Layer::Trajectory, plot) {
+        for (_, found) in session.found(Topic::Trajectory, plot, Finding::try_as_trajectory_ref) {
+            let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
+            let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
+            let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });
+            if let Outcome::Escaped { .. } = found.outcome {
+                let extent = points.iter().map(|point| hypot(point.x, point.y)).fold(0.0, f64::max);
+                let near = |point: &Point| hypot(point.x, point.y) <= ESCAPE * extent;
+                points.extend(samples.filter(near));
+            } else {
+                points.extend(samples);
+            }
         }
     }
     if let Some(running) = session.running().filter(|_| session.shows_in(Layer::Belt, plot)) {

@@ -61,7 +61,7 @@ impl Recorder {
     }
 
     /// Whether steps have changed since the last call of this function.
-    pub fn changed(&mut self) -> bool {
+    pub fn take_changed(&mut self) -> bool {
         std::mem::take(&mut self.changed)
     }
 

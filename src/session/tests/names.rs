@@ -81,7 +81,7 @@ fn what_is_wrong_stays_in_the_line_with_what_is_allowed() {
             (": method euler", "method: no method \"euler\"; there are auto"),
             (": tol 1", "tol: tolerance = 1 is outside its range 1e-15 .. 0.01"),
             (": scene linaer", "scene: no scene \"linaer\"; did you mean linear"),
-            (": layer basin maybe", "layer: no state \"maybe\"; there are on, off"),
+            (": layer basin maybe", "layer: basin can be on or off, not \"maybe\""),
             (": window 1:1,0:1", "window: [1.0, 1.0] is not an interval"),
             (": window 1", "window: \"1\" is not X0:X1,Y0:Y1"),
             (": harmonics 0", "harmonics: \"0\" is not a number of harmonics from 1 to 63"),
