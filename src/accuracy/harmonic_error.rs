@@ -69,7 +69,8 @@ pub fn harmonic_balance(
     Ok(HarmonicBalance { unknown, cost, ..balance })
 }
 
-/// The same against cycles that are known.
+/// What becomes of every first-order answer with N harmonics, with its error against the cycles that are known, and so many
+/// points on each curve.
 ///
 /// # Errors
 /// [`Reason::Interrupted`] and no other.

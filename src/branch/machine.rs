@@ -341,13 +341,13 @@ fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
     let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.q_max);
     rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
         let fate = to.fate(state.max(KICK * size), 0.0).unwrap_or_else(Fate::Unknown);
-        let to = match fate {
+        let end = match fate {
             Fate::Rest => JumpEnd::Rest,
             Fate::Cycle(index) => JumpEnd::Cycle { q_max: to.cycles[index].q_max },
             Fate::Neutral => return None,
             Fate::Escapes => JumpEnd::Escaped,
             Fate::Moving | Fate::Unknown(_) => JumpEnd::Unknown,
         };
-        Some(Jump { from: state, to }).filter(|jump| jump.size() > MOVED * size)
+        Some(Jump { from: state, to: end }).filter(|jump| jump.size() > MOVED * size)
     })
 }

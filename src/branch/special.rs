@@ -120,12 +120,13 @@ pub enum JumpEnd {
     },
     /// They grow beyond all bounds.
     Escaped,
-    /// They leave the friction law.
+    /// They could not be followed farther: as a rule they leave the friction law.
     Unknown,
 }
 
 impl Jump {
-    /// The displacement up to which the motions go on to swing, in m; infinite where that is not known.
+    /// The displacement up to which the motions go on to swing, in m; infinite where they grow beyond all bounds, or where that
+    /// is not known.
     #[must_use]
     pub fn reach(&self) -> f64 {
         match self.to {

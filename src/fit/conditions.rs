@@ -24,7 +24,6 @@ pub struct Condition {
 
 impl Condition {
     /// `pass`, `fail`, or `caution` if the answer does not rest on it.
-    #[must_use]
     pub fn verdict(&self) -> &'static str {
         match (self.holds, self.essential) {
             (true, _) => "pass",

@@ -253,7 +253,6 @@ pub struct LeftOut {
 }
 
 /// All samples of a record that do not count, in the order of their times; none for a list of peaks.
-#[must_use]
 pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<LeftOut> {
     if estimate.data.has_peaks() {
         return Vec::new();

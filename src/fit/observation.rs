@@ -15,13 +15,11 @@ use crate::numerics::real;
 
 impl Record {
     /// Number of residuals: of samples, or of displacements and times of peaks.
-    #[must_use]
     pub fn residuals(&self) -> usize {
         if self.has_peaks() { self.x.len() + self.t.len() } else { self.x.len() }
     }
 
     /// Whether turning points were measured.
-    #[must_use]
     pub fn has_peaks(&self) -> bool {
         self.peaks.is_some()
     }
@@ -32,19 +30,16 @@ impl Record {
     }
 
     /// The time from the first measurement to the last one; 0 without times.
-    #[must_use]
     pub fn duration(&self) -> f64 {
         self.t.last().zip(self.t.first()).map_or(0.0, |(last, first)| last - first)
     }
 
     /// The unit of the signal; empty if unknown.
-    #[must_use]
     pub fn signal_unit(&self) -> String {
         self.signal.unit(self.unit.as_deref().unwrap_or_default())
     }
 
     /// The offset at a time.
-    #[must_use]
     pub fn zero(&self, p: &Unknowns, time: f64) -> f64 {
         zero(p, drift(&self.t, time))
     }

@@ -289,7 +289,6 @@ impl Inertia {
     }
 
     /// The mass times a power of `omega0`.
-    #[must_use]
     pub fn times(self, omega0: f64, power: i32) -> f64 {
         let (Inertia::Mass(size) | Inertia::Stiffness(size)) = self;
         size * powi(omega0, power - self.power())
@@ -352,13 +351,11 @@ pub enum Unfit {
 }
 
 /// A guess in which held unknowns have their values.
-#[must_use]
 pub fn placed(held: &[Option<f64>; UNKNOWNS], guess: Unknowns) -> Unknowns {
     Unknowns::from_fn(|place, _| held[place].unwrap_or(guess[place]))
 }
 
 /// The displacement beyond which a motion counts as escaped, for a record with these displacements.
-#[must_use]
 pub fn reach(x: &[f64]) -> f64 {
     /// In multiples of the range of the record.
     const FAR: f64 = 30.0;

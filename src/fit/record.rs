@@ -76,7 +76,6 @@ impl fmt::Display for BadRecord {
 impl std::error::Error for BadRecord {}
 
 /// The text of a file: UTF-8, UTF-16 with a byte order mark, or else Latin-1.
-#[must_use]
 pub fn decoded(bytes: &[u8]) -> String {
     let wide = |pair: fn([u8; 2]) -> u16| {
         let units = bytes[2..].chunks_exact(2).map(|two| pair([two[0], two[1]]));

@@ -104,7 +104,6 @@ pub struct SignalUnit {
 }
 
 /// The signal that a unit belongs to, or else the name of its quantity; `None` for unknown units.
-#[must_use]
 pub fn quantity(unit: &str) -> Option<Result<SignalUnit, &'static str>> {
     let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u").replace(' ', "");
     let of = |signal, length: &str, scale| {

@@ -34,7 +34,7 @@ pub enum Fate {
     Cycle(usize),
     /// It is periodic, one of a family.
     Neutral,
-    /// It still moves when time is up.
+    /// It still moves when the time, or the number of half swings, for which it is followed is up.
     Moving,
     /// It grows without bound.
     Escapes,

@@ -343,8 +343,8 @@ impl<'a> Picture<'a> {
         self.captions.push(Caption { at, or_at, long, short, role: Role::Special });
     }
 
-    /// Adds the name of a curve, beside the highest of its points in the window that has room; a `long` one that is
-    /// empty is for screens alone, where it hides nothing, as figures have legends.
+    /// Adds the name of a curve, beside the highest of its points in the window that has room. Where `long` is empty, only
+    /// screens write the name: figures have it in their legend.
     pub fn name_curve(&mut self, curve: &[Point], long: Text, name: &str, role: Role) {
         /// Points that are tried: more than a screen has rows.
         const PLACES: usize = 60;

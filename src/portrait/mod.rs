@@ -66,4 +66,5 @@ pub(crate) use kicks::RandomKick;
 pub(crate) use kicks::repeated::Repeated;
 pub use portrait::Portrait;
 
+// They stand in the model so that the proofs, which share nothing with this ring, say the same words.
 pub use crate::model::{Border, Kicks, Margin, Reach, RestMargin};

@@ -63,7 +63,7 @@ impl Portrait {
         reach: f64,
         limits: &Limits,
     ) -> Result<Self, Reason> {
-        Self::by_closings(&Model::of_paper(parameters)?, parameters, (usize::MAX, reach), limits)
+        Self::by_closings(&Model::of_paper(parameters)?, parameters, usize::MAX, reach, limits)
     }
 
     /// The same with what lies within its innermost cycle alone, which takes half the work.
@@ -71,7 +71,7 @@ impl Portrait {
     /// # Errors
     /// As [`Self::of_oscillator`].
     pub fn innermost(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Self, Reason> {
-        Self::by_closings(&Model::of_paper(parameters)?, parameters, (1, reach), limits)
+        Self::by_closings(&Model::of_paper(parameters)?, parameters, 1, reach, limits)
     }
 
     /// The portrait of what the oscillator with these parameters is in other units, from as many pairs of half swings that
@@ -79,7 +79,8 @@ impl Portrait {
     fn by_closings(
         model: &Model,
         parameters: &Parameters,
-        (most, reach): (usize, f64),
+        most: usize,
+        reach: f64,
         limits: &Limits,
     ) -> Result<Self, Reason> {
         let mut equation = Equation::new(parameters, STEP, limits);
@@ -159,8 +160,9 @@ fn without_belt(model: &Model) -> Option<Portrait> {
     if is_centre(&parameters) || (node && model.holds_more_at_rest()) {
         return None;
     }
-    let all = (usize::MAX, picture_reach(parameters.d2));
-    let mut portrait = Portrait::by_closings(model, &parameters, all, &Limits::PATIENT).ok()?;
+    let (reach, patient) = (picture_reach(parameters.d2), &Limits::PATIENT);
+    let mut portrait =
+        Portrait::by_closings(model, &parameters, usize::MAX, reach, patient).ok()?;
     let held = |cycle: &Cycle| cycle.q_max.min(-cycle.q_min) <= model.guide_static;
     if model.holds_more_at_rest() && portrait.cycles.iter().any(held) {
         return None;

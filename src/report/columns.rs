@@ -107,6 +107,7 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     fn column<'n>(mut self, name: String, place: impl IntoIterator<Item = &'n str>) -> Self {
         let place = place.into_iter().map(str::to_owned).collect();
+        debug_assert!(self.files.iter().all(|it| it.place != place), "two columns at {place:?}");
         self.files.push(FileColumn { name, place });
         self
     }

@@ -9,6 +9,7 @@ use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::{
     Crossing, Leg, METHODS, Method, MethodSpec, Outcome, Problem, Sample, Trajectory,
 };
+use crate::model::belt::Units;
 use crate::model::{ContactState, Knob, Ledger, State, Work};
 use crate::numerics::{Interval, log10, pow};
 use crate::proof::motion::{ProvedMotion, ProvedPoint};
@@ -237,7 +238,8 @@ pub fn trade(about: &About, trade: &Trade, plot: &str) -> Answer {
         .file("reason", reason)
         .file("evaluations", |row| row.cost.evaluations);
     let end = known.end.map(|number| number.high);
-    let end = ended(&end, known.turns.len(), Writing::default(), 12);
+    let writing = Writing(about.is_machine().then_some(Units::SI));
+    let end = ended(&end, known.turns.len(), writing, 12);
     let answer = if about.is_machine() { about.answer() } else { about.answer_to(&until) };
     let all = [answered.as_slice(), &unanswered].concat();
     let answer = answer

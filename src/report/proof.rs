@@ -71,7 +71,7 @@ fn bound_columns(proof: &Proof) -> Columns<'_, ProvedRow<'_>> {
     let columns = Columns::default()
         .file("proved", |row: &ProvedRow| row.enclosure.is_some())
         .file("open", |row| row.open.map(|gap| proof.why_open(gap)));
-    // The numbers themselves have these names without the ends.
+    // Not as bounds: their field would replace the number of that name in the object of the row.
     [1, 0, 3, 2, 4, 5, 6].map(|at| &NUMBERS[at]).into_iter().fold(columns, |all, number| {
         let end = |end: fn(Interval) -> f64| move |row: &ProvedRow| row.bounds(number).map(end);
         all.file(&format!("{}_lower", number.name), end(Interval::lower))

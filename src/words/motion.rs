@@ -58,7 +58,7 @@ pub fn sentence(motion: &Trajectory, writing: Writing) -> String {
     ended(&motion.outcome, motion.crossings.len(), writing, 3)
 }
 
-/// How a motion of so many half swings ended, in a sentence with numbers of so many digits.
+/// How a motion of so many half swings ended, in a sentence with numbers of so many digits, one more where it escapes.
 pub fn ended(outcome: &Outcome, count: usize, writing: Writing, digits: usize) -> String {
     let swings = swings(count);
     let (place, time) = (|q| writing.position(q, digits), |tau| writing.moment(tau, digits));

@@ -453,3 +453,13 @@ fn a_machine_brings_its_tolerances_and_keeps_them_in_newtons_at_another_speed() 
         "by the whole model"
     );
 }
+
+#[test]
+fn the_nominal_margin_of_very_weak_damping_is_the_turning_point_of_the_innermost_cycle() {
+    let parameters = Parameters { d: -1e-11, d2: -1e-12, d3: 0.0, r: 0.1 };
+    let found = Portrait::innermost(&parameters, 0.0, &Limits::PATIENT).unwrap();
+    let cycle = &hopfscope::portrait::cycles(&parameters, &Limits::PATIENT).unwrap().cycles[0];
+    let nearest = cycle.q_max.min(-cycle.q_min);
+    let margin = found.margin.displacement.unwrap();
+    assert!((margin - nearest).abs() <= 1e-9 * nearest, "{margin} {nearest}");
+}

@@ -26,6 +26,18 @@ pub struct Units {
     pub force: f64,
 }
 
+impl Units {
+    /// Of numbers that have SI units themselves.
+    pub const SI: Units = Units {
+        omega_0: 1.0,
+        displacement: 1.0,
+        velocity: 1.0,
+        time: 1.0,
+        impulse: 1.0,
+        force: 1.0,
+    };
+}
+
 /// The dimensionless oscillator that a belt is, with its units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReducedBelt {

@@ -20,13 +20,13 @@ const TOLERANCE: f64 = 1e-14;
 /// Part of its start below which an arc is not resolved: it is drawn and compared, not continued.
 const DETAIL: f64 = 1e-12;
 
-/// Maximum number of evaluations of an arc. All its steps are kept, and this many take some ten megabytes.
+/// Maximum number of evaluations of an arc. All its steps are kept, and this many take some thirty megabytes.
 const BUDGET: u64 = 400_000;
 
 /// One integration step of an arc.
 #[derive(Clone, Debug)]
 struct ArcStep {
-    /// The method that took it.
+    /// The stepper after it.
     step: Shared<dyn Stepper + Send + Sync>,
     unit: i32,
     duration: f64,

@@ -201,7 +201,7 @@ fn attracting(
 // cancel. They are integrals over the arcs with which the cycle is drawn anyway, each with its full
 // relative precision, so that their sum says how well the cycle is closed.
 
-/// The ledger of one turn of a cycle; `residual` is what the works fail to cancel by.
+/// The ledger of one turn of a cycle, whose border is closed; `residual` is what the works fail to cancel by.
 pub fn works(border: &Orbit, parameters: &Parameters) -> Ledger {
     let Parameters { d, d2, d3, r } = *parameters;
     let [left, right] = [&border.upper, &border.lower].map(|arc| arc.clearance().value);

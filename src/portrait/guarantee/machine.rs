@@ -225,7 +225,7 @@ impl Corners {
             (corner, excess.iter().copied().fold(0.0, f64::max) + 0.25 * bend)
         };
         let needed = forces.column_iter().enumerate().map(needed);
-        needed.min_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((0, 0.0))
+        needed.min_by(|(_, one), (_, other)| one.total_cmp(other)).unwrap_or((0, 0.0))
     }
 
     /// A bound on how far a smooth function rises between corners above its values there.

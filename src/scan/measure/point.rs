@@ -102,11 +102,11 @@ impl Cells<'_> {
 
     fn basin_of(&mut self, parameters: &Parameters) -> Result<(), Reason> {
         let conditions = self.conditions;
-        // What is beyond the edge does not matter here.
-        // It has to be followed as far as the window or the kicks reach only if these matter.
+        // The edge has to be followed as far as the window or the kicks reach only if these matter.
         let reach = |measure, reach| if self.asks(measure) { reach } else { 0.0 };
         let reach = reach(Measure::Stability, conditions.window.reach())
             .max(reach(Measure::Lost, conditions.kicks.reach()));
+        // What is beyond the edge does not matter here.
         let portrait = if let Some(found) = &self.known {
             let model = Model::of_paper(parameters)?;
             let inner = found.closings.first().copied();
