@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use crate::flow::precise::{COARSE, FINE, precise};
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
+use crate::flow::{Cost, Crossing, Detail, Limits, Method, Motion, Outcome, Problem, Reason};
 use crate::model::Model;
 use crate::model::model::FINEST;
 use crate::numerics::{Scalar, Twofold};
@@ -116,7 +116,7 @@ impl Reference {
     }
 
     /// What a method found, as a reference with an error unknown yet; or why it gave up.
-    fn new<N>(found: &Trajectory<N>, source: ReferenceSource) -> Result<Self, Reason>
+    fn new<N>(found: &Motion<N>, source: ReferenceSource) -> Result<Self, Reason>
     where
         N: Scalar + Into<Twofold>,
     {
@@ -147,7 +147,7 @@ impl Reference {
     }
 
     /// How far a computed motion is from this one. Fails with [`NoComparison`] where there is no distance.
-    pub fn compare(&self, found: &Trajectory) -> Result<Deviation, NoComparison> {
+    pub fn compare(&self, found: &Motion) -> Result<Deviation, NoComparison> {
         let mut other = Self::new(found, self.source).map_err(NoComparison::GaveUp)?;
         // The parameters are those of an oscillator; a motion of a machine has none.
         let without_friction = !self.is_of_machine() && found.problem.parameters.r == 0.0;
@@ -217,7 +217,7 @@ mod tests {
         }
     }
 
-    fn run(problem: &Problem) -> Trajectory {
+    fn run(problem: &Problem) -> Motion {
         trajectory(problem, Detail::default(), &Limits::PATIENT)
     }
 
@@ -262,7 +262,7 @@ mod tests {
         let deviation = reference.compare(&found).unwrap();
         assert!(deviation.agrees && deviation.error < 1e-9, "{deviation:?}");
         let Outcome::Escaped { tau } = found.outcome else { panic!("{:?}", found.outcome) };
-        let late = Trajectory { outcome: Outcome::Escaped { tau: tau + 0.25 }, ..found };
+        let late = Motion { outcome: Outcome::Escaped { tau: tau + 0.25 }, ..found };
         assert!((reference.compare(&late).unwrap().error - 0.25).abs() < 1e-9);
     }
 

@@ -4,7 +4,7 @@
 //! added by the caller that has a clock. The front are the rows that no other row beats in both.
 
 use super::reference::{Deviation, NoComparison, Reference};
-use crate::flow::{Cost, Detail, Limits, METHODS, Method, Outcome, Problem, Reason, Trajectory};
+use crate::flow::{Cost, Detail, Limits, METHODS, Method, Motion, Outcome, Problem, Reason};
 use crate::model::model::FINEST;
 use crate::model::{Knob, Model};
 use crate::numerics::{amount, ln, log10};
@@ -80,7 +80,7 @@ fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
 
 impl TradePoint {
     /// Judges a computed motion.
-    pub fn new(found: &Trajectory, reference: &Reference) -> Self {
+    pub fn new(found: &Motion, reference: &Reference) -> Self {
         TradePoint {
             problem: found.problem,
             method: found.method,

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::{Certify, Failure, QuestionOptions, in_turn, number, second, timed, troubled};
 use crate::accuracy::trade::Trade;
-use crate::flow::{Detail, Limits, Outcome, Problem, Trajectory};
+use crate::flow::{Detail, Limits, Motion, Outcome, Problem};
 use crate::model::{Knob, Model};
 use crate::numerics::Interval;
 use crate::proof::ParameterBox;
@@ -45,7 +45,7 @@ impl AskedMotion {
     }
 
     /// Follows the motion, as a problem that may have another method or accuracy.
-    fn follow(&self, problem: &Problem, energy: bool) -> Trajectory {
+    fn follow(&self, problem: &Problem, energy: bool) -> Motion {
         let detail = Detail { energy, ..Detail::default() };
         problem.followed(self.model.as_ref(), detail, &Limits::PATIENT)
     }

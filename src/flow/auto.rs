@@ -213,7 +213,7 @@ impl Stepper for Auto {
 #[cfg(test)]
 mod tests {
     use super::super::trajectory::{choice, trajectory};
-    use super::super::{Detail, Limits, Method, Outcome, Problem, Trajectory};
+    use super::super::{Detail, Limits, Method, Motion, Outcome, Problem};
     use crate::model::{Parameters, State};
 
     fn problem(
@@ -233,7 +233,7 @@ mod tests {
         }
     }
 
-    fn run(parameters: [f64; 4], q: f64, until: f64, method: Method, tolerance: f64) -> Trajectory {
+    fn run(parameters: [f64; 4], q: f64, until: f64, method: Method, tolerance: f64) -> Motion {
         let problem = problem(parameters, q, until, method, tolerance);
         trajectory(&problem, Detail::default(), &Limits::PATIENT)
     }

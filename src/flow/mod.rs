@@ -46,6 +46,6 @@ pub use limits::{Fate, Limits};
 pub use machine::arc::Flow;
 pub use machine::motion::{MotionUnits, follow};
 pub use method::{METHODS, Method, MethodSpec};
-pub use motion::{Cost, Crossing, Detail, Leg, Outcome, Problem, Sample, Trajectory};
+pub use motion::{Cost, Crossing, Detail, Leg, Motion, Outcome, Problem, Sample};
 pub use quality::{QUALITIES, Quality};
 pub use subject::Subject;

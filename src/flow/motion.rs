@@ -266,7 +266,7 @@ impl std::ops::AddAssign for Cost {
 
 /// A computed motion, in doubles or in numbers of twice the precision.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trajectory<N = f64> {
+pub struct Motion<N = f64> {
     /// The problem that was solved.
     pub problem: Problem,
     /// The method that took most of the steps; never `Auto`.
@@ -289,11 +289,11 @@ pub struct Trajectory<N = f64> {
     pub cost: Cost,
 }
 
-impl<N: Scalar> Trajectory<N> {
+impl<N: Scalar> Motion<N> {
     /// A motion of which nothing is known yet but its start.
     pub(crate) fn begun(problem: &Problem, method: Method) -> Self {
         let State { q, v } = problem.initial;
-        Trajectory {
+        Motion {
             problem: *problem,
             method,
             implicit_steps: 0,
@@ -308,7 +308,7 @@ impl<N: Scalar> Trajectory<N> {
     }
 }
 
-impl Trajectory {
+impl Motion {
     /// When and where it ended; where that is not known, the last sample.
     pub fn end(&self) -> Sample {
         let last = self.samples.last();

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use super::limits::Limits;
 use super::method::Method;
-use super::motion::{Cost, Detail, Problem, Trajectory};
+use super::motion::{Cost, Detail, Motion, Problem};
 use super::step::{StepPoint, Stepper};
 use super::swing::swing;
 use super::taylor::Taylor;
@@ -47,7 +47,7 @@ pub fn precise(
     problem: &Problem,
     grain: Grain,
     limits: &Limits,
-) -> Result<Trajectory<Twofold>, Reason> {
+) -> Result<Motion<Twofold>, Reason> {
     let run = MotionRun::new(problem, Method::Taylor, Detail::default(), limits);
     let found = run.go(&mut grain.stepper());
     found.outcome.answered().map(|()| found)

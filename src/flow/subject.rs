@@ -3,7 +3,7 @@
 
 use super::machine::motion::{MotionUnits, follow};
 use super::trajectory::trajectory;
-use super::{Detail, Limits, Method, Problem, Reason, Trajectory};
+use super::{Detail, Limits, Method, Motion, Problem, Reason};
 use crate::model::{Body, Group, Knob, Model, Source, State, Tolerances};
 
 /// What a question is about; of the paper's oscillator without units, of all else in SI units.
@@ -81,7 +81,7 @@ impl Subject {
 impl Problem {
     /// The motion of the oscillator of the paper, or of a machine in SI units, which is never interrupted.
     #[must_use]
-    pub fn followed(&self, model: Option<&Model>, detail: Detail, limits: &Limits) -> Trajectory {
+    pub fn followed(&self, model: Option<&Model>, detail: Detail, limits: &Limits) -> Motion {
         match model {
             Some(model) => follow(model, self, MotionUnits::physical(model), detail),
             None => trajectory(self, detail, limits),

@@ -10,7 +10,7 @@ use super::exact::Exact;
 use super::explicit::Explicit;
 use super::limits::Limits;
 use super::method::Method;
-pub use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
+pub use super::motion::{Cost, Crossing, Detail, Motion, Outcome, Problem, Sample};
 use super::step::{Powers, Step, StepPoint, Stepper};
 use super::stiff::Stiff;
 use super::stop::ComingToRest;
@@ -27,7 +27,7 @@ use crate::numerics::{Scalar, Sum, real, times_power};
 /// events, the place and time of every crossing carry the errors of the previous steps, each of relative size
 /// `tolerance`.
 #[must_use]
-pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Trajectory {
+pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Motion {
     let Problem { parameters, tolerance, step, epsilon, .. } = *problem;
     let linear = parameters.is_piecewise_linear();
     let field = HalfPlane::new(&parameters, Side::Upper);
@@ -60,7 +60,7 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
 
 /// Why this method was chosen, in a short sentence; `None` where it was requested by name.
 #[must_use]
-pub fn choice(found: &Trajectory) -> Option<String> {
+pub fn choice(found: &Motion) -> Option<String> {
     if found.problem.method != Method::Auto {
         return None;
     }
@@ -81,7 +81,7 @@ pub struct MotionRun<'a, N = f64> {
     detail: Detail,
     limits: &'a Limits<'a>,
     /// The results so far.
-    found: Trajectory<N>,
+    found: Motion<N>,
     time: Sum<N>,
     /// Work of the linear, the quadratic and the cubic damping.
     works: Vector3<f64>,
@@ -93,7 +93,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     /// A run at its start.
     pub fn new(problem: &Problem, method: Method, detail: Detail, limits: &'a Limits<'a>) -> Self {
         let State { q, v } = problem.initial;
-        let mut found = Trajectory::begun(problem, method);
+        let mut found = Motion::begun(problem, method);
         if detail.samples_per_step > 0 {
             found.samples.push(Sample { tau: 0.0, q, v });
         }
@@ -108,18 +108,18 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     }
 
     /// Ends the run without an answer.
-    pub fn give_up(self, reason: Reason) -> Trajectory<N> {
+    pub fn give_up(self, reason: Reason) -> Motion<N> {
         self.close(Err(reason), Cost::default())
     }
 
     /// Follows the motion until it ends.
-    pub fn go<S: Stepper<HalfPlane, N>>(mut self, stepper: &mut S) -> Trajectory<N> {
+    pub fn go<S: Stepper<HalfPlane, N>>(mut self, stepper: &mut S) -> Motion<N> {
         let outcome = self.half_swings(stepper);
         self.close(outcome, stepper.cost())
     }
 
     /// The motion with its outcome, cost and energy ledger.
-    fn close(mut self, outcome: Result<Outcome<N>, Reason>, cost: Cost) -> Trajectory<N> {
+    fn close(mut self, outcome: Result<Outcome<N>, Reason>, cost: Cost) -> Motion<N> {
         let Problem { parameters, initial, .. } = self.found.problem;
         let outcome =
             outcome.unwrap_or_else(|reason| Outcome::without_end(self.time.value(), reason));
@@ -262,7 +262,7 @@ impl MotionRun<'_> {
         epsilon: Option<f64>,
         sticks: bool,
         stepper: impl FnOnce(SmoothField) -> S,
-    ) -> Trajectory {
+    ) -> Motion {
         let Problem { parameters, initial, until, .. } = self.found.problem;
         let field = SmoothField::new(&parameters, epsilon);
         let mut stepper = stepper(field);

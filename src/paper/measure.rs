@@ -7,7 +7,7 @@ use std::ops::Deref;
 
 use super::verdict::{Certain, Known};
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
+use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem, Reason};
 use crate::model::{Knob, Parameters, Side, State};
 use crate::numerics::Interval;
 use crate::portrait::basin::arc::Arc;
@@ -148,7 +148,7 @@ impl<'a> ClaimCase<'a> {
         (initial, until): (State, f64),
         (method, tolerance): (Method, f64),
         energy: bool,
-    ) -> Result<Trajectory, Reason> {
+    ) -> Result<Motion, Reason> {
         let problem = Problem::new(self.parameters, initial, until);
         let problem = Problem { method, tolerance, ..problem };
         let motion = trajectory(&problem, Detail { energy, ..Detail::default() }, &self.limits);
@@ -160,7 +160,7 @@ impl<'a> ClaimCase<'a> {
         &self,
         course: (State, f64),
         sought: &'static str,
-        read: impl Fn(&Trajectory) -> Option<[f64; N]>,
+        read: impl Fn(&Motion) -> Option<[f64; N]>,
     ) -> Result<[Known; N], Reason> {
         let [first, second] =
             METHODS.map(|method| Ok::<_, Reason>(read(&self.run(course, method, true)?)));
@@ -181,7 +181,7 @@ impl<'a> ClaimCase<'a> {
 
     /// State at a time before the motion comes to rest.
     pub fn state_at(&self, initial: State, tau: f64) -> Result<[Known; 2], Reason> {
-        let read = |motion: &Trajectory| match motion.outcome {
+        let read = |motion: &Motion| match motion.outcome {
             Outcome::Moving { q, v, .. } => Some([q, v]),
             _ => None,
         };
@@ -192,7 +192,7 @@ impl<'a> ClaimCase<'a> {
 
     /// Change of the energy over a motion, and the works of linear damping and of friction.
     pub fn energy_change(&self, initial: State, until: f64) -> Result<[Known; 3], Reason> {
-        let read = |motion: &Trajectory| {
+        let read = |motion: &Motion| {
             let ledger = motion.ledger.as_ref()?;
             Some([ledger.end - ledger.start, ledger.work("linear"), ledger.work("friction")])
         };
@@ -205,7 +205,7 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// A motion until `until`.
-    pub fn motion(&self, initial: State, until: f64) -> Result<Trajectory, Reason> {
+    pub fn motion(&self, initial: State, until: f64) -> Result<Motion, Reason> {
         self.run((initial, until), (Method::Auto, 1e-12), false)
     }
 

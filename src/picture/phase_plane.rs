@@ -10,7 +10,7 @@ use super::{
 };
 use crate::closed_form::lyapunov;
 use crate::fit::{Fitted, Signal};
-use crate::flow::{Outcome, Problem, Sample, Trajectory};
+use crate::flow::{Motion, Outcome, Problem, Sample};
 use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
 use crate::portrait::kicks::{Distribution, RandomKick};
@@ -135,7 +135,7 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
         picture.curve("cycle on the belt", [[from, y], [to, y]]);
     }
     let motion = session.trajectory().filter(|_| session.layers.contains(&Layer::Trajectory));
-    for ride in motion.into_iter().flat_map(Trajectory::rides) {
+    for ride in motion.into_iter().flat_map(Motion::rides) {
         picture.curve("motion on the belt", ride.map(|end| [end.q, y]));
     }
 }

@@ -8,7 +8,7 @@ use super::{
     Item, LineStyle, Mark, Marks, Picture, Role, Scale, cycle_mark, cycle_name, cycle_role,
     units::said,
 };
-use crate::flow::{Outcome, Trajectory};
+use crate::flow::{Motion, Outcome};
 use crate::scene::{Layer, Point};
 use crate::session::{Session, motion::turning_points};
 
@@ -65,7 +65,7 @@ fn cobweb(picture: &mut Picture, session: &Session) {
 }
 
 /// Those of one motion, drawn like it.
-fn turns(picture: &mut Picture, motion: &Trajectory, like: &LineStyle) {
+fn turns(picture: &mut Picture, motion: &Motion, like: &LineStyle) {
     let points = turning_points(motion);
     let rest = match motion.outcome {
         Outcome::Captured { q, .. } => Some(q),

@@ -8,7 +8,7 @@ use super::{
     Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, fit::mark_dropped, units::said,
 };
 use crate::fit::Signal;
-use crate::flow::{Outcome, Sample, Trajectory};
+use crate::flow::{Motion, Outcome, Sample};
 use crate::model::State;
 use crate::model::parameters::energy;
 use crate::scene::{Layer, Point};
@@ -105,7 +105,7 @@ fn record(picture: &mut Picture, session: &Session) {
 }
 
 /// The quantities of the motion in this place among those on show, the present one the first.
-fn quantities(picture: &mut Picture, session: &Session, motion: &Trajectory, place: usize) {
+fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: usize) {
     let LineStyle { name: of, role: beside, .. } = phase_plane::motion(session, place);
     for (_, letter, name, read) in quantities_on_show(session) {
         let points = curve(motion, motion.problem.until, read);
@@ -129,7 +129,7 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Trajectory, pla
 }
 
 /// Where the present motion rides on its belt.
-fn rides(picture: &mut Picture, session: &Session, motion: &Trajectory) {
+fn rides(picture: &mut Picture, session: &Session, motion: &Motion) {
     for ride in motion.rides() {
         for (.., read) in quantities_on_show(session) {
             picture.curve("sticks to the belt", ride.map(|end| at(&end, read)));
@@ -151,7 +151,7 @@ fn at(sample: &Sample, read: fn(State) -> f64) -> Point {
 }
 
 /// A quantity along a motion, and on while it rests.
-fn curve(motion: &Trajectory, end: f64, read: fn(State) -> f64) -> Vec<Point> {
+fn curve(motion: &Motion, end: f64, read: fn(State) -> f64) -> Vec<Point> {
     let mut points: Vec<Point> = motion.samples.iter().map(|sample| at(sample, read)).collect();
     if let Outcome::Captured { tau, q } = motion.outcome {
         let y = read(State { q, v: 0.0 });
@@ -161,7 +161,7 @@ fn curve(motion: &Trajectory, end: f64, read: fn(State) -> f64) -> Vec<Point> {
 }
 
 /// The turning points, where they stand apart, and how the motion ends.
-fn events(picture: &mut Picture, motion: &Trajectory) {
+fn events(picture: &mut Picture, motion: &Motion) {
     let turns = motion.crossings.iter().map(|turn| Point { x: turn.tau, y: turn.q });
     let marks = Marks::new(Mark::Turn, Role::Trajectory, turns.collect());
     picture.items.push(Item::Marks(Marks { sparse: true, ..marks }));

@@ -1,6 +1,6 @@
 //! Where a motion of the oscillator of the paper reaches the speed of the belt, which is not a part of its equation.
 
-use crate::flow::{Sample, Trajectory};
+use crate::flow::{Motion, Sample};
 use crate::model::{Field, HalfPlane, Side, State};
 use crate::numerics::{Hermite, TO_ROUNDING, bisect};
 
@@ -8,7 +8,7 @@ use crate::numerics::{Hermite, TO_ROUNDING, bisect};
 ///
 /// Between two samples the velocity is the cubic with the values and accelerations at both, whose error is of fourth
 /// order in their small distance.
-pub fn first_at(motion: &Trajectory, velocity: f64) -> Option<(f64, f64)> {
+pub fn first_at(motion: &Motion, velocity: f64) -> Option<(f64, f64)> {
     let parameters = &motion.problem.parameters;
     let State { q, v } = motion.problem.initial;
     if v >= velocity {

@@ -15,7 +15,7 @@ use crate::branch::chart::{Chart, Plane, Resolution, chart};
 use crate::branch::machine::MachineBranch;
 use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow};
+use crate::flow::{Cost, Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, follow};
 use crate::model::{Belt, Knob, Model, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::closing::return_map::return_map;
@@ -28,7 +28,7 @@ use crate::scan::grid::ScanRow;
 pub enum Finding {
     Fit(Fit),
     Refit(Fit),
-    Trajectory(Trajectory),
+    Trajectory(Motion),
     /// All motions, and the margin of a machine by the model that is not drawn: every kick is survived where the cubic
     /// expansion has no answer, nothing is told where the whole model has none.
     Cycles(Drawing, Option<Margin>),
@@ -277,7 +277,7 @@ fn motion(
     machine: Option<&Belt>,
     between: u16,
     limits: &Limits,
-) -> Result<Trajectory, Reason> {
+) -> Result<Motion, Reason> {
     let Some(belt) = machine else {
         // Without friction, nothing happens at v = 0, so crossings are not located.
         let crossings = problem.parameters.r > 0.0;

@@ -6,9 +6,7 @@ use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity, Table};
 use crate::accuracy::reference::ReferenceSource;
 use crate::accuracy::trade::{Trade, TradePoint};
-use crate::flow::{
-    Crossing, Leg, METHODS, Method, MethodSpec, Outcome, Problem, Sample, Trajectory,
-};
+use crate::flow::{Crossing, Leg, METHODS, Method, MethodSpec, Motion, Outcome, Problem, Sample};
 use crate::model::belt::Units;
 use crate::model::{ContactState, Knob, Ledger, State, Work};
 use crate::numerics::{Interval, log10, pow};
@@ -39,7 +37,7 @@ fn columns_of_points<'a>(about: &About, digits: usize) -> Columns<'a, MotionRow>
 /// A motion: its start, every arrival at `v = 0` and its end, with what is proved of each; and where its energy goes.
 pub fn motion(
     about: &About,
-    motion: &Trajectory,
+    motion: &Motion,
     certified: Option<&ProvedMotion>,
     seconds: f64,
 ) -> Answer {
@@ -88,7 +86,7 @@ pub fn motion(
 
 /// The start of a motion, its turning points and its end, with what is proved of each. Of a machine it is also known how
 /// far one was followed that escapes or is given up.
-fn points(motion: &Trajectory, certified: Option<&ProvedMotion>, machine: bool) -> Vec<MotionRow> {
+fn points(motion: &Motion, certified: Option<&ProvedMotion>, machine: bool) -> Vec<MotionRow> {
     let State { q, v } = motion.problem.initial;
     let [none, place, speed] = [0.0, q, v].map(Interval::point);
     let bounds = certified.map(|_| ProvedPoint::of(none, place, speed));

@@ -2,7 +2,7 @@
 
 use super::{Look, pane};
 use crate::branch::SpecialKind;
-use crate::flow::{Fate, Outcome, Trajectory};
+use crate::flow::{Fate, Motion, Outcome};
 use crate::model::belt::Units;
 use crate::picture::{Role, units};
 use crate::portrait::{Border, Cycle, Drawing, Portrait};
@@ -69,7 +69,7 @@ fn held_motions(session: &Session) -> Option<String> {
 }
 
 /// What becomes of a motion and why, in a sentence.
-fn verdict(end: End, among: Option<&Drawing>, motion: &Trajectory, writing: Writing) -> String {
+fn verdict(end: End, among: Option<&Drawing>, motion: &Motion, writing: Writing) -> String {
     let border = among.and_then(|found| match found.portrait.border {
         border if border.parts_without_cycle() => Some("separatrix"),
         _ => found.cycles.iter().any(|cycle| !cycle.stable).then_some("unstable cycle"),
@@ -103,11 +103,7 @@ fn verdict(end: End, among: Option<&Drawing>, motion: &Trajectory, writing: Writ
 }
 
 /// What becomes of the motion of a machine, in its own units, by the whole model.
-fn by_whole_model(
-    (portrait, fate): (&Portrait, Fate),
-    units: &Units,
-    motion: &Trajectory,
-) -> String {
+fn by_whole_model((portrait, fate): (&Portrait, Fate), units: &Units, motion: &Motion) -> String {
     let within = match portrait.border {
         Border::Cycle => " (inside the unstable cycle)",
         Border::Grazing => " (inside the motion that touches the belt)",

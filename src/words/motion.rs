@@ -1,7 +1,7 @@
 //! How motions end.
 
 use super::{counted, significant, with_unit};
-use crate::flow::{Fate, Outcome, Trajectory};
+use crate::flow::{Fate, Motion, Outcome};
 use crate::model::belt::Units;
 use crate::portrait::Cycle;
 
@@ -54,7 +54,7 @@ impl Writing {
 }
 
 /// How a motion ended, in a sentence.
-pub fn sentence(motion: &Trajectory, writing: Writing) -> String {
+pub fn sentence(motion: &Motion, writing: Writing) -> String {
     ended(&motion.outcome, motion.crossings.len(), writing, 3)
 }
 

@@ -1,6 +1,6 @@
 //! The commands that take `--machine`: a machine by its own numbers, in the words of the oscillator of the paper.
 
-use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Problem, Trajectory};
+use hopfscope::flow::{Detail, Fate, Limits, Method, Motion, Outcome, Problem};
 use hopfscope::model::{Model, Reason, State};
 use hopfscope::numerics::elementary::ln;
 use hopfscope::numerics::random::Random;
@@ -12,7 +12,7 @@ use super::program::{json, number, run};
 use super::{about, belt, scan};
 
 /// A motion from displacement and velocity (m, m/s), followed for `until` seconds by Taylor series, with its ledger.
-fn follow_by_series(model: &Model, (q, v): (f64, f64), until: f64) -> Trajectory {
+fn follow_by_series(model: &Model, (q, v): (f64, f64), until: f64) -> Motion {
     let (method, tolerance) = (Method::Taylor, model.tolerance);
     let problem =
         Problem { initial: State { q, v }, until, method, tolerance, ..Problem::default() };

@@ -1,7 +1,7 @@
 //! The border of the basin for any multiplier, against numbers computed elsewhere and against motions.
 
 use hopfscope::flow::trajectory::trajectory;
-use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason, Trajectory};
+use hopfscope::flow::{Detail, Fate, Limits, Motion, Outcome, Problem, Reason};
 use hopfscope::model::{Parameters, State};
 use hopfscope::numerics::elementary::{hypot, pow};
 use hopfscope::portrait::basin::StartWindow;
@@ -349,7 +349,7 @@ const SETS: [[f64; 4]; 8] = [
     [-0.02, 0.5, 0.0, 0.1],
 ];
 
-fn followed(parameters: Parameters, initial: State, until: f64) -> Trajectory {
+fn followed(parameters: Parameters, initial: State, until: f64) -> Motion {
     let problem = Problem { parameters, initial, until, tolerance: 1e-10, ..Problem::default() };
     let detail = Detail { crossings: true, samples_per_step: 2, energy: false };
     trajectory(&problem, detail, &LIMITS)

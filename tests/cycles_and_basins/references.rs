@@ -2,7 +2,7 @@
 
 use crate::data::references;
 use hopfscope::flow::trajectory::trajectory;
-use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem, Trajectory};
+use hopfscope::flow::{Detail, Limits, Method, Motion, Outcome, Problem};
 use hopfscope::model::{Parameters, State};
 use hopfscope::portrait::Cycle;
 use hopfscope::portrait::basin::cycle::cycles;
@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 /// A motion of `data/trajectories.json`, followed until tau = 200 or capture.
 #[derive(Deserialize)]
-struct Motion {
+struct ReferenceMotion {
     #[serde(flatten)]
     parameters: Parameters,
     q0: f64,
@@ -20,13 +20,13 @@ struct Motion {
     turning_points: Vec<(f64, f64)>,
 }
 
-fn motions() -> Vec<Motion> {
+fn motions() -> Vec<ReferenceMotion> {
     serde_json::from_str(include_str!("../data/trajectories.json")).unwrap()
 }
 
-impl Motion {
+impl ReferenceMotion {
     /// The computed motion, with its energy ledger.
-    fn compute(&self, method: Method, tolerance: f64) -> Trajectory {
+    fn compute(&self, method: Method, tolerance: f64) -> Motion {
         let problem = Problem {
             parameters: self.parameters,
             initial: State { q: self.q0, v: self.v0 },
@@ -49,7 +49,7 @@ impl Motion {
 }
 
 /// Largest error in q over the turning points, relative to `max(1, abs(q))`.
-fn largest_error(motion: &Motion, found: &Trajectory) -> f64 {
+fn largest_error(motion: &ReferenceMotion, found: &Motion) -> f64 {
     let pairs = motion.turning_points.iter().zip(&found.crossings);
     pairs.map(|(&(_, q), found)| (found.q - q).abs() / q.abs().max(1.0)).fold(0.0, f64::max)
 }
@@ -183,7 +183,7 @@ fn there_are_no_other_cycles_than_the_reference_ones() {
 const BRAKED: Parameters = Parameters { d: 0.02, d2: 0.1, d3: 0.05, r: 0.125 };
 const START: State = State { q: 1.5, v: 0.0 };
 
-fn followed(parameters: Parameters, initial: State, method: Method) -> Trajectory {
+fn followed(parameters: Parameters, initial: State, method: Method) -> Motion {
     let problem = Problem { parameters, initial, method, until: 30.0, ..Problem::default() };
     let crossings = parameters.r > 0.0;
     let detail = Detail { crossings, samples_per_step: 16, energy: true };

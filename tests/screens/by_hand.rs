@@ -6,7 +6,7 @@ use hopfscope::branch::chart::{Band, Chart, ChartLine, Plane};
 use hopfscope::branch::machine::MachineBranch;
 use hopfscope::branch::regime::Regime;
 use hopfscope::branch::{Branch, BranchPoint, Special, SpecialKind};
-use hopfscope::flow::{Cost, Crossing, Limits, Outcome, Problem, Reason, Sample, Trajectory};
+use hopfscope::flow::{Cost, Crossing, Limits, Motion, Outcome, Problem, Reason, Sample};
 use hopfscope::model::{Knob, Ledger, Parameters, State};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{cos, exp, ln, sin, sin_cos};
@@ -187,7 +187,7 @@ pub fn drawing(cycles: Vec<Cycle>, edge: Vec<State>, curves: Vec<Vec<State>>) ->
 }
 
 /// A motion that winds inwards and comes to rest after three half swings.
-pub fn spiral(problem: Problem) -> Trajectory {
+pub fn spiral(problem: Problem) -> Motion {
     let State { q, .. } = problem.initial;
     let sample = |index: u16| {
         let tau = 9.47 * f64::from(index) / 300.0;
@@ -196,7 +196,7 @@ pub fn spiral(problem: Problem) -> Trajectory {
     };
     let ledger = Ledger::of_terms(&problem.parameters, (0.5, 0.0), [0.0; 4]);
     let ledger = Ledger { residual: 2e-14, ..ledger };
-    Trajectory {
+    Motion {
         problem,
         method: problem.method,
         implicit_steps: 0,

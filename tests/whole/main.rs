@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 use hopfscope::branch::SpecialKind;
 use hopfscope::branch::machine::MachineBranch;
-use hopfscope::flow::{Detail, Fate, Flow, Limits, Method, Outcome, Problem, Reason, Trajectory};
+use hopfscope::flow::{Detail, Fate, Flow, Limits, Method, Motion, Outcome, Problem, Reason};
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, ContactState, Group, Knob, Model, Source, State};
 use hopfscope::numerics::elementary::{
@@ -21,7 +21,7 @@ use hopfscope::portrait::{Border, Portrait};
 use serde_json::{Value, json};
 
 /// A motion from displacement and velocity (m, m/s), followed for `until` seconds by Taylor series, with its ledger.
-fn follow_by_series(model: &Model, (q, v): (f64, f64), until: f64) -> Trajectory {
+fn follow_by_series(model: &Model, (q, v): (f64, f64), until: f64) -> Motion {
     let (method, tolerance) = (Method::Taylor, model.tolerance);
     let problem =
         Problem { initial: State { q, v }, until, method, tolerance, ..Problem::default() };

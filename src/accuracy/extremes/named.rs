@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::lattice::UNTIL;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Trajectory};
+use crate::flow::{Cost, Crossing, Detail, Limits, Method, Motion, Outcome, Problem};
 use crate::model::parameters::energy;
 use crate::model::{Parameters, State};
 use crate::numerics::{amount, times_power};
@@ -67,7 +67,7 @@ impl NamedExtreme {
         (measure, allowed): (&'static str, f64),
         problem: &Problem,
         limits: &Limits,
-        measured: impl Fn(&Trajectory) -> Option<f64>,
+        measured: impl Fn(&Motion) -> Option<f64>,
     ) -> Self {
         let motion = trajectory(problem, Detail::default(), limits);
         let measured = measured(&motion).unwrap_or(f64::INFINITY);
@@ -149,7 +149,7 @@ fn scaled_and_mirrored(method: Method, limits: &Limits) -> NamedExtreme {
 }
 
 /// Whether a motion is `sign * 2^k` times another one, to the last bit.
-fn is_image(motion: &Trajectory, of: &Trajectory, sign: f64, k: i32) -> bool {
+fn is_image(motion: &Motion, of: &Motion, sign: f64, k: i32) -> bool {
     let is_image = |q: f64, of: f64| q.to_bits() == (sign * times_power(of, k)).to_bits();
     let ends = motion.outcome.state().zip(of.outcome.state());
     // The velocity of what rests has no sign.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::lattice::{Case, UNTIL};
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Limits, Method, Outcome, Problem, Trajectory};
+use crate::flow::{Cost, Detail, Limits, Method, Motion, Outcome, Problem};
 use crate::model::{Parameters, State};
 use crate::numerics::elementary::log10;
 
@@ -95,21 +95,21 @@ pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> MethodsVerdict {
 }
 
 /// The same motion with all damping changed by this relative amount.
-fn changed(motion: &Trajectory, part: f64, limits: &Limits) -> Trajectory {
+fn changed(motion: &Motion, part: f64, limits: &Limits) -> Motion {
     let Parameters { d, d2, d3, r } = motion.problem.parameters;
     let change = 1.0 + part;
     let parameters = Parameters { d: d * change, d2: d2 * change, d3: d3 * change, r };
     trajectory(&Problem { parameters, ..motion.problem }, Detail::default(), limits)
 }
 
-fn follow(case: &Case, method: Method, tolerance: f64, budget: u64, limits: &Limits) -> Trajectory {
+fn follow(case: &Case, method: Method, tolerance: f64, budget: u64, limits: &Limits) -> Motion {
     let problem = Problem::new(case.parameters, case.initial, UNTIL);
     trajectory(&Problem { method, tolerance, ..problem }, Detail::default(), &limits.up_to(budget))
 }
 
 /// The motion to compare with: the closed form, else a tight motion by the series, else, where that is
 /// too stiff, by the implicit method.
-fn reference(case: &Case, tolerance: f64, limits: &Limits) -> Option<Trajectory> {
+fn reference(case: &Case, tolerance: f64, limits: &Limits) -> Option<Motion> {
     let methods: &[Method] = if case.parameters.is_piecewise_linear() {
         &[Method::Exact]
     } else {
@@ -123,7 +123,7 @@ fn reference(case: &Case, tolerance: f64, limits: &Limits) -> Option<Trajectory>
 
 /// Relative distance of two answers: of places as a fraction of the largest displacement of the last swing, of
 /// times relative to themselves. Infinite where they contradict each other, `None` where one gave up.
-fn distance(one: &Trajectory, other: &Trajectory) -> Option<f64> {
+fn distance(one: &Motion, other: &Motion) -> Option<f64> {
     one.outcome.answered().and(other.outcome.answered()).ok()?;
     if one.outcome.word() != other.outcome.word() {
         return Some(f64::INFINITY);

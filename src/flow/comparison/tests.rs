@@ -4,7 +4,7 @@ use super::super::explicit::Explicit;
 use super::super::stiff::Stiff;
 use super::super::tableau::DOP853;
 use super::super::trajectory::{MotionRun, trajectory};
-use super::super::{Detail, Limits, METHODS, Method, Outcome, Problem, Trajectory};
+use super::super::{Detail, Limits, METHODS, Method, Motion, Outcome, Problem};
 use crate::model::{Parameters, State};
 
 /// Where the motion from (2, 0) rests after three half swings, in closed form.
@@ -21,11 +21,11 @@ fn from(q: f64) -> Problem {
     }
 }
 
-fn run(problem: &Problem) -> Trajectory {
+fn run(problem: &Problem) -> Motion {
     trajectory(problem, Detail::default(), &Limits::PATIENT)
 }
 
-fn end(motion: &Trajectory) -> f64 {
+fn end(motion: &Motion) -> f64 {
     match motion.outcome {
         Outcome::Moving { q, .. } | Outcome::Captured { q, .. } => q,
         ref other => panic!("{other:?}"),

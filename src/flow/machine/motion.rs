@@ -7,7 +7,7 @@ use super::curve::{MachineStep, ORDER, ledger};
 use super::series::PhaseSeries;
 use super::stepped;
 use crate::flow::motion::Leg;
-use crate::flow::{Crossing, Detail, Limits, Method, Outcome, Problem, Sample, Trajectory};
+use crate::flow::{Crossing, Detail, Limits, Method, Motion, Outcome, Problem, Sample};
 use crate::model::{ContactState, Model, Phase, Reason, State};
 
 /// The units in which a motion of a machine is told. The model itself computes in m and `1/omega_0`.
@@ -39,7 +39,7 @@ impl MotionUnits {
 /// Follows a motion of a machine, given and told in these units, by a method that
 /// [follows machines](Method::follows_machines).
 #[must_use]
-pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Detail) -> Trajectory {
+pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Detail) -> Motion {
     let mut model = model.clone();
     model.tolerance = problem.tolerance;
     let model = &model;
@@ -57,7 +57,7 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
         whole: flow.series.left,
         works: Vector3::zeros(),
         state: start,
-        found: Trajectory::begun(problem, if by_series { Method::Taylor } else { method }),
+        found: Motion::begun(problem, if by_series { Method::Taylor } else { method }),
     };
     recorder.found.samples = vec![Sample { tau: 0.0, q, v }];
     recorder.found.extremes = Some([(q, q), (v, v)]);
@@ -93,7 +93,7 @@ struct MotionRecorder {
     works: Vector3<f64>,
     /// Displacement and velocity at the end of the last step.
     state: (f64, f64),
-    found: Trajectory,
+    found: Motion,
 }
 
 impl MotionRecorder {

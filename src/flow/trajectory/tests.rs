@@ -19,7 +19,7 @@ fn problem(parameters: [f64; 4], initial: (f64, f64), method: Method) -> Problem
     }
 }
 
-fn run(problem: &Problem) -> Trajectory {
+fn run(problem: &Problem) -> Motion {
     let detail = Detail { samples_per_step: 4, energy: true, ..Detail::default() };
     trajectory(problem, detail, &Limits::PATIENT)
 }

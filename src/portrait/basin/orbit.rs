@@ -14,7 +14,7 @@
 
 use super::arc::Arc;
 use crate::flow::step::{Powers, powers};
-use crate::flow::{Limits, Reason, Trajectory};
+use crate::flow::{Limits, Motion, Reason};
 use crate::model::parameters::energy;
 use crate::model::{Ledger, Parameters, Side, State};
 use crate::numerics::quadrature::GAUSS;
@@ -216,9 +216,9 @@ pub fn works(border: &Orbit, parameters: &Parameters) -> Ledger {
 
 /// The ledger of a motion from its start until a time, by quadrature over its samples.
 ///
-/// Between two samples the motion is the cubic through both ([`Trajectory::at`]); what its works fail to
+/// Between two samples the motion is the cubic through both ([`Motion::at`]); what its works fail to
 /// account for is the residual, as in the ledger of the whole motion, which is exact.
-pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
+pub fn works_until(motion: &Motion, until: f64) -> Option<Ledger> {
     let Parameters { d, d2, d3, r } = motion.problem.parameters;
     let now = motion.at(until)?;
     let mut sum = Powers::zeros();

@@ -13,7 +13,7 @@ fn belt() -> Belt {
 }
 
 /// The motion of the oscillator that the machine reduces to, and where it reaches the velocity of the belt.
-fn motion(belt: &Belt, start: (f64, f64), until: f64) -> (Trajectory, Option<(f64, f64)>, Units) {
+fn motion(belt: &Belt, start: (f64, f64), until: f64) -> (Motion, Option<(f64, f64)>, Units) {
     let ReducedBelt { parameters, units, sticking_velocity, .. } = belt.reduce().unwrap();
     let problem = Problem {
         parameters,
@@ -28,7 +28,7 @@ fn motion(belt: &Belt, start: (f64, f64), until: f64) -> (Trajectory, Option<(f6
 }
 
 /// The largest velocity of a motion.
-fn fastest(motion: &Trajectory) -> f64 {
+fn fastest(motion: &Motion) -> f64 {
     bisect(0.0, 1e3, TO_ROUNDING, |velocity| first_at(motion, velocity).is_none()).0
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{CubicExpansion, MachineAnswer};
-use crate::flow::{Fate, Sample, Trajectory};
+use crate::flow::{Fate, Motion, Sample};
 use crate::model::Group;
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::guarantee::Uncertain;
@@ -137,7 +137,7 @@ fn outcome(MachineAnswer { motion, fate, rest, .. }: &MachineAnswer) -> Document
 }
 
 /// The motion by a second method, and the difference between the ends.
-fn by_second(second: &Trajectory, first: Sample) -> Document {
+fn by_second(second: &Motion, first: Sample) -> Document {
     let end = second.known_end();
     let less =
         |end: Sample| Sample { tau: end.tau - first.tau, q: end.q - first.q, v: end.v - first.v };

@@ -13,7 +13,7 @@ use super::cycles::{NO_CYCLE, known};
 use super::margin::{guaranteed, margin_columns};
 use super::page::SourceFile;
 use super::{About, Answer, Columns, Quantity};
-use crate::flow::{Fate, Subject, Trajectory};
+use crate::flow::{Fate, Motion, Subject};
 use crate::model::{Interval, Knob};
 use crate::portrait::guarantee::Uncertain;
 use crate::portrait::{Cycle, FrictionNeeded, Kick, Margin, Portrait};
@@ -29,13 +29,13 @@ pub struct MachineAnswer<'a> {
     pub subject: &'a Subject,
     pub portrait: Portrait,
     /// The motion from the start.
-    pub motion: Trajectory,
+    pub motion: Motion,
     /// What it ends as.
     pub fate: Fate,
     /// Where it comes to rest, in m.
     pub rest: Option<f64>,
     /// The same motion by another method, if asked for.
-    pub second: Option<Trajectory>,
+    pub second: Option<Motion>,
     /// The fraction of the starts in a window from which the mass comes to rest, if asked for; of that `None` where motions
     /// from the window leave the range that is known.
     pub rest_share: Option<RestShare>,

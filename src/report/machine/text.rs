@@ -1,7 +1,7 @@
 //! The answer about a machine in sentences.
 
 use super::{CubicExpansion, DesignAnswer, MachineAnswer};
-use crate::flow::{Sample, Trajectory};
+use crate::flow::{Motion, Sample};
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::model::{Knob, Source};
 use crate::portrait::{FrictionNeeded, Kick};
@@ -144,7 +144,7 @@ fn fate(MachineAnswer { subject, portrait, motion, fate, rest, .. }: &MachineAns
 }
 
 /// The motion by the second method, compared with the first, in a sentence.
-fn by(second: &Trajectory, first: Sample) -> String {
+fn by(second: &Motion, first: Sample) -> String {
     let lead = format!("by {} at {:e}: ", second.method, second.problem.tolerance);
     lead + &match second.known_end() {
         Ok(end) => format!(

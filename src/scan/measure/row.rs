@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 
 use super::table::{CYCLES, Conditions, Measure, Value};
-use crate::flow::{Cost, Limits, Outcome, Reason, Subject, Trajectory};
+use crate::flow::{Cost, Limits, Motion, Outcome, Reason, Subject};
 use crate::portrait::{Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 
 /// What was measured at a point.
@@ -104,7 +104,7 @@ impl Cells<'_> {
     }
 
     /// How a motion ended, when and after how many half swings, and where it rests. Fails with why it was given up.
-    pub fn motion(&mut self, found: &Trajectory) -> Result<(), Reason> {
+    pub fn motion(&mut self, found: &Motion) -> Result<(), Reason> {
         let (outcome, swings) = (found.outcome, Value::Count(found.crossings.len()));
         self.cost += found.cost;
         let ended = outcome.answered().map(|()| [outcome.tau().into(), swings]);

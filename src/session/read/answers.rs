@@ -7,7 +7,7 @@ use crate::accuracy::trade::Trade;
 use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
 use crate::fit::Fitted;
-use crate::flow::Trajectory;
+use crate::flow::Motion;
 use crate::model::belt::Units;
 use crate::model::{Knob, State};
 use crate::paper::ClaimResult;
@@ -31,7 +31,7 @@ pub enum NoErrorReason {
 
 /// The last answers, stale or not: for the plot in use, or for any plot.
 impl Session {
-    pub fn trajectory(&self) -> Option<&Trajectory> {
+    pub fn trajectory(&self) -> Option<&Motion> {
         self.answer(Topic::Trajectory, self.plot)?.try_as_trajectory_ref()
     }
 

@@ -3,7 +3,7 @@
 
 use std::ops::RangeBounds;
 
-use crate::flow::{Fate, Outcome, Problem, Trajectory};
+use crate::flow::{Fate, Motion, Outcome, Problem};
 use crate::model::parameters::rests;
 use crate::model::{Parameters, State};
 use crate::portrait::{Border, Cycle, Drawing, Portrait};
@@ -50,11 +50,11 @@ fn told(portrait: &Portrait, start: State) -> Option<(Fate, bool)> {
 }
 
 /// The fate of a motion among these cycles; `None` if it is unknown.
-pub fn fate(found: &Drawing, motion: &Trajectory) -> Option<End> {
+pub fn fate(found: &Drawing, motion: &Motion) -> Option<End> {
     end(found, motion, told(&found.portrait, motion.problem.initial))
 }
 
-fn end(found: &Drawing, motion: &Trajectory, told: Option<(Fate, bool)>) -> Option<End> {
+fn end(found: &Drawing, motion: &Motion, told: Option<(Fate, bool)>) -> Option<End> {
     if let Some(distance) = on_the_edge(found, motion) {
         return Some(End::OnTheEdge { distance });
     }
@@ -75,7 +75,7 @@ fn end(found: &Drawing, motion: &Trajectory, told: Option<(Fate, bool)>) -> Opti
 }
 
 /// The fate without friction and nonlinear damping, where the sign of D decides and no cycles are needed.
-fn linear(motion: &Trajectory) -> Option<End> {
+fn linear(motion: &Motion) -> Option<End> {
     let (Parameters { d, d2, d3, r }, start) = (motion.problem.parameters, motion.problem.initial);
     let moves = start.q != 0.0 || start.v != 0.0;
     let alone = [d2, d3, r] == [0.0; 3] && d != 0.0 && moves;
@@ -84,7 +84,7 @@ fn linear(motion: &Trajectory) -> Option<End> {
 
 /// How near the first turning point of a motion is to an unstable cycle, if so near that rounding decides. Where turning
 /// points were not located, only the start can be one.
-fn on_the_edge(found: &Drawing, motion: &Trajectory) -> Option<f64> {
+fn on_the_edge(found: &Drawing, motion: &Motion) -> Option<f64> {
     let Parameters { d2, r, .. } = found.parameters;
     let start = motion.problem.initial;
     let (q, near) = if start.v == 0.0 && start.q.abs() > r {
@@ -143,7 +143,7 @@ impl Session {
     }
 
     /// The cycles at the parameters of a motion; `None` until they are known.
-    pub(crate) fn cycles_beside(&self, motion: &Trajectory) -> Option<&Drawing> {
+    pub(crate) fn cycles_beside(&self, motion: &Motion) -> Option<&Drawing> {
         self.cycles().filter(|found| found.parameters == motion.problem.parameters)
     }
 
@@ -156,7 +156,7 @@ impl Session {
 
     /// Finds out what becomes of the motion on show, if that or its cycles are others than before.
     pub(crate) fn keep_course(&mut self) {
-        let asked = |motion: &Trajectory| {
+        let asked = |motion: &Motion| {
             let found = self.cycles_beside(motion)?;
             let cycles = &self.standing(Topic::Cycles, self.plot).answered()?.request;
             let start = motion.problem.initial;
@@ -201,7 +201,7 @@ mod tests {
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits};
 
-    fn motion(parameters: Parameters, initial: State, until: f64) -> Trajectory {
+    fn motion(parameters: Parameters, initial: State, until: f64) -> Motion {
         let problem =
             Problem { parameters, initial, until, tolerance: 1e-10, ..Problem::default() };
         let detail = Detail { crossings: true, samples_per_step: 2, energy: false };

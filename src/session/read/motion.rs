@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::flow::{Method, Outcome, Problem, Sample, Trajectory};
+use crate::flow::{Method, Motion, Outcome, Problem, Sample};
 use crate::model::{Parameters, State};
 use crate::numerics::elementary::tanh;
 use crate::portrait::on_belt::first_at;
@@ -37,7 +37,7 @@ impl Session {
 /// finally the place of rest.
 ///
 /// Without friction, arrivals are not located, and the turning points are interpolated between samples.
-pub fn turning_points(motion: &Trajectory) -> Vec<f64> {
+pub fn turning_points(motion: &Motion) -> Vec<f64> {
     let start = motion.problem.initial;
     let mut points: Vec<f64> = (start.v == 0.0).then_some(start.q).into_iter().collect();
     if motion.crossings.is_empty() && motion.problem.parameters.r == 0.0 {
@@ -58,7 +58,7 @@ fn between(pair: &[Sample]) -> Option<f64> {
 
 /// The force of dry friction along a motion as a polyline of (time, force), up to `end` if the motion comes to
 /// rest: `-r sign(v)` while it moves, and the force that balances the spring at rest. It lies in `[-r, r]`.
-pub fn friction_force(motion: &Trajectory, end: f64) -> Vec<(f64, f64)> {
+pub fn friction_force(motion: &Motion, end: f64) -> Vec<(f64, f64)> {
     let Problem { parameters: Parameters { r, .. }, epsilon, .. } = motion.problem;
     let mut force = Vec::new();
     for pair in motion.samples.windows(2) {
@@ -100,7 +100,7 @@ impl Session {
     }
 
     /// The computed motions, stale or not, each with its index.
-    pub fn motions(&self) -> Vec<(usize, &Trajectory)> {
+    pub fn motions(&self) -> Vec<(usize, &Motion)> {
         let asked = self.problems().into_iter().enumerate();
         let found = asked.filter_map(|(place, problem)| {
             let request = self.request_for(Topic::Trajectory, self.plot, problem)?;
@@ -138,7 +138,7 @@ impl Session {
     }
 
     /// The same for any motion on show.
-    pub fn contact_of(&self, motion: &Trajectory) -> Option<(f64, f64)> {
+    pub fn contact_of(&self, motion: &Motion) -> Option<(f64, f64)> {
         if self.draws_whole() {
             return None;
         }

@@ -3,7 +3,7 @@
 use crate::accuracy::trade::TradePoint;
 use crate::closed_form::lyapunov;
 use crate::fit::{Dropped, RecordPoint, Signal};
-use crate::flow::{Outcome, Trajectory};
+use crate::flow::{Motion, Outcome};
 use crate::model::parameters::energy;
 use crate::model::{Knob, State};
 use crate::numerics::{hypot, real, truncated};
@@ -189,7 +189,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     if shown(Layer::Friction) {
         values.extend([-r, r]);
     }
-    let end = |motion: &Trajectory| match motion.outcome {
+    let end = |motion: &Motion| match motion.outcome {
         Outcome::Captured { tau, .. } => (REST * tau).min(motion.problem.until),
         Outcome::Moving { tau, .. } => tau,
         Outcome::Escaped { tau } | Outcome::GaveUp { tau, .. } => ROOM * tau,

@@ -34,7 +34,7 @@ use crate::accuracy::trade::{Trade, TradePoint};
 use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
-use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::flow::{Cost, Limits, Method, Motion, Outcome, Problem, Reason, Sample};
 use crate::model::{Ledger, Parameters, State};
 use crate::numerics::{Twofold, ln};
 use crate::portrait::{Cycle, Drawing, Margin, Portrait, ReturnMap, Share};
@@ -237,7 +237,7 @@ pub fn by_hand(request: &Request) -> Finding {
     match request {
         Request::Trajectory { problem, .. } => {
             let Problem { initial: State { q, v }, until, .. } = *problem;
-            Finding::Trajectory(Trajectory {
+            Finding::Trajectory(Motion {
                 problem: *problem,
                 method: Method::Taylor,
                 implicit_steps: 0,
