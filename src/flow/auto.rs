@@ -8,6 +8,8 @@
 //! mirrors as the motion does, and the same question always gets the same answer. At loose tolerances this
 //! noise may exceed the velocity and hide the sign, so a half swing of very many steps is suspect too.
 
+use std::sync::Arc;
+
 use super::exact::Exact;
 use super::motion::Cost;
 use super::step::{Powers, Step, StepPoint, Stepper};
@@ -69,6 +71,9 @@ pub struct Auto {
     pub(super) implicit_steps: u64,
 }
 
+/// One step of a motion, kept for later evaluation.
+pub type KeptStep = Arc<dyn Stepper + Send + Sync>;
+
 impl Auto {
     /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(tolerance: f64) -> Self {
@@ -107,6 +112,15 @@ impl Auto {
             Some(stiff) => stiff,
             None if self.is_closed() => &self.exact,
             None => &self.taylor,
+        }
+    }
+
+    /// A copy of the method that took the last step, to be kept without the others.
+    pub fn last_step(&self) -> KeptStep {
+        match self.implicit() {
+            Some(stiff) => Arc::new(stiff.clone()),
+            None if self.is_closed() => Arc::new(self.exact.clone()),
+            None => Arc::new(self.taylor.clone()),
         }
     }
 

@@ -232,7 +232,7 @@ impl UnitReader<'_> {
 
     /// Reads factors up to the end or a closing parenthesis; `/` divides by the next factor only.
     fn product(&mut self) -> Result<(f64, Dimension), String> {
-        let mut unit = self.factor()?;
+        let (mut size, mut exponents) = self.factor()?;
         let mut dividing = false;
         while !self.rest.is_empty() && !self.rest.starts_with(')') {
             if self.take('/') {
@@ -248,10 +248,10 @@ impl UnitReader<'_> {
             }
             let (value, dimension) = self.factor()?;
             let power = if dividing { -1 } else { 1 };
-            unit.0 *= powi(value, i32::from(power));
-            unit.1 = self.times(unit.1, dimension, power)?;
+            size *= powi(value, i32::from(power));
+            exponents = self.times(exponents, dimension, power)?;
         }
-        Ok(unit)
+        Ok((size, exponents))
     }
 
     /// Reads a unit name, `1` or a parenthesis, with its power.

@@ -7,6 +7,7 @@
 
 use std::sync::Arc as Shared;
 
+use crate::flow::auto::KeptStep;
 use crate::flow::exact::Exact;
 use crate::flow::step::{Powers, Stepper};
 use crate::flow::{Cost, Limits, Reason};
@@ -20,14 +21,13 @@ const TOLERANCE: f64 = 1e-14;
 /// Part of its start below which an arc is not resolved: it is drawn and compared, not continued.
 const DETAIL: f64 = 1e-12;
 
-/// Maximum number of evaluations of an arc. All its steps are kept, and this many take some thirty megabytes.
+/// Maximum number of evaluations of an arc. All its steps are kept, and this many take some ten megabytes.
 const BUDGET: u64 = 400_000;
 
 /// One integration step of an arc.
 #[derive(Clone, Debug)]
 struct ArcStep {
-    /// The stepper after it.
-    step: Shared<dyn Stepper + Send + Sync>,
+    step: KeptStep,
     unit: i32,
     duration: f64,
     /// Position at its end, in the direction of the computation.
@@ -76,8 +76,9 @@ impl Arc {
         let mut pieces: Vec<ArcStep> = Vec::new();
         let limits = limits.up_to(BUDGET);
         let swing = map.swing_watched(length, true, &limits, |stepper, unit, duration| {
-            let end = times_power(stepper.at(duration).x, unit);
-            pieces.push(ArcStep { step: Shared::new(stepper.clone()), unit, duration, end });
+            let step = stepper.last_step();
+            let end = times_power(step.at(duration).x, unit);
+            pieces.push(ArcStep { step, unit, duration, end });
         })?;
         Ok(Arc {
             side,

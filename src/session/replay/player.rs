@@ -35,8 +35,10 @@ pub struct Player {
     pictures: usize,
     /// The files that the script embeds, by name.
     files: BTreeMap<PathBuf, String>,
-    /// Number of captions shown so far, and number of all captions.
-    captions: (usize, usize),
+    /// Number of captions shown so far.
+    said: usize,
+    /// Number of all captions.
+    captions: usize,
 }
 
 /// Maximum number of pictures that are kept: one of a large screen has a million cells.
@@ -52,10 +54,10 @@ fn captions(script: &Script) -> usize {
 impl Player {
     /// Plays a file from its beginning.
     pub fn new(script: Script) -> Self {
-        let (captions, length) = ((0, captions(&script)), script.length());
+        let (said, captions, length) = (0, captions(&script), script.length());
         let steps = script.steps.into_iter().map(|step| (step, false)).collect();
         let (asynchronous, files) = (false, BTreeMap::new());
-        Player { steps, place: (1, 1), length, asynchronous, pictures: 0, files, captions }
+        Player { steps, place: (1, 1), length, asynchronous, pictures: 0, files, said, captions }
     }
 
     /// Inserts another file before the rest of this one. Fails with [`ScriptError`] if both together have more steps
@@ -66,7 +68,7 @@ impl Player {
             let (line, column) = self.place;
             return Err(ScriptError { line, column, why: too_long() });
         }
-        self.captions.1 += captions(&script);
+        self.captions += captions(&script);
         for step in script.steps.into_iter().rev() {
             self.steps.push_front((step, true));
         }
@@ -75,7 +77,7 @@ impl Player {
 
     /// Number of captions shown so far.
     pub fn said(&self) -> usize {
-        self.captions.0
+        self.said
     }
 
     /// The embedded text of a file, if there is one.
@@ -115,8 +117,8 @@ impl Player {
                     return Err(ScriptError { line, column, why });
                 }
                 Instruction::Give(Msg::Say(text, _)) => {
-                    self.captions.0 += 1;
-                    return Ok(Action::Give(Msg::Say(text, Some(self.captions))));
+                    self.said += 1;
+                    return Ok(Action::Give(Msg::Say(text, Some((self.said, self.captions)))));
                 }
                 step => {
                     if let Some(message) = step.message() {
