@@ -9,7 +9,7 @@
 //! [`bifurcation`] encloses the value of a parameter at which the number of cycles changes, [`range`] decides
 //! that number piece by piece, [`motion`] follows single motions, and [`kicks`] bounds the margins.
 //!
-//! "Unknown" and "open" are possible answers everywhere. Nothing here shares code with the search in `study`.
+//! "Unknown" and "open" are possible answers everywhere. Nothing here shares code with the search in `portrait`.
 //!
 //! Comparisons are written so that NaN fails them. The lemmas cited in comments, with their proofs, are in
 //! `docs/proofs.md`.

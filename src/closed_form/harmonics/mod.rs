@@ -66,7 +66,7 @@ pub struct HarmonicCycle {
 /// The cycle of `count` harmonics (at least 1, at most [`MOST`]) that begins at a first-order answer.
 ///
 /// One harmonic is the first-order answer itself. Guarantee: the Galerkin equations hold to rounding;
-/// how far the cycle is from the true one is another question, which `study::harmonic_error` answers. The
+/// how far the cycle is from the true one is another question, which `accuracy::harmonic_error` answers. The
 /// mirrored oscillator has the mirrored cycle, to the last bit.
 ///
 /// # Errors
