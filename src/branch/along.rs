@@ -32,7 +32,7 @@ use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{cbrt, ln, pow, powi, real};
 use crate::portrait::{
-    Closing, Cycle, Equation, Route, STEP, closings, first_side, polish_near, weak_closing,
+    Cycle, Equation, Route, STEP, SwingPair, closings, first_side, polish_near, weak_closing,
 };
 
 /// A cycle and the parameter value at which it lives.
@@ -470,7 +470,7 @@ fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<Branc
         let parameters = Parameters { d, d2: 0.0, d3: 0.0, r };
         Some(BranchPoint {
             value: d,
-            cycle: Closing::from(&cycle).describe(&parameters, Side::Upper),
+            cycle: SwingPair::from(&cycle).describe(&parameters, Side::Upper),
         })
     };
     Some((0..count).filter_map(point).collect())

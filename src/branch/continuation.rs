@@ -16,7 +16,7 @@ pub use spread::CurvePlace;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{hypot, ln, try_bisect};
-use crate::portrait::{Closing, Equation, Route};
+use crate::portrait::{Equation, Route, SwingPair};
 
 /// Tolerance of the integration steps, in units of that of the points.
 const STEP: f64 = 1e-2;
@@ -99,7 +99,7 @@ impl<'a> CycleCurve<'a> {
 
     /// The pair of swings at a point that need not close; `None` where they are too costly or too large to
     /// be computed, which ends a curve.
-    fn closing(&mut self, route: Route, u: f64, p: f64) -> Result<Option<Closing>, Reason> {
+    fn closing(&mut self, route: Route, u: f64, p: f64) -> Result<Option<SwingPair>, Reason> {
         let step = STEP * self.tolerance;
         let limits = Limits { evaluations: SWING_BUDGET, ..*self.limits };
         let mut equation = Equation::on_side(&self.parameters_at(p), self.side, step, &limits);

@@ -15,7 +15,7 @@ use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::elementary::{cbrt, exp, ln, powi};
-use crate::portrait::{Closing, Equation, Route, first_side};
+use crate::portrait::{Equation, Route, SwingPair, first_side};
 
 /// A fold: the cycle at which two meet.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,7 @@ pub struct FoldCycle {
     /// Where it is.
     pub place: FoldPlace,
     /// The cycle.
-    pub closing: Closing,
+    pub closing: SwingPair,
     /// The side of its first swing.
     pub side: Side,
 }
@@ -109,7 +109,7 @@ struct Values {
     /// F and G.
     both: Vector2<f64>,
     slope: f64,
-    closing: Closing,
+    closing: SwingPair,
 }
 
 /// The two equations. A place is a value of u and the logarithm of the parameter in units of the guess.

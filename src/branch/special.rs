@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::model::{Parameters, Side};
-use crate::portrait::{Closing, Cycle, CycleErrors};
+use crate::portrait::{Cycle, CycleErrors, SwingPair};
 
 /// What makes a point of a branch special.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -183,7 +183,7 @@ pub struct FoldPoint {
 
 impl FoldPoint {
     /// The cycle of the largest D, whose first swing is on this side.
-    pub(super) fn of(closing: &Closing, parameters: &Parameters, side: Side) -> Self {
+    pub(super) fn of(closing: &SwingPair, parameters: &Parameters, side: Side) -> Self {
         let (d, cycle) = (parameters.d, closing.describe(parameters, side));
         let grazes = d < -1.0 && cycle.is_stable_beyond_doubt();
         FoldPoint { d, q_max: cycle.q_max, period: cycle.period, grazes }

@@ -10,7 +10,7 @@ use super::{CommandCase, Failure, Output, second, timed, troubled, write};
 use crate::figure::panels;
 use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Reason, Subject};
 use crate::model::Knob;
-use crate::model::unit::WithTolerance;
+use crate::model::unit::TolerancedNumber;
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Kick, Portrait, StartWindow, friction_for};
 use crate::report::About;
@@ -34,14 +34,14 @@ pub struct BeltCommand {
     /// Sets a quantity of the machine or its friction law, such as "v0=0.2 m/s", or with a tolerance "R=1 N +- 0.2 N";
     /// repeatable; also the start x, v
     #[arg(long, value_name = "NAME=VALUE", value_parser = |text: &str| MACHINE.assignment(text), allow_hyphen_values = true)]
-    set: Vec<(Knob, WithTolerance)>,
+    set: Vec<(Knob, TolerancedNumber)>,
     /// Bound on a force that disturbs the mass in any way, such as "0.1 N": also reports the margin that is guaranteed under it
     #[arg(long, value_name = "FORCE", value_parser = |text: &str| Knob::DisturbingForce.parse(text), allow_hyphen_values = true)]
     disturbance: Option<f64>,
     /// Start of the motion, such as "x=1 mm,v=0 m/s"
     #[arg(long, value_name = "x=..,v=..", value_parser = input::start, value_delimiter = ',',
           allow_hyphen_values = true)]
-    start: Vec<(Knob, WithTolerance)>,
+    start: Vec<(Knob, TolerancedNumber)>,
     /// Window "XMIN:XMAX,VMIN:VMAX": reports the share of its starts that come to rest
     #[arg(long, value_name = "WINDOW", value_parser = |text: &str| MACHINE.window(text), allow_hyphen_values = true)]
     window: Option<StartWindow>,

@@ -5,7 +5,7 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::input::MACHINE;
-use super::{Certify, CommandCase, Failure, Output, QuestionOptions, given, read, timed};
+use super::{CertifyOption, CommandCase, Failure, Output, QuestionOptions, given, read, timed};
 use crate::branch::along::{Points, branch};
 use crate::branch::fold::{Boundary, BoundaryPoint, border};
 use crate::branch::machine::MachineBranch;
@@ -22,7 +22,7 @@ use crate::scan::sweep::{Spacing, Sweep};
 #[derive(Debug, Args)]
 pub struct BranchCommand {
     #[command(flatten)]
-    certify: Certify,
+    certify: CertifyOption,
     /// The parameter (D, D2, D3 or r, or a number of the machine), its range, and the number of points, which is
     /// approximate for D, D2, D3 and r
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
@@ -71,7 +71,7 @@ impl BranchCommand {
 #[derive(Debug, Args)]
 pub struct BorderCommand {
     #[command(flatten)]
-    certify: Certify,
+    certify: CertifyOption,
     /// The second parameter (D2, D3 or r, or a number of the machine), its range, and the number of values
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
     over: String,

@@ -10,12 +10,13 @@ use super::progress::{Outlet, StatusLine};
 use super::{Failure, Output, input, timed, write};
 use crate::figure::{self, Figure, FigureForm};
 use crate::fit::{
-    D, DRAWS, Fitted, Inertia, MarginQuestion, NameSpec, Record, Unfit, assigned, length_in_metres,
+    D, DRAWS, FitResult, Inertia, MarginQuestion, NameSpec, NoEstimate, Record, assigned,
+    length_in_metres,
 };
 use crate::flow::Limits;
 use crate::model::Knob;
-use crate::model::unit::{LENGTH, Measured, measured};
-use crate::question::{Opened, record::RecordOptions};
+use crate::model::unit::{DimensionalNumber, LENGTH, measured};
+use crate::question::{OpenedRecord, record::RecordOptions};
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file};
 use crate::words::fit::signed;
@@ -32,7 +33,7 @@ pub struct FitCommand {
     /// Largest force that may act beside the kick, such as "0.5 N"; without --mass or --stiffness over the stiffness, as a
     /// length
     #[arg(long, value_name = "FORCE", value_parser = not_negative, allow_hyphen_values = true)]
-    disturbance: Option<Measured>,
+    disturbance: Option<DimensionalNumber>,
     /// How much D, D2, D3 or r may change after the record, such as r=0.01 in its unit; repeatable
     #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = half_width, allow_hyphen_values = true)]
     half_width: Vec<(&'static NameSpec, f64)>,
@@ -58,7 +59,7 @@ pub struct FitCommand {
     output: Output,
 }
 
-fn not_negative(text: &str) -> Result<Measured, String> {
+fn not_negative(text: &str) -> Result<DimensionalNumber, String> {
     let read = measured(text)?;
     if read.value >= 0.0 { Ok(read) } else { Err(format!("{text:?} is negative")) }
 }
@@ -95,7 +96,7 @@ impl FitCommand {
         signed(&fitted).broken().map_or(Ok(()), failure)
     }
 
-    fn fitted(&self, bytes: &[u8]) -> Result<Fitted, Failure> {
+    fn fitted(&self, bytes: &[u8]) -> Result<FitResult, Failure> {
         let name = self.file.display().to_string();
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
         // What contradicts itself is not the fault of the file.
@@ -114,11 +115,11 @@ impl FitCommand {
             timed(self.output.repeat, || opened.estimated(&asked, &Limits::PATIENT, &report));
         line.borrow().end();
         let (estimate, margins) = found.map_err(|reason| match reason {
-            Unfit::TooFew { .. } | Unfit::NotAlternating { .. } => bad(&reason),
+            NoEstimate::TooFew { .. } | NoEstimate::NotAlternating { .. } => bad(&reason),
             _ => Failure::Unanswered(format!("{name}: {reason}")),
         })?;
-        let Opened { name, record, .. } = opened;
-        Ok(Fitted { seconds, ..Fitted::new(name, record, estimate, margins) })
+        let OpenedRecord { name, record, .. } = opened;
+        Ok(FitResult { seconds, ..FitResult::new(name, record, estimate, margins) })
     }
 
     /// The half widths of D, D2, D3 and r.
@@ -135,7 +136,7 @@ impl FitCommand {
 
 /// A disturbance in N, or without a mass or stiffness in the unit of the record.
 fn disturbance(
-    read: Measured,
+    read: DimensionalNumber,
     inertia: Option<(Inertia, f64)>,
     record: &Record,
 ) -> Result<f64, String> {

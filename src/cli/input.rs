@@ -8,7 +8,7 @@ use std::str::FromStr;
 use super::Failure;
 use crate::figure::FigureForm;
 use crate::flow::{METHODS, Method, Subject};
-use crate::model::unit::{IMPULSE, LENGTH, WithTolerance, measured};
+use crate::model::unit::{IMPULSE, LENGTH, TolerancedNumber, measured};
 use crate::model::{Group, Knob};
 use crate::portrait::{Kick, RandomKick, StartWindow};
 use crate::scan::sweep::{Spacing, Sweep};
@@ -80,7 +80,7 @@ impl Numbers {
     }
 
     /// `NAME=VALUE`, `NAME=VALUE+-HALFWIDTH` or `NAME=LOW..HIGH`.
-    pub fn assignment(&self, text: &str) -> Result<(Knob, WithTolerance), String> {
+    pub fn assignment(&self, text: &str) -> Result<(Knob, TolerancedNumber), String> {
         let form =
             "expected NAME=VALUE, such as D=-0.3, r=0.10+-0.01, or of a machine \"v0=0.2 m/s\"";
         let (name, value) = text.split_once('=').ok_or(form)?;
@@ -219,7 +219,7 @@ pub fn page_file(text: &str) -> Result<PathBuf, String> {
 }
 
 /// A part of `x=..,v=..`.
-pub fn start(text: &str) -> Result<(Knob, WithTolerance), String> {
+pub fn start(text: &str) -> Result<(Knob, TolerancedNumber), String> {
     let start = MACHINE.assignment(text)?;
     match start.0 {
         Knob::X | Knob::V => Ok(start),

@@ -15,7 +15,7 @@ use crate::model::Parameters;
 use crate::paper::examine_all;
 use crate::question::answer;
 use crate::report::extremes::{extreme_cycles, extremes};
-use crate::report::scenes::{AskedTogether, OPENING, QuestionCost, SceneCost, costs, scenes};
+use crate::report::scenes::{OPENING, QuestionBatch, QuestionCost, SceneCost, costs, scenes};
 use crate::report::{Answer, Columns, Format, claims};
 use crate::runtime::standard::tell;
 use crate::scene::{Scene, library};
@@ -153,9 +153,9 @@ fn cost_of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
         let reused = kept.filter(|request| !stepped.is_open(request));
         let reused = reused.map(|request| request.topic()).collect();
         let questions = settle(&mut stepped, scene)?;
-        Ok(AskedTogether { after: row.name_in(&session.problem), questions, reused })
+        Ok(QuestionBatch { after: row.name_in(&session.problem), questions, reused })
     };
-    let opening = AskedTogether { after: OPENING, questions, reused: Vec::new() };
+    let opening = QuestionBatch { after: OPENING, questions, reused: Vec::new() };
     Ok(SceneCost {
         scene: Arc::clone(scene),
         formulas: session.drawn_by_formulas().iter().map(|layer| layer.spec().name).collect(),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::{Failure, Output, timed};
 use crate::flow::machine::stepped::ALLOWED;
 use crate::flow::{Limits, Method, Problem, Reason, Subject};
-use crate::model::unit::WithTolerance;
+use crate::model::unit::TolerancedNumber;
 use crate::model::{Body, Group, Knob};
 use crate::portrait::Portrait;
 use crate::report::About;
@@ -90,8 +90,8 @@ impl CommandCase {
     }
 
     /// Sets numbers, each with or without a tolerance.
-    pub fn set(&mut self, set: &[(Knob, WithTolerance)]) -> Result<(), Failure> {
-        for &(knob, WithTolerance { middle, half_width, .. }) in set {
+    pub fn set(&mut self, set: &[(Knob, TolerancedNumber)]) -> Result<(), Failure> {
+        for &(knob, TolerancedNumber { middle, half_width, .. }) in set {
             self.described.subject.set(knob, middle.value).map_err(Failure::Usage)?;
             if knob.spec().group != Group::Course {
                 self.described.subject.tolerances.half_widths.insert(knob.to_string(), half_width);

@@ -4,7 +4,8 @@ use clap::Args;
 
 use super::input::{self, WINDOW};
 use super::{
-    Certify, CommandCase, Failure, Output, QuestionOptions, given, number, read, timed, troubled,
+    CertifyOption, CommandCase, Failure, Output, QuestionOptions, given, number, read, timed,
+    troubled,
 };
 use crate::flow::{Limits, Subject};
 use crate::model::{Knob, Parameters};
@@ -72,7 +73,7 @@ fn of_machine(case: &CommandCase, output: &Output) -> Result<(), Failure> {
 #[derive(Debug, Args)]
 pub struct BasinCommand {
     #[command(flatten)]
-    certify: Certify,
+    certify: CertifyOption,
     /// Displacements and velocities of the starts (default: -3:3,-3:3; of a machine one and a half times its largest
     /// cycle, or its margin)
     #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", allow_hyphen_values = true)]

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{Certify, Failure, QuestionOptions, in_turn, number, second, timed, troubled};
+use super::{CertifyOption, Failure, QuestionOptions, in_turn, number, second, timed, troubled};
 use crate::accuracy::trade::Trade;
 use crate::flow::{Detail, Limits, Motion, Outcome, Problem};
 use crate::model::{Knob, Model};
@@ -58,7 +58,7 @@ pub struct TrajectoryCommand {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
     #[command(flatten)]
-    certify: Certify,
+    certify: CertifyOption,
 }
 
 impl TrajectoryCommand {

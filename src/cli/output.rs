@@ -76,13 +76,13 @@ pub fn columns() -> Option<usize> {
 
 /// Whether an answer is also enclosed.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Certify {
+pub struct CertifyOption {
     /// Encloses the answer between proved bounds, or says what remains open
     #[arg(long)]
     certify: bool,
 }
 
-impl Certify {
+impl CertifyOption {
     /// Computes the enclosure if it is wanted.
     pub fn ask<T>(self, ask: impl FnOnce() -> T) -> Option<T> {
         self.certify.then(ask)

@@ -31,7 +31,7 @@ impl Settings {
         let is_there = |path: &PathBuf| self.config.is_some() || path.exists();
         let Some(path) = self.path().filter(is_there) else { return Ok(Config::default()) };
         parse(&path.display().to_string(), &bounded::text(&path)?)
-            .map_err(|misread| Failure::Usage(misread.to_string()))
+            .map_err(|mistake| Failure::Usage(mistake.to_string()))
     }
 
     /// The file that is read, whether it exists or not.

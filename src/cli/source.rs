@@ -7,7 +7,7 @@ use clap::Args;
 use super::input::{self, MACHINE, Numbers, OSCILLATOR};
 use super::{CommandCase, Failure, Output, read, second};
 use crate::flow::{METHODS, Method};
-use crate::model::unit::WithTolerance;
+use crate::model::unit::TolerancedNumber;
 use crate::model::{Knob, ParameterBox};
 use crate::runtime::standard::tell;
 use crate::scene::library::PLAIN;
@@ -123,7 +123,7 @@ impl StartOptions {
     }
 
     /// The numbers that are set.
-    fn assigned(&self, numbers: &Numbers) -> Result<Vec<(Knob, WithTolerance)>, Failure> {
+    fn assigned(&self, numbers: &Numbers) -> Result<Vec<(Knob, TolerancedNumber)>, Failure> {
         let one = |text: &String| read("--set", text, |text| numbers.assignment(text));
         self.set.iter().map(one).collect()
     }

@@ -19,7 +19,7 @@ use crate::numerics::twofold::{PI, Twofold};
 
 /// The flow of `x'' + 2 D x' + x = 0` with what depends on D alone worked out once.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Linear {
+pub struct LinearFlow {
     d: f64,
     /// omega or kappa.
     frequency: Twofold,
@@ -37,10 +37,10 @@ pub struct Standstill {
 /// Where hyperbolic functions give way to single exponentials: below, these cancel; above, those do.
 const HYPERBOLIC: f64 = 1.0;
 
-impl Linear {
+impl LinearFlow {
     /// The flow with damping `d`, `abs(d) < 1e150`.
     pub fn new(d: f64) -> Self {
-        Linear { d, frequency: Twofold::from_one_minus_square(d).sqrt() }
+        LinearFlow { d, frequency: Twofold::from_one_minus_square(d).sqrt() }
     }
 
     /// Whether motions oscillate: `abs(D) < 1`.
@@ -174,7 +174,7 @@ mod tests {
     fn states_agree_with_sixty_digit_arithmetic() {
         for row in rows(include_str!("../../tests/data/linear_states.csv")) {
             let [d, x0, v0, t, x, v] = row[..] else { panic!("{row:?}") };
-            let got = Linear::new(d).state(x0, v0, t);
+            let got = LinearFlow::new(d).state(x0, v0, t);
             let size = x.abs().max(v.abs());
             let error = (got.0 - x).abs().max((got.1 - v).abs()) / size;
             assert!(error <= 8.0 * f64::EPSILON, "D = {d:?}, t = {t}: {got:?}, error {error:e}");
@@ -185,7 +185,7 @@ mod tests {
     fn standstills_agree_with_sixty_digit_arithmetic() {
         for row in rows(include_str!("../../tests/data/linear_standstills.csv")) {
             let [d, x0, v0, ref expected @ ..] = row[..] else { panic!("{row:?}") };
-            let got = Linear::new(d).first_standstill(x0, v0);
+            let got = LinearFlow::new(d).first_standstill(x0, v0);
             assert_eq!(got.is_none(), expected.is_empty(), "D = {d:?}, ({x0}, {v0}): {got:?}");
             if let (Some(got), &[time, x]) = (got, expected) {
                 let error = (got.time / time - 1.0).abs();
@@ -198,15 +198,15 @@ mod tests {
     #[test]
     fn a_swing_from_rest_takes_half_a_period_where_there_is_one() {
         assert_eq!(
-            Linear::new(0.0).first_standstill(-1.0, 0.0),
+            LinearFlow::new(0.0).first_standstill(-1.0, 0.0),
             Some(Standstill { time: std::f64::consts::PI, x: 1.0 })
         );
         assert_eq!(
-            Linear::new(-0.0).first_standstill(-1.0, 0.0),
-            Linear::new(0.0).first_standstill(-1.0, -0.0)
+            LinearFlow::new(-0.0).first_standstill(-1.0, 0.0),
+            LinearFlow::new(0.0).first_standstill(-1.0, -0.0)
         );
         for d in [1.0, -1.0, 1.0 + 1e-3, -1.0 - 1e-3, 2.0, 1e6] {
-            assert_eq!(Linear::new(d).first_standstill(-1.0, 0.0), None, "D = {d}");
+            assert_eq!(LinearFlow::new(d).first_standstill(-1.0, 0.0), None, "D = {d}");
         }
     }
 
@@ -214,7 +214,7 @@ mod tests {
     fn what_overflows_is_infinite_and_never_nan() {
         for d in [-1e6, -1.001, -1.0, -0.999_999, 1e6] {
             for (x, v) in [(-1.0, 0.0), (0.0, 0.0), (-0.3, 1.0), (1e300, -1e300)] {
-                let (x, v) = Linear::new(d).state(x, v, 1e5);
+                let (x, v) = LinearFlow::new(d).state(x, v, 1e5);
                 assert!(!x.is_nan() && !v.is_nan(), "D = {d}: {x} {v}");
             }
         }
@@ -234,9 +234,9 @@ mod tests {
     proptest! {
         #[test]
         fn two_steps_are_one(d in damping(), x in -1.0..1.0, v in -1.0..1.0, s in 0.0..3.0, t in 0.0..3.0) {
-            let once = Linear::new(d).state(x, v, s + t);
-            let halfway = Linear::new(d).state(x, v, s);
-            let twice = Linear::new(d).state(halfway.0, halfway.1, t);
+            let once = LinearFlow::new(d).state(x, v, s + t);
+            let halfway = LinearFlow::new(d).state(x, v, s);
+            let twice = LinearFlow::new(d).state(halfway.0, halfway.1, t);
             // Growth within 6 time units bounds what the error of the first step becomes.
             let size = (halfway.0.abs() + halfway.1.abs()) * exp(3.0 * t);
             let error = (once.0 - twice.0).abs().max((once.1 - twice.1).abs());
@@ -248,12 +248,12 @@ mod tests {
             d in damping(), x in -1.0..1.0, v in -1.0..1.0, t in 0.0..6.0, k in -400_i32..=400,
         ) {
             let unit = exp2(f64::from(k));
-            let plain = Linear::new(d).state(x, v, t);
-            let other = Linear::new(d).state(-x * unit, -v * unit, t);
+            let plain = LinearFlow::new(d).state(x, v, t);
+            let other = LinearFlow::new(d).state(-x * unit, -v * unit, t);
             prop_assert_eq!((-plain.0 * unit, -plain.1 * unit), other);
             let v = v.abs();
-            let plain = Linear::new(d).first_standstill(x, v);
-            let other = Linear::new(d).first_standstill(-x * unit, -v * unit);
+            let plain = LinearFlow::new(d).first_standstill(x, v);
+            let other = LinearFlow::new(d).first_standstill(-x * unit, -v * unit);
             prop_assert_eq!(plain.map(|it| (it.time, -it.x * unit)), other.map(|it| (it.time, it.x)));
         }
 
@@ -261,13 +261,13 @@ mod tests {
         fn velocity_is_positive_until_the_first_standstill(
             d in damping(), x0 in -1.0..1.0, v0 in 1e-3..1.0, part in 0.0..1.0,
         ) {
-            let end = Linear::new(d).first_standstill(x0, v0).map_or(10.0, |it| it.time);
-            prop_assert!(Linear::new(d).state(x0, v0, end * part).1 >= 0.0);
-            if let Some(still) = Linear::new(d).first_standstill(x0, v0) {
-                let (x, v) = Linear::new(d).state(x0, v0, still.time);
+            let end = LinearFlow::new(d).first_standstill(x0, v0).map_or(10.0, |it| it.time);
+            prop_assert!(LinearFlow::new(d).state(x0, v0, end * part).1 >= 0.0);
+            if let Some(still) = LinearFlow::new(d).first_standstill(x0, v0) {
+                let (x, v) = LinearFlow::new(d).state(x0, v0, still.time);
                 // The last digit of the start alone moves the time by this much: where next to critical
                 // damping a motion almost misses v = 0, by more than any rounding.
-                let moved = Linear::new(d).first_standstill(x0, v0.next_up());
+                let moved = LinearFlow::new(d).first_standstill(x0, v0.next_up());
                 let unsure = moved.map_or(f64::INFINITY, |moved| (moved.time - still.time).abs());
                 let bound = 1e-14 * (1.0 + still.time) + 4.0 * unsure;
                 prop_assert!(v.abs() <= bound * x.abs(), "{x} {v} {still:?}");

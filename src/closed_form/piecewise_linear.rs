@@ -12,7 +12,7 @@
 
 use serde::Serialize;
 
-use super::linear::Linear;
+use super::linear::LinearFlow;
 use crate::model::State;
 use crate::numerics::{atan2, exp, exp_m1, ln, ln_1p, real, sin_cos};
 
@@ -56,7 +56,7 @@ impl LinearCycle {
         if !(d < 0.0 && r > 0.0) {
             return None;
         }
-        let linear = Linear::new(d);
+        let linear = LinearFlow::new(d);
         let (omega, growth) = (linear.omega()?, linear.log_growth()?);
         let x = growth.high;
         let clearance = if x < LARGE_EXPONENT {
@@ -94,7 +94,7 @@ impl LinearCycle {
     #[must_use]
     pub fn curve(&self, points: usize) -> Vec<State> {
         let Self { d, r, q_max, .. } = *self;
-        let linear = Linear::new(d);
+        let linear = LinearFlow::new(d);
         // There is a cycle only where motions oscillate.
         let (Some(omega), Some(growth)) = (linear.omega(), linear.log_growth()) else {
             return Vec::new();
@@ -178,7 +178,7 @@ mod tests {
         #[test]
         fn the_cycle_is_the_fixed_point_of_the_half_swing(d in -0.99..-1e-6, r in 1e-3..1e3) {
             let cycle = LinearCycle::new(d, r).unwrap();
-            let swing = Linear::new(d).first_standstill(-cycle.clearance, 0.0).unwrap();
+            let swing = LinearFlow::new(d).first_standstill(-cycle.clearance, 0.0).unwrap();
             // X - 2 r, with X = c e^x, is c again to rounding of X.
             prop_assert!((swing.x - 2.0 * r - cycle.clearance).abs() <= 8.0 * f64::EPSILON * swing.x);
             prop_assert!(close(2.0 * swing.time, cycle.period, 2.0));
@@ -195,7 +195,7 @@ mod tests {
             prop_assert_eq!(curve[points].q, cycle.q_max);
             let size = cycle.q_max + cycle.v_max;
             // Energy of the shifted spiral, x^2 + 2 D x v + v^2 = c^2 e^(-2 D t), at each point's time.
-            let linear = Linear::new(d);
+            let linear = LinearFlow::new(d);
             let omega = linear.omega().unwrap().high;
             for state in &curve[1..points] {
                 let x = state.q + 1.0;

@@ -98,7 +98,7 @@ pub(super) fn polygons(at: &Texture, window: Window) -> Vec<(Fill, Vec<Point>)> 
 type FillRun = (f64, Option<Fill>);
 
 /// A polygon that the next strip may continue with.
-struct Open {
+struct OpenPolygon {
     fill: Option<Fill>,
     left: Vec<Point>,
     right: Vec<Point>,
@@ -107,7 +107,7 @@ struct Open {
 struct Cutter<'a> {
     at: &'a Texture<'a>,
     window: Window,
-    open: Vec<Open>,
+    open: Vec<OpenPolygon>,
     done: Vec<(Fill, Vec<Point>)>,
 }
 
@@ -172,7 +172,11 @@ impl Cutter<'_> {
                 .1
                 .iter()
                 .zip(below.windows(2))
-                .map(|(run, ends)| Open { fill: run.1, left: vec![ends[0]], right: vec![ends[1]] })
+                .map(|(run, ends)| OpenPolygon {
+                    fill: run.1,
+                    left: vec![ends[0]],
+                    right: vec![ends[1]],
+                })
                 .collect();
         }
         for (open, ends) in self.open.iter_mut().zip(above.windows(2)) {
@@ -183,7 +187,7 @@ impl Cutter<'_> {
 
     /// Ends the polygons that are open.
     fn close(&mut self) {
-        for Open { fill, left, right } in self.open.drain(..) {
+        for OpenPolygon { fill, left, right } in self.open.drain(..) {
             let Some(fill) = fill else { continue };
             let mut corners = left;
             corners.extend(right.into_iter().rev());

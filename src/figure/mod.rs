@@ -29,7 +29,7 @@ use strum::EnumString;
 
 use data::csv;
 
-use crate::fit::{Fitted, OMEGA0, parameters};
+use crate::fit::{FitResult, OMEGA0, parameters};
 use crate::flow::Problem;
 use crate::picture;
 use crate::picture::fit::pictures;
@@ -119,7 +119,7 @@ impl Figure {
     }
 
     /// What a fitted record shows.
-    pub fn of_fit(fitted: &Fitted) -> Self {
+    pub fn of_fit(fitted: &FitResult) -> Self {
         let estimate = &fitted.estimate;
         let p = &estimate.p;
         Figure {

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{
-    Dropped, Estimate, FEWEST, FittedDrift, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R,
-    RUN, Record, Rival, Runs, Unfit, Unknowns, longest_run, of_kind,
+    DropReason, Estimate, FEWEST, FittedDrift, HIDDEN, IMPOSSIBLE, Margins, NameSpec, NoEstimate,
+    Question, R, RUN, Record, Rival, Runs, Unknowns, longest_run, of_kind,
 };
 use crate::numerics::decimal::{in_unit, significant, with_error};
 use crate::numerics::{Random, real};
@@ -49,7 +49,7 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
     };
     let kind = format!("{kind}; correlation {}", significant(whiteness.correlation, 2));
     let ratio = estimate.covariance.deviation / estimate.noise.deviation;
-    let run = longest_run(estimate.left_out.iter().map(|why| *why == Some(Dropped::Outlier)));
+    let run = longest_run(estimate.left_out.iter().map(|why| *why == Some(DropReason::Outlier)));
     let freedom = estimate
         .wanted()
         .map(|row| estimate.covariance.independent(row.place))
@@ -63,7 +63,7 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
     });
     let enough = FEWEST.min(real(margins.draws.len())).max(real(margins.question.needed()));
     let noise = format!("{ratio:.2} times the noise of neighbouring differences");
-    let out = format!("{} left out, at most {run} in a row", estimate.count(Dropped::Outlier));
+    let out = format!("{} left out, at most {run} in a row", estimate.count(DropReason::Outlier));
     let draws = format!("{:.0} effective draws", margins.effective);
     let repetition = |off: f64| {
         let detail = if off.is_finite() {
@@ -124,8 +124,8 @@ fn zero(estimate: &Estimate) -> Condition {
 /// The noise is that of the estimate: drawn anew if it is white, else the residuals half a record away.
 ///
 /// # Errors
-/// [`Unfit::Interrupted`].
-pub fn repeated(estimate: &Estimate, question: &Question, runs: &Runs) -> Result<f64, Unfit> {
+/// [`NoEstimate::Interrupted`].
+pub fn repeated(estimate: &Estimate, question: &Question, runs: &Runs) -> Result<f64, NoEstimate> {
     let record = simulated(estimate);
     let again = of_kind(&record, question, runs).ok();
     let off = again.map_or(f64::INFINITY, |again| furthest(estimate, &again.p));

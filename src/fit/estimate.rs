@@ -7,9 +7,9 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::{
-    BEND, Choice, Covariance, Dropped, Extreme, FittedDrift, HIDDEN, LeftDrift, NAMES, NameSpec,
-    Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, StartKind, Task,
-    UNKNOWNS, Unfit, Unknowns, Whiteness, amplitudes, left_over, whiteness,
+    BEND, Choice, Covariance, DropReason, Extreme, FittedDrift, HIDDEN, LeftDrift, NAMES, NameSpec,
+    NoEstimate, Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE,
+    StartKind, Task, UNKNOWNS, Unknowns, Whiteness, amplitudes, left_over, whiteness,
 };
 use crate::model::State;
 use crate::numerics::sin_cos;
@@ -49,7 +49,7 @@ pub struct Estimate {
     pub states: Vec<State>,
     /// For each residual why it does not count. The residuals are those of the record without what lies outside the motion
     /// or the scale.
-    pub left_out: Vec<Option<Dropped>>,
+    pub left_out: Vec<Option<DropReason>>,
     /// Half swings within the record.
     pub half_swings: usize,
     /// Whether the motion comes to rest within the record.
@@ -63,7 +63,7 @@ pub struct Estimate {
     /// The noise estimated without a model.
     pub noise: Noise,
     /// For each sample or peak of the record why it does not count; `None` if it does.
-    pub dropped: Vec<Option<Dropped>>,
+    pub dropped: Vec<Option<DropReason>>,
     /// Number of motions computed with and without derivatives.
     pub motions: (u64, u64),
     /// Displacement beyond which a motion counts as escaped.
@@ -77,7 +77,7 @@ pub struct Estimate {
 impl Estimate {
     /// Number of samples of the record that do not count for this reason.
     #[must_use]
-    pub fn count(&self, why: Dropped) -> usize {
+    pub fn count(&self, why: DropReason) -> usize {
         self.dropped.iter().filter(|it| **it == Some(why)).count()
     }
 
@@ -122,8 +122,8 @@ impl Estimate {
 /// Assesses a minimum: noise, covariance, intervals, rivals.
 ///
 /// # Errors
-/// [`Unfit::Blind`] if an unknown has no influence; why the computation has ended, if it has.
-pub fn judged(task: &Task, found: &[Optimum]) -> Result<Estimate, Unfit> {
+/// [`NoEstimate::Blind`] if an unknown has no influence; why the computation has ended, if it has.
+pub fn judged(task: &Task, found: &[Optimum]) -> Result<Estimate, NoEstimate> {
     /// Number of times that a profile may come upon a lower minimum.
     const LOWER: usize = 4;
     let task = task.starting(found[0].start);
@@ -137,7 +137,7 @@ pub fn judged(task: &Task, found: &[Optimum]) -> Result<Estimate, Unfit> {
     }
     match task.runs.ended() {
         Some(end) => Err(end),
-        None => judged.map(|(estimate, _)| estimate).ok_or(Unfit::Blind),
+        None => judged.map(|(estimate, _)| estimate).ok_or(NoEstimate::Blind),
     }
 }
 
@@ -243,7 +243,7 @@ fn intervals(
 
 /// Samples that do not count, with at most one between two of them that does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct LeftOut {
+pub struct OmittedSpan {
     /// Time of the first, in s.
     pub from: f64,
     /// Time of the last, in s.
@@ -253,7 +253,7 @@ pub struct LeftOut {
 }
 
 /// All samples of a record that do not count, in the order of their times; none for a list of peaks.
-pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<LeftOut> {
+pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<OmittedSpan> {
     if estimate.data.has_peaks() {
         return Vec::new();
     }
@@ -262,8 +262,8 @@ pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<LeftOut> {
 }
 
 /// Stretches of the times of samples that do not count.
-fn stretches(samples: impl Iterator<Item = (f64, bool)>) -> Vec<LeftOut> {
-    let mut found: Vec<LeftOut> = Vec::new();
+fn stretches(samples: impl Iterator<Item = (f64, bool)>) -> Vec<OmittedSpan> {
+    let mut found: Vec<OmittedSpan> = Vec::new();
     let mut since = 0;
     for (t, counts) in samples {
         if counts {
@@ -272,7 +272,7 @@ fn stretches(samples: impl Iterator<Item = (f64, bool)>) -> Vec<LeftOut> {
         }
         match found.last_mut() {
             Some(last) if since <= 1 => (last.to, last.samples) = (t, last.samples + 1),
-            _ => found.push(LeftOut { from: t, to: t, samples: 1 }),
+            _ => found.push(OmittedSpan { from: t, to: t, samples: 1 }),
         }
         since = 0;
     }
@@ -325,14 +325,18 @@ impl Estimate {
 /// The estimate with some numbers held: everything that follows from the new minimum, except intervals and rivals.
 ///
 /// # Errors
-/// [`Unfit::NoMotion`] if the motion with these numbers escapes; [`Unfit::Blind`]; [`Unfit::Interrupted`].
-pub fn held(estimate: &Estimate, numbers: &[(usize, f64)], runs: &Runs) -> Result<Estimate, Unfit> {
+/// [`NoEstimate::NoMotion`] if the motion with these numbers escapes; [`NoEstimate::Blind`]; [`NoEstimate::Interrupted`].
+pub fn held(
+    estimate: &Estimate,
+    numbers: &[(usize, f64)],
+    runs: &Runs,
+) -> Result<Estimate, NoEstimate> {
     let places: Vec<usize> = numbers.iter().map(|(place, _)| *place).collect();
     let task = estimate.task(&places, runs);
     let optimum = task.solve_roughly(following(estimate, numbers));
-    let optimum = optimum.ok_or_else(|| runs.ended().unwrap_or(Unfit::NoMotion))?;
+    let optimum = optimum.ok_or_else(|| runs.ended().unwrap_or(NoEstimate::NoMotion))?;
     let autocorrelation = &estimate.whiteness.autocorrelation;
-    let covariance = Covariance::at(&task, &optimum, autocorrelation).ok_or(Unfit::Blind)?;
+    let covariance = Covariance::at(&task, &optimum, autocorrelation).ok_or(NoEstimate::Blind)?;
     let half_swings = optimum.seen.turns.len();
     Ok(Estimate {
         p: optimum.p,
@@ -393,7 +397,7 @@ mod tests {
     fn samples_that_do_not_count_are_found_in_stretches() {
         let of =
             |counted: &[u8]| stretches((0..12_u8).map(|t| (f64::from(t), counted.contains(&t))));
-        let stretch = |from: i32, to: i32, samples| LeftOut {
+        let stretch = |from: i32, to: i32, samples| OmittedSpan {
             from: f64::from(from),
             to: f64::from(to),
             samples,

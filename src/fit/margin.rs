@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
 use super::{
-    D2, D3, Drawn, Estimate, Inertia, NAMES, OMEGA0, Unknowns, drawn, following, parameters,
+    D2, D3, Draws, Estimate, Inertia, NAMES, OMEGA0, Unknowns, drawn, following, parameters,
 };
 use crate::branch::fold::fold;
 use crate::flow::{Limits, Reason};
@@ -181,7 +181,7 @@ pub fn margins(
     let (smallest, largest) = estimate.amplitudes();
     let ask = |p: &Unknowns| answer(&parameters(p), largest, limits);
     let draws = question.draws.max(question.needed());
-    let Drawn { draws: drawn, effective, motions } = drawn(estimate, draws, limits)?;
+    let Draws { draws: drawn, effective, motions } = drawn(estimate, draws, limits)?;
     let compute = |p: &Unknowns| {
         let found = ask(p).ok()?;
         let sure = question.guaranteed(p, &found.margin, limits).ok()?;

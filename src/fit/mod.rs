@@ -6,13 +6,13 @@
 //! minimizes the loss; [`search`] finds the right [`valley`] for it, [`mod@drift`] one with a drift of the zero. [`mod@samples`]
 //! combines these steps, for samples and for peaks. [`mod@estimate`] assesses the result: covariance, also for
 //! correlated noise ([`residuals`]), and intervals where the loss is not quadratic ([`uncertainty`]); numbers
-//! of which only a combination is known ([`fitted`]); and the resulting uncertainty of the margin ([`margin`]). What
+//! of which only a combination is known ([`result`]); and the resulting uncertainty of the margin ([`margin`]). What
 //! all of this rests on is tested by the record itself ([`mod@conditions`]).
 //!
 //! Nothing here reads or writes files: text goes in, estimates come out.
 //!
 //! ```
-//! use hopfscope::fit::{Question, Reading, estimate, parse};
+//! use hopfscope::fit::{Question, RecordFormat, estimate, parse};
 //! use hopfscope::flow::{Detail, Limits, Problem, trajectory::trajectory};
 //! use hopfscope::model::{Parameters, State};
 //!
@@ -28,7 +28,7 @@
 //!     .filter_map(|index| motion.at(0.1 * f64::from(index)))
 //!     .map(|sample| format!("{} {}\n", sample.tau, sample.q))
 //!     .collect();
-//! let record = parse(text.as_bytes(), &Reading::default()).unwrap();
+//! let record = parse(text.as_bytes(), &RecordFormat::default()).unwrap();
 //! let found = estimate(&record, &Question::default(), &|| false).unwrap();
 //! assert!(found.rests && found.half_swings > 5);
 //! ```
@@ -39,7 +39,6 @@ mod curves;
 mod descent;
 mod drift;
 mod estimate;
-mod fitted;
 mod guess;
 mod margin;
 mod motion;
@@ -49,6 +48,7 @@ mod posterior;
 mod question;
 mod record;
 mod residuals;
+mod result;
 mod samples;
 mod search;
 mod signal;
@@ -58,10 +58,10 @@ mod uncertainty;
 mod valley;
 
 pub use estimate::Estimate;
-pub use fitted::{Fitted, RecordPoint};
 pub use margin::{AllowedLoss, DRAWS, MarginQuestion, Margins, margins};
-pub use question::{Inertia, LossName, Question, Unfit, parameters};
-pub use record::{BadRecord, Reading, Record, parse};
+pub use question::{Inertia, LossName, NoEstimate, Question, parameters};
+pub use record::{BadRecord, Record, RecordFormat, parse};
+pub use result::{FitResult, RecordPoint};
 pub use signal::{LENGTHS, Signal, length_in_metres};
 
 #[doc(hidden)]
@@ -74,28 +74,28 @@ pub use {
         BEND, Choice, D, D2, D3, LAST, NAMES, NameSpec, OFFSET, OMEGA0, Q0, R, SLOPE, StartKind,
         UNKNOWNS, Unknowns, named,
     },
-    task::{Dropped, Runs, Task},
+    task::{DropReason, Runs, Task},
 };
 
 // What other rings use of it, and its files of each other.
 pub(crate) use {
     curves::{Curves, Extent, PlotPoint, memory},
     drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
-    estimate::{LeftOut, RISES, held, judged, left_out},
-    fitted::{Combination, combination, rows},
+    estimate::{OmittedSpan, RISES, held, judged, left_out},
     guess::{Beginning, Guess, guess, period_of},
     margin::MarginSpread,
-    motion::{FittedTurn, MotionLost, follow},
+    motion::{FittedTurn, LostMotion, follow},
     noise::{
         IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,
     },
-    observation::{Bound, Region, Seen, drift},
-    posterior::{Drawn, FEWEST, drawn},
+    observation::{Bound, Comparison, Region, drift},
+    posterior::{Draws, FEWEST, drawn},
     question::{Loss, UnknownsMatrix, assigned, direction, listed, placed, reach, row_of},
     record::decoded,
     residuals::{
         Whiteness, autocorrelations, chi_squared, deviation_of_95_percent, normal_at, whiteness,
     },
+    result::{Combination, combination, rows},
     samples::of_kind,
     search::released_before,
     signal::{SignalUnit, measure, quantity},
@@ -115,12 +115,12 @@ const MOST_MOTIONS: u64 = 6000;
 /// Fits a record.
 ///
 /// # Errors
-/// [`Unfit`] says why there is no estimate.
+/// [`NoEstimate`] says why there is no estimate.
 pub fn estimate(
     record: &Record,
     question: &Question,
     interrupted: &dyn Fn() -> bool,
-) -> Result<Estimate, Unfit> {
+) -> Result<Estimate, NoEstimate> {
     let runs = Runs { most: MOST_MOTIONS, ..Runs::new(interrupted) };
     let found = of_kind(record, question, &runs)?;
     // What is known to be wrong need not be tested again.

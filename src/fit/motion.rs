@@ -101,19 +101,19 @@ impl Default for Way {
 
 /// The motion grew beyond its reach, or took too many half swings or steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MotionLost;
+pub struct LostMotion;
 
 /// Follows the motion from `start` through the ascending `times` and passes each point to `see`.
 ///
 /// # Errors
-/// [`MotionLost`] if the motion escapes before the last time.
+/// [`LostMotion`] if the motion escapes before the last time.
 pub fn follow(
     parameters: &Parameters,
     start: State,
     times: &[f64],
     way: Way,
     mut see: impl FnMut(usize, MotionPoint),
-) -> Result<FollowedMotion, MotionLost> {
+) -> Result<FollowedMotion, LostMotion> {
     let mut followed = FollowedMotion::default();
     let mut stepper = Taylor::with_order(TOLERANCE, ORDER);
     let mut next = 0;
@@ -135,7 +135,7 @@ pub fn follow(
         rest = MotionPoint::resting(turn.q, turn.q_by, way.signal);
         swing = moving.after(parameters, &turn);
     }
-    Err(MotionLost)
+    Err(LostMotion)
 }
 
 /// A point of a half swing with its derivatives.
@@ -221,13 +221,13 @@ impl FittedSwing {
         next: &mut usize,
         way: Way,
         see: &mut impl FnMut(usize, MotionPoint),
-    ) -> Result<Option<FittedTurn>, MotionLost> {
+    ) -> Result<Option<FittedTurn>, LostMotion> {
         let Way { with_derivatives, reach, signal, .. } = way;
         let (mut start, mut from) = (self.start, self.tau);
         let mut derivatives = Sensitivities::default();
         stepper.begin(&self.field);
         for _ in 0..STEPS {
-            let step = stepper.advance(start.at, f64::INFINITY, true).map_err(|_| MotionLost)?;
+            let step = stepper.advance(start.at, f64::INFINITY, true).map_err(|_| LostMotion)?;
             if with_derivatives {
                 derivatives.expand(&self.field, &start, stepper.velocity());
             }
@@ -259,11 +259,11 @@ impl FittedSwing {
             }
             // A motion that escapes, or whose steps no longer advance the time, never ends.
             if !(start.at.size() <= reach && until > from) {
-                return Err(MotionLost);
+                return Err(LostMotion);
             }
             from = until;
         }
-        Err(MotionLost)
+        Err(LostMotion)
     }
 
     /// A point of the motion. The derivatives of the acceleration follow from the equation of motion.
@@ -476,7 +476,7 @@ mod tests {
         let parameters = Parameters { d: -0.1, d2: 0.0, d3: -1.0, r: 0.1 };
         let start = State { q: 10.0, v: 0.0 };
         let found = follow(&parameters, start, &[50.0], way(true), |_, _| {});
-        assert_eq!(found, Err(MotionLost));
+        assert_eq!(found, Err(LostMotion));
         let rest = State { q: 0.05, v: 0.0 };
         let found = points(&parameters, rest, &[0.0, 50.0], way(true));
         assert!(found.iter().all(|point| (point.q, point.v, point.by[Q0]) == (0.05, 0.0, 1.0)));

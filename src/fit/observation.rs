@@ -7,7 +7,7 @@
 //! record shows a drift. Turning points, with or without times, are the same motion observed only where `v = 0`.
 
 use super::{
-    BEND, FittedTurn, LAST, MotionLost, OFFSET, OMEGA0, Q0, R, Record, SLOPE, StartKind, Unknowns,
+    BEND, FittedTurn, LAST, LostMotion, OFFSET, OMEGA0, Q0, R, Record, SLOPE, StartKind, Unknowns,
     Way, direction, follow, parameters, rate,
 };
 use crate::model::State;
@@ -69,7 +69,7 @@ pub struct Residual {
 
 /// The model compared with the whole record.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Seen {
+pub struct Comparison {
     /// One for each measured number.
     pub residuals: Vec<Residual>,
     /// The turning points within the record.
@@ -89,7 +89,7 @@ pub type Region = Option<usize>;
 /// derivatives.
 pub type Bound = (f64, Unknowns);
 
-impl Seen {
+impl Comparison {
     /// The distances of the last turning points from the rims that bound the region.
     pub fn clearances(&self, p: &Unknowns, data: &Record, start: StartKind) -> Vec<Bound> {
         // What follows the last of a list of peaks is not seen, so that it may lie on either side of the rim.
@@ -113,10 +113,15 @@ impl Record {
     /// Compares them with the model of a motion that begins in this way.
     ///
     /// # Errors
-    /// [`MotionLost`] if the motion of the model escapes before the record ends.
-    pub fn compare(&self, start: StartKind, p: &Unknowns, way: Way) -> Result<Seen, MotionLost> {
+    /// [`LostMotion`] if the motion of the model escapes before the record ends.
+    pub fn compare(
+        &self,
+        start: StartKind,
+        p: &Unknowns,
+        way: Way,
+    ) -> Result<Comparison, LostMotion> {
         if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
-            return Err(MotionLost);
+            return Err(LostMotion);
         }
         let way = Way { signal: self.signal, ..way };
         match self.peaks {
@@ -125,7 +130,7 @@ impl Record {
         }
     }
 
-    fn samples(&self, begin: StartKind, p: &Unknowns, way: Way) -> Result<Seen, MotionLost> {
+    fn samples(&self, begin: StartKind, p: &Unknowns, way: Way) -> Result<Comparison, LostMotion> {
         let Record { t, x, .. } = self;
         // Before the motion begins the mass is held.
         let (origin, start) = begin.beginning(p, t);
@@ -156,12 +161,12 @@ impl Record {
             push(held + index, at, by, scale * point.signal);
         })?;
         let region = followed.rests.then_some(followed.turns.len());
-        Ok(Seen { residuals, turns: followed.turns, rests: followed.rests, region })
+        Ok(Comparison { residuals, turns: followed.turns, rests: followed.rests, region })
     }
 }
 
 /// Compares turning points; residuals of times are divided by `ratio`.
-fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Seen, MotionLost> {
+fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Comparison, LostMotion> {
     /// Upper bound of the duration of a half swing, in a motion that keeps oscillating.
     const SLOWEST: f64 = 50.0;
     let x = &data.x;
@@ -178,7 +183,7 @@ fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Seen, Moti
         turns.push(FittedTurn { tau: last.tau + std::f64::consts::PI, ..last });
     }
     if turns.len() < x.len() {
-        return Err(MotionLost);
+        return Err(LostMotion);
     }
     let mut residuals = Vec::with_capacity(2 * x.len());
     for (turn, x) in turns.iter().zip(x) {
@@ -199,5 +204,5 @@ fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Seen, Moti
     // What follows the last peak is not seen.
     let rests = followed.rests && followed.turns.len() + 1 < x.len();
     let region = rests.then_some(followed.turns.len());
-    Ok(Seen { residuals, turns: followed.turns, rests: followed.rests, region })
+    Ok(Comparison { residuals, turns: followed.turns, rests: followed.rests, region })
 }

@@ -9,13 +9,14 @@
 use rayon::prelude::*;
 
 use super::{
-    D, D2, D3, Estimate, R, Runs, Seen, Task, Unknowns, UnknownsMatrix, chi_squared, normal_at,
+    Comparison, D, D2, D3, Estimate, R, Runs, Task, Unknowns, UnknownsMatrix, chi_squared,
+    normal_at,
 };
 use crate::flow::{Limits, Reason};
 use crate::numerics::{amount, exp, ln, pow, real};
 
 /// Unknowns drawn, all of equal weight.
-pub struct Drawn {
+pub struct Draws {
     /// The unknowns.
     pub draws: Vec<Unknowns>,
     /// The number of independent draws that would carry as much information.
@@ -28,7 +29,7 @@ pub struct Drawn {
 pub const FEWEST: f64 = 400.0;
 
 /// Draws from the distribution of an estimate. Fails with [`Reason::Interrupted`].
-pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn, Reason> {
+pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Draws, Reason> {
     /// Draws of each round, the maximum number of rounds, and that of residuals computed, after which the effective
     /// number is left as it is.
     const ROUND: usize = 150;
@@ -46,7 +47,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
             p
         };
         let effective = real(draws);
-        return Ok(Drawn { draws: (0..draws).map(draw).collect(), effective, motions: 0 });
+        return Ok(Draws { draws: (0..draws).map(draw).collect(), effective, motions: 0 });
     }
     let mut points: Vec<(Unknowns, f64)> = Vec::new();
     let mut motions = 0;
@@ -69,7 +70,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     }
     let weights = weights(&points);
     let draws = resampled(&points, &weights, draws);
-    Ok(Drawn { draws, effective: effective(&weights), motions })
+    Ok(Draws { draws, effective: effective(&weights), motions })
 }
 
 /// Weights from their logarithms.
@@ -228,7 +229,7 @@ struct LastDraw {
 }
 
 /// The residuals along the directions, and the derivatives of the motion along them.
-fn seen_along(task: &Task, along: &[Unknowns], seen: &Seen) -> (Unknowns, UnknownsMatrix) {
+fn seen_along(task: &Task, along: &[Unknowns], seen: &Comparison) -> (Unknowns, UnknownsMatrix) {
     let (mut values, mut by) = (Unknowns::zeros(), task.held());
     for (along, residual) in along.iter().zip(task.used_residuals(seen)) {
         values.axpy(residual.value, along, 1.0);

@@ -297,7 +297,7 @@ impl Inertia {
 
 /// Why there is no estimate.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum Unfit {
+pub enum NoEstimate {
     /// Too few samples or peaks for this many unknowns.
     #[error("{measured} measured numbers cannot tell {unknowns} unknowns")]
     TooFew {

@@ -14,7 +14,7 @@ use super::{Signal, SignalUnit, measure};
 
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Reading {
+pub struct RecordFormat {
     /// The column of times, by its number, counted from 1, or its name; `None` to find it by its name or position.
     pub time: Option<String>,
     /// That of displacements.
@@ -99,7 +99,7 @@ fn bad(line: usize, column: usize, problem: impl Into<String>) -> BadRecord {
 ///
 /// # Errors
 /// [`BadRecord`] with the line and column of what cannot be parsed.
-pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
+pub fn parse(bytes: &[u8], reading: &RecordFormat) -> Result<Record, BadRecord> {
     let text = decoded(bytes);
     let table = RecordTable::of(&text)?;
     let (time, displacement) =
@@ -205,7 +205,7 @@ impl<'a> RecordTable<'a> {
     }
 
     /// The columns of times and displacements that are read, counted from 0.
-    fn columns(&self, reading: &Reading) -> Result<(Option<usize>, usize), String> {
+    fn columns(&self, reading: &RecordFormat) -> Result<(Option<usize>, usize), String> {
         let (header, width) = (&self.header, self.rows[0].1.len());
         let place = |column: &String| match column.parse() {
             Ok(number) if (1..=width).contains(&number) => Ok(number - 1),
@@ -256,7 +256,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Record, BadRecord> {
-        parse(text.as_bytes(), &Reading::default())
+        parse(text.as_bytes(), &RecordFormat::default())
     }
 
     fn pairs(record: &Record) -> Vec<(f64, f64)> {
@@ -289,7 +289,7 @@ mod tests {
             }
         }
         let latin = b"Zeit [\xb5s];Weg [\xb5m]\n0;1,5\n1000;-2,25\n2000;3\n";
-        let record = parse(latin, &Reading::default()).unwrap();
+        let record = parse(latin, &RecordFormat::default()).unwrap();
         assert_eq!((pairs(&record), record.unit.as_deref()), (expected, Some("\u{b5}m")));
     }
 
@@ -304,7 +304,7 @@ mod tests {
         let text = "a,b,c\n0,5,1\n1,6,2\n";
         let choose = |time: &str, displacement: &str| {
             let [time, displacement] = [time, displacement].map(|it| Some(it.to_owned()));
-            let reading = Reading { time, displacement, ..Reading::default() };
+            let reading = RecordFormat { time, displacement, ..RecordFormat::default() };
             parse(text.as_bytes(), &reading)
         };
         let record = choose("1", "3").unwrap();
@@ -317,7 +317,7 @@ mod tests {
 
     #[test]
     fn peaks_come_with_and_without_times() {
-        let reading = Reading { peaks: true, ..Reading::default() };
+        let reading = RecordFormat { peaks: true, ..RecordFormat::default() };
         for (text, times) in [
             ("no,peak time [s],peak [mm]\n0,0.5,8\n1,0.75,-6\n", Some(vec![0.5, 0.75])),
             ("no,peak [mm]\n0,8\n1,-6\n", None),

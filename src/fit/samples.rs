@@ -8,21 +8,21 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::{
-    BEND, Beginning, Dropped, Estimate, Extreme, Guess, IMPOSSIBLE, LAST, Loss, LossName, Noise,
-    OFFSET, OMEGA0, Optimum, Q0, Question, R, Record, Runs, SLOPE, Signal, StartKind, Task, Unfit,
-    dominant_frequency, drift_of_swings, guess, judged, mean_square, period_of, placed, rate,
-    ratio_of_kinds, reach, regressions, released_before, robust_deviation, within_scale,
-    without_drift,
+    BEND, Beginning, DropReason, Estimate, Extreme, Guess, IMPOSSIBLE, LAST, Loss, LossName,
+    NoEstimate, Noise, OFFSET, OMEGA0, Optimum, Q0, Question, R, Record, Runs, SLOPE, Signal,
+    StartKind, Task, dominant_frequency, drift_of_swings, guess, judged, mean_square, period_of,
+    placed, rate, ratio_of_kinds, reach, regressions, released_before, robust_deviation,
+    within_scale, without_drift,
 };
 use crate::numerics::{real, truncated};
 
-/// Fits a record of samples or of peaks. Fails with [`Unfit`].
-pub fn of_kind(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
+/// Fits a record of samples or of peaks. Fails with [`NoEstimate`].
+pub fn of_kind(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, NoEstimate> {
     if question.peaks { peaks(record, question, runs) } else { samples(record, question, runs) }
 }
 
-/// Fits a record of samples. Fails with [`Unfit`].
-fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
+/// Fits a record of samples. Fails with [`NoEstimate`].
+fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, NoEstimate> {
     let all = &record.t;
     let frequency = dominant_frequency(all, &record.x);
     let per_period = frequency.map_or(f64::INFINITY, |frequency| rate(all) / frequency);
@@ -35,7 +35,7 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     let free = held.map(|held| held.is_none());
     let unknowns = free.iter().filter(|free| **free).count();
     if x.len() < unknowns + 8 {
-        return Err(Unfit::TooFew { measured: x.len(), unknowns });
+        return Err(NoEstimate::TooFew { measured: x.len(), unknowns });
     }
     let noise = Noise::of(&x, per_period);
     let signal = record.signal;
@@ -58,7 +58,7 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
         Some(guess)
     };
     let Guess { beginnings, mut extremes, struck, again } =
-        guessed([0.0; 2]).ok_or(Unfit::NoSwings)?;
+        guessed([0.0; 2]).ok_or(NoEstimate::NoSwings)?;
     let cut = |range: Range<usize>| {
         let (t, x) = (t[range.clone()].to_vec(), x[range].to_vec());
         Record { t, x, signal, unit: record.unit.clone(), ..Record::default() }
@@ -83,7 +83,7 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     let start = beginnings[0].start;
     let blank = Task::new(&data, runs);
     let mut task = Task { start, free, reach, loss, noise: noise.deviation, ..blank };
-    let lost = || runs.ended().unwrap_or(Unfit::NoMotion);
+    let lost = || runs.ended().unwrap_or(NoEstimate::NoMotion);
     let mut found = task.search(&beginnings).ok_or_else(lost)?;
     let swings = drift_of_swings(&t, &extremes).map(|drift| drift / factor);
     let drifting = || guessed(swings).map(|guess| guess.beginnings).unwrap_or_default();
@@ -103,7 +103,7 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
         return Ok(found);
     }
     let dropped = vec![None; data.residuals()];
-    let mut sorted = SortedOut { task, found, dropped, is_due: false };
+    let mut sorted = SampleSelection { task, found, dropped, is_due: false };
     sorted.sort_out(&noise, question.loss).ok_or_else(lost)?;
     let estimate = judged(&sorted.task(), &sorted.found)?;
     let mut estimate = of_part(estimate, 0..x.len(), &within);
@@ -121,9 +121,9 @@ fn of_part(found: Estimate, range: Range<usize>, within: &[bool]) -> Estimate {
     let mut inner = found.dropped.into_iter();
     let mut number = 0..;
     let mut why = |within: &bool| match within.then(|| number.next()).flatten() {
-        None => Some(Dropped::Saturated),
-        Some(index) if index < range.start => Some(Dropped::Before),
-        Some(index) if index >= range.end => Some(Dropped::After),
+        None => Some(DropReason::Saturated),
+        Some(index) if index < range.start => Some(DropReason::Before),
+        Some(index) if index >= range.end => Some(DropReason::After),
         Some(_) => inner.next().flatten(),
     };
     Estimate { dropped: within.iter().map(&mut why).collect(), ..found }
@@ -133,16 +133,16 @@ fn of_part(found: Estimate, range: Range<usize>, within: &[bool]) -> Estimate {
 type Refit = fn(&Task, &mut Vec<Optimum>) -> Option<()>;
 
 /// A fit whose samples are sorted out: which of them count follows from the motion, and the motion from these.
-struct SortedOut<'a> {
+struct SampleSelection<'a> {
     task: Task<'a>,
     /// The minima, the lowest first.
     found: Vec<Optimum>,
-    dropped: Vec<Option<Dropped>>,
+    dropped: Vec<Option<DropReason>>,
     /// Whether the next selection is fitted even if nothing has changed.
     is_due: bool,
 }
 
-impl SortedOut<'_> {
+impl SampleSelection<'_> {
     /// What is estimated from the samples that count.
     fn task(&self) -> Task<'_> {
         Task { dropped: &self.dropped, ..self.task }
@@ -182,7 +182,7 @@ impl SortedOut<'_> {
         &mut self,
         rounds: usize,
         refit: Refit,
-        why: impl Fn(&Task, &Optimum, &[Option<Dropped>]) -> Vec<Option<Dropped>>,
+        why: impl Fn(&Task, &Optimum, &[Option<DropReason>]) -> Vec<Option<DropReason>>,
     ) -> Option<()> {
         let before = self.dropped.clone();
         for _ in 0..rounds {
@@ -198,7 +198,7 @@ impl SortedOut<'_> {
 }
 
 /// The samples closer to a jump of an acceleration than half a step, or than the phase of a record is uncertain by.
-fn beside_jumps(best: &Optimum, t: &[f64]) -> Vec<Option<Dropped>> {
+fn beside_jumps(best: &Optimum, t: &[f64]) -> Vec<Option<DropReason>> {
     /// In radians of the phase.
     const UNCERTAIN: f64 = 0.03;
     let omega0 = best.p[OMEGA0];
@@ -209,7 +209,7 @@ fn beside_jumps(best: &Optimum, t: &[f64]) -> Vec<Option<Dropped>> {
     let mut dropped = vec![None; t.len()];
     for jump in release.into_iter().chain(turns) {
         let range = [jump - near, jump + near].map(|end| t.partition_point(|t| *t <= end));
-        dropped[range[0]..range[1]].fill(Some(Dropped::Jump));
+        dropped[range[0]..range[1]].fill(Some(DropReason::Jump));
     }
     dropped
 }
@@ -220,8 +220,8 @@ fn alike_at_rest(
     task: &Task,
     best: &Optimum,
     enough: f64,
-    before: &[Option<Dropped>],
-) -> Vec<Option<Dropped>> {
+    before: &[Option<DropReason>],
+) -> Vec<Option<DropReason>> {
     const FEWEST: usize = 2;
     let t = &task.data.t;
     let (release, _) = best.start.beginning(&best.p, t);
@@ -237,7 +237,7 @@ fn alike_at_rest(
             continue;
         }
         for why in &mut dropped[stretch.clone()] {
-            *why = why.filter(|why| *why == Dropped::Jump).or(Some(Dropped::Alike));
+            *why = why.filter(|why| *why == DropReason::Jump).or(Some(DropReason::Alike));
         }
         for number in 0..kept {
             let index = stretch.start + (2 * number + 1) * length / (2 * kept);
@@ -248,16 +248,16 @@ fn alike_at_rest(
 }
 
 /// Beside what was left out before the samples that cannot belong to the motion.
-fn outliers(best: &Optimum, before: &[Option<Dropped>]) -> Vec<Option<Dropped>> {
+fn outliers(best: &Optimum, before: &[Option<DropReason>]) -> Vec<Option<DropReason>> {
     /// A model that leaves out more than this fraction of the record does not describe it.
     const MOST: f64 = 0.15;
     let values: Vec<f64> = best.seen.residuals.iter().map(|it| it.value).collect();
     let limit = limit_of(&values);
-    let why = |(before, value): (&Option<Dropped>, &f64)| {
-        before.or((value.abs() > limit).then_some(Dropped::Outlier))
+    let why = |(before, value): (&Option<DropReason>, &f64)| {
+        before.or((value.abs() > limit).then_some(DropReason::Outlier))
     };
     let now: Vec<_> = before.iter().zip(&values).map(why).collect();
-    let outliers = now.iter().filter(|why| **why == Some(Dropped::Outlier)).count();
+    let outliers = now.iter().filter(|why| **why == Some(DropReason::Outlier)).count();
     if real(outliers) > MOST * real(now.len()) { before.to_vec() } else { now }
 }
 
@@ -274,8 +274,8 @@ fn limit_of(residuals: &[f64]) -> f64 {
 }
 
 /// Fits a list of peaks. The relative weight of displacements and times follows from their residuals.
-/// Fails with [`Unfit`].
-fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, Unfit> {
+/// Fails with [`NoEstimate`].
+fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, NoEstimate> {
     const ROUNDS: usize = 8;
     let x = &record.x;
     let mut held = question.choice.unknowns();
@@ -287,13 +287,13 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
     let measured = x.len() + record.t.len();
     let seen_in_x = unknowns - usize::from(free[OMEGA0]) - usize::from(free[LAST]);
     if x.len() < 3 || x.len() <= seen_in_x {
-        return Err(Unfit::TooFew { measured: x.len(), unknowns: seen_in_x });
+        return Err(NoEstimate::TooFew { measured: x.len(), unknowns: seen_in_x });
     }
     let turned = |three: &[f64]| (three[1] - three[0]) * (three[2] - three[1]) >= 0.0;
     let wrong = x.windows(3).filter(|three| turned(three)).count();
     if 3 * wrong > x.len() {
         let peak = x.windows(3).position(turned).unwrap_or(0) + 1;
-        return Err(Unfit::NotAlternating { peak });
+        return Err(NoEstimate::NotAlternating { peak });
     }
     let time = |index: usize| record.t.get(index).copied().unwrap_or(0.0);
     let extremes: Vec<Extreme> =
@@ -313,10 +313,10 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
     let amplitude = 0.5 * (x[1] - x[0]).abs();
     let mut ratio = 1.0 / (omega0 * amplitude);
     if measured <= unknowns {
-        return Err(Unfit::TooFew { measured, unknowns });
+        return Err(NoEstimate::TooFew { measured, unknowns });
     }
     let mut data = Record { peaks: Some(ratio), ..record.clone() };
-    let lost = || runs.ended().unwrap_or(Unfit::NoMotion);
+    let lost = || runs.ended().unwrap_or(NoEstimate::NoMotion);
     let plain = Task { free, reach: reach(x), ..Task::new(record, runs) };
     let mut found = Task { data: &data, ..plain }.search(&starts).ok_or_else(lost)?;
     for _ in 0..ROUNDS {

@@ -5,8 +5,8 @@ use std::cell::{Cell, OnceCell};
 use nalgebra::{DMatrix, SMatrix};
 
 use super::{
-    BEND, IMPOSSIBLE, Loss, OMEGA0, Record, Region, Residual, SLOPE, Seen, StartKind, UNKNOWNS,
-    Unfit, Unknowns, UnknownsMatrix, Way, robust_deviation, whiteness,
+    BEND, Comparison, IMPOSSIBLE, Loss, NoEstimate, OMEGA0, Record, Region, Residual, SLOPE,
+    StartKind, UNKNOWNS, Unknowns, UnknownsMatrix, Way, robust_deviation, whiteness,
 };
 use crate::numerics::real;
 
@@ -23,7 +23,7 @@ pub struct Runs<'a> {
     /// The smallest root mean square of residuals that a descent has reached.
     pub closest: Cell<f64>,
     /// Why the computation has ended, if it has: from then on there are no more motions.
-    pub(super) end: OnceCell<Unfit>,
+    pub(super) end: OnceCell<NoEstimate>,
 }
 
 impl<'a> Runs<'a> {
@@ -35,7 +35,7 @@ impl<'a> Runs<'a> {
     }
 
     /// Why the computation has ended, if it has.
-    pub fn ended(&self) -> Option<Unfit> {
+    pub fn ended(&self) -> Option<NoEstimate> {
         self.end.get().cloned()
     }
 
@@ -48,10 +48,10 @@ impl<'a> Runs<'a> {
     fn count(&self, with_derivatives: bool) -> Option<()> {
         let (with, plain) = (&self.with_derivatives, &self.plain);
         if (self.interrupted)() {
-            self.end.get_or_init(|| Unfit::Interrupted);
+            self.end.get_or_init(|| NoEstimate::Interrupted);
         } else if with.get() + plain.get() >= self.most {
             let (motions, closest) = (self.most, self.closest.get());
-            self.end.get_or_init(|| Unfit::GaveUp { motions, closest });
+            self.end.get_or_init(|| NoEstimate::GaveUp { motions, closest });
         }
         let counter = if with_derivatives { with } else { plain };
         counter.set(counter.get() + 1);
@@ -69,12 +69,12 @@ pub struct Optimum {
     /// The loss, in squared units of the residuals.
     pub cost: f64,
     /// The model compared with the record, with derivatives.
-    pub seen: Seen,
+    pub seen: Comparison,
 }
 
 /// Why a sample does not count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dropped {
+pub enum DropReason {
     /// It cannot belong to the motion.
     Outlier,
     /// It is flattened at full scale, or next to such samples.
@@ -89,10 +89,10 @@ pub enum Dropped {
     Alike,
 }
 
-impl Dropped {
+impl DropReason {
     /// Whether it is no part of what was fitted.
     pub fn is_outside(self) -> bool {
-        matches!(self, Dropped::Saturated | Dropped::Before | Dropped::After)
+        matches!(self, DropReason::Saturated | DropReason::Before | DropReason::After)
     }
 }
 
@@ -112,7 +112,7 @@ pub struct Task<'a> {
     /// How residuals are weighted.
     pub loss: Loss,
     /// Why residuals do not count; `None` for those that do, and empty if all do.
-    pub dropped: &'a [Option<Dropped>],
+    pub dropped: &'a [Option<DropReason>],
     /// Standard deviation of the noise, if it is known beforehand; else 0.
     pub noise: f64,
     /// Only this many residuals, from the first on, count.
@@ -175,7 +175,7 @@ impl<'a> Task<'a> {
     }
 
     /// The same within the region of a motion.
-    pub fn around(self, seen: &Seen) -> Self {
+    pub fn around(self, seen: &Comparison) -> Self {
         Task { within: Some(seen.region), ..self }
     }
 
@@ -196,18 +196,18 @@ impl<'a> Task<'a> {
     }
 
     /// The residuals that count.
-    pub fn used_residuals<'s>(&self, seen: &'s Seen) -> impl Iterator<Item = &'s Residual> {
+    pub fn used_residuals<'s>(&self, seen: &'s Comparison) -> impl Iterator<Item = &'s Residual> {
         let used = seen.residuals.iter().enumerate().filter(|(index, _)| self.counts(*index));
         used.map(|(_, residual)| residual)
     }
 
     /// The values of the residuals that count.
-    pub fn values(&self, seen: &Seen) -> Vec<f64> {
+    pub fn values(&self, seen: &Comparison) -> Vec<f64> {
         self.used_residuals(seen).map(|residual| residual.value).collect()
     }
 
     /// The loss of a motion.
-    pub fn cost(&self, seen: &Seen) -> f64 {
+    pub fn cost(&self, seen: &Comparison) -> f64 {
         self.used_residuals(seen).map(|residual| self.loss.of(residual.value)).sum()
     }
 
@@ -218,7 +218,7 @@ impl<'a> Task<'a> {
 
     /// Compares the model with the record, and counts the motion; `None` if the motion of the model escapes, or if the
     /// computation has ended.
-    pub fn evaluated(&self, p: &Unknowns, with_derivatives: bool) -> Option<Seen> {
+    pub fn evaluated(&self, p: &Unknowns, with_derivatives: bool) -> Option<Comparison> {
         self.runs.count(with_derivatives)?;
         let way = Way { with_derivatives, reach: self.reach, ..Way::default() };
         self.data.compare(self.start, p, way).ok()
@@ -242,7 +242,7 @@ impl<'a> Task<'a> {
 
     /// The triangular factor of the weighted gradients of the free unknowns, and the vector to which the orthogonal factor
     /// turns the residuals, with what is left of them beyond. Each held unknown has a row of its own, a unit vector.
-    pub fn factor(&self, seen: &Seen) -> LinearResiduals {
+    pub fn factor(&self, seen: &Comparison) -> LinearResiduals {
         /// Number of rows that are factored together, few enough to stay in the cache.
         const BLOCK: usize = 128;
         const WIDTH: usize = UNKNOWNS + 1;
@@ -272,7 +272,7 @@ impl<'a> Task<'a> {
 
     /// The rows of Q if the weighted gradients of the residuals that count are `Q U`, with an orthogonal Q and a
     /// triangular U.
-    pub fn directions(&self, seen: &Seen) -> Vec<Unknowns> {
+    pub fn directions(&self, seen: &Comparison) -> Vec<Unknowns> {
         let lower = self.factor(seen).upper.transpose();
         let row = |it: &Residual| {
             let row = self.loss.weight(it.value).sqrt() * self.by_free(&it.by);

@@ -10,10 +10,10 @@
 
 use std::sync::Arc;
 
-use super::exact::Exact;
+use super::exact::ExactStepper;
 use super::motion::Cost;
 use super::step::{Powers, Step, StepPoint, Stepper};
-use super::stiff::Stiff;
+use super::stiff::StiffStepper;
 use super::taylor::Taylor;
 use crate::model::{Field, HalfPlane, Reason};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
@@ -47,13 +47,13 @@ const PATIENCE: (u32, u32) = (12, 320);
 
 /// The stepper that chooses the method of each step.
 #[derive(Clone, Debug)]
-pub struct Auto {
+pub struct AutoStepper {
     field: HalfPlane,
     taylor: Taylor,
     tolerance: f64,
     /// Created when first needed: most motions are never stiff.
-    stiff: Option<Box<Stiff>>,
-    exact: Exact,
+    stiff: Option<Box<StiffStepper>>,
+    exact: ExactStepper,
     /// Whether the last step was implicit, and whether the next one is to be.
     was_implicit: bool,
     implicit: bool,
@@ -74,16 +74,16 @@ pub struct Auto {
 /// One step of a motion, kept for later evaluation.
 pub type KeptStep = Arc<dyn Stepper + Send + Sync>;
 
-impl Auto {
+impl AutoStepper {
     /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(tolerance: f64) -> Self {
         let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
-        Auto {
+        AutoStepper {
             field,
             taylor: Taylor::new(tolerance),
             tolerance,
             stiff: None,
-            exact: Exact::new(),
+            exact: ExactStepper::new(),
             was_implicit: false,
             implicit: false,
             reached: 0.0,
@@ -102,7 +102,7 @@ impl Auto {
     }
 
     /// The implicit method, if it took the last step.
-    fn implicit(&self) -> Option<&Stiff> {
+    fn implicit(&self) -> Option<&StiffStepper> {
         self.stiff.as_deref().filter(|_| self.was_implicit)
     }
 
@@ -155,7 +155,7 @@ impl Auto {
     }
 }
 
-impl Stepper for Auto {
+impl Stepper for AutoStepper {
     fn begin(&mut self, field: &HalfPlane) {
         (self.field, self.series_steps) = (*field, 0);
         if self.is_closed() {
@@ -202,7 +202,8 @@ impl Stepper for Auto {
             (self.limited, self.series_steps, self.reached) = (0, 0, 0.0);
             (self.implicit, self.worthwhile, self.stalled) = (true, false, 0);
             let (field, tolerance) = (self.field, self.tolerance);
-            let stiff = self.stiff.get_or_insert_with(|| Box::new(Stiff::new(field, tolerance)));
+            let stiff =
+                self.stiff.get_or_insert_with(|| Box::new(StiffStepper::new(field, tolerance)));
             stiff.next = FIRST * step.duration;
         }
         Ok(step)

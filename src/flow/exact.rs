@@ -2,7 +2,7 @@
 
 use super::motion::Cost;
 use super::step::{Powers, Step, StepPoint, Stepper, powers_over};
-use crate::closed_form::linear::Linear;
+use crate::closed_form::linear::LinearFlow;
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::count::truncated;
 
@@ -12,18 +12,18 @@ const MOST_PIECES: f64 = 4096.0;
 
 /// The stepper. It applies to fields with `D2 = D3 = 0` and is exact to rounding for every D.
 #[derive(Clone, Debug)]
-pub struct Exact {
-    linear: Linear,
+pub struct ExactStepper {
+    linear: LinearFlow,
     start: StepPoint,
     duration: f64,
     cost: Cost,
 }
 
-impl Exact {
+impl ExactStepper {
     /// A stepper that has taken no step yet.
     pub fn new() -> Self {
-        Exact {
-            linear: Linear::new(0.0),
+        ExactStepper {
+            linear: LinearFlow::new(0.0),
             start: StepPoint { x: 0.0, v: 0.0 },
             duration: 0.0,
             cost: Cost::default(),
@@ -31,9 +31,9 @@ impl Exact {
     }
 }
 
-impl Stepper for Exact {
+impl Stepper for ExactStepper {
     fn begin(&mut self, field: &HalfPlane) {
-        self.linear = Linear::new(field.d);
+        self.linear = LinearFlow::new(field.d);
     }
 
     fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {

@@ -21,7 +21,7 @@ const SETTLED: f64 = 1e-9;
 
 /// An explicit Runge-Kutta stepper.
 #[derive(Clone, Debug)]
-pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
+pub struct ExplicitStepper<const S: usize, const R: usize, F: Field = HalfPlane> {
     scheme: &'static Scheme<S, R>,
     field: F,
     /// Largest estimated relative error of a step; unused where steps have a fixed length.
@@ -41,12 +41,12 @@ pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
     within: Cell<u64>,
 }
 
-impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
+impl<const S: usize, const R: usize, F: Field> ExplicitStepper<S, R, F> {
     /// A stepper whose estimated relative error of each step stays below `accuracy`; without an error estimate, one
     /// with steps of this length.
     pub fn new(scheme: &'static Scheme<S, R>, field: F, accuracy: f64) -> Self {
         let fixed = scheme.estimate == ErrorEstimate::None;
-        Explicit {
+        ExplicitStepper {
             scheme,
             field,
             tolerance: accuracy,
@@ -185,7 +185,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     }
 }
 
-impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> {
+impl<const S: usize, const R: usize, F: Field> Stepper<F> for ExplicitStepper<S, R, F> {
     fn begin(&mut self, field: &F) {
         self.field = *field;
         // The slope at the end of the last step belonged to another field.

@@ -51,7 +51,7 @@ const FORESEEN: f64 = 3.0;
 
 /// The implicit stepper.
 #[derive(Clone, Debug)]
-pub struct Stiff<F: Field = HalfPlane> {
+pub struct StiffStepper<F: Field = HalfPlane> {
     scheme: &'static Collocation,
     field: F,
     /// Tolerance of a step for the embedded solution, where damping is not stiff.
@@ -73,7 +73,7 @@ pub struct Stiff<F: Field = HalfPlane> {
     cost: Cost,
 }
 
-impl<F: Field> Stiff<F> {
+impl<F: Field> StiffStepper<F> {
     /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(field: F, tolerance: f64) -> Self {
         let [three, five, seven] = &*SCHEMES;
@@ -82,7 +82,7 @@ impl<F: Field> Stiff<F> {
             tolerance if tolerance >= MEDIUM => five,
             _ => seven,
         };
-        Stiff {
+        StiffStepper {
             scheme,
             field,
             tolerance: embedded_tolerance(tolerance, scheme.nodes.len()),
@@ -302,7 +302,7 @@ impl<F: Field> Stiff<F> {
     }
 }
 
-impl<F: Field> Stepper<F> for Stiff<F> {
+impl<F: Field> Stepper<F> for StiffStepper<F> {
     fn begin(&mut self, field: &F) {
         self.field = *field;
         // What is known about the last step belonged to another field.

@@ -12,7 +12,7 @@ use crate::numerics::scaling::{exponent, times_power};
 
 /// How far a motion still moves, and for how long.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ComingToRest {
+pub struct ApproachToRest {
     /// Distance to the stopping place in units of `2^unit`; 0 where the motion has already stopped.
     pub distance: f64,
     /// Exponent of that unit.
@@ -21,7 +21,7 @@ pub struct ComingToRest {
     pub duration: f64,
 }
 
-impl ComingToRest {
+impl ApproachToRest {
     /// The stop of a motion through `point` if its remaining distance is at most a part of its position that is
     /// `negligible`, by which the force of the spring changes as well; otherwise `None`.
     ///
@@ -45,7 +45,7 @@ impl ComingToRest {
             nodes.fold((0.0, 0.0), |(way, time), (v, rate)| (way + v * rate, time + rate));
         let size = exponent(point.x);
         let mantissa = times_power(point.x, -size);
-        Some(ComingToRest {
+        Some(ApproachToRest {
             distance: top * way / mantissa,
             unit: 2 * unit - size,
             duration: times_power(top * time / mantissa, unit - size),
@@ -74,22 +74,22 @@ mod tests {
     fn undamped_motions_stop_on_their_circle() {
         let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
         for (x, v) in [(2.0, 1e-9), (3e-5, 1e-18), (1e200, 1e-100)] {
-            let stop = ComingToRest::of(&field, StepPoint { x, v }, 1e-12).unwrap();
+            let stop = ApproachToRest::of(&field, StepPoint { x, v }, 1e-12).unwrap();
             // In units of 2^-600 the last of these distances is representable.
             let way = times_power(stop.distance, stop.unit + 600);
             let expected = 0.5 * times_power(v, 300) * (times_power(v, 300) / x);
             assert!((way / expected - 1.0).abs() < 1e-15, "{stop:?}");
             assert!((stop.duration / (v / x) - 1.0).abs() < 1e-15);
         }
-        assert_eq!(ComingToRest::of(&field, StepPoint { x: 2.0, v: 1e-5 }, 1e-12), None);
-        assert_eq!(ComingToRest::of(&field, StepPoint { x: -2.0, v: 1e-30 }, 1e-12), None);
+        assert_eq!(ApproachToRest::of(&field, StepPoint { x: 2.0, v: 1e-5 }, 1e-12), None);
+        assert_eq!(ApproachToRest::of(&field, StepPoint { x: -2.0, v: 1e-30 }, 1e-12), None);
     }
 
     /// The distance is quadratic in the velocity: it is known even where that square underflows.
     #[test]
     fn ways_below_the_range_of_numbers_keep_their_digits() {
         let field = HalfPlane { d: -1.5, d2: 3.0, d3: 1e3 };
-        let stop = ComingToRest::of(&field, StepPoint { x: 2.0, v: 3e-300 }, 1e-12).unwrap();
+        let stop = ApproachToRest::of(&field, StepPoint { x: 2.0, v: 3e-300 }, 1e-12).unwrap();
         let log = ln(stop.distance) + f64::from(stop.unit) * std::f64::consts::LN_2;
         let expected = 2.0 * ln(3e-300) - ln(4.0);
         assert!((log / expected - 1.0).abs() < 1e-15, "{stop:?}");
@@ -101,7 +101,7 @@ mod tests {
         let (x, v) = (1.0, 1e-9);
         let stop = |d: f64| {
             let stop =
-                ComingToRest::of(&HalfPlane { d, d2: 0.0, d3: 0.0 }, StepPoint { x, v }, 1e-12)
+                ApproachToRest::of(&HalfPlane { d, d2: 0.0, d3: 0.0 }, StepPoint { x, v }, 1e-12)
                     .unwrap();
             stop.way()
         };

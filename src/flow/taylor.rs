@@ -58,7 +58,7 @@ pub struct Taylor<N = f64> {
     v: [N; LENGTH],
     /// Coefficients of the integral of `v^2`; maintained only where the field is not linear.
     square_integral: [N; LENGTH],
-    inner: Inner<N>,
+    inner: InnerCoefficients<N>,
     time_exponent: i32,
     /// Unit of time for the next step, near the length of the last one.
     next_time_exponent: i32,
@@ -82,7 +82,7 @@ impl<N: Scalar> Taylor<N> {
             x: [N::default(); LENGTH],
             v: [N::default(); LENGTH],
             square_integral: [N::default(); LENGTH],
-            inner: Inner::empty(),
+            inner: InnerCoefficients::empty(),
             time_exponent: 0,
             next_time_exponent: 0,
             duration: 0.0,
@@ -219,7 +219,7 @@ impl Taylor {
 /// Each is stored in a pair with its neighbour and read as it was written: a processor forwards what it has
 /// just stored at once, but not if it is read together with other memory.
 #[derive(Clone, Debug)]
-struct Inner<N> {
+struct InnerCoefficients<N> {
     /// Element i holds coefficients i and i + 1, of v and of the force.
     v: [[N; 2]; LENGTH],
     force: [[N; 2]; LENGTH],
@@ -227,10 +227,10 @@ struct Inner<N> {
     reversed: [[N; 2]; LENGTH],
 }
 
-impl<N: Scalar> Inner<N> {
+impl<N: Scalar> InnerCoefficients<N> {
     fn empty() -> Self {
         let zeros = [[N::default(); 2]; LENGTH];
-        Inner { v: zeros, force: zeros, reversed: zeros }
+        InnerCoefficients { v: zeros, force: zeros, reversed: zeros }
     }
 
     /// Stores coefficients `k - 1` and k.
@@ -280,7 +280,7 @@ impl<N: Scalar> Taylor<N> {
                 return Err(Reason::OutOfRange);
             }
             self.time_exponent -= 40;
-            self.inner = Inner::empty();
+            self.inner = InnerCoefficients::empty();
         }
     }
 }

@@ -4,16 +4,16 @@ use std::ops::ControlFlow;
 
 use nalgebra::Vector3;
 
-use super::auto::Auto;
+use super::auto::AutoStepper;
 use super::comparison::{SmoothField, TimeStepping};
-use super::exact::Exact;
-use super::explicit::Explicit;
+use super::exact::ExactStepper;
+use super::explicit::ExplicitStepper;
 use super::limits::Limits;
 use super::method::Method;
 pub use super::motion::{Cost, Crossing, Detail, Motion, Outcome, Problem, Sample};
 use super::step::{Powers, Step, StepPoint, Stepper};
-use super::stiff::Stiff;
-use super::stop::ComingToRest;
+use super::stiff::StiffStepper;
+use super::stop::ApproachToRest;
 use super::swing::swing;
 use super::tableau::{CLASSICAL, DOP853, DOPRI5};
 use super::taylor::Taylor;
@@ -34,10 +34,10 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Motion 
     let run = |method| MotionRun::new(problem, method, detail, limits);
     let asked = run(problem.method);
     match problem.method {
-        Method::Auto | Method::Exact if linear => run(Method::Exact).go(&mut Exact::new()),
+        Method::Auto | Method::Exact if linear => run(Method::Exact).go(&mut ExactStepper::new()),
         Method::Exact => asked.give_up(Reason::NotApplicable { needs: "D2 = D3 = 0" }),
         Method::Auto => {
-            let mut stepper = Auto::new(tolerance);
+            let mut stepper = AutoStepper::new(tolerance);
             let mut found = run(Method::Taylor).go(&mut stepper);
             found.implicit_steps = stepper.implicit_steps;
             if 2 * found.implicit_steps > found.cost.steps {
@@ -46,14 +46,15 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Motion 
             found
         }
         Method::Taylor => asked.go(&mut Taylor::new(tolerance)),
-        Method::Dop853 => asked.go(&mut Explicit::new(&DOP853, field, tolerance)),
-        Method::Dopri5 => asked.go(&mut Explicit::new(&DOPRI5, field, tolerance)),
-        Method::Rk4 => asked.go(&mut Explicit::new(&CLASSICAL, field, step)),
-        Method::Stiff => asked.go(&mut Stiff::new(field, tolerance)),
-        Method::Smoothed => {
-            asked.walk(Some(epsilon), false, |field| Explicit::new(&DOP853, field, tolerance))
+        Method::Dop853 => asked.go(&mut ExplicitStepper::new(&DOP853, field, tolerance)),
+        Method::Dopri5 => asked.go(&mut ExplicitStepper::new(&DOPRI5, field, tolerance)),
+        Method::Rk4 => asked.go(&mut ExplicitStepper::new(&CLASSICAL, field, step)),
+        Method::Stiff => asked.go(&mut StiffStepper::new(field, tolerance)),
+        Method::Smoothed => asked
+            .walk(Some(epsilon), false, |field| ExplicitStepper::new(&DOP853, field, tolerance)),
+        Method::SignRk4 => {
+            asked.walk(None, false, |field| ExplicitStepper::new(&CLASSICAL, field, step))
         }
-        Method::SignRk4 => asked.walk(None, false, |field| Explicit::new(&CLASSICAL, field, step)),
         Method::TimeStepping => asked.walk(None, true, |field| TimeStepping::new(field, step)),
     }
 }
@@ -167,8 +168,8 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             }
             let field = HalfPlane::new(&parameters, side);
             let sign = N::from(side.sign());
-            let stop = ComingToRest::of(&field, point.rounded(), N::NEGLIGIBLE);
-            let in_time = |stop: &ComingToRest| arrives && N::from(stop.duration) < remaining;
+            let stop = ApproachToRest::of(&field, point.rounded(), N::NEGLIGIBLE);
+            let in_time = |stop: &ApproachToRest| arrives && N::from(stop.duration) < remaining;
             let q;
             if let Some(stop) = stop.filter(in_time) {
                 self.time.add(N::from(stop.duration));

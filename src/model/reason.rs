@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::knob::OutOfRange;
+use super::knob::RangeError;
 
 /// Why a computation has no answer, with the numbers that explain it.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -116,7 +116,7 @@ pub enum Reason {
     },
     /// A number that follows from others is beyond its range.
     #[error(transparent)]
-    Refused(OutOfRange),
+    Refused(RangeError),
     /// The branch of N harmonics that begins at a first-order answer could not be followed.
     #[error(
         "no cycle of {count} harmonics: the first-order answer was lost at {:.0} % of the damping and friction",

@@ -6,7 +6,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::model::Model;
-use crate::model::{Belt, Group, Interval, KNOBS, Knob, Modal, ParameterBox, Parameters, Reason};
+use crate::model::{
+    Belt, Group, Interval, KNOBS, Knob, ParameterBox, Parameters, Reason, VibrationMode,
+};
 
 /// The oscillator of the paper, a mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +18,7 @@ pub enum Body {
     /// A mass on a belt.
     Belt(Box<Belt>),
     /// A vibration mode.
-    Mode(Modal),
+    Mode(VibrationMode),
 }
 
 /// What yields a model, and how exactly it is computed.

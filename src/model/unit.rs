@@ -28,14 +28,14 @@ pub fn dimension_of(unit: &str) -> Dimension {
 
 /// A number and its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
+pub struct DimensionalNumber {
     /// The number in SI units.
     pub value: f64,
     /// The dimension; `None` where no unit was written.
     pub dimension: Option<Dimension>,
 }
 
-impl Measured {
+impl DimensionalNumber {
     /// The value in this SI unit, in which it is where no unit was written.
     ///
     /// # Errors
@@ -119,7 +119,7 @@ const LARGEST_POWER: i8 = 9;
 ///
 /// # Errors
 /// One line that says what could not be read.
-pub fn measured(text: &str) -> Result<Measured, String> {
+pub fn measured(text: &str) -> Result<DimensionalNumber, String> {
     let text = text.trim();
     // Documents have a minus sign of their own.
     let plain = text.replace('\u{2212}', "-");
@@ -132,7 +132,7 @@ pub fn measured(text: &str) -> Result<Measured, String> {
     let (value, dimension) =
         unit.map_or((value, None), |(factor, dimension)| (value * factor, Some(dimension)));
     if value.is_finite() {
-        Ok(Measured { value, dimension })
+        Ok(DimensionalNumber { value, dimension })
     } else {
         Err(format!("{text:?} is not a finite number"))
     }
@@ -140,9 +140,9 @@ pub fn measured(text: &str) -> Result<Measured, String> {
 
 /// A number and its tolerance, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WithTolerance {
+pub struct TolerancedNumber {
     /// The number in the middle.
-    pub middle: Measured,
+    pub middle: DimensionalNumber,
     /// Half the difference between both ends.
     pub half_width: f64,
     /// Where the number lies; both ends are rounded outwards where they are not those that were written.
@@ -153,15 +153,15 @@ pub struct WithTolerance {
 ///
 /// # Errors
 /// One line that says what could not be read.
-pub fn toleranced(text: &str) -> Result<WithTolerance, String> {
+pub fn toleranced(text: &str) -> Result<TolerancedNumber, String> {
     let text = &text.replace('\u{b1}', "+-");
-    let beside = |one: Measured, other: &str| {
+    let beside = |one: DimensionalNumber, other: &str| {
         let other = measured(other)?;
         let is_alike = one.dimension == other.dimension;
         let unlike = || format!("{text:?}: both numbers take the same unit, or none (SI units)");
         is_alike.then_some(other.value).ok_or_else(unlike)
     };
-    let around = |middle: Measured, half_width: f64| {
+    let around = |middle: DimensionalNumber, half_width: f64| {
         (middle, half_width, Interval::around(middle.value, half_width.max(0.0)))
     };
     let (middle, half_width, ends) = if let Some((value, half)) = text.split_once("+-") {
@@ -174,13 +174,13 @@ pub fn toleranced(text: &str) -> Result<WithTolerance, String> {
     } else if let Some((low, high)) = text.split_once("..") {
         let low = measured(low)?;
         let high = beside(low, high)?;
-        let middle = Measured { value: 0.5 * low.value + 0.5 * high, ..low };
+        let middle = DimensionalNumber { value: 0.5 * low.value + 0.5 * high, ..low };
         (middle, 0.5 * high - 0.5 * low.value, Interval::new(low.value, high))
     } else {
         around(measured(text)?, 0.0)
     };
     if half_width >= 0.0 {
-        Ok(WithTolerance { middle, half_width, ends })
+        Ok(TolerancedNumber { middle, half_width, ends })
     } else {
         Err(format!("{text:?}: a tolerance is 0 or more, and LOW .. HIGH ascend"))
     }
@@ -351,7 +351,7 @@ mod tests {
             assert_eq!(found.dimension, Some(dimension), "{text}");
             assert!((found.value / value - 1.0).abs() < 1e-14, "{text}: {}", found.value);
         }
-        assert_eq!(measured(" 2.5e-1 "), Ok(Measured { value: 0.25, dimension: None }));
+        assert_eq!(measured(" 2.5e-1 "), Ok(DimensionalNumber { value: 0.25, dimension: None }));
         assert_eq!(measured("\u{2212}2 m"), measured("-2 m"));
     }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::measure::{BoundedCycle, ClaimCase, at_rest, missing};
-use super::{Certain, Check, Evidence, Known, always, model, tends, worst};
+use super::{Approximation, Check, Conclusion, Evidence, always, model, tends, worst};
 use crate::branch::escape::escape_point;
 use crate::flow::{Outcome, Reason};
 use crate::model::{Parameters, State};
@@ -38,20 +38,20 @@ pub(super) const CHECKS: &[Check] = &[
         let after = first_integral(it.d2, State { q: q.value, v: v.value });
         let error = 4.0 * (q.error + v.error) + 64.0 * f64::EPSILON;
         let bounds = q.bounds.zip(v.bounds).map(|(q, v)| enclosed_integral(it.d2, q, v));
-        Ok(Evidence::equal(before, Known::new(after, error).within(bounds)))
+        Ok(Evidence::equal(before, Approximation::new(after, error).within(bounds)))
     }),
     always("no return", |it| Ok(returns_to(it, it.more)?.is(false))),
     tends("parabola of escape", |it| {
         let impulse = Portrait::of_oscillator(it, 10.0, &it.limits)?.margin.impulse;
         let impulse = impulse.ok_or(missing("the separatrix"))?;
-        Ok(((0.5 / (it.d2 * it.d2)).sqrt(), Known::relative(impulse, 1e-12)))
+        Ok(((0.5 / (it.d2 * it.d2)).sqrt(), Approximation::relative(impulse, 1e-12)))
     }),
     always("escape beyond the cycle", |it| {
         let start = at_rest(it.more * it.smallest()?.q_max);
         let end = it.motion(start, 1e3)?.outcome;
         let fate = it.enclosed(start, 1e3).fate;
         let value = matches!(end, Outcome::Escaped { .. });
-        Ok(Certain { value, certain: value && fate == ProvedFate::Escaped })
+        Ok(Conclusion { value, certain: value && fate == ProvedFate::Escaped })
     }),
     worst("end of the cycle", |it| {
         let computed = it.last_cycle(end_of_cycle(it)?, 1e-12);
@@ -68,7 +68,7 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 /// Whether a motion from rest at `q` is at rest there, or further out, one turn later.
-fn returns_to(it: &ClaimCase, q: f64) -> Result<Certain<bool>, Reason> {
+fn returns_to(it: &ClaimCase, q: f64) -> Result<Conclusion<bool>, Reason> {
     let motion = it.motion(at_rest(q), 60.0)?;
     let value = motion.crossings.get(1).is_some_and(|crossing| crossing.q >= q);
     let bounds = it.enclosed(at_rest(q), 60.0);
@@ -77,11 +77,11 @@ fn returns_to(it: &ClaimCase, q: f64) -> Result<Certain<bool>, Reason> {
         (None, ProvedFate::Captured | ProvedFate::Escaped) => true,
         (None, _) => false,
     };
-    Ok(Certain { value, certain: nearer && !value })
+    Ok(Conclusion { value, certain: nearer && !value })
 }
 
 /// The slope of the return map of `v = 0, q > r` at a cycle: central differences of integrated motions.
-fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Known, Reason> {
+fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Approximation, Reason> {
     let q = cycle.q_max;
     let turn = |q: f64| {
         let [left, _] = it.half_swing(at_rest(q))?;
@@ -93,9 +93,9 @@ fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Known, Reason> {
         Ok(narrow + (narrow - wide) / 3.0)
     };
     let step = 1e-3 * (q - it.r);
-    let known = Known::twice(slope(step)?, slope(2.0 * step)?);
+    let known = Approximation::twice(slope(step)?, slope(2.0 * step)?);
     // The integrated turns themselves are known to some 1e-14.
-    let known = Known::new(known.value, known.error + 1e-13 * q / step);
+    let known = Approximation::new(known.value, known.error + 1e-13 * q / step);
     Ok(known.within(cycle.bounds.map(|it| it.multiplier)))
 }
 

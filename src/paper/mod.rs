@@ -14,7 +14,7 @@ mod measure;
 pub(crate) mod model;
 mod verdict;
 
-pub use verdict::{Certain, Certainty, Evidence, Known, POOR, Sense, Verdict};
+pub use verdict::{Approximation, Certainty, Conclusion, Evidence, POOR, Sense, Verdict};
 
 use std::sync::LazyLock;
 
@@ -50,9 +50,9 @@ enum Test {
     /// By numbers, of which those of the worst case decide.
     Worst(Ask<Evidence>),
     /// By whether it holds in each case.
-    Always(Ask<Certain<bool>>),
+    Always(Ask<Conclusion<bool>>),
     /// By a formula and what it approaches, in one case and in the next one, which is nearer to the limit.
-    Tends(Ask<(f64, Known)>),
+    Tends(Ask<(f64, Approximation)>),
 }
 
 impl Test {
@@ -81,11 +81,11 @@ const fn worst(name: &'static str, compare: Ask<Evidence>) -> Check {
     (name, Test::Worst(compare))
 }
 
-const fn always(name: &'static str, holds: Ask<Certain<bool>>) -> Check {
+const fn always(name: &'static str, holds: Ask<Conclusion<bool>>) -> Check {
     (name, Test::Always(holds))
 }
 
-const fn tends(name: &'static str, compare: Ask<(f64, Known)>) -> Check {
+const fn tends(name: &'static str, compare: Ask<(f64, Approximation)>) -> Check {
     (name, Test::Tends(compare))
 }
 

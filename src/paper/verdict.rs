@@ -32,7 +32,7 @@ pub enum Sense {
 
 /// A number and how far it may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Known {
+pub struct Approximation {
     /// The number.
     pub value: f64,
     /// Bound on its error.
@@ -41,79 +41,79 @@ pub struct Known {
     pub bounds: Option<Interval>,
 }
 
-impl Known {
+impl Approximation {
     /// A number and how far it may be off.
     pub fn new(value: f64, error: f64) -> Self {
-        Known { value, error, bounds: None }
+        Approximation { value, error, bounds: None }
     }
 
     /// With an interval that certainly holds it.
     pub fn within(self, bounds: impl Into<Option<Interval>>) -> Self {
-        Known { bounds: bounds.into(), ..self }
+        Approximation { bounds: bounds.into(), ..self }
     }
 
     /// With another number added.
     pub fn plus(self, shift: f64) -> Self {
         let bounds = self.bounds.map(|it| it + Interval::point(shift));
-        Known { value: self.value + shift, bounds, ..self }
+        Approximation { value: self.value + shift, bounds, ..self }
     }
 
     /// A multiple of it.
     pub fn times(self, factor: f64) -> Self {
         let bounds = self.bounds.map(|it| it * factor);
-        Known { value: factor * self.value, error: (factor * self.error).abs(), bounds }
+        Approximation { value: factor * self.value, error: (factor * self.error).abs(), bounds }
     }
 
     /// Whether it is larger than a number.
-    pub fn exceeds(&self, limit: f64) -> Certain<bool> {
+    pub fn exceeds(&self, limit: f64) -> Conclusion<bool> {
         let value = self.value > limit;
         let certain = self
             .bounds
             .is_some_and(|it| if value { it.lower() > limit } else { it.upper() <= limit });
-        Certain { value, certain }
+        Conclusion { value, certain }
     }
 
     /// A number that is what it is, such as a count.
     pub fn exact(value: f64) -> Self {
-        Known::new(value, 0.0)
+        Approximation::new(value, 0.0)
     }
 
     /// A number with a relative error.
     pub fn relative(value: f64, part: f64) -> Self {
-        Known::new(value, part * value.abs())
+        Approximation::new(value, part * value.abs())
     }
 
     /// Two answers to one question: the first, with their difference as its error.
     pub fn twice(value: f64, again: f64) -> Self {
-        Known::new(value, (value - again).abs() + 4.0 * f64::EPSILON * value.abs())
+        Approximation::new(value, (value - again).abs() + 4.0 * f64::EPSILON * value.abs())
     }
 }
 
 /// The answer to a question, and whether that is proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Certain<T> {
+pub struct Conclusion<T> {
     /// The answer.
     pub value: T,
     /// Whether it is proved.
     pub certain: bool,
 }
 
-impl From<bool> for Certain<bool> {
+impl From<bool> for Conclusion<bool> {
     fn from(value: bool) -> Self {
-        Certain { value, certain: false }
+        Conclusion { value, certain: false }
     }
 }
 
-impl<T> Certain<T> {
+impl<T> Conclusion<T> {
     /// The answer to a question that this one decides.
-    pub fn map<A>(&self, decide: impl FnOnce(&T) -> A) -> Certain<A> {
-        Certain { value: decide(&self.value), certain: self.certain }
+    pub fn map<A>(&self, decide: impl FnOnce(&T) -> A) -> Conclusion<A> {
+        Conclusion { value: decide(&self.value), certain: self.certain }
     }
 }
 
-impl<T: Copy + PartialEq> Certain<T> {
+impl<T: Copy + PartialEq> Conclusion<T> {
     /// Whether it is as expected.
-    pub fn is(&self, expected: T) -> Certain<bool> {
+    pub fn is(&self, expected: T) -> Conclusion<bool> {
         self.map(|value| *value == expected)
     }
 }
@@ -155,7 +155,7 @@ impl Certainty {
     }
 
     /// The mark of a formula beside what it is compared with.
-    pub(crate) fn of(sense: Sense, formula: f64, computed: &Known) -> Option<Certainty> {
+    pub(crate) fn of(sense: Sense, formula: f64, computed: &Approximation) -> Option<Certainty> {
         let bounds = computed.bounds?;
         let formula = with_rounding(formula, computed.error);
         let [holds, fails] = match sense {
@@ -172,8 +172,11 @@ impl Certainty {
     }
 
     /// The mark of a limit, from the formula and what it is compared with far from it and nearer.
-    pub(crate) fn of_limit(far: (f64, &Known), near: (f64, &Known)) -> Option<Certainty> {
-        let miss = |(formula, computed): (f64, &Known)| {
+    pub(crate) fn of_limit(
+        far: (f64, &Approximation),
+        near: (f64, &Approximation),
+    ) -> Option<Certainty> {
+        let miss = |(formula, computed): (f64, &Approximation)| {
             Some(miss(with_rounding(formula, computed.error), computed.bounds?))
         };
         let (far, near) = (miss(far)?, miss(near)?);
@@ -213,7 +216,7 @@ pub struct Evidence {
     /// The corrected formula evaluated, or the formula for what the paper is silent about.
     pub corrected: Option<f64>,
     /// The same thing computed without the formula.
-    pub computed: Known,
+    pub computed: Approximation,
     /// Of a limit, the relative difference further from it.
     before: f64,
     /// How many cases this one, the worst, was chosen from.
@@ -247,11 +250,11 @@ pub enum Verdict {
 
 impl Evidence {
     /// A formula and what it should be equal to.
-    pub fn equal(paper: f64, computed: Known) -> Self {
+    pub fn equal(paper: f64, computed: Approximation) -> Self {
         Self::new(Sense::Equal, paper, computed)
     }
 
-    fn new(sense: Sense, paper: f64, computed: Known) -> Self {
+    fn new(sense: Sense, paper: f64, computed: Approximation) -> Self {
         let mut evidence = Evidence {
             sense,
             place: String::new(),
@@ -268,17 +271,20 @@ impl Evidence {
     }
 
     /// A formula and what it should approximate.
-    pub fn near(paper: f64, computed: Known) -> Self {
+    pub fn near(paper: f64, computed: Approximation) -> Self {
         Self::new(Sense::Near, paper, computed)
     }
 
     /// A formula and what it should be a lower bound of.
-    pub fn at_most(paper: f64, computed: Known) -> Self {
+    pub fn at_most(paper: f64, computed: Approximation) -> Self {
         Self::new(Sense::AtMost, paper, computed)
     }
 
     /// A formula and what it should approach, at two places, the second nearer to the limit.
-    pub fn tends((far, far_computed): (f64, Known), (near, near_computed): (f64, Known)) -> Self {
+    pub fn tends(
+        (far, far_computed): (f64, Approximation),
+        (near, near_computed): (f64, Approximation),
+    ) -> Self {
         let mark = Certainty::of_limit((far, &far_computed), (near, &near_computed));
         let before = Self::near(far, far_computed).miss();
         let evidence = Evidence { before, mark, ..Self::new(Sense::Tends, near, near_computed) };
@@ -288,7 +294,7 @@ impl Evidence {
     /// What should hold in each of these cases; the place becomes the first in which it does not. Fails with the
     /// first error among them.
     pub fn always<E>(
-        cases: impl IntoIterator<Item = Result<(impl fmt::Display, Certain<bool>), E>>,
+        cases: impl IntoIterator<Item = Result<(impl fmt::Display, Conclusion<bool>), E>>,
     ) -> Result<Self, E> {
         let answers = cases.into_iter().collect::<Result<Vec<_>, E>>()?;
         let (cases, held) =
@@ -298,7 +304,7 @@ impl Evidence {
         let is_refuted = answers.iter().any(|(_, answer)| answer.certain && !answer.value);
         let is_proved = answers.iter().all(|(_, answer)| answer.certain);
         let mark = Certainty::decided(is_proved && cases > 0, is_refuted);
-        let numbers = Self::new(Sense::Always, real(cases), Known::exact(real(held)));
+        let numbers = Self::new(Sense::Always, real(cases), Approximation::exact(real(held)));
         Ok(Evidence { place: place.unwrap_or_default(), cases, held, mark, ..numbers })
     }
 
@@ -326,7 +332,7 @@ impl Evidence {
         let mark = all.iter().map(|it| it.mark).fold(Some(Certainty::Proved), Certainty::and);
         let order = |it: &Self| (it.corrected.is_some_and(|value| !it.holds(value)), it.strain());
         let worse = |one: Self, next: Self| if order(&next) > order(&one) { next } else { one };
-        let none = || Self::new(Sense::Always, 0.0, Known::exact(0.0));
+        let none = || Self::new(Sense::Always, 0.0, Approximation::exact(0.0));
         let worst = all.into_iter().reduce(worse).unwrap_or_else(none);
         Ok(Evidence { cases, held, mark, ..worst })
     }
@@ -434,8 +440,8 @@ impl Verdict {
 mod tests {
     use super::*;
 
-    fn known(value: f64) -> Known {
-        Known::new(value, 1e-9)
+    fn known(value: f64) -> Approximation {
+        Approximation::new(value, 1e-9)
     }
 
     #[test]
@@ -494,7 +500,7 @@ mod tests {
         assert_eq!(Evidence::at_most(1.02, above).mark, Some(Certainty::Refuted));
         assert_eq!(Evidence::at_most(0.5, above).mark, None);
         // One case that certainly fails refutes, all that certainly hold prove.
-        let case = |value, certain| Ok::<_, ()>(("", Certain { value, certain }));
+        let case = |value, certain| Ok::<_, ()>(("", Conclusion { value, certain }));
         let mark_of = |cases: [_; 2]| Evidence::always(cases).unwrap().mark;
         assert_eq!(mark_of([case(true, true), case(true, true)]), Some(Certainty::Proved));
         assert_eq!(mark_of([case(true, true), case(true, false)]), None);

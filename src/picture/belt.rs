@@ -7,7 +7,7 @@ use super::{Dash, LineStyle, Picture, Role};
 use crate::flow::Sample;
 use crate::scene::{Layer, Point, Span, rectangle};
 use crate::session::Session;
-use crate::words::motion::Writing;
+use crate::words::motion::Notation;
 use crate::words::with_unit;
 
 /// Heights of the surfaces of the belt, from below.
@@ -67,9 +67,9 @@ pub fn draw(picture: &mut Picture, session: &Session) {
 /// The moment in numbers, physical ones where the scene is of a machine.
 fn reading(session: &Session, moment: &Sample) -> String {
     let Sample { tau, q, v } = *moment;
-    let writing = Writing(session.running().map(|running| running.reduced.units));
-    let (time, place) = (writing.name("tau", "t"), writing.name("q", "x"));
-    let (tau, q, v) = (writing.time(tau, 3), writing.length(q, 3), writing.velocity(v, 3));
+    let notation = Notation(session.running().map(|running| running.reduced.units));
+    let (time, place) = (notation.name("tau", "t"), notation.name("q", "x"));
+    let (tau, q, v) = (notation.time(tau, 3), notation.length(q, 3), notation.velocity(v, 3));
     format!("{time} {tau}  {place} {q}  v {v}")
 }
 

@@ -1,7 +1,9 @@
 //! Formulas drawn into the phase plane: levels of the energy, and the spirals that make the cycle.
 
 use super::{Item, Mark, Picture, Role, ellipse};
-use crate::closed_form::{linear::Linear, lyapunov::energy_rate, piecewise_linear::LinearCycle};
+use crate::closed_form::{
+    linear::LinearFlow, lyapunov::energy_rate, piecewise_linear::LinearCycle,
+};
 use crate::model::{Parameters, State};
 use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::scene::{Point, Span};
@@ -57,7 +59,7 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
         (0..=POINTS).map(move |index| {
             let along = f64::from(index) / f64::from(POINTS);
             let tau = duration * (from + (to - from) * along);
-            let (x, v) = Linear::new(d).state(-cycle.clearance, 0.0, tau);
+            let (x, v) = LinearFlow::new(d).state(-cycle.clearance, 0.0, tau);
             Point { x: side * (x - r), y: side * v }
         })
     };

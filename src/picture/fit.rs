@@ -7,7 +7,8 @@ use super::{
     Dash, Item, LineStyle, Mark, Marks, Picture, Role, cycle_mark, cycle_name, cycle_role,
 };
 use crate::fit::{
-    D, D3, Dropped, Fitted, PlotPoint, Q0, R, RISES, Runs, Signal, memory as memory_of, parameters,
+    D, D3, DropReason, FitResult, PlotPoint, Q0, R, RISES, Runs, Signal, memory as memory_of,
+    parameters,
 };
 use crate::flow::Limits;
 use crate::model::Parameters;
@@ -19,13 +20,13 @@ use crate::scene::{Point, Span, Window};
 const EDGES: usize = 20;
 
 /// All pictures of a fit; peaks alone have no record to be drawn.
-pub fn pictures(fitted: &Fitted) -> Vec<Picture<'static>> {
+pub fn pictures(fitted: &FitResult) -> Vec<Picture<'static>> {
     let all =
         [record, residuals, memory, damping, phase, margin, together].map(|draw| draw(fitted));
     all.into_iter().flatten().collect()
 }
 
-fn record(fitted: &Fitted) -> Option<Picture<'static>> {
+fn record(fitted: &FitResult) -> Option<Picture<'static>> {
     let name = ["x", "x'", "x''"][fitted.record.signal.order()];
     let name = with_unit(name, &fitted.record.signal_unit());
     let mut picture = Picture::new("record and fit", "t [s]", name, Window::default());
@@ -41,7 +42,7 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     Some(picture)
 }
 
-pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
+pub fn residuals(fitted: &FitResult) -> Option<Picture<'static>> {
     let name = with_unit("measured - fitted", &fitted.record.signal_unit());
     let mut picture = Picture::new("residuals", "t [s]", name, Window::default());
     let line = fitted.line(|it| [it.t, it.residual]);
@@ -50,7 +51,7 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     band(&mut picture, ends, 2.0 * fitted.estimate.covariance.deviation);
     picture.window = around(&picture)?;
     let apart = fitted.points.iter().filter_map(|it| {
-        let why = it.dropped.filter(|why| matches!(why, Dropped::Outlier | Dropped::Jump))?;
+        let why = it.dropped.filter(|why| matches!(why, DropReason::Outlier | DropReason::Jump))?;
         Some(([it.t, it.residual].into(), why))
     });
     mark_dropped(&mut picture, apart);
@@ -65,7 +66,7 @@ fn band(picture: &mut Picture, along: [f64; 2], height: f64) {
 }
 
 /// The autocorrelation of the residuals over two periods.
-fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
+fn memory(fitted: &FitResult) -> Option<Picture<'static>> {
     let memory = memory_of(&fitted.estimate);
     let [periods, _] = *memory.last()?;
     let window = Window::of([0.0, periods, -1.0, 1.0])?;
@@ -77,7 +78,7 @@ fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
 }
 
 /// Damping over amplitude: measured decrements, the exact curve, the averaged one with its terms and its band.
-pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
+pub fn damping(fitted: &FitResult) -> Option<Picture<'static>> {
     let p = &fitted.estimate.p;
     let found = &fitted.curves.damping;
     let amplitude = with_unit("amplitude A", fitted.unit());
@@ -119,7 +120,7 @@ fn zero(from: Point, to: Point) -> Marks {
     Marks { name: name.into(), brief: name, ..marks }
 }
 
-fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
+fn phase(fitted: &FitResult) -> Option<Picture<'static>> {
     let estimate = &fitted.estimate;
     let p = &estimate.p;
     let (_, largest) = estimate.amplitudes();
@@ -159,7 +160,7 @@ fn border(picture: &mut Picture, parameters: &Parameters, largest: f64, line: Li
 }
 
 /// D and r together: where both lie with 68 and 95 %.
-fn together(fitted: &Fitted) -> Option<Picture<'static>> {
+fn together(fitted: &FitResult) -> Option<Picture<'static>> {
     const LINES: [&str; 2] = ["delta chi^2 = 2.3 (68 %)", "delta chi^2 = 6 (95 %)"];
     let estimate = &fitted.estimate;
     let p = &estimate.p;
@@ -181,7 +182,7 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
 }
 
 /// The cumulative distribution of the margin from rest; what is missing to 1 is the share in which every kick is survived.
-pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
+pub fn margin(fitted: &FitResult) -> Option<Picture<'static>> {
     let (_, largest) = fitted.estimate.amplitudes();
     // A shift from rest leads this far out if it begins at the end of the sticking set.
     let largest = largest - fitted.estimate.p[R];
@@ -195,21 +196,21 @@ pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
 }
 
 /// How samples that do not count are marked, and what legends call them.
-const MARKS: [(Dropped, Mark, Role, &str); 6] = [
-    (Dropped::Before, Mark::Aside, Role::Bands, "before the stroke, left out"),
-    (Dropped::After, Mark::Aside, Role::Bands, "after a second stroke, left out"),
-    (Dropped::Jump, Mark::Aside, Role::Bands, "at jumps, left out"),
-    (Dropped::Alike, Mark::Aside, Role::Harmonic, "alike at rest, left out"),
-    (Dropped::Saturated, Mark::Saturated, Role::Danger, "saturated, left out"),
-    (Dropped::Outlier, Mark::Outlier, Role::Danger, "outliers, left out"),
+const MARKS: [(DropReason, Mark, Role, &str); 6] = [
+    (DropReason::Before, Mark::Aside, Role::Bands, "before the stroke, left out"),
+    (DropReason::After, Mark::Aside, Role::Bands, "after a second stroke, left out"),
+    (DropReason::Jump, Mark::Aside, Role::Bands, "at jumps, left out"),
+    (DropReason::Alike, Mark::Aside, Role::Harmonic, "alike at rest, left out"),
+    (DropReason::Saturated, Mark::Saturated, Role::Danger, "saturated, left out"),
+    (DropReason::Outlier, Mark::Outlier, Role::Danger, "outliers, left out"),
 ];
 
 /// Marks of one kind that a picture shows at most.
 const MOST: usize = 500;
 
 /// Marks the samples that do not count. What lies above or below the window is shown at its edge.
-pub fn mark_dropped(picture: &mut Picture, samples: impl Iterator<Item = (Point, Dropped)>) {
-    let samples: Vec<(Point, Dropped)> = samples.collect();
+pub fn mark_dropped(picture: &mut Picture, samples: impl Iterator<Item = (Point, DropReason)>) {
+    let samples: Vec<(Point, DropReason)> = samples.collect();
     for (which, mark, role, name) in MARKS {
         let of_kind = samples.iter().filter(|(_, why)| *why == which).map(|(at, _)| *at);
         let all: Vec<Point> = of_kind.collect();

@@ -13,7 +13,7 @@ use crate::session::scan::ScanOnShow;
 /// Which values of a measure are the dangerous ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Dangerous {
+pub enum DangerousValues {
     Small,
     Large,
 }
@@ -63,7 +63,7 @@ pub struct Danger {
     /// Whether equal steps are equal ratios.
     pub logarithmic: bool,
     /// `None` where the measure says nothing of danger.
-    pub dangerous: Option<Dangerous>,
+    pub dangerous: Option<DangerousValues>,
 }
 
 impl Danger {
@@ -96,14 +96,14 @@ impl Danger {
 
     /// How strong a place this far on the way is: the stronger the more dangerous.
     pub fn strength(&self, part: f64) -> f64 {
-        if self.dangerous == Some(Dangerous::Small) { 1.0 - part } else { part }
+        if self.dangerous == Some(DangerousValues::Small) { 1.0 - part } else { part }
     }
 
     /// What the lowest and the highest value are.
     pub fn ends(&self) -> [&'static str; 2] {
         match self.dangerous {
-            Some(Dangerous::Small) => ["dangerous", "safe"],
-            Some(Dangerous::Large) => ["safe", "dangerous"],
+            Some(DangerousValues::Small) => ["dangerous", "safe"],
+            Some(DangerousValues::Large) => ["safe", "dangerous"],
             None => ["", ""],
         }
     }
@@ -179,7 +179,7 @@ mod tests {
         assert_eq!(told.count(), COLUMNS.len(), "every line of the file is read");
         for [column, _, dangerous, _] in COLUMNS.iter() {
             assert!(MEASURES.iter().any(|row| row.columns.contains(column)), "{column}");
-            let known = *dangerous == "-" || named::<Dangerous>(dangerous).is_some();
+            let known = *dangerous == "-" || named::<DangerousValues>(dangerous).is_some();
             assert!(known, "{column}: {dangerous}");
         }
     }

@@ -30,11 +30,11 @@ pub use items::{
     passes,
 };
 pub use legend::{LegendEntry, LegendSample};
-pub use map::{Danger, Dangerous, MapCell, ScanMap};
+pub use map::{Danger, DangerousValues, MapCell, ScanMap};
 pub use role::{Dash, Mark, Role, cycle_mark, cycle_name, cycle_role, end_mark};
 pub use ticks::{Scale, Tick, Ticks};
 
-use crate::fit::Fitted;
+use crate::fit::FitResult;
 use crate::scene::View;
 use crate::session::{Plot, Session};
 
@@ -56,7 +56,7 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
     let Plot { view, window, cursor, .. } = session.plots[index];
     let scales = scales(session, index);
     let mut picture = Picture { scales, cursor, ..Picture::new(view.spec().title, "", "", window) };
-    let fitted = |draw: fn(&Fitted) -> Option<Picture<'static>>| {
+    let fitted = |draw: fn(&FitResult) -> Option<Picture<'static>>| {
         let drawn = session.fitted().and_then(draw)?;
         Some(Picture { scales, window, cursor, ..drawn })
     };

@@ -9,7 +9,7 @@ use super::{
     Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_name, ellipse, end_mark,
 };
 use crate::closed_form::lyapunov;
-use crate::fit::{Fitted, Signal};
+use crate::fit::{FitResult, Signal};
 use crate::flow::{Motion, Outcome, Problem, Sample};
 use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
@@ -103,7 +103,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
 
 /// What was measured; the velocities are those of the fit, or if they were measured the displacements. Of an
 /// acceleration nothing is seen here.
-fn record(picture: &mut Picture, fitted: &Fitted) {
+fn record(picture: &mut Picture, fitted: &FitResult) {
     if fitted.record.signal == Signal::Acceleration {
         return;
     }

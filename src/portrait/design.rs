@@ -46,7 +46,7 @@ impl Kick {
 /// The friction that a margin needs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
-pub enum FrictionNeeded {
+pub enum RequiredFriction {
     /// Any, however small.
     Any,
     /// This much: the margin is then as wanted.
@@ -63,12 +63,12 @@ pub enum FrictionNeeded {
     },
 }
 
-impl FrictionNeeded {
+impl RequiredFriction {
     /// The least friction; `None` if any suffices.
     pub fn least(self) -> Option<f64> {
         match self {
-            FrictionNeeded::Any => None,
-            FrictionNeeded::Friction { r } | FrictionNeeded::Fold { r, .. } => Some(r),
+            RequiredFriction::Any => None,
+            RequiredFriction::Friction { r } | RequiredFriction::Fold { r, .. } => Some(r),
         }
     }
 }
@@ -96,7 +96,7 @@ pub fn friction_for(
     kick: Kick,
     wanted: f64,
     limits: &Limits,
-) -> Result<(Option<FrictionNeeded>, Cost), Reason> {
+) -> Result<(Option<RequiredFriction>, Cost), Reason> {
     if !(wanted > 0.0 && wanted.is_finite()) {
         return Err(Reason::NotApplicable { needs: "a positive margin" });
     }
@@ -142,7 +142,7 @@ pub fn friction_for(
 
 /// A friction, and by how much the margin there exceeds the one wanted, in the logarithm.
 #[derive(Clone, Copy)]
-struct Tried {
+struct FrictionTrial {
     r: f64,
     excess: f64,
 }
@@ -154,25 +154,25 @@ fn least_friction(
     (kick, wanted): (Kick, f64),
     (first, any): (f64, Option<f64>),
     margin: &mut dyn FnMut(f64) -> Result<Margin, Reason>,
-) -> Result<Option<FrictionNeeded>, Reason> {
+) -> Result<Option<RequiredFriction>, Reason> {
     // Logarithm of the margin, as a fraction of the one wanted.
     let mut excess =
         |r: f64| -> Result<f64, Reason> { Ok(ln(kick.margin(&margin(r)?) / wanted).max(f64::MIN)) };
     if let Some(r) = any
         && excess(r)? >= 0.0
     {
-        return Ok(Some(FrictionNeeded::Any));
+        return Ok(Some(RequiredFriction::Any));
     }
     // A displacement within the sticking set is kept: the first is high enough, or nearly so.
-    let mut high = Tried { r: first, excess: excess(first)? };
+    let mut high = FrictionTrial { r: first, excess: excess(first)? };
     let mut low = high;
     for _ in 0..STEPS {
         if high.excess < 0.0 {
             low = high;
-            high = Tried { r: 2.0 * high.r, excess: excess(2.0 * high.r)? };
+            high = FrictionTrial { r: 2.0 * high.r, excess: excess(2.0 * high.r)? };
         } else if low.excess >= 0.0 {
             high = low;
-            low = Tried { r: 0.5 * low.r, excess: excess(0.5 * low.r)? };
+            low = FrictionTrial { r: 0.5 * low.r, excess: excess(0.5 * low.r)? };
         } else {
             break;
         }
@@ -195,19 +195,19 @@ fn least_friction(
             }
             here => here.map_err(Some),
         }?;
-        *(if here < 0.0 { &mut low } else { &mut high }) = Tried { r, excess: here };
+        *(if here < 0.0 { &mut low } else { &mut high }) = FrictionTrial { r, excess: here };
         Ok(here)
     });
     if let Err(Some(error)) = searched {
         return Err(error);
     }
     if low.excess >= -WIDTH {
-        return Ok(Some(FrictionNeeded::Friction { r: low.r }));
+        return Ok(Some(RequiredFriction::Friction { r: low.r }));
     }
     Ok(Some(if high.excess.is_finite() {
-        FrictionNeeded::Friction { r: high.r }
+        RequiredFriction::Friction { r: high.r }
     } else {
-        FrictionNeeded::Fold { r: high.r, below: wanted * exp(low.excess) }
+        RequiredFriction::Fold { r: high.r, below: wanted * exp(low.excess) }
     }))
 }
 
@@ -223,13 +223,13 @@ mod tests {
         parameters: Parameters,
         kick: Kick,
         wanted: f64,
-    ) -> Result<Option<FrictionNeeded>, Reason> {
+    ) -> Result<Option<RequiredFriction>, Reason> {
         let exact = Tolerances::default();
         let paper = Body::Paper(parameters).into();
         Ok(friction_for(&paper, &exact, kick, wanted, &Limits::PATIENT)?.0)
     }
 
-    fn needed(d: f64, d2: f64, d3: f64, kick: Kick, wanted: f64) -> FrictionNeeded {
+    fn needed(d: f64, d2: f64, d3: f64, kick: Kick, wanted: f64) -> RequiredFriction {
         let parameters = Parameters { d, d2, d3, r: 7.0 };
         found(parameters, kick, wanted).unwrap().unwrap()
     }
@@ -243,7 +243,7 @@ mod tests {
     fn linear_margins_are_inverted_to_the_closed_form() {
         for d in [-0.9, -0.3, -0.01, -1e-6] {
             let unit = LinearCycle::new(d, 1.0).unwrap();
-            let FrictionNeeded::Friction { r } = needed(d, 0.0, 0.0, Kick::Displacement, 0.3)
+            let RequiredFriction::Friction { r } = needed(d, 0.0, 0.0, Kick::Displacement, 0.3)
             else {
                 panic!("D = {d} needs some friction")
             };
@@ -258,7 +258,7 @@ mod tests {
         {
             for kick in [Kick::Displacement, Kick::Impulse] {
                 let found = needed(d, d2, d3, kick, 0.25);
-                let FrictionNeeded::Friction { r } = found else {
+                let RequiredFriction::Friction { r } = found else {
                     panic!("{d} {d2} {d3}: {found:?}")
                 };
                 let margin = kick.margin(&margin(d, d2, d3, r));
@@ -270,7 +270,7 @@ mod tests {
     #[test]
     fn beyond_the_fold_every_kick_is_survived() {
         let found = needed(-0.1, 0.2, 0.4, Kick::Displacement, 5.0);
-        let FrictionNeeded::Fold { r, below } = found else { panic!("{found:?}") };
+        let RequiredFriction::Fold { r, below } = found else { panic!("{found:?}") };
         let parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.4, r };
         let fold = fold(&parameters, &Limits::PATIENT).unwrap().0.unwrap();
         assert!((fold.d + 0.1).abs() < 1e-7, "{}", fold.d);
@@ -288,7 +288,7 @@ mod tests {
             let belt = Body::Belt(Box::new(slow.clone())).into();
             let kick = Kick::Displacement;
             let found = friction_for(&belt, &known, kick, wanted, &Limits::PATIENT).unwrap().0;
-            let Some(FrictionNeeded::Fold { r, .. }) = found else {
+            let Some(RequiredFriction::Fold { r, .. }) = found else {
                 panic!("{wanted} m: {found:?}")
             };
             assert!((r - 3.153_423_17).abs() < 1e-8, "{wanted} m: {r}");
@@ -297,18 +297,19 @@ mod tests {
 
     #[test]
     fn a_damped_rest_needs_no_friction_for_what_it_keeps_by_itself() {
-        assert_eq!(needed(0.1, 0.0, 0.0, Kick::Displacement, 1e3), FrictionNeeded::Any);
-        assert_eq!(needed(0.1, 0.3, 0.2, Kick::Impulse, 1e3), FrictionNeeded::Any);
-        assert_eq!(needed(0.0, 0.0, 0.0, Kick::Impulse, 1.0), FrictionNeeded::Any);
+        assert_eq!(needed(0.1, 0.0, 0.0, Kick::Displacement, 1e3), RequiredFriction::Any);
+        assert_eq!(needed(0.1, 0.3, 0.2, Kick::Impulse, 1e3), RequiredFriction::Any);
+        assert_eq!(needed(0.0, 0.0, 0.0, Kick::Impulse, 1.0), RequiredFriction::Any);
         // Undamped with D2 alone: the parabola of escape begins at 1/(2 D2).
-        assert_eq!(needed(0.0, 0.5, 0.0, Kick::Displacement, 0.99), FrictionNeeded::Any);
+        assert_eq!(needed(0.0, 0.5, 0.0, Kick::Displacement, 0.99), RequiredFriction::Any);
         assert!(matches!(
             needed(0.0, 0.5, 0.0, Kick::Displacement, 1.01),
-            FrictionNeeded::Friction { .. }
+            RequiredFriction::Friction { .. }
         ));
         // With D3 < 0 an unstable cycle borders the basin without friction too, near sqrt(-8 D/(3 D3)).
-        assert_eq!(needed(0.1, 0.0, -0.3, Kick::Displacement, 0.9), FrictionNeeded::Any);
-        let FrictionNeeded::Friction { r } = needed(0.1, 0.0, -0.3, Kick::Displacement, 1.2) else {
+        assert_eq!(needed(0.1, 0.0, -0.3, Kick::Displacement, 0.9), RequiredFriction::Any);
+        let RequiredFriction::Friction { r } = needed(0.1, 0.0, -0.3, Kick::Displacement, 1.2)
+        else {
             panic!("some friction")
         };
         assert!((margin(0.1, 0.0, -0.3, r).displacement.unwrap() / 1.2 - 1.0).abs() < 1e-9);
@@ -341,7 +342,8 @@ mod tests {
 
     #[test]
     fn far_beyond_critical_damping_rest_itself_is_the_margin() {
-        let FrictionNeeded::Friction { r } = needed(-1.5, 0.0, 0.0, Kick::Displacement, 0.3) else {
+        let RequiredFriction::Friction { r } = needed(-1.5, 0.0, 0.0, Kick::Displacement, 0.3)
+        else {
             panic!("some friction")
         };
         assert!((r / 0.3 - 1.0).abs() < 1e-12);

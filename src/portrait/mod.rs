@@ -55,15 +55,15 @@ pub(crate) use closing::all::{STEP, all_closings, closings};
 pub(crate) use closing::balance::weighed_closing;
 pub(crate) use closing::equation::{Equation, Route, WayFromRim, first_side};
 pub(crate) use closing::half_map::{Direction, Length};
-pub(crate) use closing::pair::Closing;
+pub(crate) use closing::pair::SwingPair;
 pub(crate) use closing::polish::polish_near;
 pub use closing::return_map::{Return, ReturnMap};
 pub(crate) use closing::search::Node;
 pub(crate) use closing::weak::weak_closing;
 pub use cycle::{Cycle, CycleErrors, Ride};
-pub(crate) use design::{FrictionNeeded, Kick, friction_for};
+pub(crate) use design::{Kick, RequiredFriction, friction_for};
 pub(crate) use kicks::RandomKick;
-pub(crate) use kicks::repeated::Repeated;
+pub(crate) use kicks::repeated::RepeatedKicks;
 pub use portrait::Portrait;
 
 // They stand in the model so that the proofs, which share nothing with this ring, say the same words.

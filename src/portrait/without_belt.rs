@@ -9,7 +9,7 @@ use super::basin::cycle::{described, picture_reach};
 use super::basin::orbit::Orbit;
 use super::closing::all::{STEP, first_closings};
 use super::closing::equation::{Equation, first_side};
-use super::closing::pair::Closing;
+use super::closing::pair::SwingPair;
 use super::portrait::Portrait;
 use super::{Border, Cycle, Edge, Reach};
 use crate::closed_form::harmonic::is_centre;
@@ -98,7 +98,7 @@ impl Portrait {
     pub fn around(
         model: &Model,
         parameters: &Parameters,
-        found: &[Closing],
+        found: &[SwingPair],
         reach: f64,
         limits: &Limits,
     ) -> Result<Self, Reason> {

@@ -79,7 +79,7 @@ impl Finding {
 
 /// An answer with its question and its computing time, as the worker returns it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Answered {
+pub struct Reply {
     /// The question.
     pub request: Request,
     /// The answer, or why there is none.

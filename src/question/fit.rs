@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::fit::{
-    D, D2, D3, Estimate, Fitted, Inertia, MarginQuestion, Margins, Question, R, Record, Runs,
-    Unfit, estimate, held, length_in_metres, margins,
+    D, D2, D3, Estimate, FitResult, Inertia, MarginQuestion, Margins, NoEstimate, Question, R,
+    Record, Runs, estimate, held, length_in_metres, margins,
 };
 use crate::flow::{Limits, Reason};
 
@@ -16,7 +16,7 @@ const DRAWN: usize = 200;
 
 /// A record as it was opened, with the choices for its fit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Opened {
+pub struct OpenedRecord {
     /// The name of the file.
     pub name: String,
     /// The measurements.
@@ -32,10 +32,10 @@ pub struct Opened {
 /// An opened record. Copies share their data, so that comparing them is immediate.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Recording(Arc<Opened>);
+pub struct Recording(Arc<OpenedRecord>);
 
-impl From<Opened> for Recording {
-    fn from(opened: Opened) -> Self {
+impl From<OpenedRecord> for Recording {
+    fn from(opened: OpenedRecord) -> Self {
         Recording(Arc::new(opened))
     }
 }
@@ -47,9 +47,9 @@ impl PartialEq for Recording {
 }
 
 impl std::ops::Deref for Recording {
-    type Target = Opened;
+    type Target = OpenedRecord;
 
-    fn deref(&self) -> &Opened {
+    fn deref(&self) -> &OpenedRecord {
         &self.0
     }
 }
@@ -57,7 +57,7 @@ impl std::ops::Deref for Recording {
 /// A fitted record, or why it could not be fitted. Copies of one fit compare equal without looking at their
 /// contents.
 #[derive(Clone, Debug)]
-pub struct Fit(Arc<Result<Fitted, Unfit>>);
+pub struct Fit(Arc<Result<FitResult, NoEstimate>>);
 
 impl PartialEq for Fit {
     fn eq(&self, other: &Self) -> bool {
@@ -65,13 +65,13 @@ impl PartialEq for Fit {
     }
 }
 
-impl From<Unfit> for Fit {
-    fn from(unfit: Unfit) -> Self {
+impl From<NoEstimate> for Fit {
+    fn from(unfit: NoEstimate) -> Self {
         Fit(Arc::new(Err(unfit)))
     }
 }
 
-impl Opened {
+impl OpenedRecord {
     /// Mass or stiffness, and the record's unit of length in metres.
     pub fn metric(&self) -> Option<(Inertia, f64)> {
         self.inertia.zip(length_in_metres(self.record.unit.as_deref()?))
@@ -80,13 +80,13 @@ impl Opened {
     /// Fits the record and asks about its margin; reports the number of motions computed so far.
     ///
     /// # Errors
-    /// [`Unfit`] says why there is no estimate.
+    /// [`NoEstimate`] says why there is no estimate.
     pub fn estimated(
         &self,
         asked: &MarginQuestion,
         limits: &Limits,
         report: &dyn Fn(u64),
-    ) -> Result<(Estimate, Margins), Unfit> {
+    ) -> Result<(Estimate, Margins), NoEstimate> {
         let motions = Cell::new(0);
         let interrupted = || {
             motions.set(motions.get() + 1);
@@ -96,7 +96,7 @@ impl Opened {
         let mut question = self.question.clone();
         question.peaks |= self.record.t.is_empty();
         let estimate = estimate(&self.record, &question, &interrupted)?;
-        let margins = margins(&estimate, asked, limits).map_err(|_| Unfit::Interrupted)?;
+        let margins = margins(&estimate, asked, limits).map_err(|_| NoEstimate::Interrupted)?;
         Ok((estimate, margins))
     }
 }
@@ -112,13 +112,15 @@ impl Fit {
         let asked = MarginQuestion { draws: DRAWN, inertia, ..MarginQuestion::default() };
         let (name, record) = (recording.name.clone(), recording.record.clone());
         let found = recording.estimated(&asked, limits, report);
-        Fit::answered(found.map(|(estimate, margins)| Fitted::new(name, record, estimate, margins)))
+        Fit::answered(
+            found.map(|(estimate, margins)| FitResult::new(name, record, estimate, margins)),
+        )
     }
 
     /// The answer, unless it was interrupted.
-    fn answered(found: Result<Fitted, Unfit>) -> Result<Self, Reason> {
+    fn answered(found: Result<FitResult, NoEstimate>) -> Result<Self, Reason> {
         match found {
-            Err(Unfit::Interrupted) => Err(Reason::Interrupted),
+            Err(NoEstimate::Interrupted) => Err(Reason::Interrupted),
             found => Ok(Fit(Arc::new(found))),
         }
     }
@@ -150,12 +152,12 @@ impl Fit {
             Some(asked) => margins(&estimate, &asked, limits)?,
             None => fit.margins.clone(),
         };
-        let found = Fitted::new(fit.name.clone(), fit.record.clone(), estimate, margins);
-        Fit::answered(Ok(Fitted { rise, drawn: asked.is_some(), ..found }))
+        let found = FitResult::new(fit.name.clone(), fit.record.clone(), estimate, margins);
+        Fit::answered(Ok(FitResult { rise, drawn: asked.is_some(), ..found }))
     }
 
-    /// The fit. Fails with the [`Unfit`] of the record.
-    pub fn found(&self) -> Result<&Fitted, &Unfit> {
+    /// The fit. Fails with the [`NoEstimate`] of the record.
+    pub fn found(&self) -> Result<&FitResult, &NoEstimate> {
         self.0.as_ref().as_ref()
     }
 }

@@ -11,7 +11,7 @@ pub mod record;
 pub mod request;
 pub mod zones;
 
-pub use answer::{Answered, Finding, NoAnswer};
+pub use answer::{Finding, NoAnswer, Reply};
 pub use answer::{Fineness, Rows, answer, answer_for};
-pub use fit::{Fit, Opened, Recording};
+pub use fit::{Fit, OpenedRecord, Recording};
 pub use request::{Request, TOPICS, Topic};

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use clap::{Arg, Args, Command};
 
-use super::Opened;
+use super::OpenedRecord;
 use crate::fit::{
-    Choice, Inertia, LENGTHS, LossName, NAMES, NameSpec, Question, Reading, Record, Signal,
+    Choice, Inertia, LENGTHS, LossName, NAMES, NameSpec, Question, Record, RecordFormat, Signal,
     assigned, length_in_metres, listed, named, parse, quantity,
 };
 use crate::model::Knob;
@@ -148,15 +148,15 @@ impl RecordOptions {
     ///
     /// # Errors
     /// One line that says what is wrong with it or with the options, where, and what is allowed.
-    pub fn opened(&self, path: &Path, bytes: &[u8]) -> Result<Opened, String> {
+    pub fn opened(&self, path: &Path, bytes: &[u8]) -> Result<OpenedRecord, String> {
         let question = self.question()?;
         let (time, displacement) = self.columns.clone().unwrap_or_default();
         let (peaks, signal, unit) = (self.peaks, self.signal, self.unit.clone());
-        let reading = Reading { time, displacement, peaks, signal, unit };
+        let reading = RecordFormat { time, displacement, peaks, signal, unit };
         let record = parse(bytes, &reading).map_err(|error| error.to_string())?;
         let inertia = self.inertia(&record)?;
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        Ok(Opened { name, record, inertia, question })
+        Ok(OpenedRecord { name, record, inertia, question })
     }
 
     /// What is estimated, and how.

@@ -239,7 +239,7 @@ mod tests {
     use crate::branch::SpecialKind;
     use crate::closed_form::piecewise_linear::LinearCycle;
     use crate::model::{Body, Parameters, Side};
-    use crate::portrait::closing::pair::Closing;
+    use crate::portrait::closing::pair::SwingPair;
     use crate::report::Format;
 
     fn oscillator(parameters: Parameters) -> About {
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn a_branch_ends_where_two_cycles_meet_or_where_one_grazes_the_rest() {
-        let linear = Closing::from(&LinearCycle::new(-0.3, 0.1).unwrap())
+        let linear = SwingPair::from(&LinearCycle::new(-0.3, 0.1).unwrap())
             .describe(&Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 }, Side::Upper);
         let end = |log_multiplier| {
             let cycle = Cycle { log_multiplier, ..linear };

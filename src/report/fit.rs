@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
-    Combination, Condition, Dropped, Fitted, LAST, LeftOut, MarginSpread, Margins, NAMES, NameSpec,
-    OMEGA0, ProfileInterval, Q0, Record, StartKind, combination, left_out, rows,
+    Combination, Condition, DropReason, FitResult, LAST, MarginSpread, Margins, NAMES, NameSpec,
+    OMEGA0, OmittedSpan, ProfileInterval, Q0, Record, StartKind, combination, left_out, rows,
 };
 use crate::portrait::Kicks;
 use crate::words::fit::{Statement, left_out as counts, sentences, signed, undetermined};
@@ -13,7 +13,7 @@ use crate::words::number::{in_unit, resolved, with_error};
 use crate::words::significant;
 
 /// The whole answer of a fit: in rows one for each estimated number, then the margins.
-pub fn fit(fitted: &Fitted) -> Answer {
+pub fn fit(fitted: &FitResult) -> Answer {
     let statement = signed(fitted);
     let broken = statement.broken();
     let (with, plain) = fitted.motions();
@@ -50,8 +50,8 @@ pub fn fit(fitted: &Fitted) -> Answer {
 }
 
 /// All that was found, as fields of a document.
-fn document(fitted: &Fitted, statement: &Statement) -> Document {
-    let Fitted { record, estimate, margins, .. } = fitted;
+fn document(fitted: &FitResult, statement: &Statement) -> Document {
+    let FitResult { record, estimate, margins, .. } = fitted;
     let number = |row: &NameSpec| estimate_columns().object(&EstimateRow::of_number(fitted, row));
     let parameters = estimate.wanted().map(|row| (row.name, number(row)));
     let held = NAMES.iter().filter(|row| !estimate.free[row.place]);
@@ -78,9 +78,9 @@ fn document(fitted: &Fitted, statement: &Statement) -> Document {
         .with("rests", estimate.rests)
         .with("separable", combination(estimate).iter().map(separable).collect::<Vec<_>>())
         .with("valleys", &estimate.rivals)
-        .with("outliers", estimate.count(Dropped::Outlier))
-        .with("saturated", estimate.count(Dropped::Saturated))
-        .with("excited_again", estimate.count(Dropped::After))
+        .with("outliers", estimate.count(DropReason::Outlier))
+        .with("saturated", estimate.count(DropReason::Saturated))
+        .with("excited_again", estimate.count(DropReason::After))
         .with("missing", record.missing)
         .with("repeated", record.repeated)
         .with("left_out", left_out(record, estimate))
@@ -93,7 +93,7 @@ fn document(fitted: &Fitted, statement: &Statement) -> Document {
         .with("sentences", sentences(fitted))
 }
 
-fn start_document(fitted: &Fitted) -> Document {
+fn start_document(fitted: &FitResult) -> Document {
     let estimate = &fitted.estimate;
     let value = |place: usize| {
         Document::default()
@@ -104,7 +104,7 @@ fn start_document(fitted: &Fitted) -> Document {
         StartKind::Release => ("release", "t0"),
         StartKind::Moving => ("moving", "v0"),
     };
-    let struck_after = Some(estimate.count(Dropped::Before)).filter(|before| *before > 0);
+    let struck_after = Some(estimate.count(DropReason::Before)).filter(|before| *before > 0);
     Document::default()
         .with("kind", kind)
         .with("q0", value(Q0))
@@ -112,7 +112,7 @@ fn start_document(fitted: &Fitted) -> Document {
         .with_any(last, estimate.free[LAST].then(|| value(LAST)))
 }
 
-fn correlations_by_names(fitted: &Fitted) -> BTreeMap<String, f64> {
+fn correlations_by_names(fitted: &FitResult) -> BTreeMap<String, f64> {
     let covariance = &fitted.estimate.covariance;
     let wanted: Vec<_> = fitted.estimate.wanted().collect();
     let mut all = BTreeMap::new();
@@ -125,7 +125,7 @@ fn correlations_by_names(fitted: &Fitted) -> BTreeMap<String, f64> {
     all
 }
 
-fn physical(fitted: &Fitted) -> Option<Document> {
+fn physical(fitted: &FitResult) -> Option<Document> {
     let scales = fitted.kicks(fitted.estimate.p[OMEGA0])?;
     let scaled = |spreads: &Kicks<MarginSpread>| {
         spreads.each(|it| it.scaled(scales.0), |it| it.scaled(scales.1))
@@ -154,7 +154,7 @@ struct EstimateRow {
 }
 
 impl EstimateRow {
-    fn of_number(fitted: &Fitted, row: &NameSpec) -> Self {
+    fn of_number(fitted: &FitResult, row: &NameSpec) -> Self {
         let estimate = &fitted.estimate;
         let ProfileInterval { lower, upper, quadratic } = estimate.intervals[row.place];
         let (value, error) = (estimate.p[row.place], estimate.covariance.error(row.place));
@@ -177,7 +177,7 @@ impl EstimateRow {
     }
 
     /// The smallest kicks, from any rest position and from the middle.
-    fn of_kicks(fitted: &Fitted, lead: &str, kicks: &Kicks<MarginSpread>) -> [Self; 4] {
+    fn of_kicks(fitted: &FitResult, lead: &str, kicks: &Kicks<MarginSpread>) -> [Self; 4] {
         let Kicks { displacement, impulse, from_rest } = *kicks;
         let length = (1.0, fitted.unit());
         let momentum =
@@ -226,7 +226,7 @@ fn estimate_columns<'a>() -> Columns<'a, EstimateRow> {
 }
 
 /// The smallest kicks that are not survived, and those that are guaranteed.
-fn kick_rows(fitted: &Fitted) -> Vec<EstimateRow> {
+fn kick_rows(fitted: &FitResult) -> Vec<EstimateRow> {
     let Margins { kicks, guaranteed, .. } = &fitted.margins;
     let kicks = EstimateRow::of_kicks(fitted, "margin", kicks);
     let guaranteed = guaranteed.iter();
@@ -236,7 +236,7 @@ fn kick_rows(fitted: &Fitted) -> Vec<EstimateRow> {
 }
 
 /// The margins and what else follows from the numbers.
-fn margins(fitted: &Fitted) -> Table {
+fn margins(fitted: &FitResult) -> Table {
     let Margins { cycle, fold, .. } = fitted.margins;
     let mut all = kick_rows(fitted);
     let name = "stable cycle, right turning point".to_owned();
@@ -247,7 +247,7 @@ fn margins(fitted: &Fitted) -> Table {
 }
 
 /// What was measured, and how the motion goes.
-fn subject(fitted: &Fitted) -> String {
+fn subject(fitted: &FitResult) -> String {
     let estimate = &fitted.estimate;
     let Record { t, x, .. } = &estimate.data;
     let what = if estimate.data.has_peaks() {
@@ -257,7 +257,9 @@ fn subject(fitted: &Fitted) -> String {
         let span = estimate.data.duration();
         let begin = match estimate.start {
             StartKind::Release => "released within it",
-            StartKind::Moving if estimate.count(Dropped::Before) > 0 => "since the mass was struck",
+            StartKind::Moving if estimate.count(DropReason::Before) > 0 => {
+                "since the mass was struck"
+            }
             StartKind::Moving => "in motion from its beginning",
         };
         let signal = fitted.record.signal;
@@ -269,7 +271,7 @@ fn subject(fitted: &Fitted) -> String {
 }
 
 /// Where the motion starts, and the noise.
-fn start(fitted: &Fitted) -> String {
+fn start(fitted: &FitResult) -> String {
     let estimate = &fitted.estimate;
     let number = |name: &str, place: usize, unit: &str| {
         let error = estimate.covariance.error(place);
@@ -289,7 +291,7 @@ fn start(fitted: &Fitted) -> String {
 }
 
 /// The correlations between the estimated numbers; empty for a single one.
-fn correlations(fitted: &Fitted) -> Table {
+fn correlations(fitted: &FitResult) -> Table {
     let estimate = &fitted.estimate;
     let wanted: Vec<&NameSpec> = estimate.wanted().collect();
     if wanted.len() < 2 {
@@ -314,9 +316,9 @@ fn tested(conditions: &[Condition]) -> Table {
 }
 
 /// Where the samples lie that do not count.
-fn places(fitted: &Fitted) -> String {
+fn places(fitted: &FitResult) -> String {
     let time = |t| significant(t, 6);
-    let place = |it: &LeftOut| match it.samples {
+    let place = |it: &OmittedSpan| match it.samples {
         1 => format!("{} s", time(it.from)),
         several => format!("{} .. {} s ({several} samples)", time(it.from), time(it.to)),
     };
@@ -329,7 +331,7 @@ fn places(fitted: &Fitted) -> String {
 }
 
 /// What the table of the margins shows.
-fn draws(fitted: &Fitted) -> String {
+fn draws(fitted: &FitResult) -> String {
     let impulse = if fitted.inertia().is_none() { ", impulses as velocity/omega0" } else { "" };
     format!(
         "smallest kicks that are not survived, from the worst rest position and from q = 0{impulse};\n\

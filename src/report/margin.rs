@@ -2,8 +2,8 @@
 
 use super::proof::kick_columns;
 use super::{About, Answer, Columns, Document, Quantity, cycles};
-use crate::portrait::guarantee::Uncertain;
-use crate::portrait::{Counts, Margin, Portrait, RandomKick, Repeated, StartWindow};
+use crate::portrait::guarantee::NoGuarantee;
+use crate::portrait::{Counts, Margin, Portrait, RandomKick, RepeatedKicks, StartWindow};
 use crate::proof::kicks::ProvedKicks;
 use crate::words::significant;
 
@@ -39,7 +39,7 @@ pub(super) fn guaranteed(about: &About, margin: Margin, digits: usize) -> Margin
 pub fn margins(
     about: &About,
     nominal: Margin,
-    certain: Result<Margin, Uncertain>,
+    certain: Result<Margin, NoGuarantee>,
     disturbance: f64,
 ) -> Answer {
     let reason = certain.err().map(|why| why.to_string());
@@ -122,7 +122,13 @@ pub fn basin(
 
 /// What becomes of random kicks; `held` is the farthest place of rest on either side. The mean is null in a document if
 /// no kick is ever lost; rows are the density of the places of rest, one for each cell of the sticking set.
-pub fn kicks(about: &About, law: &RandomKick, found: &Repeated, held: f64, seconds: f64) -> Answer {
+pub fn kicks(
+    about: &About,
+    law: &RandomKick,
+    found: &RepeatedKicks,
+    held: f64,
+    seconds: f64,
+) -> Answer {
     let density = Columns::default()
         .file("q", |(q, _): &(f64, f64)| *q)
         .file("density", |(_, density)| *density);
@@ -142,7 +148,7 @@ pub fn kicks(about: &About, law: &RandomKick, found: &Repeated, held: f64, secon
 }
 
 /// What is lost, and the mean number of kicks until one is.
-fn lost(Repeated { first, later, mean, error, .. }: &Repeated) -> [String; 4] {
+fn lost(RepeatedKicks { first, later, mean, error, .. }: &RepeatedKicks) -> [String; 4] {
     let number = |value: f64| significant(value, 6);
     let mean = if mean.is_finite() { number(*mean) } else { "none is ever lost".to_owned() };
     let (part, about) = (number(first.part), significant(first.error, 2));

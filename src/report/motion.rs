@@ -11,7 +11,7 @@ use crate::model::belt::Units;
 use crate::model::{ContactState, Knob, Ledger, State, Work};
 use crate::numerics::{Interval, log10, pow};
 use crate::proof::motion::{ProvedMotion, ProvedPoint};
-use crate::words::motion::{Writing, ended, sentence};
+use crate::words::motion::{Notation, ended, sentence};
 use crate::words::{count, duration, exact, significant};
 
 /// A point of a motion, its start, an arrival at `v = 0` or its end: what it is, `tau`, `q` and `v` as far as they are
@@ -60,7 +60,7 @@ pub fn motion(
         motion.method
     );
     let (lead, how) = match motion.outcome {
-        _ if !machine => (Some(sentence(motion, Writing::default())), Some(how)),
+        _ if !machine => (Some(sentence(motion, Notation::default())), Some(how)),
         Outcome::GaveUp { reason, .. } => (None, Some(reason.to_string())),
         _ => (None, None),
     };
@@ -236,8 +236,8 @@ pub fn trade(about: &About, trade: &Trade, plot: &str) -> Answer {
         .file("reason", reason)
         .file("evaluations", |row| row.cost.evaluations);
     let end = known.end.map(|number| number.high);
-    let writing = Writing(about.is_machine().then_some(Units::SI));
-    let end = ended(&end, known.turns.len(), writing, 12);
+    let notation = Notation(about.is_machine().then_some(Units::SI));
+    let end = ended(&end, known.turns.len(), notation, 12);
     let answer = if about.is_machine() { about.answer() } else { about.answer_to(&until) };
     let all = [answered.as_slice(), &unanswered].concat();
     let answer = answer

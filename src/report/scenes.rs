@@ -55,7 +55,7 @@ pub struct QuestionCost {
 
 /// What a scene asks at once.
 #[derive(Clone, Debug)]
-pub struct AskedTogether {
+pub struct QuestionBatch {
     /// [`OPENING`], or the name of a number after whose step it asks.
     pub after: &'static str,
     pub questions: Vec<QuestionCost>,
@@ -72,7 +72,7 @@ pub struct SceneCost {
     /// The names of the layers that are drawn from formulas, without a question.
     pub formulas: Vec<&'static str>,
     /// What it asks when it opens, then what it asks again after a step of each of its numbers.
-    pub asked: Vec<AskedTogether>,
+    pub asked: Vec<QuestionBatch>,
 }
 
 fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
@@ -103,7 +103,7 @@ pub fn costs(scenes: &[SceneCost]) -> Answer {
 
 fn document(found: &SceneCost) -> Document {
     let [opening, steps @ ..] = found.asked.as_slice() else { return Document::default() };
-    let step = |step: &AskedTogether| {
+    let step = |step: &QuestionBatch| {
         let (cost, seconds) = sum(&step.questions);
         Document::default()
             .with("parameter", step.after)
@@ -126,7 +126,7 @@ fn document(found: &SceneCost) -> Document {
 /// What a scene asks at once, and of that a question or, without one, all of it.
 struct AskedRow<'a> {
     scene: &'a Scene,
-    asked: &'a AskedTogether,
+    asked: &'a QuestionBatch,
     question: Option<&'a QuestionCost>,
 }
 
@@ -144,7 +144,7 @@ impl AskedRow<'_> {
     }
 
     fn remark(&self) -> String {
-        let AskedTogether { after, questions, reused } = self.asked;
+        let QuestionBatch { after, questions, reused } = self.asked;
         let anew: Vec<Topic> = questions.iter().map(|asked| asked.topic).collect();
         match self.question {
             Some(question) => format!("for {}", question.layers.join(", ")),
@@ -154,7 +154,7 @@ impl AskedRow<'_> {
     }
 }
 
-fn singly<'a>(scene: &'a Scene, asked: &'a AskedTogether) -> impl Iterator<Item = AskedRow<'a>> {
+fn singly<'a>(scene: &'a Scene, asked: &'a QuestionBatch) -> impl Iterator<Item = AskedRow<'a>> {
     asked.questions.iter().map(move |question| AskedRow { scene, asked, question: Some(question) })
 }
 

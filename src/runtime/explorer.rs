@@ -18,7 +18,7 @@ use super::pump::{Options, Pump};
 use super::workers::{Tell, Work};
 use super::{print, provenance_file, scanning};
 use crate::figure::{self, FigureForm};
-use crate::fit::Unfit;
+use crate::fit::NoEstimate;
 use crate::flow::{Limits, Reason};
 use crate::question::{self, Fit, Recording};
 use crate::scene::{Finding, Request};
@@ -102,7 +102,7 @@ fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit, Re
     Fit::of(recording, limits, &|motions| {
         if told.get().elapsed() >= EVERY {
             told.set(Instant::now());
-            tell(Finding::Fit(Unfit::Underway { motions }.into()));
+            tell(Finding::Fit(NoEstimate::Underway { motions }.into()));
         }
     })
 }

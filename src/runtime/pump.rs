@@ -24,7 +24,7 @@ use super::scan_file;
 use super::workers::{Compute, Workers};
 use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script, ScriptError};
-use crate::session::{Content, Effect, Msg, Notice, Pointed};
+use crate::session::{Content, Effect, MouseAction, Msg, Notice};
 use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
 use crate::view;
@@ -32,7 +32,7 @@ use crate::view;
 mod play;
 mod playing;
 
-use play::Playing;
+use play::Replay;
 
 /// How long a frame waits for the worker before it shows the old answers, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
@@ -82,7 +82,7 @@ pub struct Pump<M, W: Write> {
     beat: Option<Instant>,
     /// No frames are drawn while the terminal is given back.
     held: bool,
-    playing: Option<Playing>,
+    playing: Option<Replay>,
     /// Input of the user that must wait until a replay or a command is over.
     held_back: VecDeque<Event>,
     /// Whether a figure is being written.
@@ -106,7 +106,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         mut options: Options,
         terminal_size: fn() -> Size,
     ) -> Pump<M, W> {
-        let playing = options.replay.take().map(Playing::new);
+        let playing = options.replay.take().map(Replay::new);
         if playing.is_some() {
             // Its steps are recorded as they are given.
             options.recorder.forget(1);
@@ -225,7 +225,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             }
             Event::Mouse { gesture, column, row } => {
                 if let Some(place) = self.application.place(self.screen.size(), column, row) {
-                    return self.users(Msg::Pointed(Pointed { gesture, place }));
+                    return self.users(Msg::Pointed(MouseAction { gesture, place }));
                 }
             }
             Event::Shown => drop(self.screen.pacing.answered(Instant::now())),

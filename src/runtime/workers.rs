@@ -20,7 +20,7 @@ use super::new_file::Readers;
 use super::panics::caught;
 use crate::flow::{Limits, Reason};
 use crate::question::NoAnswer;
-use crate::scene::{Answered, Finding, Request};
+use crate::scene::{Finding, Reply, Request};
 use crate::session::Msg;
 
 /// Called by a job with its results so far; its return value is the last piece.
@@ -102,8 +102,8 @@ impl Workers {
             let tell = |result, complete| {
                 if !(limits.interrupted)() {
                     let (request, seconds) = (asked.clone(), started.elapsed().as_secs_f64());
-                    let answered = Answered { request, result, seconds, complete };
-                    report(Msg::Answered(Box::new(answered)));
+                    let reply = Reply { request, result, seconds, complete };
+                    report(Msg::Answered(Box::new(reply)));
                 }
             };
             let piece = |piece| tell(Ok(piece), false);
@@ -127,10 +127,10 @@ impl Workers {
     /// Notes a message that has arrived at the session: the request that it answers completely is no longer
     /// asked.
     pub fn arrived(&mut self, msg: &Msg) {
-        if let Msg::Answered(answered) = msg
-            && answered.complete
+        if let Msg::Answered(reply) = msg
+            && reply.complete
         {
-            self.jobs.retain(|job| job.request != answered.request);
+            self.jobs.retain(|job| job.request != reply.request);
         }
     }
 

@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::machine::ScaledMachine;
-use super::misread::{Complaint, Misread, built_in};
+use super::mistake::{Complaint, FileMistake, built_in};
 use super::plot_setup::{Arrangement, Axes};
 use super::scene::Scene;
 use super::views::Layer;
@@ -22,7 +22,7 @@ use crate::question::Recording;
 
 /// What the scene of a file may leave out; a saved session, which holds a scene too, leaves out nothing.
 #[derive(Default, Serialize)]
-struct Usual {
+struct UsualScene {
     name: String,
     terms: BTreeSet<Knob>,
     problem: Problem,
@@ -37,9 +37,9 @@ struct UsualPlot {
     axes: Axes,
 }
 
-/// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages. Fails with [`Misread`],
+/// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages. Fails with [`FileMistake`],
 /// which names the place and what is allowed there.
-pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
+pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, FileMistake> {
     let read = DeTable::parse(text).map_err(|error| Complaint::new(&error, 0..0));
     let mut scene = read.and_then(scene).map_err(|complaint| complaint.in_file(file, text))?;
     name.clone_into(&mut scene.name);
@@ -49,7 +49,7 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
 /// The scene of a file. A machine sets its numbers itself.
 fn scene(mut read: Spanned<DeTable>) -> Result<Scene, Complaint> {
     static USUAL: LazyLock<String> =
-        LazyLock::new(|| toml::to_string(&Usual::default()).expect("it is made of tables"));
+        LazyLock::new(|| toml::to_string(&UsualScene::default()).expect("it is made of tables"));
     let misplaced = |error: toml::de::Error| Complaint::new(&error, 0..0);
     let own = read.get_mut();
     let numbers = ["problem", "terms"].iter().find_map(|name| Some(own.get(*name)?.span()));

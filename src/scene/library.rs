@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use super::file::parse;
-use super::misread::{built_in, texts};
+use super::mistake::{built_in, texts};
 use super::scene::Scene;
 use crate::numerics::similar::similar;
 

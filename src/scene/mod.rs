@@ -3,7 +3,7 @@
 pub mod file;
 pub mod library;
 pub mod machine;
-pub mod misread;
+pub mod mistake;
 pub mod plot_setup;
 pub mod said;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
@@ -11,10 +11,10 @@ pub mod scene;
 pub mod views;
 pub mod window;
 
-pub use crate::question::{Answered, Finding, Fit, Recording, Request, TOPICS, Topic};
+pub use crate::question::{Finding, Fit, Recording, Reply, Request, TOPICS, Topic};
 pub use library::{find, library, plain};
 pub use machine::{Machine, ScaledMachine, Setting};
-pub use misread::Misread;
+pub use mistake::FileMistake;
 pub use plot_setup::{
     Arrangement, Axes, Height, MOST_PLOTS, ORDINATES, Ordinate, PlotSetup, Unit, usual_values,
 };

@@ -57,9 +57,9 @@ pub struct Scene {
 
 /// A machine in full, or the name of a built-in one and, where that is not its own, the speed of its belt in m/s, as in
 /// `textbook 0.2`.
-struct NamedOrWhole;
+struct MachineVisitor;
 
-impl<'de> Visitor<'de> for NamedOrWhole {
+impl<'de> Visitor<'de> for MachineVisitor {
     type Value = Option<Box<ScaledMachine>>;
 
     fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -86,7 +86,7 @@ impl<'de> Visitor<'de> for NamedOrWhole {
 fn named_or_whole<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<Box<ScaledMachine>>, D::Error> {
-    deserializer.deserialize_any(NamedOrWhole)
+    deserializer.deserialize_any(MachineVisitor)
 }
 
 /// Values that are held while the others follow the keys.

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, Layer, LayerSpec, VIEWS, library};
-use crate::session::Listed::{Cost, Layers, Palette as Everything, Paper, Scenes, Views};
+use crate::session::ListKind::{Cost, Layers, Palette as Everything, Paper, Scenes, Views};
 use crate::session::act::{
     copy, files, general, history, lists, motions, parameters, plots, prompt, scan, screen_setup,
     values, walk,
@@ -18,7 +18,7 @@ use crate::session::settings::{Colors, Glyphs, Theme, choices, named};
 use crate::session::state::keymap::CommandAction::{self, Act, Line, Move, Toggle, Try};
 use crate::session::state::keymap::{COMMANDS, contexts};
 use crate::session::{
-    Command, Context, Effect, Input, Key, Keymap, Letter as Ask, List, Pending, Purpose,
+    Command, Context, Effect, Input, Key, Keymap, Letter as Ask, List, PendingInput, Purpose,
 };
 
 /// What commands do: by the name that their line ends with, which is that of the command where the line does not say
@@ -97,8 +97,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("count", Act(general::count)),
     ("delete-digit", Act(|s, _| general::delete_digit(s))),
     ("forget-pending", Act(|s, _| s.pending = None)),
-    ("set-mark", Act(|s, _| s.pending = Some(Pending::Letter(Ask::Mark)))),
-    ("go-to-mark", Act(|s, _| s.pending = Some(Pending::Letter(Ask::GoTo)))),
+    ("set-mark", Act(|s, _| s.pending = Some(PendingInput::Letter(Ask::Mark)))),
+    ("go-to-mark", Act(|s, _| s.pending = Some(PendingInput::Letter(Ask::GoTo)))),
 
     ("explain", Act(|s, _| s.caption.explain())),
     ("tour", Try(files::tour)),

@@ -16,8 +16,8 @@ use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::numerics::similar::most_similar;
-use crate::scene::misread::Complaint;
-use crate::scene::{Misread, find, misread};
+use crate::scene::mistake::Complaint;
+use crate::scene::{FileMistake, find, mistake};
 use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, named};
 use crate::session::state::keymap::{contexts, full_name};
 use crate::session::{Command, Context, Key, Keymap};
@@ -58,10 +58,10 @@ const INDISPENSABLE: [&str; 2] = ["quit", "back"];
 /// Contexts of former versions: files that still have keys for them are read as if they had none there.
 const FORMER_CONTEXTS: [&str; 1] = ["form"];
 
-/// Reads a settings file; `file` is its name in error messages. Fails with [`Misread`], which names the place
+/// Reads a settings file; `file` is its name in error messages. Fails with [`FileMistake`], which names the place
 /// of the first mistake and what is allowed there.
-pub fn parse(file: &str, text: &str) -> Result<Config, Misread> {
-    let mut config: Config = misread::toml(file, text)?;
+pub fn parse(file: &str, text: &str) -> Result<Config, FileMistake> {
+    let mut config: Config = mistake::toml(file, text)?;
     let keymap = keymap(&std::mem::take(&mut config.keys));
     config.keymap = keymap.map_err(|complaint| complaint.in_file(file, text))?;
     Ok(config)

@@ -8,7 +8,7 @@ use strum::IntoStaticStr;
 use crate::model::Knob;
 use crate::question::NoAnswer;
 use crate::scan::grid::{Scan, ScanRow};
-use crate::scene::{Answered, Finding, Point, Request};
+use crate::scene::{Finding, Point, Reply, Request};
 use crate::session::{Key, Script};
 
 /// A message: anything that can happen to a session.
@@ -19,11 +19,11 @@ pub enum Msg {
     /// Text was pasted in one piece.
     Paste(String),
     /// The mouse did something.
-    Pointed(Pointed),
+    Pointed(MouseAction),
     /// The new size of the screen, in cells.
     Resize { width: u16, height: u16 },
     /// The worker answered a request, or failed to.
-    Answered(Box<Answered>),
+    Answered(Box<Reply>),
     /// A line of the command line, run without opening it: `<run "set D=-0.3">` in a keystroke file.
     Run(String),
     /// The present state is the start of the session; these parameters belong to its scene.
@@ -50,7 +50,7 @@ pub enum Msg {
 impl Msg {
     /// The complete answer to a request, or why there is none, and the seconds that it took.
     pub fn answered(request: Request, result: Result<Finding, NoAnswer>, seconds: f64) -> Self {
-        Msg::Answered(Box::new(Answered { request, result, seconds, complete: true }))
+        Msg::Answered(Box::new(Reply { request, result, seconds, complete: true }))
     }
 }
 
@@ -104,7 +104,7 @@ pub enum Gesture {
 
 /// The mouse on a target; the outer rings determine it from the cell of the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pointed {
+pub struct MouseAction {
     /// What the mouse did.
     pub gesture: Gesture,
     pub place: PointerTarget,

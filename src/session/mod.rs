@@ -28,7 +28,9 @@ pub mod update;
 pub use act::run::run_line;
 pub use commands::commands;
 pub use key::{Code, Key};
-pub use message::{Content, Done, Effect, Gesture, Msg, Notice, Pointed, PointerTarget, Purpose};
+pub use message::{
+    Content, Done, Effect, Gesture, MouseAction, Msg, Notice, PointerTarget, Purpose,
+};
 pub use read::answers::NoErrorReason;
 pub use read::contexts::Hint;
 pub use read::lists::PaletteRow;
@@ -37,13 +39,13 @@ pub use read::plots::{ShownMotion, VariantTag};
 pub use read::{fate, ledger, motion, wants};
 pub use replay::script::{Instruction, Script, ScriptStep};
 pub use state::answers::{AnswerState, Answers, Course};
-pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snapshot};
+pub use state::history::{Bookmark, Bookmarks, EarlierState, History, ScreenSetup, Snapshot};
 pub use state::keymap::{Candidates, Command, CommandAction, Context, Keymap};
-pub use state::overlay::{Completion, Input, List, Listed, Overlay, Prompt, SessionCaption};
+pub use state::overlay::{Completion, Input, List, ListKind, Overlay, Prompt, SessionCaption};
 pub use state::scan::{ScanOnShow, ScanProgress};
 pub use state::session::{
-    BranchStop, Framing, Kept, Letter, Pace, Pane, Pending, Playback, Plot, Price, Recomputation,
-    Session, Size, Waiting,
+    BranchStop, Framing, InterruptedSession, Letter, Pace, Pane, PendingInput, Playback, Plot,
+    Price, Recomputation, Session, Size, WaitingPress,
 };
 pub use state::setup::{MOST_MOTIONS, Row, Setup, StepSizes, Uncertainty};
 pub use state::{overlay, scan, settings};

@@ -19,14 +19,14 @@ use crate::flow::Problem;
 use crate::model::{Knob, State};
 use crate::numerics::decimal::shortest;
 use crate::portrait::kicks::RandomKick;
-use crate::scene::{Misread, Point, Scene, Setting, find, misread};
+use crate::scene::{FileMistake, Point, Scene, Setting, find, mistake};
 use crate::session::act::history::{restore, snapshot};
 use crate::session::read::completion::difference;
 use crate::session::settings::{DisplaySettings, NamedValue};
 use crate::session::state::history::check_number;
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{
-    Before, Bookmark, Bookmarks, History, Instruction, Msg, Overlay, Pane, Plot, Prompt, Row,
+    Bookmark, Bookmarks, EarlierState, History, Instruction, Msg, Overlay, Pane, Plot, Prompt, Row,
     Session, Setup, Snapshot, Uncertainty,
 };
 use crate::words::counted;
@@ -80,9 +80,9 @@ struct SavedSession {
     #[expect(dead_code, reason = "a file that has them is still read")]
     registers: IgnoredAny,
     #[serde(default)]
-    past: Vec<Before>,
+    past: Vec<EarlierState>,
     #[serde(default)]
-    future: Vec<Before>,
+    future: Vec<EarlierState>,
 }
 
 /// The session as the text of a file. Fails with one line if the text cannot be made; no such session is known.
@@ -201,18 +201,18 @@ fn read(text: &str) -> Result<SavedSession, String> {
     struct Head {
         hopfscope: Option<u32>,
     }
-    let refused = |misread: Misread| format!("line {}: {}", misread.line, misread.message);
-    let head: Head = misread::toml("", text).map_err(refused)?;
+    let refused = |mistake: FileMistake| format!("line {}: {}", mistake.line, mistake.message);
+    let head: Head = mistake::toml("", text).map_err(refused)?;
     match head.hopfscope {
         None => Err("not a saved session: it does not say hopfscope = 1".to_owned()),
         Some(version @ (0 | VERSION..)) if version != VERSION => {
             Err(format!("a session of format {version}; this program reads up to {VERSION}"))
         }
         Some(_) => {
-            let file: SavedSession = misread::toml("", text).map_err(refused)?;
+            let file: SavedSession = mistake::toml("", text).map_err(refused)?;
             file.present.check()?;
             check_number(&file.plots)?;
-            file.past.iter().chain(&file.future).try_for_each(Before::check)?;
+            file.past.iter().chain(&file.future).try_for_each(EarlierState::check)?;
             Ok(file)
         }
     }

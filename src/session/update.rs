@@ -6,14 +6,14 @@
 
 use crate::flow::Reason;
 use crate::question::NoAnswer;
-use crate::scene::{Answered, Request};
+use crate::scene::{Reply, Request};
 use crate::session::act::run::{ENTER, run, run_line, run_where_it_belongs};
 use crate::session::act::{answers, files, history, plots, prompt, walk};
 use crate::session::read::contexts::{self, elsewhere};
 use crate::session::replay::script::parse;
 use crate::session::{
-    Context, Effect, Key, Letter, Msg, Overlay, Pane, Pending, Price, Prompt, Row, Session,
-    SessionCaption, Size, Waiting,
+    Context, Effect, Key, Letter, Msg, Overlay, Pane, PendingInput, Price, Prompt, Row, Session,
+    SessionCaption, Size, WaitingPress,
 };
 
 /// Takes a message in; a press that needs an answer that is still being computed waits for it.
@@ -25,7 +25,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
             return Vec::new();
         }
         if let Some(request) = session.awaited(&message) {
-            session.waiting = Some(Waiting { message, request });
+            session.waiting = Some(WaitingPress { message, request });
             return Vec::new();
         }
     }
@@ -67,7 +67,7 @@ fn take_in(session: &mut Session, message: Msg) {
             session.attempt(|session| plots::pointed(session, pointed));
         }
         Msg::Resize { width, height } => session.size = Size { width, height },
-        Msg::Answered(answered) => take(session, *answered),
+        Msg::Answered(reply) => take(session, *reply),
         Msg::Run(line) => {
             session.price = Price { key: Some(ENTER), recomputed: Vec::new() };
             (session.overlay, session.pending, session.notice) = (None, None, None);
@@ -136,10 +136,10 @@ fn paste(session: &mut Session, text: &str) {
 }
 
 /// Takes an answer of the worker; reports a failure if the question is still asked.
-fn take(session: &mut Session, answered: Answered) {
-    let name = answered.request.topic().name();
-    let failure = answered.result.as_ref().err().cloned();
-    let asked = session.take(answered);
+fn take(session: &mut Session, reply: Reply) {
+    let name = reply.request.topic().name();
+    let failure = reply.result.as_ref().err().cloned();
+    let asked = session.take(reply);
     if let Some(failure) = failure.filter(|_| asked)
         && failure != NoAnswer::Reason(Reason::Interrupted)
     {
@@ -161,7 +161,7 @@ fn keep_selection(session: &mut Session) {
 fn released(session: &mut Session) -> Option<Msg> {
     let message = session.waiting.as_ref()?.message.clone();
     let request = session.awaited(&message);
-    session.waiting = request.map(|request| Waiting { message: message.clone(), request });
+    session.waiting = request.map(|request| WaitingPress { message: message.clone(), request });
     session.waiting.is_none().then_some(message)
 }
 
@@ -193,14 +193,14 @@ fn act(session: &mut Session, key: Key) {
 }
 
 /// Handles the key that completes a count or a letter.
-fn resolve(session: &mut Session, pending: Pending, key: Key) {
+fn resolve(session: &mut Session, pending: PendingInput, key: Key) {
     if let Some(command) = session.keymap.command(&[pending.context()], key) {
         return run(session, command, key);
     }
     session.pending = None;
     match pending {
-        Pending::Count(count) => repeat(session, key, count.max(1)),
-        Pending::Letter(what) => letter(session, what, key),
+        PendingInput::Count(count) => repeat(session, key, count.max(1)),
+        PendingInput::Letter(what) => letter(session, what, key),
     }
 }
 

@@ -7,7 +7,7 @@
 use ratatui::layout::Rect;
 
 use super::Surface;
-use super::pane::{self, Framed};
+use super::pane::{self, FramedPicture};
 use super::plot::{Canvas, rows};
 use crate::numerics::count::real;
 use crate::picture::energy_ledger::reading;
@@ -28,7 +28,7 @@ pub fn seat(area: Rect, picture: &mut Picture, lines: &[LedgerLine]) {
 }
 
 /// Draws a ledger whose lines have their seats.
-pub fn draw(mut framed: Framed, lines: &[LedgerLine], screen: &mut Surface) {
+pub fn draw(mut framed: FramedPicture, lines: &[LedgerLine], screen: &mut Surface) {
     let seats = Seats::of(framed.area, lines, framed.picture.window);
     framed.picture.title = View::EnergyLedger.spec().title.into();
     let mut plot = Canvas::new(&framed, screen);

@@ -1,11 +1,11 @@
 //! What a fitted record says in the pane: numbers with their errors, in physical units where these are known.
 
 use super::{Look, pane};
-use crate::fit::{Fitted, OMEGA0, row_of, rows};
+use crate::fit::{FitResult, OMEGA0, row_of, rows};
 use crate::model::Knob;
 use crate::session::{Row, Session};
 use crate::words::fit::signed;
-use crate::words::motion::Writing;
+use crate::words::motion::Notation;
 use crate::words::number::in_unit;
 use crate::words::{significant, with_unit};
 
@@ -49,15 +49,15 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
 /// and the frequency of a record.
 pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
     let Some(fit) = session.fitted() else { return Vec::new() };
-    let Fitted { estimate, rise, drawn, .. } = fit;
+    let FitResult { estimate, rise, drawn, .. } = fit;
     let hertz = |value: f64| value / std::f64::consts::TAU;
     let error = hertz(estimate.covariance.error(OMEGA0));
     let frequency = with_unit(hertz(estimate.p[OMEGA0]), 4, "Hz");
     let frequency =
         format!("f0 {frequency} {}{}", look.symbols().plus_minus, with_unit(error, 2, "Hz"));
     let spread = fit.margins.kicks.from_rest.displacement;
-    let writing = Writing(fit.units());
-    let end = |end: Option<f64>| end.map_or("any".to_owned(), |end| writing.length(end, 3));
+    let notation = Notation(fit.units());
+    let end = |end: Option<f64>| end.map_or("any".to_owned(), |end| notation.length(end, 3));
     let held = session.doubt.held.contains(&true);
     let rise = held.then(|| format!("held: chi^2 +{}", significant(*rise, 3)));
     let margin = if spread.lower.is_none() {

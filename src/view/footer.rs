@@ -9,7 +9,7 @@ use crate::flow::QUALITIES;
 use crate::model::{Knob, KnobSpec};
 use crate::picture::Role;
 use crate::session::{
-    Hint, Input, Notice, Overlay, Pending, Prompt, Row, Session, read::completion::described,
+    Hint, Input, Notice, Overlay, PendingInput, Prompt, Row, Session, read::completion::described,
 };
 
 /// Hints that are never left out, at the right end of the line.
@@ -77,11 +77,11 @@ fn waiting(topic: &str, look: &Look) -> Vec<Span<'static>> {
 }
 
 /// What the next key is waited for.
-fn pending(pending: Pending, look: &Look) -> Span<'static> {
+fn pending(pending: PendingInput, look: &Look) -> Span<'static> {
     let text = match pending {
-        Pending::Count(0) => " how many times? a number, then a key".to_owned(),
-        Pending::Count(count) => format!(" {count} times: which key?"),
-        Pending::Letter(what) => format!(" {}", what.question()),
+        PendingInput::Count(0) => " how many times? a number, then a key".to_owned(),
+        PendingInput::Count(count) => format!(" {count} times: which key?"),
+        PendingInput::Letter(what) => format!(" {}", what.question()),
     };
     look.span(text, Role::Title)
 }

@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect, Size};
 use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use super::layout::{Layout, SMALLEST, layout};
-use super::pane::{self, Framed, Heading};
+use super::pane::{self, FramedPicture, Heading};
 use super::plot::{point_at, shown};
 use super::{
     Look, Surface, caption, energy_ledger, footer, legend, lists, paint::paint, parameters, scan,
@@ -49,7 +49,7 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
     status::title(parts.title, session, screen);
     let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
-    let all: Vec<(usize, Framed)> =
+    let all: Vec<(usize, FramedPicture)> =
         shown.map(|(index, area)| (index, framed(*area, session, index))).collect();
     parameters::draw(parts.parameters, session, screen);
     let entries = entries(all.iter().map(|(_, framed)| &framed.picture));
@@ -62,17 +62,17 @@ fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
 }
 
 /// The picture of a plot in its place.
-fn framed(area: Rect, session: &Session, index: usize) -> Framed<'_> {
+fn framed(area: Rect, session: &Session, index: usize) -> FramedPicture<'_> {
     let mut picture = picture::of(session, index);
     picture.window = shown(area, session, index, picture.scales);
     if session.plots[index].view == View::EnergyLedger {
         energy_ledger::seat(area, &mut picture, &session.ledger());
     }
-    Framed { area, picture, heading: Heading::of(session, Pane::Plot(index)) }
+    FramedPicture { area, picture, heading: Heading::of(session, Pane::Plot(index)) }
 }
 
-fn plot(mut framed: Framed, session: &Session, index: usize, screen: &mut Surface) {
-    let Framed { area, picture, heading } = &mut framed;
+fn plot(mut framed: FramedPicture, session: &Session, index: usize, screen: &mut Surface) {
+    let FramedPicture { area, picture, heading } = &mut framed;
     let draws = match session.plots[index].view {
         View::EnergyLedger => !session.ledger().is_empty(),
         View::Scan => session.scanned.is_some(),
@@ -136,7 +136,7 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerT
     }
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
     let area = parts.plots[index];
-    let Framed { picture, .. } = framed(area, session, index);
+    let FramedPicture { picture, .. } = framed(area, session, index);
     let area = if session.plots[index].view == View::Scan { scan::body(area) } else { area };
     let point = point_at(area, &picture, cell);
     point.map(|point| PointerTarget::Plot(index, point))

@@ -11,9 +11,9 @@ use crate::paper::{Claim, ClaimResult, Verdict};
 use crate::picture::Role;
 use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
-use crate::scene::{Answered, Finding, Layer, letters};
+use crate::scene::{Finding, Layer, Reply, letters};
 use crate::session::wants::{CostRow, Requirement, consequence};
-use crate::session::{List, Listed, Overlay, PaletteRow, Session};
+use crate::session::{List, ListKind, Overlay, PaletteRow, Session};
 use crate::words::{claim, count, duration, significant};
 
 /// Columns of keys in the help.
@@ -25,15 +25,15 @@ type FillList = fn(&mut ListContent, &Session, &List, &Look);
 /// Draws the open list, if there is one, into the middle of the screen.
 pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
-    let Some(Overlay::List(listed, list)) = &session.overlay else { return };
-    let (title, below, fill): (_, _, FillList) = match listed {
-        Listed::Scenes => ("scenes", TEXT, scenes),
-        Listed::Layers => ("layers", 0, layers),
-        Listed::Views => ("show", 0, views),
-        Listed::Cost => ("what the picture costs", 0, costs),
-        Listed::Paper => ("the paper against computation", TEXT, paper),
-        Listed::Palette => ("everything", 2, palette),
-        Listed::Interrupted => ("interrupted sessions", 0, interrupted),
+    let Some(Overlay::List(kind, list)) = &session.overlay else { return };
+    let (title, below, fill): (_, _, FillList) = match kind {
+        ListKind::Scenes => ("scenes", TEXT, scenes),
+        ListKind::Layers => ("layers", 0, layers),
+        ListKind::Views => ("show", 0, views),
+        ListKind::Cost => ("what the picture costs", 0, costs),
+        ListKind::Paper => ("the paper against computation", TEXT, paper),
+        ListKind::Palette => ("everything", 2, palette),
+        ListKind::Interrupted => ("interrupted sessions", 0, interrupted),
     };
     let mut content = ListContent { title, below, ..ListContent::default() };
     fill(&mut content, session, list, look);
@@ -160,15 +160,15 @@ fn names(layers: &[Layer]) -> String {
 /// What a question took, and for which layers it is asked.
 fn asked(session: &Session, requirement: &Requirement) -> (&'static str, String) {
     let topic = requirement.request.topic();
-    let held = session.answers.standing(&requirement.request).fresh().answered();
+    let held = session.answers.standing(&requirement.request).fresh().reply();
     let price = held.map_or_else(|| "not answered".to_owned(), price);
     (topic.name(), format!("{price} for {}", names(&requirement.layers)))
 }
 
-fn price(answered: &Answered) -> String {
-    let cost = answered.result.as_ref().map(Finding::cost).unwrap_or_default();
+fn price(reply: &Reply) -> String {
+    let cost = reply.result.as_ref().map(Finding::cost).unwrap_or_default();
     let (evaluations, steps) = (count(cost.evaluations), count(cost.steps));
-    format!("{evaluations:>6} ev {steps:>6} steps {:>8}", duration(answered.seconds))
+    format!("{evaluations:>6} ev {steps:>6} steps {:>8}", duration(reply.seconds))
 }
 
 /// The claims of the paper, section by section, with their verdicts.

@@ -24,7 +24,7 @@ fn from_centre(margin: &Margin) -> RestMargin {
 
 /// How kicks are written.
 #[derive(Clone, Copy)]
-struct KickWriting<'a> {
+struct KickNotation<'a> {
     session: &'a Session,
     places: usize,
     /// Whether shift and impulse have their names where no units tell them apart.
@@ -33,7 +33,7 @@ struct KickWriting<'a> {
     bound: bool,
 }
 
-impl KickWriting<'_> {
+impl KickNotation<'_> {
     /// A shift and an impulse, in the units of the machine or the record; `None` where every kick is survived.
     fn kick(self, kick: RestMargin) -> Option<String> {
         if kick == RestMargin::default() {
@@ -62,7 +62,7 @@ impl KickWriting<'_> {
 
     /// The kicks from where the spring is relaxed, after those from rest: in the same order, without their names.
     fn centre(self, margin: &Margin) -> Option<String> {
-        let kick = KickWriting { named: false, ..self }.kick(from_centre(margin))?;
+        let kick = KickNotation { named: false, ..self }.kick(from_centre(margin))?;
         let units = self.session.units().filter(|units| units.force.is_finite());
         // The force that holds the mass there.
         let force = units.zip(margin.displacement).filter(|_| self.session.size.width >= WIDE);
@@ -82,9 +82,9 @@ impl KickWriting<'_> {
 }
 
 /// The first of the texts that fits, with as many digits as possible.
-fn fitting(session: &Session, width: usize, texts: impl Fn(KickWriting) -> Vec<String>) -> String {
+fn fitting(session: &Session, width: usize, texts: impl Fn(KickNotation) -> Vec<String>) -> String {
     let ways = (1..=PLACES).rev();
-    let ways = ways.map(|places| KickWriting { session, places, named: true, bound: false });
+    let ways = ways.map(|places| KickNotation { session, places, named: true, bound: false });
     pane::fitting(ways.flat_map(texts), width)
 }
 
@@ -112,7 +112,7 @@ pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> 
     let bound = name == "sure";
     let all = (1..=PLACES).rev().flat_map(|places| [(places, true), (places, false)]);
     let mut texts = all.filter_map(|(places, named)| {
-        let write = KickWriting { session, places, named, bound };
+        let write = KickNotation { session, places, named, bound };
         Some(format!("{name} {}", write.kick(margin.from_rest)?))
     });
     texts.find(|text| text.chars().count() < width)
@@ -131,7 +131,7 @@ fn margins(session: &Session) -> Option<(Margin, Result<Margin, String>)> {
 /// Nominal and for certain.
 fn certain(session: &Session, width: usize) -> Option<String> {
     let (nominal, sure) = margins(session)?;
-    let texts = |write: KickWriting| {
+    let texts = |write: KickNotation| {
         let headline = write.headline(&nominal);
         let sure = match &sure {
             Ok(sure) => sure,
@@ -141,7 +141,7 @@ fn certain(session: &Session, width: usize) -> Option<String> {
             }
         };
         let [named, unnamed] =
-            [true, false].map(|named| KickWriting { named, bound: true, ..write });
+            [true, false].map(|named| KickNotation { named, bound: true, ..write });
         let [told, brief] = [named, unnamed].map(|write| {
             let kick = write.kick(sure.from_rest);
             format!("{headline}; for certain: {}", kick.as_deref().unwrap_or("every kick"))

@@ -1,6 +1,6 @@
 //! A picture painted into a part of the screen.
 
-use super::{Look, Surface, look::Symbols, pane::Framed, plot::Canvas, scan_map};
+use super::{Look, Surface, look::Symbols, pane::FramedPicture, plot::Canvas, scan_map};
 use crate::picture::{Caption, Dash, Item, Mark, Marks, Picture, Role};
 use crate::scene::Window;
 
@@ -13,7 +13,7 @@ const LABELLED: u16 = 30;
 /// Columns between marks that are left out where they would touch.
 const APART: usize = 4;
 
-pub fn paint(framed: &Framed, screen: &mut Surface) {
+pub fn paint(framed: &FramedPicture, screen: &mut Surface) {
     let look = screen.look;
     let Picture { window, cursor, items, captions, map, .. } = &framed.picture;
     let mut plot = Canvas::new(framed, screen);

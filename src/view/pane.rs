@@ -170,7 +170,7 @@ pub fn first_seen(selected: usize, rows: usize, height: usize) -> usize {
 }
 
 /// A picture in its place, below a title line.
-pub struct Framed<'a> {
+pub struct FramedPicture<'a> {
     pub area: Rect,
     pub picture: Picture<'a>,
     pub heading: Heading,

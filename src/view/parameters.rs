@@ -15,7 +15,7 @@ use crate::portrait::proved::compare;
 use crate::portrait::{Border, Cycle, Drawing};
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
-use crate::words::motion::Writing;
+use crate::words::motion::Notation;
 use crate::words::{cycles as cycles_in_words, exact, significant, with_unit};
 
 /// Columns up to the end of the values.
@@ -233,10 +233,10 @@ const COLUMNS: [[(&str, usize); 5]; 2] = [
 /// A cycle in the cells of the table.
 fn cells(cycle: &Cycle, units: Option<Units>) -> [String; 5] {
     let Cycle { q_max, period, v_max, .. } = *cycle;
-    let (writing, digits) = (Writing(units), if units.is_some() { 4 } else { 5 });
-    let (size, speed) = (writing.length(q_max, digits), writing.velocity(v_max, digits));
+    let (notation, digits) = (Notation(units), if units.is_some() { 4 } else { 5 });
+    let (size, speed) = (notation.length(q_max, digits), notation.velocity(v_max, digits));
     let error = cycle.error.map_or_else(String::new, |error| significant(error, 1));
-    [size, writing.time(period, 4), speed, multiplier(cycle), error]
+    [size, notation.time(period, 4), speed, multiplier(cycle), error]
 }
 
 /// What the cycles are, in numbers in as many columns as fit, what borders the basin, and a blank line; nothing

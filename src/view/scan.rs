@@ -7,7 +7,7 @@
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::pane::{self, Framed};
+use super::pane::{self, FramedPicture};
 use super::{Surface, paint::paint, scan_map};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Picture, Role};
@@ -28,9 +28,9 @@ pub fn body(area: Rect) -> Rect {
     Rect { height: area.height.saturating_sub(BELOW), ..area }
 }
 
-pub fn draw(framed: Framed, scanned: &ScanOnShow, screen: &mut Surface) {
+pub fn draw(framed: FramedPicture, scanned: &ScanOnShow, screen: &mut Surface) {
     let look = screen.look;
-    let Framed { area, picture, heading } = framed;
+    let FramedPicture { area, picture, heading } = framed;
     let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
     if scanned.table {
         screen.title(area, &title, "", &heading);
@@ -41,7 +41,7 @@ pub fn draw(framed: Framed, scanned: &ScanOnShow, screen: &mut Surface) {
     let full = title.chars().count() + picture.y.len() + picture.x.len() + 9 <= width;
     let short = if full { title.into() } else { View::Scan.spec().title.into() };
     let picture = Picture { title: short, ..picture };
-    let framed = Framed { area: body(area), picture, heading };
+    let framed = FramedPicture { area: body(area), picture, heading };
     paint(&framed, screen);
     let legend = match framed.picture.map {
         Some(_) => scan_map::legend(scanned, width, look),

@@ -8,7 +8,7 @@ use ratatui::text::{Line, Span};
 use super::{Look, Surface, pane, plot::Canvas};
 use crate::numerics::{distinct, real, truncated};
 use crate::picture::map::{measured, nothing};
-use crate::picture::{Danger, Dangerous, MapCell, Role, ScanMap};
+use crate::picture::{Danger, DangerousValues, MapCell, Role, ScanMap};
 use crate::scene::Point;
 use crate::session::scan::{ScanOnShow, WORDS};
 use crate::session::settings::Glyphs;
@@ -30,7 +30,7 @@ const UNKNOWN: char = '?';
 /// The shades of a map, from the smallest value up.
 fn shades(scale: Danger, look: &Look) -> [char; STEPS] {
     let mut shades = if look.glyphs == Glyphs::Ascii { LETTERS } else { SHADES };
-    if scale.dangerous == Some(Dangerous::Small) {
+    if scale.dangerous == Some(DangerousValues::Small) {
         shades.reverse();
     }
     shades

@@ -120,8 +120,8 @@ fn symbol(session: &Session, look: &Look) -> String {
 fn work(session: &Session, look: &Look, shorter: usize) -> String {
     let Some(motion) = session.trajectory() else { return String::new() };
     let full = shorter == 0;
-    let seconds = session.standing(Topic::Trajectory, session.plot).answered();
-    let seconds = seconds.map_or(0.0, |answered| answered.seconds);
+    let seconds = session.standing(Topic::Trajectory, session.plot).reply();
+    let seconds = seconds.map_or(0.0, |reply| reply.seconds);
     let quality = session.problem.quality().map_or("typed", |quality| quality.name);
     let chosen = choice(motion).filter(|_| shorter < 2);
     let evaluations = if full { "evaluations" } else { "ev" };

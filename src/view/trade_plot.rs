@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::pane::{Framed, Heading};
+use super::pane::{FramedPicture, Heading};
 use super::{Look, Surface, plot::Canvas, screen};
 use crate::accuracy::trade::Trade;
 use crate::flow::METHODS;
@@ -50,7 +50,7 @@ pub fn in_letters(trade: &Trade) -> String {
     });
     let mut buffer = Buffer::empty(AREA);
     let picture = Picture::new("trade", "log10(time/ms)", "log10(error)", Window { x, y });
-    let framed = Framed { area: AREA, picture, heading: Heading::default() };
+    let framed = FramedPicture { area: AREA, picture, heading: Heading::default() };
     let screen = &mut Surface { look: &look, buffer: &mut buffer };
     let mut plot = Canvas::new(&framed, screen);
     for (point, letter) in points.into_iter().rev() {

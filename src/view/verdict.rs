@@ -9,7 +9,7 @@ use crate::portrait::{Border, Cycle, Drawing, Portrait};
 use crate::scene::{Finding, Layer, Topic};
 use crate::session::fate::End;
 use crate::session::{BranchStop, Session};
-use crate::words::motion::{Writing, of_machine, sentence, swings};
+use crate::words::motion::{Notation, of_machine, sentence, swings};
 use crate::words::{significant, stability};
 
 /// What became of the motion, in a sentence.
@@ -34,16 +34,16 @@ pub fn outcome(session: &Session) -> (String, Role) {
     if let Some((running, course)) = running.zip(session.course()) {
         return (by_whole_model(course, &running.reduced.units, found), Role::Text);
     }
-    let writing = Writing(units::shown(session));
+    let notation = Notation(units::shown(session));
     if let Some((tau, q)) = session.contact() {
         // The mass would overtake its belt earlier.
-        let (time, place) = (writing.moment(tau, 3), writing.position(q, 3));
+        let (time, place) = (notation.moment(tau, 3), notation.position(q, 3));
         let text = format!("sticks to the belt at {time}, {place}: the model ends there");
         return (text, Role::Warning);
     }
     let text = match session.fate() {
-        Some(end) => verdict(end, session.cycles_beside(found), found, writing),
-        None => sentence(found, writing),
+        Some(end) => verdict(end, session.cycles_beside(found), found, notation),
+        None => sentence(found, notation),
     };
     (text, Role::Text)
 }
@@ -69,7 +69,7 @@ fn held_motions(session: &Session) -> Option<String> {
 }
 
 /// What becomes of a motion and why, in a sentence.
-fn verdict(end: End, among: Option<&Drawing>, motion: &Motion, writing: Writing) -> String {
+fn verdict(end: End, among: Option<&Drawing>, motion: &Motion, notation: Notation) -> String {
     let border = among.and_then(|found| match found.portrait.border {
         border if border.parts_without_cycle() => Some("separatrix"),
         _ => found.cycles.iter().any(|cycle| !cycle.stable).then_some("unstable cycle"),
@@ -82,20 +82,20 @@ fn verdict(end: End, among: Option<&Drawing>, motion: &Motion, writing: Writing)
             return format!("on the unstable cycle to {distance}: decided by rounding");
         }
         (End::Rests, Outcome::Captured { .. }) if motion.crossings.is_empty() => {
-            return sentence(motion, writing);
+            return sentence(motion, notation);
         }
         (End::Rests, Outcome::Captured { q, .. }) => {
-            let (place, swings) = (writing.position(q, 3), swings(motion.crossings.len()));
+            let (place, swings) = (notation.position(q, 3), swings(motion.crossings.len()));
             format!("comes to rest at {place}{swings}")
         }
         (End::Rests, _) => {
-            format!("comes to rest, after {}", writing.moment(motion.problem.until, 3))
+            format!("comes to rest, after {}", notation.moment(motion.problem.until, 3))
         }
         (End::Onto { q_max, grows }, _) => {
             let way = if grows { "grows" } else { "falls" };
-            format!("{way} onto the stable cycle, {}", writing.amplitude(q_max, 4))
+            format!("{way} onto the stable cycle, {}", notation.amplitude(q_max, 4))
         }
-        (End::Grows, Outcome::Escaped { .. }) => sentence(motion, writing),
+        (End::Grows, Outcome::Escaped { .. }) => sentence(motion, notation),
         (End::Grows, _) => "grows without bound".to_owned(),
         (End::Decays, _) => "decays towards the equilibrium".to_owned(),
     };

@@ -8,14 +8,14 @@ use serde::Serialize;
 use super::counted;
 use super::number::{in_unit, rounded_down, significant, with_unit};
 use crate::fit::{
-    AllowedLoss, Combination, Condition, D, Dropped, Fitted, MarginQuestion, Margins, NAMES,
+    AllowedLoss, Combination, Condition, D, DropReason, FitResult, MarginQuestion, Margins, NAMES,
     NameSpec, R, Rival, StartKind, combination, conditions,
 };
 use crate::numerics::count::real;
 use crate::portrait::Margin;
 
 /// All that is said of a fit.
-pub fn sentences(fitted: &Fitted) -> Vec<String> {
+pub fn sentences(fitted: &FitResult) -> Vec<String> {
     let statement = signed(fitted);
     let told = statement.conditions.iter().filter(|it| is_told(it, fitted));
     let told = told.map(|it| format!("{}: {}", it.name, it.detail));
@@ -25,7 +25,7 @@ pub fn sentences(fitted: &Fitted) -> Vec<String> {
 }
 
 /// Whether a condition is told beside those that fail: not what is as it should be, but for the residuals.
-fn is_told(condition: &Condition, fitted: &Fitted) -> bool {
+fn is_told(condition: &Condition, fitted: &FitResult) -> bool {
     let is_of_interest = match condition.name {
         "residuals" => true,
         "zero" => !condition.holds || fitted.estimate.drift().is_some(),
@@ -36,7 +36,7 @@ fn is_told(condition: &Condition, fitted: &Fitted) -> bool {
 }
 
 /// What cannot be determined, or not by a standard error.
-pub fn undetermined(fitted: &Fitted) -> Vec<String> {
+pub fn undetermined(fitted: &FitResult) -> Vec<String> {
     let inseparable = combination(&fitted.estimate).map(|one| inseparable(fitted, &one));
     inseparable.into_iter().chain(bounds(fitted)).collect()
 }
@@ -50,17 +50,17 @@ fn listed(names: &[&str]) -> String {
 }
 
 /// Why samples are left out, in the order in which that is said.
-const REASONS: [(Dropped, &str); 6] = [
-    (Dropped::Before, "at rest before the mass was struck"),
-    (Dropped::After, "after the mass was excited again: fit them as a file of their own"),
-    (Dropped::Saturated, "flattened at full scale"),
-    (Dropped::Jump, "next to the turning points, where an acceleration jumps"),
-    (Dropped::Alike, "at rest that the steps of the converter round alike"),
-    (Dropped::Outlier, "impossible for this motion and noise (4.5 deviations)"),
+const REASONS: [(DropReason, &str); 6] = [
+    (DropReason::Before, "at rest before the mass was struck"),
+    (DropReason::After, "after the mass was excited again: fit them as a file of their own"),
+    (DropReason::Saturated, "flattened at full scale"),
+    (DropReason::Jump, "next to the turning points, where an acceleration jumps"),
+    (DropReason::Alike, "at rest that the steps of the converter round alike"),
+    (DropReason::Outlier, "impossible for this motion and noise (4.5 deviations)"),
 ];
 
 /// What was left out of a record, and why, a sentence each.
-pub fn left_out(fitted: &Fitted) -> Vec<String> {
+pub fn left_out(fitted: &FitResult) -> Vec<String> {
     let rows = [
         (fitted.record.missing, "row", "without a number"),
         (fitted.record.repeated, "row", "repeating another one"),
@@ -84,7 +84,7 @@ fn formula(combination: &Combination) -> String {
     combination.terms.iter().enumerate().map(term).collect()
 }
 
-fn inseparable(fitted: &Fitted, combination: &Combination) -> String {
+fn inseparable(fitted: &FitResult, combination: &Combination) -> String {
     let names: Vec<&str> = combination.terms.iter().map(|(row, _)| row.name).collect();
     let (low, high) = fitted.estimate.amplitudes();
     format!(
@@ -97,7 +97,7 @@ fn inseparable(fitted: &Fitted, combination: &Combination) -> String {
     )
 }
 
-fn bounds(fitted: &Fitted) -> Vec<String> {
+fn bounds(fitted: &FitResult) -> Vec<String> {
     let estimate = &fitted.estimate;
     let interval = estimate.intervals[R];
     let mut said = Vec::new();
@@ -174,7 +174,7 @@ impl Statement {
 }
 
 /// What may be signed after a fit.
-pub fn signed(fitted: &Fitted) -> Statement {
+pub fn signed(fitted: &FitResult) -> Statement {
     let margins = &fitted.margins;
     let MarginQuestion { confidence, disturbance, .. } = margins.question;
     let velocity = |omega0: f64, margin: &Margin| Some(margin.from_rest.impulse? * omega0);
@@ -211,7 +211,7 @@ pub fn signed(fitted: &Fitted) -> Statement {
     statement
 }
 
-fn sentence(fitted: &Fitted, statement: &Statement) -> String {
+fn sentence(fitted: &FitResult, statement: &Statement) -> String {
     const SURVIVED: &str = " is survived";
     let confidence = format!("{} % confidence", significant(100.0 * statement.confidence, 6));
     let has_mass = fitted.inertia().is_some();
@@ -250,7 +250,7 @@ fn sentence(fitted: &Fitted, statement: &Statement) -> String {
 }
 
 /// `a force of at most 0.5 N`.
-fn force(fitted: &Fitted, statement: &Statement) -> Option<String> {
+fn force(fitted: &FitResult, statement: &Statement) -> Option<String> {
     let Statement { disturbance, units, .. } = statement;
     let plain = || format!("{} {}", significant(*disturbance, 6), units.disturbance);
     let size = match fitted.inertia() {
@@ -261,7 +261,7 @@ fn force(fitted: &Fitted, statement: &Statement) -> Option<String> {
 }
 
 /// `, even if D changes by up to 0.001 and r by up to 0.01 mm`.
-fn changes(fitted: &Fitted) -> String {
+fn changes(fitted: &FitResult) -> String {
     let widths = fitted.margins.question.half_widths;
     let rows = NAMES.iter().filter(|row| row.place >= D).zip(widths).filter(|it| it.1 > 0.0);
     let mut all = String::new();
@@ -274,7 +274,7 @@ fn changes(fitted: &Fitted) -> String {
 }
 
 /// Why no kick is survived: in which share of the draws the mass may leave its rest without one.
-fn lost(fitted: &Fitted, force: Option<String>) -> String {
+fn lost(fitted: &FitResult, force: Option<String>) -> String {
     let Margins { each, failed, .. } = &fitted.margins;
     let lost = each.iter().filter(|(_, it)| it.from_rest.displacement == Some(0.0)).count();
     let share = significant(100.0 * real(lost) / real(each.len().max(1)), 2);
@@ -286,7 +286,7 @@ fn lost(fitted: &Fitted, force: Option<String>) -> String {
 }
 
 /// Whether the motions of the sentence are among those measured; `reach` is in largest amplitudes.
-fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
+fn amplitudes(fitted: &FitResult, reach: Option<f64>) -> Condition {
     let (low, high) = fitted.estimate.amplitudes();
     let unit = fitted.unit();
     let range = in_unit(&format!("{} .. {}", significant(low, 3), significant(high, 3)), unit);
@@ -314,7 +314,7 @@ fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
 }
 
 /// Whether all motions that explain the record are among the draws.
-fn alternatives(fitted: &Fitted) -> Condition {
+fn alternatives(fitted: &FitResult) -> Condition {
     let estimate = &fitted.estimate;
     let tried: BTreeSet<usize> = estimate.rivals.iter().map(|it| it.half_swings).collect();
     let tried: Vec<String> = tried.iter().map(usize::to_string).collect();

@@ -7,9 +7,9 @@ use crate::portrait::Cycle;
 
 /// How the quantities of a motion are written: as numbers of the oscillator, or in the units of a machine.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Writing(pub Option<Units>);
+pub struct Notation(pub Option<Units>);
 
-impl Writing {
+impl Notation {
     /// `q = 0.027`, or `x = 0.147 mm`.
     pub fn position(self, q: f64, digits: usize) -> String {
         format!("{} = {}", self.name("q", "x"), self.length(q, digits))
@@ -54,14 +54,14 @@ impl Writing {
 }
 
 /// How a motion ended, in a sentence.
-pub fn sentence(motion: &Motion, writing: Writing) -> String {
-    ended(&motion.outcome, motion.crossings.len(), writing, 3)
+pub fn sentence(motion: &Motion, notation: Notation) -> String {
+    ended(&motion.outcome, motion.crossings.len(), notation, 3)
 }
 
 /// How a motion of so many half swings ended, in a sentence with numbers of so many digits, one more where it escapes.
-pub fn ended(outcome: &Outcome, count: usize, writing: Writing, digits: usize) -> String {
+pub fn ended(outcome: &Outcome, count: usize, notation: Notation, digits: usize) -> String {
     let swings = swings(count);
-    let (place, time) = (|q| writing.position(q, digits), |tau| writing.moment(tau, digits));
+    let (place, time) = (|q| notation.position(q, digits), |tau| notation.moment(tau, digits));
     match *outcome {
         Outcome::Captured { q, .. } if count == 0 => {
             format!("at rest at {} from the start", place(q))
@@ -70,11 +70,11 @@ pub fn ended(outcome: &Outcome, count: usize, writing: Writing, digits: usize) -
             format!("comes to rest at {}{swings}, {}", place(q), time(tau))
         }
         Outcome::Moving { tau, q, v } => {
-            let velocity = writing.velocity(v, digits);
+            let velocity = notation.velocity(v, digits);
             format!("moving at {}{swings}: {}, v = {velocity}", time(tau), place(q))
         }
         Outcome::Escaped { tau } => {
-            format!("escapes at {}{swings}", writing.moment(tau, digits + 1))
+            format!("escapes at {}{swings}", notation.moment(tau, digits + 1))
         }
         Outcome::GaveUp { tau, reason } => {
             format!("gave up at {}{swings}: {reason}", time(tau))

@@ -4,7 +4,7 @@ use crate::program::{json, run};
 use hopfscope::model::{Belt, Group, Knob, Tolerances};
 use hopfscope::portrait::Margin;
 use hopfscope::portrait::Portrait;
-use hopfscope::portrait::guarantee::{Uncertain, machine::guaranteed};
+use hopfscope::portrait::guarantee::{NoGuarantee, machine::guaranteed};
 use hopfscope::scene::machine::library::find;
 
 fn machine(name: &str) -> Belt {
@@ -104,7 +104,7 @@ fn tolerances_of_friction_and_damping_and_a_disturbance_are_those_of_one_machine
     assert!((shift / (exact - farthest) - 1.0).abs() < 1e-12);
     assert!((push / (from_rest.impulse.unwrap()) - 1.0).abs() < 1e-12);
     let refused = guaranteed(&belt, &tolerances(&[], &belt, belt.friction)).unwrap();
-    assert!(matches!(refused, Err(Uncertain::Disturbance { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(NoGuarantee::Disturbance { .. })), "{refused:?}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use hopfscope::model::{Body, Interval, Knob, ParameterBox, Parameters, State, To
 use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::Portrait;
-use hopfscope::portrait::guarantee::oscillator::{TwoSided, guaranteed};
+use hopfscope::portrait::guarantee::oscillator::{TwoSidedOscillator, guaranteed};
 use hopfscope::portrait::{Border, Margin};
 use hopfscope::question::answer;
 use hopfscope::scene::{Finding, Request, Topic};
@@ -75,7 +75,7 @@ const STEP: f64 = 0.02;
 /// Follows a disturbed motion by the Runge-Kutta method, step by step and half swing by half swing. Returns how
 /// far its turning points go to the left and to the right, and whether it is at rest in the end.
 fn extent(
-    system: &TwoSided,
+    system: &TwoSidedOscillator,
     bound: f64,
     force: Force,
     start: State,
@@ -175,7 +175,7 @@ fn leaving(known: &ParameterBox, w: f64, motions: usize, random: &mut Random) ->
         let ParameterBox { d, d2, d3, .. } = *known;
         let [d, d2, d3] = [d, d2, d3].map(|interval| corner(random, interval));
         let parameters = Parameters { d, d2, d3, r };
-        let system = TwoSided { upper: parameters, lower: parameters };
+        let system = TwoSidedOscillator { upper: parameters, lower: parameters };
         let sign = if random.even() < 0.5 { 1.0 } else { -1.0 };
         // Where friction and the disturbance hold the mass.
         let rest = (2.0 * random.even() - 1.0).signum() * random.even().sqrt() * (r + w);
@@ -279,7 +279,7 @@ fn the_worst_disturbance_leads_out_from_just_beyond() {
     for (known, w) in cases() {
         let margin = guaranteed(&known, w, 0.0, &Limits::PATIENT).unwrap().unwrap().1;
         // The disturbance compensates for the friction that the worst system lacks.
-        let worst = TwoSided::worst(&known, 0.0);
+        let worst = TwoSidedOscillator::worst(&known, 0.0);
         let (q, v) = (margin.displacement.unwrap(), margin.impulse.unwrap());
         let mut leaves_from = |rest: f64, part: f64, kick: State| {
             let start = State { q: rest + part * kick.q, v: part * kick.v };
@@ -327,7 +327,7 @@ fn no_rest_position_has_a_smaller_margin_and_one_attains_it() {
             continue;
         };
         looked += 1;
-        let system = TwoSided { upper: parameters, lower: parameters };
+        let system = TwoSidedOscillator { upper: parameters, lower: parameters };
         let mut rests = |rest: f64, part: f64, kick: State| {
             let start = State { q: rest + part * kick.q, v: part * kick.v };
             extent(&system, 0.0, Force::Along, start, 400.0, &mut random).2

@@ -1,7 +1,7 @@
 //! A recorded motion: opened, fitted, with numbers held, and stopped.
 
 use super::explorer_session::{Trial, reopened};
-use hopfscope::fit::{Dropped, Signal};
+use hopfscope::fit::{DropReason, Signal};
 use hopfscope::model::Knob;
 use hopfscope::numerics::elementary::{cos, exp, sin};
 use hopfscope::picture::Item;
@@ -61,7 +61,7 @@ fn marked(trial: &Trial, plot: usize) -> Vec<(String, usize)> {
 #[test]
 fn what_a_fit_leaves_out_is_marked_by_what_it_is_and_is_no_part_of_the_record_on_show() {
     let mut trial = opened(changed(|index, x| if index % 97 == 60 { x + 1.5 } else { x }), "");
-    let outliers = trial.session.fitted().unwrap().estimate.count(Dropped::Outlier);
+    let outliers = trial.session.fitted().unwrap().estimate.count(DropReason::Outlier);
     assert!(outliers > 2, "{outliers}");
     assert_eq!(marked(&trial, 1), [("outliers, left out".to_owned(), outliers)]);
     let measured = |trial: &Trial| {
@@ -81,7 +81,7 @@ fn what_a_fit_leaves_out_is_marked_by_what_it_is_and_is_no_part_of_the_record_on
     assert_eq!(marked(&trial, index), [("outliers, left out".to_owned(), outliers)]);
 
     let trial = opened(changed(|_, x| x.clamp(-2.0, 2.0)), "");
-    let saturated = trial.session.fitted().unwrap().estimate.count(Dropped::Saturated);
+    let saturated = trial.session.fitted().unwrap().estimate.count(DropReason::Saturated);
     assert!(saturated > 10, "{saturated}");
     assert_eq!(marked(&trial, 1), [("saturated, left out".to_owned(), saturated)]);
     assert_eq!(measured(&trial), all - saturated);
@@ -283,7 +283,7 @@ fn a_record_of_velocities_is_shown_as_velocities_and_kept_as_such() {
 #[test]
 fn the_jumps_of_an_acceleration_are_marked_as_such_among_its_residuals() {
     let trial = &mut opened(decay_of(Signal::Acceleration), "signal=acceleration unit=mm/s^2");
-    let jumps = trial.session.fitted().unwrap().estimate.count(Dropped::Jump);
+    let jumps = trial.session.fitted().unwrap().estimate.count(DropReason::Jump);
     assert!(jumps > 10, "{jumps}");
     // The accelerations themselves are none of the quantities over time.
     assert_eq!(marked(trial, 1), []);

@@ -1,6 +1,6 @@
 //! Records of many kinds with known truth: what a fit says without a warning must be right.
 
-use hopfscope::fit::{DRAWS, Dropped, MarginQuestion, Margins, conditions, margins};
+use hopfscope::fit::{DRAWS, DropReason, MarginQuestion, Margins, conditions, margins};
 use hopfscope::flow::Limits;
 use hopfscope::model::{Model, Parameters};
 use hopfscope::portrait::Portrait;
@@ -131,7 +131,7 @@ fn a_growth_from_near_an_unstable_cycle_is_released_when_it_was() {
         let Simulation { truth, record, .. } = simulated("growth", seed);
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
         assert_eq!(
-            (found.start, found.count(Dropped::Outlier)),
+            (found.start, found.count(DropReason::Outlier)),
             (StartKind::Release, 0),
             "growth {seed}"
         );
@@ -168,7 +168,7 @@ fn another_motion_that_the_record_hardly_excludes_is_told() {
 fn hard(name: &str) -> (Record, Value) {
     let folder = format!("{}/tests/data/fit/hard", env!("CARGO_MANIFEST_DIR"));
     let bytes = fs::read(format!("{folder}/{name}.csv")).unwrap();
-    let record = hopfscope::fit::parse(&bytes, &hopfscope::fit::Reading::default()).unwrap();
+    let record = hopfscope::fit::parse(&bytes, &hopfscope::fit::RecordFormat::default()).unwrap();
     let truth: Value =
         serde_json::from_str(&fs::read_to_string(format!("{folder}/truth.json")).unwrap()).unwrap();
     (record, truth[name].clone())

@@ -1,11 +1,11 @@
 //! Intervals, noise and left-out samples for records made from a known truth.
 
-use hopfscope::fit::Dropped;
+use hopfscope::fit::DropReason;
 
 use super::*;
 
 fn outliers(found: &Estimate) -> usize {
-    found.count(Dropped::Outlier)
+    found.count(DropReason::Outlier)
 }
 
 /// The number of estimates whose 95 % intervals contain the truth, for each number.
@@ -88,7 +88,7 @@ fn readings_at_rest_of_a_coarse_converter_do_not_count_as_independent() {
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
         let interval = found.intervals[r];
         covered += usize::from(interval.lower.unwrap() <= p[r] && p[r] <= interval.upper.unwrap());
-        let alike = found.count(Dropped::Alike);
+        let alike = found.count(DropReason::Alike);
         assert!(alike > 500 && outliers(&found) == 0, "{alike} {}", outliers(&found));
         // With one common error of the rest and one of the hold, the bound is 1.7 times that for independent errors.
         let error = found.covariance.error(r);

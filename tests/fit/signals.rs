@@ -1,6 +1,8 @@
 //! Records of velocities and accelerations, and records whose zero drifts.
 
-use hopfscope::fit::{Dropped, LAST, Margins, OFFSET, OMEGA0, Reading, SLOPE, conditions, parse};
+use hopfscope::fit::{
+    DropReason, LAST, Margins, OFFSET, OMEGA0, RecordFormat, SLOPE, conditions, parse,
+};
 use hopfscope::model::{ParameterBox, Parameters};
 use hopfscope::numerics::elementary::sin;
 
@@ -167,7 +169,7 @@ fn a_blow_on_a_mass_at_rest_is_cut_off_where_nothing_else_explains_the_record() 
             (0..u32::try_from(x.len()).unwrap()).map(|index| 0.005 * f64::from(index)).collect();
         let record = Record { t, x, signal, ..Record::default() };
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
-        let before = found.count(Dropped::Before);
+        let before = found.count(DropReason::Before);
         assert!(before >= 100 && found.start == StartKind::Moving, "{before}");
         assert!(!found.whiteness.systematic, "{signal}");
         let damping = NAMES.iter().filter(|row| row.place != OFFSET);
@@ -246,7 +248,7 @@ fn the_sentence_that_may_be_signed_says_the_same_of_every_signal_and_of_a_fitted
 fn the_jumps_of_an_acceleration_do_not_count_and_are_told_apart() {
     let record = Simulated { signal: Signal::Acceleration, noise: 5.0, ..RELEASED }.record(3);
     let found = estimate(&record, &Question::default(), &|| false).unwrap();
-    let at_jumps = found.count(Dropped::Jump);
+    let at_jumps = found.count(DropReason::Jump);
     assert!(at_jumps >= found.half_swings, "{at_jumps}");
     let (told, _) = answered("t [s],a [mm/s^2]", &record, 1.0, &[]);
     let places = told["left_out"].as_array().unwrap().iter();
@@ -257,7 +259,7 @@ fn the_jumps_of_an_acceleration_do_not_count_and_are_told_apart() {
 #[test]
 fn what_contradicts_a_header_is_refused_in_one_line() {
     let read = |text: &str, signal: Option<Signal>, peaks: bool| {
-        let reading = Reading { signal, peaks, ..Reading::default() };
+        let reading = RecordFormat { signal, peaks, ..RecordFormat::default() };
         parse(text.as_bytes(), &reading).map(|record| (record.signal, record.unit, record.x))
     };
     let refused = |text: &str, signal, peaks| read(text, signal, peaks).unwrap_err().to_string();

@@ -4,7 +4,7 @@ use hopfscope::fit::{Inertia, MarginQuestion, Margins, conditions, margins};
 use hopfscope::flow::Limits;
 use hopfscope::model::{Interval, ParameterBox, Parameters};
 use hopfscope::portrait::RestMargin;
-use hopfscope::portrait::guarantee::{Uncertain, oscillator::guaranteed};
+use hopfscope::portrait::guarantee::{NoGuarantee, oscillator::guaranteed};
 
 use super::simulator::{Simulation, simulated};
 use super::*;
@@ -154,7 +154,7 @@ fn a_force_beyond_the_friction_leaves_no_kick_and_what_is_unbounded_is_called_ex
     // The library says why, and the friction is indeed smaller: 0.4 mm times 968 N/m.
     let known = ParameterBox::from(&true_parameters("near_fold"));
     let reason = guaranteed(&known, 0.5 / 0.968, 0.0, &Limits::PATIENT).unwrap().err();
-    assert!(matches!(reason, Some(Uncertain::Disturbance { .. })));
+    assert!(matches!(reason, Some(NoGuarantee::Disturbance { .. })));
 
     let ran = run(&["fit", &path("coulomb_rest"), "--confidence", "0.7", "--format", "json"]);
     let found: Value = serde_json::from_str(&ran.out).unwrap();

@@ -1,6 +1,6 @@
 //! Records that begin differently, or are not motions of this oscillator.
 
-use hopfscope::fit::{Dropped, NAMES, Question, Record, StartKind, estimate};
+use hopfscope::fit::{DropReason, NAMES, Question, Record, StartKind, estimate};
 use hopfscope::numerics::elementary::{cos, exp, sin};
 use hopfscope::numerics::random::Random;
 
@@ -25,7 +25,7 @@ fn a_mass_that_is_struck_where_it_rests_is_fitted_from_the_stroke_on() {
         let t = (0..1100_u32).map(|index| 0.004 * f64::from(index)).collect();
         let record = Record { t, x, ..Record::default() };
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
-        let before = found.count(Dropped::Before);
+        let before = found.count(DropReason::Before);
         assert!((100..106).contains(&before), "{before}");
         assert!(found.start == StartKind::Moving && found.rests && found.whiteness.white);
         assert_near(&found, &struck.p, 4.0, &NAMES);
@@ -59,7 +59,7 @@ fn a_mass_that_is_excited_again_is_fitted_up_to_then() {
             (0..u32::try_from(x.len()).unwrap()).map(|index| 0.004 * f64::from(index)).collect();
         let record = Record { t, x, ..Record::default() };
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
-        let after = found.count(Dropped::After);
+        let after = found.count(DropReason::After);
         assert!((1000..1060).contains(&after), "{seed}: {after}");
         assert!(found.whiteness.white && found.start == StartKind::Release, "{seed}");
         assert_near(&found, &release.p, 4.0, found.wanted());
@@ -99,7 +99,7 @@ fn a_hold_beyond_full_scale_is_left_out_with_all_that_is_flattened() {
         let mut record = seen.record(seed);
         record.x.iter_mut().for_each(|x| *x = x.clamp(-5.0, 5.0));
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
-        let saturated = found.count(Dropped::Saturated);
+        let saturated = found.count(DropReason::Saturated);
         assert!(saturated > 60 && found.whiteness.white, "{saturated}");
         assert_near(&found, &p, 4.0, &NAMES);
     }

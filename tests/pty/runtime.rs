@@ -11,7 +11,7 @@ use hopfscope::flow::{Cost, Limits, Reason};
 use hopfscope::model::{Parameters, State};
 use hopfscope::runtime::workers::Tell;
 use hopfscope::runtime::{Application, Options, launch};
-use hopfscope::scene::{Answered, Finding, Request};
+use hopfscope::scene::{Finding, Reply, Request};
 use hopfscope::session::{Code, Effect, Key, Msg};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
@@ -59,8 +59,8 @@ impl Application for Machinery {
             Msg::Told(notice) => self.told = notice.text,
             Msg::Paste(text) => self.pasted = text.lines().count(),
             Msg::Resize { width, height } => self.size = (width, height),
-            Msg::Answered(answered) => {
-                let Answered { result, .. } = *answered;
+            Msg::Answered(reply) => {
+                let Reply { result, .. } = *reply;
                 self.confirmed =
                     Some(result.map(|_| self.count).map_err(|failure| failure.to_string()));
             }

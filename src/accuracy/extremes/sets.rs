@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::lattice::all_parameters;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::Parameters;
-use crate::portrait::{Closing, Cycle, Equation, Route, STEP, all_closings};
+use crate::portrait::{Cycle, Equation, Route, STEP, SwingPair, all_closings};
 
 /// Maximum number of evaluations of one half map in a search.
 pub const BUDGET: u64 = 3_000_000;
@@ -54,7 +54,7 @@ pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
     let mut equation = Equation::new(parameters, STEP, &limits);
     let closings = all_closings(&mut equation);
     let side = equation.side;
-    let cycle = |closing: &Closing| LatticeCycle {
+    let cycle = |closing: &SwingPair| LatticeCycle {
         cycle: closing.describe(parameters, side),
         residual: residual(closing, parameters, &limits),
     };
@@ -63,7 +63,7 @@ pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
 }
 
 /// By how much a turn fails to close; infinite where it cannot be followed.
-fn residual(closing: &Closing, parameters: &Parameters, limits: &Limits) -> f64 {
+fn residual(closing: &SwingPair, parameters: &Parameters, limits: &Limits) -> f64 {
     let mut equation = Equation::new(parameters, AGAIN, limits);
     let route = Route::contracting(closing.log_multiplier(parameters));
     let again = equation.at(route, closing.node.at);

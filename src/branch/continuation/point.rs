@@ -2,7 +2,7 @@
 
 use crate::model::Parameters;
 use crate::numerics::elementary::hypot;
-use crate::portrait::{Closing, Route};
+use crate::portrait::{Route, SwingPair};
 
 /// Length of u that counts as much as the whole range of the parameter.
 pub(crate) const UNIT_OF_U: f64 = 4.0;
@@ -15,14 +15,14 @@ pub struct CurvePoint {
     /// The parameter.
     pub p: f64,
     /// The closed pair of swings.
-    pub closing: Closing,
+    pub closing: SwingPair,
     /// Logarithm of the Floquet multiplier; it changes its sign at a fold.
     pub log_multiplier: f64,
 }
 
 impl CurvePoint {
     /// The cycle of a closing at a value of the parameter.
-    pub fn of(closing: Closing, p: f64, parameters: &Parameters) -> Self {
+    pub fn of(closing: SwingPair, p: f64, parameters: &Parameters) -> Self {
         let log_multiplier = closing.log_multiplier(parameters);
         CurvePoint { u: closing.node.at, p, closing, log_multiplier }
     }

@@ -84,13 +84,13 @@ pub fn harmonic_cycle(
     } else {
         (*parameters, *first)
     };
-    let cycle = Followed::new(&parameters, &first, interrupted).cycle(count.clamp(1, MOST))?;
+    let cycle = Continuation::new(&parameters, &first, interrupted).cycle(count.clamp(1, MOST))?;
     Ok(if mirrored { cycle.mirrored() } else { cycle })
 }
 
 /// The branch of solutions that begins at one first-order answer, in units of a power of two that makes
 /// the first-order amplitude about 1.
-struct Followed<'a> {
+struct Continuation<'a> {
     parameters: Parameters,
     first: Ansatz,
     stable: bool,
@@ -102,14 +102,14 @@ struct Followed<'a> {
 /// Harmonics that are enough to follow a branch in the strength.
 const COARSE: usize = 7;
 
-impl<'a> Followed<'a> {
+impl<'a> Continuation<'a> {
     fn new(parameters: &Parameters, first: &Harmonic, interrupted: &'a dyn Fn() -> bool) -> Self {
         let unit = exponent(first.amplitude);
         let mean = Complex::from(times_power(first.mean, -unit));
         let wave = Complex::from(0.5 * times_power(first.amplitude, -unit));
         let first_order = Ansatz { frequency: 1.0, q: Fourier { coefficients: vec![mean, wave] } };
         let parameters = parameters.times_power(-unit);
-        Followed { parameters, first: first_order, stable: first.stable, unit, interrupted }
+        Continuation { parameters, first: first_order, stable: first.stable, unit, interrupted }
     }
 
     fn cycle(&self, count: usize) -> Result<HarmonicCycle, Reason> {
@@ -423,7 +423,7 @@ mod tests {
                 prop_assert!((cycle.v_max - first.amplitude).abs() <= scale);
                 // The equations agree that it is their solution, and with its stability.
                 prop_assert!(cycle.residual <= 16.0 * f64::EPSILON, "{}", cycle.residual);
-                let branch = Followed::new(&parameters, &first, &|| false);
+                let branch = Continuation::new(&parameters, &first, &|| false);
                 if let Ok((_, unstable)) = solve(&branch.parameters, 1, &branch.first, &|| false) {
                     prop_assert_eq!(unstable, !first.stable);
                 }

@@ -1,7 +1,7 @@
 //! The methods that ignore `v = 0`, which are included for comparison.
 
-use super::super::explicit::Explicit;
-use super::super::stiff::Stiff;
+use super::super::explicit::ExplicitStepper;
+use super::super::stiff::StiffStepper;
 use super::super::tableau::DOP853;
 use super::super::trajectory::{MotionRun, trajectory};
 use super::super::{Detail, Limits, METHODS, Method, Motion, Outcome, Problem};
@@ -50,9 +50,9 @@ fn an_implicit_method_creeps_to_the_same_place() {
     let problem = Problem { epsilon: 1e-4, ..from(0.4) };
     let start = || MotionRun::new(&problem, Method::Smoothed, Detail::default(), &Limits::PATIENT);
     let epsilon = Some(problem.epsilon);
-    let stepper = |field| Explicit::new(&DOP853, field, 1e-8);
+    let stepper = |field| ExplicitStepper::new(&DOP853, field, 1e-8);
     let explicit = start().walk(epsilon, false, stepper);
-    let implicit = start().walk(epsilon, false, |field| Stiff::new(field, 1e-8));
+    let implicit = start().walk(epsilon, false, |field| StiffStepper::new(field, 1e-8));
     assert!((end(&explicit) - end(&implicit)).abs() < 1e-8);
     assert!(100 * implicit.cost.evaluations < explicit.cost.evaluations);
 }

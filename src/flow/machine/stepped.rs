@@ -4,7 +4,7 @@
 use super::curve::MachineStep;
 use super::levels::{PhaseStep, crossing};
 use crate::flow::Method;
-use crate::flow::explicit::Explicit;
+use crate::flow::explicit::ExplicitStepper;
 use crate::flow::step::{StepPoint, Stepper};
 use crate::flow::tableau::{DOP853, DOPRI5};
 use crate::model::{ContactState, Field, Model, Phase, Reason};
@@ -40,8 +40,8 @@ pub(crate) type PhaseStepper<'a> = Box<dyn Stepper<PhaseField<'a>> + 'a>;
 pub(crate) fn stepper(model: &Model, method: Method) -> Option<PhaseStepper<'_>> {
     let field = PhaseField { model, phase: Phase::Between };
     match method {
-        Method::Dop853 => Some(Box::new(Explicit::new(&DOP853, field, model.tolerance))),
-        Method::Dopri5 => Some(Box::new(Explicit::new(&DOPRI5, field, model.tolerance))),
+        Method::Dop853 => Some(Box::new(ExplicitStepper::new(&DOP853, field, model.tolerance))),
+        Method::Dopri5 => Some(Box::new(ExplicitStepper::new(&DOPRI5, field, model.tolerance))),
         _ => None,
     }
 }

@@ -1,6 +1,6 @@
 //! The last step of a half swing: shortened until it ends at `v = 0`.
 
-use super::Stiff;
+use super::StiffStepper;
 use crate::flow::step::{Step, StepPoint};
 use crate::model::Field;
 use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
@@ -8,7 +8,7 @@ use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
 /// Relative change of the length of the last step below which it counts as settled; this takes about four attempts.
 const SETTLED: f64 = 1e-9;
 
-impl<F: Field> Stiff<F> {
+impl<F: Field> StiffStepper<F> {
     /// Shortens the step just kept until it ends at the first `v = 0`; `None` where that fails.
     pub(super) fn arrive(&mut self) -> Option<Step> {
         let (scheme, whole, polynomial) = (self.scheme, self.duration, self.dense[1]);

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::super::auto::Auto;
+use super::super::auto::AutoStepper;
 use super::super::swing::{Swing, swing};
 use super::super::taylor::Taylor;
 use super::super::trajectory::trajectory;
@@ -47,13 +47,13 @@ fn a_step_that_begins_stiff_and_ends_at_rest_keeps_the_digits_of_its_end() {
     let series = run(&mut Taylor::new(1e-16), &field, start);
     for tolerance in [1e-6, 1e-9, 1e-11, 1e-13] {
         for first in [1e-2, 1.0, 10.0] {
-            let mut stiff = Stiff::new(field, tolerance);
+            let mut stiff = StiffStepper::new(field, tolerance);
             stiff.next = first;
             let implicit = run(&mut stiff, &field, start);
             let error = (implicit.duration / series.duration - 1.0).abs();
             assert!(error < 10.0 * tolerance, "{tolerance:e}: {error:e}");
         }
-        let auto = run(&mut Auto::new(tolerance), &field, start);
+        let auto = run(&mut AutoStepper::new(tolerance), &field, start);
         let error = (auto.duration / series.duration - 1.0).abs();
         assert!(error < 10.0 * tolerance, "{tolerance:e}, auto: {error:e}");
     }
@@ -91,7 +91,7 @@ fn the_error_follows_the_tolerance() {
 #[test]
 fn dense_output_satisfies_the_equation_inside_a_step() {
     let field = HalfPlane { d: 0.3, d2: 0.2, d3: 5.0 };
-    let mut stepper = Stiff::new(field, 1e-10);
+    let mut stepper = StiffStepper::new(field, 1e-10);
     stepper.begin(&field);
     let mut point = StepPoint { x: -1.0, v: 0.2 };
     for _ in 0..6 {

@@ -9,23 +9,23 @@ use serde::{Serialize, Serializer};
 
 use super::belt::friction::Belt;
 use super::parameters::{Parameters, State};
-use super::unit::{Measured, WithTolerance, measured, toleranced};
+use super::unit::{DimensionalNumber, TolerancedNumber, measured, toleranced};
 use crate::numerics::{Interval, brief, most_similar, shortest};
 use table::Access;
 pub use table::{Group, KNOBS, Knob, KnobSpec};
 
 /// A value that a number cannot take.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OutOfRange {
+pub struct RangeError {
     /// Which number.
     pub knob: Knob,
     /// The value refused, in SI units.
     pub value: f64,
 }
 
-impl fmt::Display for OutOfRange {
+impl fmt::Display for RangeError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let OutOfRange { knob, value } = *self;
+        let RangeError { knob, value } = *self;
         let KnobSpec { min, max, least, unit, .. } = *knob.spec();
         if (min..=max).contains(&value) {
             let (value, least) = (knob.print(value), with_unit(brief(least), unit));
@@ -46,11 +46,11 @@ impl fmt::Display for OutOfRange {
     }
 }
 
-impl std::error::Error for OutOfRange {}
+impl std::error::Error for RangeError {}
 
-impl From<OutOfRange> for String {
+impl From<RangeError> for String {
     /// The refusal in one line.
-    fn from(refused: OutOfRange) -> Self {
+    fn from(refused: RangeError) -> Self {
         refused.to_string()
     }
 }
@@ -101,13 +101,13 @@ impl Knob {
     /// Accepts a value, in SI units.
     ///
     /// # Errors
-    /// [`OutOfRange`] if it is not a number, outside the range of the table, or closer to 0 than it allows without
+    /// [`RangeError`] if it is not a number, outside the range of the table, or closer to 0 than it allows without
     /// being 0.
-    pub fn check(self, value: f64) -> Result<f64, OutOfRange> {
+    pub fn check(self, value: f64) -> Result<f64, RangeError> {
         let KnobSpec { min, max, least, .. } = *self.spec();
         let is_large_enough = value == 0.0 || value.abs() >= least;
         let is_allowed = is_large_enough && (min..=max).contains(&value);
-        if is_allowed { Ok(value) } else { Err(OutOfRange { knob: self, value }) }
+        if is_allowed { Ok(value) } else { Err(RangeError { knob: self, value }) }
     }
 
     /// Reads a value with or without its unit: `0.2`, `20 cm/s`.
@@ -123,12 +123,12 @@ impl Knob {
     ///
     /// # Errors
     /// One line that says what is wrong, and what is allowed.
-    pub fn parse_toleranced(self, text: &str) -> Result<WithTolerance, String> {
+    pub fn parse_toleranced(self, text: &str) -> Result<TolerancedNumber, String> {
         let read = toleranced(text).map_err(|why| self.unread(text, why))?;
         let value = self.accept(text, read.middle)?;
-        let middle = Measured { value, ..read.middle };
+        let middle = DimensionalNumber { value, ..read.middle };
         if read.half_width == 0.0 {
-            return Ok(WithTolerance { middle, ends: Interval::point(value), ..read });
+            return Ok(TolerancedNumber { middle, ends: Interval::point(value), ..read });
         }
         for end in [value - read.half_width, value + read.half_width] {
             self.check(end)?;
@@ -138,11 +138,11 @@ impl Knob {
         for end in [ends.lower(), ends.upper()] {
             self.check(end)?;
         }
-        Ok(WithTolerance { middle, ends, ..read })
+        Ok(TolerancedNumber { middle, ends, ..read })
     }
 
     /// A measured value in the unit and the range of this number; zero has one sign.
-    fn accept(self, text: &str, read: Measured) -> Result<f64, String> {
+    fn accept(self, text: &str, read: DimensionalNumber) -> Result<f64, String> {
         let value = read.in_unit(self.spec().unit);
         let value = value.map_err(|refused| format!("{self} = {} {refused}", text.trim()))?;
         Ok(self.check(value + 0.0)?)

@@ -8,7 +8,7 @@
 use std::sync::Arc as Shared;
 
 use crate::flow::auto::KeptStep;
-use crate::flow::exact::Exact;
+use crate::flow::exact::ExactStepper;
 use crate::flow::step::{Powers, Stepper};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
@@ -186,7 +186,7 @@ fn rest(field: &HalfPlane, pieces: &[ArcStep], detail: f64) -> Option<ArcStep> {
     if field.d < 0.0 || from.v <= 0.0 || times_power(from.size(), unit) > detail {
         return None;
     }
-    let mut exact = Exact::new();
+    let mut exact = ExactStepper::new();
     exact.begin(&HalfPlane { d: field.d, d2: 0.0, d3: 0.0 });
     // Both times of decay have the product 1, and the sum 2 D.
     let step = exact.advance(from, DECAYED * (2.0 * field.d).max(1.0), true).ok()?;

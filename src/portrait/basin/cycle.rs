@@ -21,7 +21,7 @@ use crate::model::{Ledger, Model, Parameters, Side, State};
 use crate::numerics::elementary::exp;
 use crate::portrait::closing::all::{STEP, all_closings};
 use crate::portrait::closing::equation::{Equation, first_side};
-use crate::portrait::closing::pair::{Closing, share};
+use crate::portrait::closing::pair::{SwingPair, share};
 use crate::portrait::portrait::Portrait;
 use crate::portrait::{Border, Cycle, CycleErrors, Edge, Margin};
 
@@ -47,7 +47,7 @@ pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<Cycles, Reason
 }
 
 /// The cycles that these closed pairs of half swings are.
-pub(crate) fn described(parameters: &Parameters, found: &[Closing]) -> Vec<Cycle> {
+pub(crate) fn described(parameters: &Parameters, found: &[SwingPair]) -> Vec<Cycle> {
     let side = first_side(parameters);
     found.iter().map(|closing| closing.describe(parameters, side)).collect()
 }
@@ -119,7 +119,7 @@ impl Portrait {
     }
 }
 
-impl Closing {
+impl SwingPair {
     /// The cycle that this closed pair of swings is; the first swing runs on `side`.
     #[must_use]
     pub fn describe(&self, parameters: &Parameters, side: Side) -> Cycle {
@@ -174,7 +174,7 @@ pub struct Cycles {
     /// The cycles, smallest first.
     pub cycles: Vec<Cycle>,
     /// The closed pairs of half swings that they are.
-    pub(crate) closings: Vec<Closing>,
+    pub(crate) closings: Vec<SwingPair>,
     /// What borders the basin of the sticking set.
     pub border: Border,
     /// What it cost.

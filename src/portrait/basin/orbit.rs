@@ -20,7 +20,7 @@ use crate::model::{Ledger, Parameters, Side, State};
 use crate::numerics::quadrature::GAUSS;
 use crate::portrait::closing::equation::first_side;
 use crate::portrait::closing::half_map::{Direction, HalfSwing, Length};
-use crate::portrait::closing::pair::Closing;
+use crate::portrait::closing::pair::SwingPair;
 
 /// An orbit that parts the plane: an upper and a lower arc over the displacement.
 #[derive(Clone, Debug)]
@@ -48,11 +48,11 @@ impl Orbit {
     pub fn of_closing(
         [own, other]: [&Parameters; 2],
         side: Side,
-        closing: &Closing,
+        closing: &SwingPair,
         repels: bool,
         limits: &Limits,
     ) -> Result<Self, Reason> {
-        let Closing { first, second, .. } = *closing;
+        let SwingPair { first, second, .. } = *closing;
         let arc = |of, side, start, next| attracting(of, side, (start, next), repels, limits);
         let arcs = [arc(own, side, first, second)?, arc(other, side.opposite(), second, first)?];
         Ok(Orbit::of(side, arcs, true))

@@ -7,7 +7,7 @@
 use super::balance::weighed_closing;
 use super::equation::{Equation, Route};
 use super::half_map::Length;
-use super::pair::Closing;
+use super::pair::SwingPair;
 use super::polish::{VAGUE, is_exact, polish};
 use super::precise::FINER;
 use super::search::{Bracket, Node, RootSearch};
@@ -21,12 +21,12 @@ use crate::numerics::{Twofold, ln};
 pub const STEP: f64 = 1e-16;
 
 /// All closings, by amplitude, from the closed form where there is one.
-pub fn all_closings(equation: &mut Equation) -> Result<Vec<Closing>, Reason> {
+pub fn all_closings(equation: &mut Equation) -> Result<Vec<SwingPair>, Reason> {
     first_closings(equation, usize::MAX)
 }
 
 /// As many of them as are wanted: finding the innermost one alone is half the work.
-pub fn first_closings(equation: &mut Equation, most: usize) -> Result<Vec<Closing>, Reason> {
+pub fn first_closings(equation: &mut Equation, most: usize) -> Result<Vec<SwingPair>, Reason> {
     match closed_form(&equation.parameters) {
         Some(known) => Ok(known),
         None => closings(equation, most, &[]),
@@ -34,18 +34,18 @@ pub fn first_closings(equation: &mut Equation, most: usize) -> Result<Vec<Closin
 }
 
 /// All closings where there is a closed form of them.
-fn closed_form(parameters: &Parameters) -> Option<Vec<Closing>> {
+fn closed_form(parameters: &Parameters) -> Option<Vec<SwingPair>> {
     if parameters.is_piecewise_linear() {
         let cycle = LinearCycle::new(parameters.d, parameters.r);
-        return Some(cycle.iter().map(Closing::from).collect());
+        return Some(cycle.iter().map(SwingPair::from).collect());
     }
     weak_closing(parameters).map(|closing| vec![closing])
 }
 
-impl From<&LinearCycle> for Closing {
+impl From<&LinearCycle> for SwingPair {
     fn from(cycle: &LinearCycle) -> Self {
         let clearance = Length { value: cycle.clearance, log: cycle.log_clearance };
-        Closing::in_closed_form([clearance; 2], cycle.period, 0.0, cycle.v_max)
+        SwingPair::in_closed_form([clearance; 2], cycle.period, 0.0, cycle.v_max)
     }
 }
 
@@ -55,7 +55,7 @@ pub fn closings(
     equation: &mut Equation,
     most: usize,
     known: &[(f64, f64)],
-) -> Result<Vec<Closing>, Reason> {
+) -> Result<Vec<SwingPair>, Reason> {
     /// A search takes some tens of thousands of evaluations; where it takes this many on one half map,
     /// the flow is too stiff for it.
     const BUDGET: u64 = 40_000_000;
@@ -92,7 +92,7 @@ pub fn closings(
         return Err(Reason::OutOfRange);
     }
     // Between two cycles that both attract, or both repel, lies another one.
-    let stable = |closing: &Closing| closing.log_multiplier(&equation.parameters) < 0.0;
+    let stable = |closing: &SwingPair| closing.log_multiplier(&equation.parameters) < 0.0;
     let alternate = found.windows(2).all(|pair| stable(&pair[0]) != stable(&pair[1]));
     if known.is_empty() && !alternate {
         let change = found.iter().fold(0.0, |most, it| it.uncertainty.max(most));
@@ -102,7 +102,7 @@ pub fn closings(
 }
 
 /// Whether cubic damping matters to the multiplier of a cycle the square of whose speed is too small a number.
-fn loses_square(closing: &Closing, parameters: &Parameters) -> bool {
+fn loses_square(closing: &SwingPair, parameters: &Parameters) -> bool {
     /// Smaller ones have less than seven digits left.
     const LEAST: f64 = 1e-315;
     let Parameters { d, d3, .. } = *parameters;

@@ -11,7 +11,7 @@
 
 use super::equation::Equation;
 use super::half_map::{Direction, HalfMap, HalfSwing, Length};
-use super::pair::Closing;
+use super::pair::SwingPair;
 use super::roundoff::UNIT;
 use crate::flow::step::Stepper;
 use crate::flow::{Limits, Reason};
@@ -30,7 +30,7 @@ pub type Weighed = (f64, f64);
 pub fn weighed_closing(
     equation: &mut Equation,
     u: f64,
-) -> Result<Option<(Closing, Weighed)>, Reason> {
+) -> Result<Option<(SwingPair, Weighed)>, Reason> {
     if !equation.is_of_one_motion() {
         return Ok(None);
     }

@@ -13,7 +13,7 @@
 //! second swing run backward can escape.
 
 use super::half_map::{Direction, HalfMap, HalfSwing, Length};
-use super::pair::{Closing, rounding, share};
+use super::pair::{SwingPair, rounding, share};
 use super::roundoff::Errors;
 use super::search::Node;
 use crate::flow::{Cost, Limits, Reason};
@@ -198,13 +198,13 @@ impl<'a> Equation<'a> {
     }
 
     /// The two swings for `u = ln c0`.
-    pub fn at(&mut self, route: Route, u: f64) -> Result<Closing, Reason> {
+    pub fn at(&mut self, route: Route, u: f64) -> Result<SwingPair, Reason> {
         self.from(route, Length::from_log(u))
     }
 
     /// The two swings for `c0`. Where one of them has no end, one of both functions of the node is infinite, and the
     /// other still bounds what lies further in or out.
-    pub fn from(&mut self, route: Route, start: Length) -> Result<Closing, Reason> {
+    pub fn from(&mut self, route: Route, start: Length) -> Result<SwingPair, Reason> {
         use Direction::{Backward, Forward};
         let (here, gap) = (Place::start(start), 2.0 * self.parameters.r);
         match route {
@@ -237,7 +237,7 @@ impl<'a> Equation<'a> {
     }
 
     /// The pair of a first swing, run forward from `start`, and a second one, run backward.
-    pub(crate) fn pair(&self, start: Length, first: HalfSwing, second: HalfSwing) -> Closing {
+    pub(crate) fn pair(&self, start: Length, first: HalfSwing, second: HalfSwing) -> SwingPair {
         let (here, gap) = (Place::start(start), 2.0 * self.parameters.r);
         let (first, end) = here.through(first);
         let (second, between) = here.plus(gap).through(second);
@@ -252,7 +252,7 @@ impl<'a> Equation<'a> {
         [rise, fall]: [Place; 2],
         clearances: [Place; 2],
         swings: [HalfSwing; 2],
-    ) -> Closing {
+    ) -> SwingPair {
         let gap = 2.0 * self.parameters.r;
         let start = if route == Route::Backward { rise } else { clearances[0] };
         let slope = exp(rise.log_gain) - exp(fall.log_gain);
@@ -272,7 +272,7 @@ impl<'a> Equation<'a> {
         });
         let uncertainty = (node.value.abs() + noise) / node.slope.abs();
         let lengths = clearances.map(|clearance| clearance.length);
-        Closing { growth, noise, uncertainty, errors, ..Closing::new(node, lengths, swings) }
+        SwingPair { growth, noise, uncertainty, errors, ..SwingPair::new(node, lengths, swings) }
     }
 
     /// The first swing from `start`, or a bound on where it ends: the largest number where that is not known at

@@ -12,8 +12,8 @@
 use std::ops::ControlFlow;
 
 use super::roundoff::{Errors, Roundoff};
-use crate::closed_form::linear::Linear;
-use crate::flow::auto::Auto;
+use crate::closed_form::linear::LinearFlow;
+use crate::flow::auto::AutoStepper;
 use crate::flow::step::{Step, StepPoint, Stepper};
 use crate::flow::swing::{blow_up, swing};
 use crate::flow::{Cost, Limits, Reason};
@@ -137,7 +137,7 @@ impl HalfSwing {
 pub struct HalfMap {
     /// Its field.
     pub field: HalfPlane,
-    stepper: Auto,
+    stepper: AutoStepper,
     /// Relative error of a step.
     pub tolerance: f64,
     /// States smaller than this move linearly: all others are integrated step by step.
@@ -152,7 +152,7 @@ pub struct HalfMap {
 impl HalfMap {
     /// The map of this field, each step within the relative `tolerance`.
     pub fn new(field: HalfPlane, tolerance: f64) -> Self {
-        let stepper = Auto::new(tolerance);
+        let stepper = AutoStepper::new(tolerance);
         let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
         let linear_below = LINEAR_BELOW * tolerance.max(ROUNDING) * natural;
         // A node that repels has no part worth skipping.
@@ -177,7 +177,7 @@ impl HalfMap {
         start: Length,
         tail: bool,
         limits: &Limits,
-        mut watch: impl FnMut(&mut Auto, i32, f64),
+        mut watch: impl FnMut(&mut AutoStepper, i32, f64),
     ) -> Result<HalfSwing, Reason> {
         self.swings += 1;
         // A swing in closed form takes no steps, but thousands of them take time.
@@ -209,7 +209,7 @@ impl HalfMap {
         let (field, mut escapes) = (self.field, false);
         // Once small, a decaying motion stays small and is linear to its end.
         let small = if self.field.d >= 0.0 { self.linear_below } else { 0.0 };
-        let mut see = |stepper: &mut Auto, _: f64, unit: i32, step: &Step| {
+        let mut see = |stepper: &mut AutoStepper, _: f64, unit: i32, step: &Step| {
             let mut squared = 0.0;
             if nonlinear {
                 squared = stepper.square_integral();
@@ -250,7 +250,7 @@ impl HalfMap {
         } else if self.field.d < 1.0 {
             spiral.arrive(point)
         } else {
-            match Linear::new(self.field.d).first_standstill(point.x, point.v) {
+            match LinearFlow::new(self.field.d).first_standstill(point.x, point.v) {
                 Some(end) => (Length::new(end.x), end.time),
                 None => return lost(Length::ZERO),
             }

@@ -8,7 +8,7 @@ use crate::numerics::elementary::{ln, ln_1p};
 
 /// The two swings at one value of the unknown, and how far they are from closing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Closing {
+pub struct SwingPair {
     /// The unknown, and the residual as a difference of two increasing functions of it.
     pub node: Node,
     /// Clearance at which the first swing starts.
@@ -41,9 +41,9 @@ pub(crate) fn rounding(length: Length) -> f64 {
     f64::EPSILON * length.log.abs().max(1.0)
 }
 
-impl Closing {
+impl SwingPair {
     pub(crate) fn new(node: Node, [first, second]: [Length; 2], swings: [HalfSwing; 2]) -> Self {
-        Closing {
+        SwingPair {
             node,
             first,
             second,
@@ -70,7 +70,7 @@ impl Closing {
         // A plain relative error of the first clearance.
         errors[0][1].length = 1.0;
         let (first, second) = (Length::new(first), Length::new(second));
-        Closing { first, second, duration, uncertainty, errors, ..self }
+        SwingPair { first, second, duration, uncertainty, errors, ..self }
     }
 
     /// Bounds on the errors of each swing, its length being the clearance at which it starts.
@@ -97,7 +97,7 @@ impl Closing {
         let swing = HalfSwing { duration, square, fastest, ..lost };
         let errors = own.map(|own| [own, Errors::default()]);
         let uncertainty = own[0].length;
-        Closing { uncertainty, errors, ..Closing::new(node, clearances, [swing; 2]) }
+        SwingPair { uncertainty, errors, ..SwingPair::new(node, clearances, [swing; 2]) }
     }
 
     /// Logarithm of the Floquet multiplier if this closing is a cycle.

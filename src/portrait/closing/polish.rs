@@ -7,7 +7,7 @@
 use super::balance::{Weighed, weighed_closing};
 use super::equation::{Equation, Route};
 use super::half_map::Length;
-use super::pair::Closing;
+use super::pair::SwingPair;
 use super::precise::FINER;
 use super::search::{Bracket, Node, places};
 use crate::flow::Reason;
@@ -32,7 +32,7 @@ pub(crate) fn is_exact(equation: &Equation) -> bool {
 
 /// The closing in a bracket, to rounding where doubles allow it, else in twice the working precision. Fails with
 /// the [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
-pub fn polish(equation: &mut Equation, bracket: Bracket) -> Result<Closing, Reason> {
+pub fn polish(equation: &mut Equation, bracket: Bracket) -> Result<SwingPair, Reason> {
     let start = near_root(equation, &bracket)?;
     polish_from(equation, start, bracket, SHARP)
 }
@@ -47,7 +47,7 @@ fn polish_from(
     start: Guess,
     bracket: Bracket,
     sharp: f64,
-) -> Result<Closing, Reason> {
+) -> Result<SwingPair, Reason> {
     let rough = newton(equation, start, bracket)?;
     let worst = rough.spread().iter().fold(rough.uncertainty, |worst, it| worst.max(it.length));
     if worst <= sharp || !is_exact(equation) {
@@ -63,7 +63,7 @@ pub fn polish_near(
     u: f64,
     log_multiplier: f64,
     sharp: f64,
-) -> Result<Option<Closing>, Reason> {
+) -> Result<Option<SwingPair>, Reason> {
     /// How far in `ln c0` the guess may be off: where another cycle may be near, and where none is.
     const WIDTHS: (f64, f64) = (0.05, 0.5);
     let width = if log_multiplier.abs() < 1.0 { WIDTHS.0 } else { WIDTHS.1 };
@@ -78,7 +78,7 @@ pub fn polish_near(
 }
 
 /// Newton's method on the contracting route, inside the bracket.
-fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<Closing, Reason> {
+fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<SwingPair, Reason> {
     /// How far off coarse steps may put a cliff of the residual, such as the edge of an escape, and its slope.
     const SLACK: f64 = 1e-6;
     const STEEP: f64 = 1e3;
@@ -126,7 +126,7 @@ struct Steps<'a, 'l> {
 
 impl Steps<'_, '_> {
     /// The closing at `u`, its residual as well as it is known, and whether that is flat there.
-    fn at(&mut self, u: f64) -> Result<(Closing, f64, bool), Reason> {
+    fn at(&mut self, u: f64) -> Result<(SwingPair, f64, bool), Reason> {
         let (mut closing, mut energy) = self.closing(u)?;
         let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;
         self.weigh = flat && closing.duration.is_finite();
@@ -143,7 +143,7 @@ impl Steps<'_, '_> {
     }
 
     /// The closing at `u` along the route that contracts, and what it is weighed as.
-    fn closing(&mut self, u: f64) -> Result<(Closing, Option<Weighed>), Reason> {
+    fn closing(&mut self, u: f64) -> Result<(SwingPair, Option<Weighed>), Reason> {
         let found = self.along_route(u)?;
         let (route, node) = (self.route, found.0.node);
         let finite = node.value.is_finite();
@@ -160,7 +160,7 @@ impl Steps<'_, '_> {
     }
 
     /// The closing at `u` along the route at hand, weighed if it is to be.
-    fn along_route(&mut self, u: f64) -> Result<(Closing, Option<Weighed>), Reason> {
+    fn along_route(&mut self, u: f64) -> Result<(SwingPair, Option<Weighed>), Reason> {
         let weighs = self.weigh && self.route == Route::Mixed;
         match if weighs { weighed_closing(self.equation, u)? } else { None } {
             Some((closing, energy)) => Ok((closing, Some(energy))),
@@ -185,9 +185,9 @@ fn beyond_the_end(nodes: &[Node]) -> Route {
 ///
 /// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
 /// use forward: backward it contracts.
-fn closest(equation: &mut Equation, u: f64) -> Result<Closing, Reason> {
+fn closest(equation: &mut Equation, u: f64) -> Result<SwingPair, Reason> {
     let worst =
-        |it: &Closing| if it.node.value.is_finite() { it.uncertainty } else { f64::INFINITY };
+        |it: &SwingPair| if it.node.value.is_finite() { it.uncertainty } else { f64::INFINITY };
     let mut best = equation.at(Route::Mixed, u)?;
     for route in [Route::Backward, Route::Forward] {
         let closing = equation.at(route, u)?;
@@ -201,9 +201,9 @@ fn closest(equation: &mut Equation, u: f64) -> Result<Closing, Reason> {
 /// Newton's method, then secants, in the bracket, along the route on which rounding grows least.
 fn sharpen(
     equation: &mut Equation,
-    rough: &Closing,
+    rough: &SwingPair,
     bracket: Bracket,
-) -> Result<Option<Closing>, Reason> {
+) -> Result<Option<SwingPair>, Reason> {
     /// Steps, and the relative change of the last one.
     const STEPS: usize = 20;
     const SETTLED: f64 = 1e-17;

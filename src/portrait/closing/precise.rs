@@ -16,7 +16,7 @@ pub const FINER: f64 = 1e-12;
 
 /// How far two swings are from closing.
 #[derive(Clone, Copy, Debug)]
-pub struct PreciseClosing {
+pub struct PreciseSwingPair {
     /// The residual of the route, as a closing in doubles has it.
     pub residual: f64,
     /// Clearance at which the second swing starts.
@@ -32,7 +32,7 @@ impl Equation<'_> {
         &mut self,
         route: Route,
         start: Twofold,
-    ) -> Result<PreciseClosing, Option<Reason>> {
+    ) -> Result<PreciseSwingPair, Option<Reason>> {
         use Direction::{Backward, Forward};
         let gap = Twofold::from(2.0 * self.parameters.r);
         let positive = |length: Twofold| Some(length).filter(|it| it.high > 0.0).ok_or(None);
@@ -62,7 +62,7 @@ impl Equation<'_> {
         let residual = ln_1p((difference / unit).value());
         let (second, duration) = (second.value(), duration.value());
         let sound = residual.is_finite() && second > 0.0;
-        sound.then_some(PreciseClosing { residual, second, duration }).ok_or(None)
+        sound.then_some(PreciseSwingPair { residual, second, duration }).ok_or(None)
     }
 
     /// Where a swing ends, and when; an error without a reason where it escapes.

@@ -15,7 +15,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::half_map::Length;
-use super::pair::Closing;
+use super::pair::SwingPair;
 use crate::closed_form::harmonic::amplitudes;
 use crate::model::Parameters;
 use crate::numerics::elementary::cbrt;
@@ -28,7 +28,7 @@ const WEAK: f64 = 1e-9;
 /// Equation (42) with its one root, for `D3 <= 0`, or for `r = 0`; the turning points are at
 /// `A0 -+ A - D2 A^2/6` with A0 of equation (40). Guarantee: relative errors of a few units in the last
 /// place.
-pub fn weak_closing(parameters: &Parameters) -> Option<Closing> {
+pub fn weak_closing(parameters: &Parameters) -> Option<SwingPair> {
     let Parameters { d, d2, d3, r } = *parameters;
     let one_zero = if r > 0.0 { d3 <= 0.0 } else { d * d3 < 0.0 };
     let [cycle] = amplitudes(parameters)[..] else { return None };
@@ -43,7 +43,7 @@ pub fn weak_closing(parameters: &Parameters) -> Option<Closing> {
     // In the frame of the first swing, in which D2 >= 0, the left turning point is the farther one.
     let turning = [1.0, -1.0].map(|sign| amplitude * (1.0 + sign * 2.0 / 3.0 * bend) - r);
     let [first, second] = turning.map(Length::new);
-    Some(Closing::in_closed_form([first, second], TAU, square, amplitude))
+    Some(SwingPair::in_closed_form([first, second], TAU, square, amplitude))
 }
 
 /// Whether energy alone excludes cycles: whatever D2, the first integral K of [`super::balance`] changes the same

@@ -1,7 +1,7 @@
 //! What is certain of the oscillator of the paper, of a machine or of a mode, whose numbers are known to tolerances.
 
-use super::oscillator::TwoSided;
-use super::{Uncertain, machine, oscillator};
+use super::oscillator::TwoSidedOscillator;
+use super::{NoGuarantee, machine, oscillator};
 use crate::flow::{Limits, Reason};
 use crate::model::{Body, Source, Tolerances};
 use crate::portrait::{Margin, Portrait};
@@ -16,7 +16,7 @@ pub fn guaranteed(
     known: &Tolerances,
     reach: f64,
     limits: &Limits,
-) -> Result<Result<(Portrait, Margin), Uncertain>, Reason> {
+) -> Result<Result<(Portrait, Margin), NoGuarantee>, Reason> {
     match &source.body {
         Body::Paper(parameters) => {
             oscillator::guaranteed(&known.around(parameters), known.disturbance, reach, limits)
@@ -42,7 +42,7 @@ pub fn hopeful(
 ) -> Result<Option<Portrait>, Reason> {
     match &source.body {
         Body::Paper(parameters) => {
-            let best = TwoSided::best(&known.around(parameters), known.disturbance);
+            let best = TwoSidedOscillator::best(&known.around(parameters), known.disturbance);
             let found = (best.upper.d > -1.0).then(|| best.portrait(reach, limits)).transpose()?;
             Ok(found.map(|(best, _)| best))
         }

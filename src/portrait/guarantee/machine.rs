@@ -11,7 +11,7 @@
 
 use nalgebra::{DMatrix, DVectorView};
 
-use super::Uncertain;
+use super::NoGuarantee;
 use crate::flow::Reason;
 use crate::model::source::{MONOTONE, set};
 use crate::model::{Belt, Knob, Model, Phase, Tolerances};
@@ -24,12 +24,12 @@ use crate::portrait::{Margin, Portrait};
 pub fn guaranteed(
     belt: &Belt,
     known: &Tolerances,
-) -> Result<Result<(Portrait, Margin), Uncertain>, Reason> {
-    let Some(corners) = Corners::new(belt, known)? else { return Ok(Err(Uncertain::TooMany)) };
+) -> Result<Result<(Portrait, Margin), NoGuarantee>, Reason> {
+    let Some(corners) = Corners::new(belt, known)? else { return Ok(Err(NoGuarantee::TooMany)) };
     let least = corners.friction;
     if least < 0.0 || known.disturbance > 0.0 && least == 0.0 {
         let (disturbance, friction) = (known.disturbance, corners.belts[0].friction);
-        return Ok(Err(Uncertain::Disturbance { disturbance, friction, unit: " N" }));
+        return Ok(Err(NoGuarantee::Disturbance { disturbance, friction, unit: " N" }));
     }
     let found = if corners.numbers == 0 {
         Ok(Portrait::of_belt(&corners.worst(0, 0.0))?)
@@ -57,7 +57,7 @@ fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
 
 impl Corners {
     /// A machine whose border bounds all others at its own velocities.
-    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, Uncertain>, Reason> {
+    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, NoGuarantee>, Reason> {
         /// Ranges of velocities that are tried, each larger than the border of the one before.
         const ROUNDS: usize = 8;
         const ROOM: f64 = 1.2;
@@ -66,14 +66,14 @@ impl Corners {
         let mut range = (ROOM * middle.0, (ROOM * middle.1).min(slowest));
         for _ in 0..ROUNDS {
             if self.models.iter().any(|model| model.least_velocity() > range.0) {
-                return Ok(Err(Uncertain::OutsideLaw));
+                return Ok(Err(NoGuarantee::OutsideLaw));
             }
             let (corner, less) = self.bound(range.0, range.1);
             if less * self.stiffest() >= self.friction {
-                return Ok(Err(Uncertain::Tolerances));
+                return Ok(Err(NoGuarantee::Tolerances));
             }
             let Some(found) = self.below_the_line(corner, less)? else {
-                return Ok(Err(Uncertain::Unbounded));
+                return Ok(Err(NoGuarantee::Unbounded));
             };
             let (portrait, (low, high)) = found;
             if low >= range.0 && high <= range.1 {
@@ -81,7 +81,7 @@ impl Corners {
             }
             range = (range.0.min(ROOM * low), range.1.max(ROOM * high).min(slowest));
         }
-        Ok(Err(Uncertain::Unbounded))
+        Ok(Err(NoGuarantee::Unbounded))
     }
 
     /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction

@@ -8,7 +8,7 @@ pub mod oscillator;
 
 /// Why no kick is survived for certain.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum Uncertain {
+pub enum NoGuarantee {
     /// The disturbance moves the mass from its rest by itself.
     #[error(
         "the disturbance of {disturbance}{unit} is not below the smallest friction of {friction}{unit}"

@@ -7,10 +7,10 @@
 //! attained: the disturbance `w sign(v)` at the worst parameters keeps to the border. In the same way no motion
 //! enters the basin of the *best* system from outside.
 //!
-//! An extreme system has a D2 of its own on each side, so it is a [`TwoSided`] one; half maps and arcs are
+//! An extreme system has a D2 of its own on each side, so it is a [`TwoSidedOscillator`] one; half maps and arcs are
 //! computed side by side anyway.
 
-use super::Uncertain;
+use super::NoGuarantee;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Fate, Limits, Reason};
 use crate::model::{HalfPlane, Model, ParameterBox, Parameters, Side};
@@ -19,7 +19,7 @@ use crate::portrait::basin::orbit::Orbit;
 use crate::portrait::closing::all::{STEP, innermost_bracket};
 use crate::portrait::closing::equation::Equation;
 use crate::portrait::closing::half_map::HalfMap;
-use crate::portrait::closing::pair::Closing;
+use crate::portrait::closing::pair::SwingPair;
 use crate::portrait::closing::polish::polish;
 use crate::portrait::closing::weak::has_cycle;
 use crate::portrait::without_belt::centre_fate;
@@ -27,14 +27,14 @@ use crate::portrait::{Border, Margin, Portrait, RestMargin};
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TwoSided {
+pub struct TwoSidedOscillator {
     /// Where `v > 0`.
     pub upper: Parameters,
     /// Where `v < 0`.
     pub lower: Parameters,
 }
 
-impl TwoSided {
+impl TwoSidedOscillator {
     /// The system that keeps the smallest basin, for disturbances up to `disturbance`, which is less than the
     /// friction.
     pub fn worst(known: &ParameterBox, disturbance: f64) -> Self {
@@ -42,7 +42,7 @@ impl TwoSided {
         if disturbance > 0.0 {
             upper.r = (upper.r - disturbance).next_down();
         }
-        TwoSided { upper, lower: Parameters { d2: known.d2.upper(), ..upper } }
+        TwoSidedOscillator { upper, lower: Parameters { d2: known.d2.upper(), ..upper } }
     }
 
     /// The system that keeps the largest basin.
@@ -51,7 +51,7 @@ impl TwoSided {
         if disturbance > 0.0 {
             upper.r = (upper.r + disturbance).next_up();
         }
-        TwoSided { upper, lower: Parameters { d2: known.d2.lower(), ..upper } }
+        TwoSidedOscillator { upper, lower: Parameters { d2: known.d2.lower(), ..upper } }
     }
 
     fn on(&self, side: Side) -> &Parameters {
@@ -96,10 +96,10 @@ impl TwoSided {
 
     /// The innermost closed pair of swings, and the relative error of its clearances: from the closed form where
     /// there is one, else where the search closes.
-    fn closing(&self, equation: &mut Equation) -> Result<Option<(Closing, f64)>, Reason> {
+    fn closing(&self, equation: &mut Equation) -> Result<Option<(SwingPair, f64)>, Reason> {
         if self.upper == self.lower && self.upper.is_piecewise_linear() {
             let cycle = LinearCycle::new(self.upper.d, self.upper.r);
-            return Ok(cycle.map(|cycle| (Closing::from(&cycle), NOISE)));
+            return Ok(cycle.map(|cycle| (SwingPair::from(&cycle), NOISE)));
         }
         let Some(bracket) = innermost_bracket(equation)? else {
             return if has_cycle(&self.upper) { Err(Reason::OutOfRange) } else { Ok(None) };
@@ -142,14 +142,14 @@ pub fn guaranteed(
     disturbance: f64,
     reach: f64,
     limits: &Limits,
-) -> Result<Result<(Portrait, Margin), Uncertain>, Reason> {
+) -> Result<Result<(Portrait, Margin), NoGuarantee>, Reason> {
     let (d, friction) = (known.d.lower(), known.r.lower());
-    let worst = TwoSided::worst(known, disturbance);
+    let worst = TwoSidedOscillator::worst(known, disturbance);
     if disturbance > 0.0 && worst.upper.r <= 0.0 {
-        return Ok(Err(Uncertain::Disturbance { disturbance, friction, unit: "" }));
+        return Ok(Err(NoGuarantee::Disturbance { disturbance, friction, unit: "" }));
     }
     if d <= -1.0 {
-        return Ok(Err(Uncertain::Repels { d }));
+        return Ok(Err(NoGuarantee::Repels { d }));
     }
     let (worst, error) = worst.portrait(reach, limits)?;
     if error > 0.5 {

@@ -8,49 +8,49 @@ use crate::proof::series::SeriesScalar;
 
 /// A magnitude, and its possible error in units of roundoff.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Counted {
+struct CountedErrors {
     size: f64,
     roundings: f64,
 }
 
-fn exact(size: f64) -> Counted {
-    Counted { size, roundings: 0.0 }
+fn exact(size: f64) -> CountedErrors {
+    CountedErrors { size, roundings: 0.0 }
 }
 
-impl Add for Counted {
-    type Output = Counted;
+impl Add for CountedErrors {
+    type Output = CountedErrors;
 
-    fn add(self, other: Counted) -> Counted {
+    fn add(self, other: CountedErrors) -> CountedErrors {
         let size = self.size + other.size;
         let own = if self.size == 0.0 || other.size == 0.0 { 0.0 } else { size };
-        Counted { size, roundings: self.roundings + other.roundings + own }
+        CountedErrors { size, roundings: self.roundings + other.roundings + own }
     }
 }
 
 /// For magnitudes a difference is a sum.
 #[expect(clippy::suspicious_arithmetic_impl, reason = "the worst case of a difference")]
-impl Sub for Counted {
-    type Output = Counted;
+impl Sub for CountedErrors {
+    type Output = CountedErrors;
 
-    fn sub(self, other: Counted) -> Counted {
+    fn sub(self, other: CountedErrors) -> CountedErrors {
         self + other
     }
 }
 
-impl Mul for Counted {
-    type Output = Counted;
+impl Mul for CountedErrors {
+    type Output = CountedErrors;
 
-    fn mul(self, other: Counted) -> Counted {
+    fn mul(self, other: CountedErrors) -> CountedErrors {
         let size = self.size * other.size;
         let carried = self.roundings * other.size + other.roundings * self.size;
-        Counted { size, roundings: carried + size }
+        CountedErrors { size, roundings: carried + size }
     }
 }
 
-impl Neg for Counted {
-    type Output = Counted;
+impl Neg for CountedErrors {
+    type Output = CountedErrors;
 
-    fn neg(self) -> Counted {
+    fn neg(self) -> CountedErrors {
         self
     }
 }
@@ -62,15 +62,15 @@ thread_local! {
     static PLANTED: std::cell::RefCell<Vec<f64>> = const { std::cell::RefCell::new(Vec::new()) };
 }
 
-impl SeriesScalar for Counted {
-    const ZERO: Counted = Counted { size: 0.0, roundings: 0.0 };
+impl SeriesScalar for CountedErrors {
+    const ZERO: CountedErrors = CountedErrors { size: 0.0, roundings: 0.0 };
 
-    fn inverse(k: usize) -> Counted {
+    fn inverse(k: usize) -> CountedErrors {
         // Only powers of two have an exact inverse; the bound counts one rounding for every k, and so does this.
-        Counted { size: INVERSE[k], roundings: INVERSE[k] }
+        CountedErrors { size: INVERSE[k], roundings: INVERSE[k] }
     }
 
-    fn taken(self) -> Counted {
+    fn taken(self) -> CountedErrors {
         let place = TAKEN.with_borrow_mut(|taken| {
             taken.push(self.roundings);
             taken.len() - 1
@@ -86,7 +86,7 @@ impl SeriesScalar for Counted {
 /// For each degree: the roundings of `k + 1` times the next coefficients of x and v, and the sums of magnitudes
 /// that the numbers of [`ROUNDINGS`] multiply.
 fn counted(field: [f64; 3], x: f64, v: f64) -> Vec<(f64, [f64; 7])> {
-    let mut series = MotionSeries::<Counted>::EMPTY;
+    let mut series = MotionSeries::<CountedErrors>::EMPTY;
     TAKEN.with_borrow_mut(Vec::clear);
     series.expand(field.map(exact), exact(x), exact(v));
     let taken = TAKEN.take();
@@ -151,11 +151,11 @@ fn the_bound_of_roundings_is_what_counting_gives() {
 
 #[test]
 fn a_polynomial_is_evaluated_with_the_roundings_counted() {
-    let mut series = MotionSeries::<Counted>::EMPTY;
+    let mut series = MotionSeries::<CountedErrors>::EMPTY;
     series.expand([0.3, 0.2, 0.5].map(exact), exact(1.0), exact(0.5));
     for h in [1e-6, 0.3, 1.0, 30.0] {
         let (x, v) = series.at(exact(h));
-        let degrees = |coefficients: &[Counted; LENGTH]| {
+        let degrees = |coefficients: &[CountedErrors; LENGTH]| {
             let mut power = 1.0;
             let mut sum = 0.0;
             for (k, coefficient) in coefficients.iter().enumerate().take(ORDER + 1) {
@@ -455,7 +455,7 @@ fn coefficients_of_the_square_pass_the_roundings_counted() {
         for planted in [Vec::new(), sizes] {
             PLANTED.set(planted);
             TAKEN.with_borrow_mut(Vec::clear);
-            let mut series = MotionSeries::<Counted>::EMPTY;
+            let mut series = MotionSeries::<CountedErrors>::EMPTY;
             series.expand([0.3, 0.2, 0.5].map(exact), exact(1.0), exact(0.5));
             let size = |k: usize| series.v[k].size;
             for (k, square) in series.square[..ORDER].iter().enumerate() {

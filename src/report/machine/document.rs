@@ -6,7 +6,7 @@ use super::{CubicExpansion, MachineAnswer};
 use crate::flow::{Fate, Motion, Sample};
 use crate::model::Group;
 use crate::model::belt::{Derivatives, FrictionLaw};
-use crate::portrait::guarantee::Uncertain;
+use crate::portrait::guarantee::NoGuarantee;
 use crate::portrait::{Cycle, Margin, Portrait};
 use crate::report::cycle_numbers::of_machine;
 use crate::report::motion::{energy, phases};
@@ -67,7 +67,7 @@ fn quantities(expansion: &CubicExpansion) -> Document {
 
 /// The kicks that are survived for certain, with what they allow for: the disturbance in N, and the intervals of the
 /// numbers that are not known exactly. Null if every kick is survived or nothing is certain.
-fn guaranteed(answer: &MachineAnswer, certain: Result<Margin, Uncertain>) -> Document {
+fn guaranteed(answer: &MachineAnswer, certain: Result<Margin, NoGuarantee>) -> Document {
     let tolerances = answer.uncertain().into_iter().map(|(knob, value)| (knob.spec().name, value));
     Document::default()
         .and(&certain.unwrap_or(Margin::ENDLESS))

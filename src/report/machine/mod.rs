@@ -15,8 +15,8 @@ use super::page::SourceFile;
 use super::{About, Answer, Columns, Quantity};
 use crate::flow::{Fate, Motion, Subject};
 use crate::model::{Interval, Knob};
-use crate::portrait::guarantee::Uncertain;
-use crate::portrait::{Cycle, FrictionNeeded, Kick, Margin, Portrait};
+use crate::portrait::guarantee::NoGuarantee;
+use crate::portrait::{Cycle, Kick, Margin, Portrait, RequiredFriction};
 use crate::words::provenance::Provenance;
 use crate::words::stability;
 
@@ -44,7 +44,7 @@ pub struct MachineAnswer<'a> {
     /// `None` for a mode.
     pub expansion: Option<CubicExpansion<'a>>,
     /// The kicks that are survived for certain, or why none is; `None` if not asked for.
-    pub certain: Option<Result<Margin, Uncertain>>,
+    pub certain: Option<Result<Margin, NoGuarantee>>,
     pub seconds: f64,
 }
 
@@ -64,7 +64,7 @@ pub struct DesignAnswer {
     /// Its size: m for a displacement, N s for an impulse.
     pub wanted: f64,
     /// The friction needed, in N.
-    pub needed: FrictionNeeded,
+    pub needed: RequiredFriction,
 }
 
 /// The whole answer about a machine.

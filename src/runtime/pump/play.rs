@@ -14,7 +14,7 @@ pub(super) enum Pause {
 
 /// A file that is being played.
 #[derive(Debug)]
-pub(super) struct Playing {
+pub(super) struct Replay {
     pub(super) player: Player,
     /// The player at its beginning, to start over.
     start: Player,
@@ -27,11 +27,11 @@ pub(super) struct Playing {
     pub(super) unwritten: Option<String>,
 }
 
-impl Playing {
+impl Replay {
     pub(super) fn new(script: Script) -> Self {
         let (player, pause) = (Player::new(script), Pause::Not);
         let start = player.clone();
-        Playing { player, start, passed: 0, tried: false, pause, unwritten: None }
+        Replay { player, start, passed: 0, tried: false, pause, unwritten: None }
     }
 
     /// Plays everything again up to the caption after so many.

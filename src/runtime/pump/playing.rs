@@ -8,7 +8,7 @@ use std::path::Path;
 
 use ratatui::layout::Size;
 
-use super::play::{Pause, Playing};
+use super::play::{Pause, Replay};
 use super::{Application, Files, Pump, Step};
 use crate::runtime::application::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
@@ -94,7 +94,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     pub(super) fn begin(&mut self, script: Script) -> Step {
         self.options.recorder.forget(self.application.asked());
         let Some(playing) = &mut self.playing else {
-            self.playing = Some(Playing::new(script));
+            self.playing = Some(Replay::new(script));
             return Ok(());
         };
         match playing.player.interject(script) {

@@ -74,7 +74,7 @@ impl Bench {
         let msg = self.messages.recv().unwrap();
         self.workers.arrived(&msg);
         match msg {
-            Msg::Answered(answered) => (number(&answered.request), answered.result.map(drop)),
+            Msg::Answered(reply) => (number(&reply.request), reply.result.map(drop)),
             other => panic!("{other:?}"),
         }
     }
@@ -208,7 +208,7 @@ fn a_superseded_job_reports_no_more_pieces() {
         .iter()
         .take(2)
         .map(|message| match message {
-            Msg::Answered(answered) => number(&answered.request),
+            Msg::Answered(reply) => number(&reply.request),
             other => panic!("{other:?}"),
         })
         .collect();

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::flow::{Problem, Reason, Subject};
 use crate::model::belt::ReducedBelt;
-use crate::model::{Belt, Body, Group, Knob, Model, OutOfRange, State, Tolerances};
+use crate::model::{Belt, Body, Group, Knob, Model, RangeError, State, Tolerances};
 use crate::numerics::elementary::powi;
 
 /// What a file describes: a machine or a vibration mode, and one motion of it.
@@ -198,37 +198,37 @@ fn rest_of(total: f64, part: f64) -> f64 {
 
 /// The speed of a belt and the other numbers of a machine that were changed, in SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Written", into = "Written")]
+#[serde(try_from = "SavedSetting", into = "SavedSetting")]
 pub struct Setting(BTreeMap<Knob, f64>);
 
 /// A setting as it is saved: a speed alone, or all changed numbers by name.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
-enum Written {
+enum SavedSetting {
     Speed(f64),
     Numbers(BTreeMap<String, f64>),
 }
 
-impl From<Setting> for Written {
+impl From<Setting> for SavedSetting {
     fn from(setting: Setting) -> Self {
         let numbers = setting.0;
         match numbers.get(&Knob::BeltSpeed) {
-            Some(speed) if numbers.len() == 1 => Written::Speed(*speed),
+            Some(speed) if numbers.len() == 1 => SavedSetting::Speed(*speed),
             _ => {
                 let named = numbers.into_iter().map(|(knob, value)| (knob.to_string(), value));
-                Written::Numbers(named.collect())
+                SavedSetting::Numbers(named.collect())
             }
         }
     }
 }
 
-impl TryFrom<Written> for Setting {
+impl TryFrom<SavedSetting> for Setting {
     type Error = String;
 
-    fn try_from(written: Written) -> Result<Self, String> {
+    fn try_from(written: SavedSetting) -> Result<Self, String> {
         let numbers = match written {
-            Written::Speed(speed) => return Ok(Setting::of_speed(speed)),
-            Written::Numbers(numbers) => numbers,
+            SavedSetting::Speed(speed) => return Ok(Setting::of_speed(speed)),
+            SavedSetting::Numbers(numbers) => numbers,
         };
         let speed = numbers.get("v0").ok_or("a machine without the speed v0 of its belt")?;
         let mut setting = Setting::of_speed(*speed);
@@ -257,7 +257,7 @@ impl Setting {
     }
 
     /// Checks all numbers against their ranges. Fails with the first one that is outside.
-    pub fn check(&self) -> Result<(), OutOfRange> {
+    pub fn check(&self) -> Result<(), RangeError> {
         self.0.iter().try_for_each(|(knob, value)| knob.check(*value).map(drop))
     }
 

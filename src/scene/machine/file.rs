@@ -16,9 +16,9 @@ use super::table::table;
 use crate::flow::Subject;
 use crate::model::belt::FrictionLaw;
 use crate::model::unit::quantity;
-use crate::model::{Belt, Body, Group, Knob, KnobSpec, Modal, Source, Tolerances, unknown};
+use crate::model::{Belt, Body, Group, Knob, KnobSpec, Source, Tolerances, VibrationMode, unknown};
 use crate::numerics::{SmoothingSpline, shortest};
-use crate::scene::misread::{Complaint, Misread};
+use crate::scene::mistake::{Complaint, FileMistake};
 
 /// Maximum number of points of a table.
 const MOST_POINTS: usize = 10_000;
@@ -102,14 +102,14 @@ impl Number {
 }
 
 /// Reads a machine or a mode; `name` is the name by which it is opened, `file` the one in error messages. `fetch`
-/// returns the text of a table that the file names, or why it cannot. Fails with [`Misread`], which names the place
+/// returns the text of a table that the file names, or why it cannot. Fails with [`FileMistake`], which names the place
 /// and what is allowed there.
 pub fn parse(
     name: &str,
     file: &str,
     text: &str,
     mut fetch: impl FnMut(&str) -> Result<String, String>,
-) -> Result<Description, Misread> {
+) -> Result<Description, FileMistake> {
     let described = |read: Spanned<DeTable>| {
         let is_mode = read.get_ref().contains_key("modal_mass");
         let half_widths = BTreeMap::new();
@@ -238,7 +238,7 @@ impl MachineReader<'_> {
         let ratio = read.get::<Vec<_>>("damping_ratio")?;
         let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing".to_owned()))?;
         let damping_ratio = self.polynomial("ratio", ratio.get_ref())?;
-        Ok((Body::Mode(Modal { damping_ratio, ..Modal::default() }), ratio.span()))
+        Ok((Body::Mode(VibrationMode { damping_ratio, ..VibrationMode::default() }), ratio.span()))
     }
 
     /// Gives a mass its friction law: the one table beside the coefficient of static friction.

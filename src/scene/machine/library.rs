@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use super::Machine;
 use super::file::parse;
-use crate::scene::misread::{built_in, texts};
+use crate::scene::mistake::{built_in, texts};
 use crate::words::one_of;
 
 /// The machine that is used unless another is named.

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::fit::Unfit;
+use crate::fit::NoEstimate;
 use crate::flow::Reason;
 use crate::model::Knob;
 use crate::question::{NoAnswer, Rows};
-use crate::scene::{Answered, Finding, Fit, Topic};
+use crate::scene::{Finding, Fit, Reply, Topic};
 use crate::session::act::scan::refit;
 use crate::session::read::windows::{awaited, fitted};
 use crate::session::scan::SCANNING;
@@ -15,14 +15,14 @@ use crate::words::fit::sentences;
 
 impl Session {
     /// Takes an answer in; returns whether its question is asked at present.
-    pub(crate) fn take(&mut self, answered: Answered) -> bool {
-        let topic = answered.request.topic();
+    pub(crate) fn take(&mut self, reply: Reply) -> bool {
+        let topic = reply.request.topic();
         if topic == Topic::Scan {
-            return self.take_rows(&answered);
+            return self.take_rows(&reply);
         }
-        let asked = self.asks().contains(&answered.request);
-        if let Ok(answer) = &answered.result {
-            let (cost, seconds) = (answer.cost(), answered.seconds);
+        let asked = self.asks().contains(&reply.request);
+        if let Ok(answer) = &reply.result {
+            let (cost, seconds) = (answer.cost(), reply.seconds);
             // No key waits for a proof.
             if topic != Topic::Proof {
                 self.price.recomputed.push(Recomputation { topic, cost, seconds });
@@ -31,7 +31,7 @@ impl Session {
                 && asked
             {
                 let fit = fit.clone();
-                if let Err(Unfit::Underway { motions }) = fit.found() {
+                if let Err(NoEstimate::Underway { motions }) = fit.found() {
                     self.fitting = *motions;
                     return asked;
                 }
@@ -39,7 +39,7 @@ impl Session {
                 self.show_fit(&fit);
             }
         }
-        self.answers.keep(answered);
+        self.answers.keep(reply);
         asked
     }
 
@@ -74,13 +74,13 @@ impl Session {
     }
 
     /// Takes rows of the scan in; returns whether they were asked for.
-    pub(crate) fn take_rows(&mut self, answered: &Answered) -> bool {
-        if self.scan_request().as_ref() != Some(&answered.request) {
+    pub(crate) fn take_rows(&mut self, reply: &Reply) -> bool {
+        if self.scan_request().as_ref() != Some(&reply.request) {
             return false;
         }
         let Some(scanned) = &mut self.scanned else { return false };
-        scanned.seconds = answered.seconds;
-        match &answered.result {
+        scanned.seconds = reply.seconds;
+        match &reply.result {
             Ok(Finding::Scan(Rows { first, rows })) if *first == scanned.rows.len() => {
                 scanned.rows.extend_from_slice(rows);
             }

@@ -9,7 +9,7 @@ use crate::scene::machine::file;
 use crate::scene::{Machine, Recording, ScaledMachine};
 use crate::session::act::{history, lists, prompt};
 use crate::session::{
-    Content, Done, Effect, Listed, Overlay, Purpose, Script, Session, replay, save,
+    Content, Done, Effect, ListKind, Overlay, Purpose, Script, Session, replay, save,
 };
 
 /// The built-in tour.
@@ -149,7 +149,7 @@ pub fn restore(session: &mut Session) -> Done {
     match session.interrupted.len() {
         0 => return Err(NONE_INTERRUPTED.to_owned()),
         1 => restore_number(session, 0),
-        _ => lists::open(session, Listed::Interrupted),
+        _ => lists::open(session, ListKind::Interrupted),
     }
     Ok(())
 }
@@ -169,7 +169,7 @@ fn restore_number(session: &mut Session, number: usize) {
 
 /// Index of the selected session among all interrupted ones.
 fn selected(session: &Session) -> Option<usize> {
-    let Some(Overlay::List(Listed::Interrupted, list)) = &session.overlay else { return None };
+    let Some(Overlay::List(ListKind::Interrupted, list)) = &session.overlay else { return None };
     session.interrupted_rows(list).get(list.selected).map(|(number, _)| *number)
 }
 

@@ -4,7 +4,7 @@ use crate::accuracy::harmonic_error::ladder;
 use crate::scene::Layer;
 use crate::session::settings::{DisplaySettings, NamedValue, next_of};
 use crate::session::state::session::{LARGEST_COUNT, MOST_HARMONICS};
-use crate::session::{Done, Effect, Key, Overlay, Pending, Session};
+use crate::session::{Done, Effect, Key, Overlay, PendingInput, Session};
 
 /// Shows or hides a layer.
 pub fn toggle(session: &mut Session, layer: Layer) {
@@ -108,16 +108,16 @@ pub fn quit(session: &mut Session) {
 /// Adds the digit of this key to a count, and waits for more.
 pub fn count(session: &mut Session, key: Key) {
     let before = match session.pending {
-        Some(Pending::Count(before)) => before,
+        Some(PendingInput::Count(before)) => before,
         _ => 0,
     };
     let digit = key.typed().and_then(|char| char.to_digit(10)).unwrap_or(0);
-    session.pending = Some(Pending::Count((10 * before + digit).min(LARGEST_COUNT)));
+    session.pending = Some(PendingInput::Count((10 * before + digit).min(LARGEST_COUNT)));
 }
 
 /// Deletes the last digit of a count.
 pub fn delete_digit(session: &mut Session) {
-    if let Some(Pending::Count(count)) = &mut session.pending {
+    if let Some(PendingInput::Count(count)) = &mut session.pending {
         *count /= 10;
     }
 }

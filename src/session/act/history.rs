@@ -5,15 +5,15 @@
 
 use std::sync::Arc;
 
-use crate::fit::Unfit;
+use crate::fit::NoEstimate;
 use crate::model::Knob;
-use crate::scene::{Answered, Finding, Layer, PlotSetup, Scene, Topic};
+use crate::scene::{Finding, Layer, PlotSetup, Reply, Scene, Topic};
 use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::set_up;
 use crate::session::read::completion::difference;
 use crate::session::read::wants::COMPARED;
 use crate::session::{
-    Before, Bookmark, Done, Pane, Playback, Plot, Row, Session, Setup, Snapshot, StepSizes,
+    Bookmark, Done, EarlierState, Pane, Playback, Plot, Row, Session, Setup, Snapshot, StepSizes,
 };
 
 /// Undoes the last change.
@@ -41,21 +41,22 @@ pub fn stop_fitting(session: &mut Session) {
     if session.scene.recording == recording
         && let Some(request) = session.request(Topic::Fit, session.plot)
     {
-        let result = Ok(Finding::Fit(Unfit::Interrupted.into()));
-        session.answers.keep(Answered { request, result, seconds: 0.0, complete: true });
+        let result = Ok(Finding::Fit(NoEstimate::Interrupted.into()));
+        session.answers.keep(Reply { request, result, seconds: 0.0, complete: true });
     }
     session.fitting = 0;
     session.inform("the fit was stopped");
 }
 
 /// The present state, to the extent of `other`.
-fn present(session: &Session, other: &Before) -> Before {
+fn present(session: &Session, other: &EarlierState) -> EarlierState {
     match other {
-        Before::Setup(_) => Before::Setup(Box::new(session.setup())),
-        Before::ScreenSetup(_) => Before::ScreenSetup(session.screen_setup()),
-        Before::Scene { .. } => {
-            Before::Scene { plots: session.screen_setup().plots, show: Box::new(snapshot(session)) }
-        }
+        EarlierState::Setup(_) => EarlierState::Setup(Box::new(session.setup())),
+        EarlierState::ScreenSetup(_) => EarlierState::ScreenSetup(session.screen_setup()),
+        EarlierState::Scene { .. } => EarlierState::Scene {
+            plots: session.screen_setup().plots,
+            show: Box::new(snapshot(session)),
+        },
     }
 }
 
@@ -82,19 +83,19 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
 }
 
 /// Brings a state back, and says what differs.
-fn bring_back(session: &mut Session, name: &str, state: Before) {
+fn bring_back(session: &mut Session, name: &str, state: EarlierState) {
     match state {
-        Before::Setup(setup) => {
+        EarlierState::Setup(setup) => {
             session.inform(format!("{name}: {}", difference(&session.setup(), &setup)));
             session.set_setup(*setup);
         }
-        Before::ScreenSetup(screen_setup) => {
+        EarlierState::ScreenSetup(screen_setup) => {
             let titles: Vec<_> =
                 screen_setup.plots.iter().map(|plot| plot.view.spec().title).collect();
             session.inform(format!("{name}: {}", titles.join(", ")));
             set_up(session, screen_setup.arrangement, opened(&screen_setup.plots));
         }
-        Before::Scene { plots, show } => {
+        EarlierState::Scene { plots, show } => {
             session.inform(format!("{name}: scene {}", show.scene.name));
             restore(session, *show, opened(&plots));
         }
@@ -122,7 +123,7 @@ pub(crate) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     let (plots, before) = (session.screen_setup().plots, snapshot(session));
     let opens = opening(scene);
     if before != opens || plots != opens.scene.plots {
-        session.history.record(Before::Scene { plots, show: Box::new(before) });
+        session.history.record(EarlierState::Scene { plots, show: Box::new(before) });
     }
     let plots = opened(&opens.scene.plots);
     restore(session, opens, plots);

@@ -2,21 +2,21 @@
 
 use crate::scene::letters;
 use crate::session::act::general::toggle;
-use crate::session::{Key, List, Listed, Overlay, Session};
+use crate::session::{Key, List, ListKind, Overlay, Session};
 
 /// Opens a list, with the present scene or the view of the plot in use selected.
-pub fn open(session: &mut Session, listed: Listed) {
+pub fn open(session: &mut Session, kind: ListKind) {
     let list = List::default();
-    let selected = match listed {
-        Listed::Scenes => {
+    let selected = match kind {
+        ListKind::Scenes => {
             let mut scenes = session.scene_rows(&list).into_iter();
             scenes.position(|scene| scene.name == session.scene.name)
         }
-        Listed::Views => Some(session.view_in_use() as usize),
+        ListKind::Views => Some(session.view_in_use() as usize),
         _ => None,
     };
     let list = List { selected: selected.unwrap_or(0), ..list };
-    session.overlay = Some(Overlay::List(listed, list));
+    session.overlay = Some(Overlay::List(kind, list));
 }
 
 /// Switches the layer with this letter in the view of the plot in use.
@@ -26,7 +26,7 @@ pub fn toggle_letter(session: &mut Session, key: Key) {
         let text = format!("{} is not a layer of the {}", key.said(), view.spec().title);
         return session.refuse(text);
     };
-    if let Some(Overlay::List(Listed::Layers, list)) = &session.overlay {
+    if let Some(Overlay::List(ListKind::Layers, list)) = &session.overlay {
         let place = session.layer_rows(list).iter().position(|row| row.layer == layer);
         with(session, |list| list.selected = place.unwrap_or(list.selected));
     }
@@ -35,8 +35,8 @@ pub fn toggle_letter(session: &mut Session, key: Key) {
 
 /// Moves the selection of the open list, within its rows.
 pub fn move_by(session: &mut Session, by: isize) {
-    let Some(Overlay::List(listed, list)) = &session.overlay else { return };
-    let last = session.rows_of(*listed, list).len().saturating_sub(1);
+    let Some(Overlay::List(kind, list)) = &session.overlay else { return };
+    let last = session.rows_of(*kind, list).len().saturating_sub(1);
     with(session, |list| list.selected = list.selected.saturating_add_signed(by).min(last));
 }
 

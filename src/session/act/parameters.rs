@@ -7,7 +7,9 @@ use crate::numerics::{log10, shortest};
 use crate::scene::{Setting, View};
 use crate::session::read::completion::typed;
 use crate::session::state::setup::symbol_of;
-use crate::session::{Before, Done, Framing, Key, Overlay, Prompt, Row, Session, Setup, StepSizes};
+use crate::session::{
+    Done, EarlierState, Framing, Key, Overlay, Prompt, Row, Session, Setup, StepSizes,
+};
 use crate::words::one_of;
 
 /// Changes the motion on show, as one change that can be undone; the belt keeps its speed. Returns whether
@@ -31,7 +33,7 @@ pub(crate) fn put(session: &mut Session, mut setup: Setup) -> bool {
         return false;
     }
     let was_on = session.is_on_the_belt() == Some(true);
-    session.history.record(Before::Setup(Box::new(before)));
+    session.history.record(EarlierState::Setup(Box::new(before)));
     session.set_setup(setup);
     if was_on && session.is_on_the_belt() == Some(false) {
         session.inform("off the belt: no speed has these numbers; the row belt leads back");

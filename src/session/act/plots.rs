@@ -10,7 +10,9 @@ use crate::session::act::motions::start;
 use crate::session::act::parameters::{change, put};
 use crate::session::act::screen_setup::focus_on;
 use crate::session::act::{history, lists, scan};
-use crate::session::{Done, Effect, Framing, Gesture, Pane, Plot, Pointed, PointerTarget, Session};
+use crate::session::{
+    Done, Effect, Framing, Gesture, MouseAction, Pane, Plot, PointerTarget, Session,
+};
 
 /// Number of cursor steps across a window, about the columns of a plot at 80 columns.
 ///
@@ -290,7 +292,7 @@ pub fn toggle_mouse(session: &mut Session) {
 }
 
 /// Handles an action of the mouse. Over an overlay, the wheel moves its list and clicks are ignored.
-pub fn pointed(session: &mut Session, Pointed { gesture, place }: Pointed) -> Done {
+pub fn pointed(session: &mut Session, MouseAction { gesture, place }: MouseAction) -> Done {
     if session.overlay.is_some() {
         match gesture {
             Gesture::Click => {}

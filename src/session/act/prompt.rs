@@ -12,7 +12,9 @@ use crate::session::act::screen_setup::show_from_list;
 use crate::session::act::values::{belt, set_row};
 use crate::session::read::completion::completion;
 use crate::session::state::keymap::full_name;
-use crate::session::{Completion, Done, Input, List, Listed, Overlay, PaletteRow, Prompt, Session};
+use crate::session::{
+    Completion, Done, Input, List, ListKind, Overlay, PaletteRow, Prompt, Session,
+};
 use crate::words::printable::is_printable;
 
 /// Maximum number of remembered lines.
@@ -32,7 +34,7 @@ pub fn accept(session: &mut Session) {
     if prompt.row.is_none()
         && let Some(found) = search(session, &text)
     {
-        session.overlay = Some(Overlay::List(Listed::Palette, found));
+        session.overlay = Some(Overlay::List(ListKind::Palette, found));
         return;
     }
     session.overlay = None;
@@ -133,7 +135,7 @@ pub fn insert(session: &mut Session, text: &str) {
 pub fn search_done(session: &mut Session) -> Done {
     lists::with(session, |list| list.searching = false);
     match session.overlay {
-        Some(Overlay::List(Listed::Scenes | Listed::Views, _)) => choose(session),
+        Some(Overlay::List(ListKind::Scenes | ListKind::Views, _)) => choose(session),
         _ => Ok(()),
     }
 }
@@ -141,11 +143,11 @@ pub fn search_done(session: &mut Session) -> Done {
 /// Runs the selected row of the open list. The list closes, except that of the
 /// layers. A command that takes words opens the line for typing them. In the list of costs, nothing can be run.
 pub fn choose(session: &mut Session) -> Done {
-    let Some(Overlay::List(listed, list)) = &session.overlay else { return Ok(()) };
-    let rows = session.rows_of(*listed, list);
-    let (listed, row) = (*listed, rows.get(list.selected).copied().flatten());
-    let closes = row.is_some() || listed == Listed::Cost;
-    if closes && listed != Listed::Layers {
+    let Some(Overlay::List(kind, list)) = &session.overlay else { return Ok(()) };
+    let rows = session.rows_of(*kind, list);
+    let (kind, row) = (*kind, rows.get(list.selected).copied().flatten());
+    let closes = row.is_some() || kind == ListKind::Cost;
+    if closes && kind != ListKind::Layers {
         session.overlay = None;
     }
     match row {

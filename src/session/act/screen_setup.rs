@@ -3,7 +3,7 @@
 
 use crate::scene::{Arrangement, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::settings::next_of;
-use crate::session::{Before, Done, Pane, Plot, Session};
+use crate::session::{Done, EarlierState, Pane, Plot, Session};
 
 /// Replaces the plots and their arrangement.
 pub(crate) fn set_up(session: &mut Session, arrangement: Arrangement, plots: Vec<Plot>) {
@@ -18,7 +18,7 @@ pub(crate) fn set_up(session: &mut Session, arrangement: Arrangement, plots: Vec
 
 /// Records the present plots before a change.
 fn record(session: &mut Session) {
-    let before = Before::ScreenSetup(session.screen_setup());
+    let before = EarlierState::ScreenSetup(session.screen_setup());
     session.history.record(before);
     session.held = None;
 }

@@ -6,7 +6,7 @@ use crate::accuracy::reference::{Deviation, NoComparison, Reference};
 use crate::accuracy::trade::Trade;
 use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
-use crate::fit::Fitted;
+use crate::fit::FitResult;
 use crate::flow::Motion;
 use crate::model::belt::Units;
 use crate::model::{Knob, State};
@@ -77,7 +77,7 @@ impl Session {
     }
 
     /// The fit of the record on show with the held numbers; until it is there, the most similar one.
-    pub fn fitted(&self) -> Option<&Fitted> {
+    pub fn fitted(&self) -> Option<&FitResult> {
         // With the distribution of the margin once that is there.
         let held = self.refit(true).filter(|drawn| drawn.is_fresh()).or_else(|| self.refit(false));
         let held = held.and_then(AnswerState::answer).and_then(Finding::try_as_refit_ref);
@@ -85,12 +85,12 @@ impl Session {
     }
 
     /// The fit only if the distribution of its margin is that for the held numbers and for what is unsure.
-    pub fn drawn(&self) -> Option<&Fitted> {
+    pub fn drawn(&self) -> Option<&FitResult> {
         self.fitted().filter(|_| self.refit(true).is_none_or(AnswerState::is_fresh))
     }
 
     /// The fit only if it is up to date with the held numbers.
-    pub(crate) fn followed(&self) -> Option<&Fitted> {
+    pub(crate) fn followed(&self) -> Option<&FitResult> {
         self.fitted().filter(|_| self.refit(false).is_none_or(AnswerState::is_fresh))
     }
 

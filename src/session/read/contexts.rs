@@ -13,8 +13,8 @@ use crate::session::read::wants::COMPARED;
 use crate::session::read::windows;
 use crate::session::state::keymap::{called, chain};
 use crate::session::{
-    Code, Command, Context, Key, Letter, Listed, Msg, Overlay, PaletteRow, Pane, Pending, Pointed,
-    PointerTarget, Prompt, Session, SessionCaption,
+    Code, Command, Context, Key, Letter, ListKind, MouseAction, Msg, Overlay, PaletteRow, Pane,
+    PendingInput, PointerTarget, Prompt, Session, SessionCaption,
 };
 
 impl Session {
@@ -23,7 +23,7 @@ impl Session {
         match message {
             Msg::Key(key) => self.awaited_by_key(*key),
             Msg::Run(line) => self.awaited_by_line(line),
-            Msg::Pointed(Pointed { place: PointerTarget::Plot(index, _), .. }) => {
+            Msg::Pointed(MouseAction { place: PointerTarget::Plot(index, _), .. }) => {
                 windows::awaited(self, *index)
             }
             _ => None,
@@ -35,9 +35,9 @@ impl Session {
             Some(pending) if self.keymap.command(&[pending.context()], key).is_some() => {
                 return None;
             }
-            Some(Pending::Letter(Letter::GoTo)) => return self.awaited_by_line("goto"),
-            Some(Pending::Letter(Letter::Mark)) => return None,
-            Some(Pending::Count(_)) | None => {}
+            Some(PendingInput::Letter(Letter::GoTo)) => return self.awaited_by_line("goto"),
+            Some(PendingInput::Letter(Letter::Mark)) => return None,
+            Some(PendingInput::Count(_)) | None => {}
         }
         let Some(command) = self.keymap.command(self.contexts_at_rest(), key) else {
             return self.awaited_by_command(elsewhere(self, key)?);
@@ -46,7 +46,7 @@ impl Session {
             (Some(Overlay::Prompt(prompt)), "run-line") => {
                 self.awaited_by_line(prompt.input.text().trim())
             }
-            (Some(Overlay::List(Listed::Palette, list)), "run-command") => {
+            (Some(Overlay::List(ListKind::Palette, list)), "run-command") => {
                 match self.palette_rows(list).get(list.selected)? {
                     PaletteRow::Command(command) => self.awaited_by_command(command),
                     _ => None,
@@ -112,7 +112,7 @@ impl Session {
     /// The contexts that hold at present, the most specific first: one of
     /// [`chains`](crate::session::state::keymap::chains).
     pub fn contexts(&self) -> &'static [Context] {
-        let pending = self.pending.map(Pending::context);
+        let pending = self.pending.map(PendingInput::context);
         pending.map_or_else(|| self.contexts_at_rest(), chain)
     }
 
@@ -120,10 +120,10 @@ impl Session {
     pub(crate) fn contexts_at_rest(&self) -> &'static [Context] {
         let first = match &self.overlay {
             None => return self.contexts_below(),
-            Some(Overlay::List(Listed::Palette, list)) if list.searching => Context::Palette,
+            Some(Overlay::List(ListKind::Palette, list)) if list.searching => Context::Palette,
             Some(Overlay::List(_, list)) if list.searching => Context::Search,
-            Some(Overlay::List(Listed::Cost, _)) => Context::List(Listed::Palette),
-            Some(Overlay::List(listed, _)) => Context::List(*listed),
+            Some(Overlay::List(ListKind::Cost, _)) => Context::List(ListKind::Palette),
+            Some(Overlay::List(kind, _)) => Context::List(*kind),
             Some(Overlay::Prompt(Prompt { row: Some(_), .. })) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Offer(_)) => Context::Offer,

@@ -158,7 +158,7 @@ impl Session {
     pub(crate) fn keep_course(&mut self) {
         let asked = |motion: &Motion| {
             let found = self.cycles_beside(motion)?;
-            let cycles = &self.standing(Topic::Cycles, self.plot).answered()?.request;
+            let cycles = &self.standing(Topic::Cycles, self.plot).reply()?.request;
             let start = motion.problem.initial;
             let known = self.answers.course.as_ref();
             let known = known.filter(|known| known.start == start && known.cycles == *cycles);

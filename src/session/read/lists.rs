@@ -9,7 +9,7 @@ use crate::scene::library::SceneGroup;
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, LayerSpec, Machine, Scene, VIEWS, View, ViewSpec, library};
 use crate::session::state::keymap::contexts;
-use crate::session::{Code, Command, Context, Kept, Key, List, Listed, Session};
+use crate::session::{Code, Command, Context, InterruptedSession, Key, List, ListKind, Session};
 
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {
@@ -125,17 +125,17 @@ impl Session {
     }
 
     /// The rows of a list; `None` for each that cannot be run.
-    pub(crate) fn rows_of(&self, listed: Listed, list: &List) -> Vec<Option<PaletteRow>> {
-        let rows: Vec<PaletteRow> = match listed {
-            Listed::Scenes => self.scene_rows(list).into_iter().map(PaletteRow::Scene).collect(),
-            Listed::Layers => self.layer_rows(list).into_iter().map(PaletteRow::Layer).collect(),
-            Listed::Views => self.view_rows(list).into_iter().map(PaletteRow::View).collect(),
-            Listed::Paper => {
+    pub(crate) fn rows_of(&self, kind: ListKind, list: &List) -> Vec<Option<PaletteRow>> {
+        let rows: Vec<PaletteRow> = match kind {
+            ListKind::Scenes => self.scene_rows(list).into_iter().map(PaletteRow::Scene).collect(),
+            ListKind::Layers => self.layer_rows(list).into_iter().map(PaletteRow::Layer).collect(),
+            ListKind::Views => self.view_rows(list).into_iter().map(PaletteRow::View).collect(),
+            ListKind::Paper => {
                 self.claim_rows(list).into_iter().map(|row| PaletteRow::Claim(row.0)).collect()
             }
-            Listed::Palette => self.palette_rows(list),
-            Listed::Cost => return vec![None; self.cost_rows(list).len()],
-            Listed::Interrupted => return vec![None; self.interrupted_rows(list).len()],
+            ListKind::Palette => self.palette_rows(list),
+            ListKind::Cost => return vec![None; self.cost_rows(list).len()],
+            ListKind::Interrupted => return vec![None; self.interrupted_rows(list).len()],
         };
         rows.into_iter().map(Some).collect()
     }
@@ -202,7 +202,7 @@ impl Session {
     }
 
     /// The interrupted sessions that their list shows, each with its index among all.
-    pub fn interrupted_rows(&self, list: &List) -> Vec<(usize, &Kept)> {
+    pub fn interrupted_rows(&self, list: &List) -> Vec<(usize, &InterruptedSession)> {
         let all = self.interrupted.iter().enumerate();
         all.filter(|(_, kept)| list.matches(&[&kept.when, &kept.what])).collect()
     }
@@ -219,10 +219,10 @@ pub(crate) static SYNONYMS: LazyLock<BTreeMap<&str, Vec<&str>>> = LazyLock::new(
 /// come first, then those with words that begin with it, names before meanings. Without a search, all rows have
 /// the same rank.
 pub(crate) fn rank(search: &str, names: &[&str], meaning: &str) -> usize {
-    let search = Plain::new(search);
-    let names: Vec<Plain> = names.iter().map(|name| Plain::new(name)).collect();
-    let meaning = Plain::new(meaning);
-    let any = |test: &dyn Fn(&Plain) -> bool| names.iter().any(test);
+    let search = PlainText::new(search);
+    let names: Vec<PlainText> = names.iter().map(|name| PlainText::new(name)).collect();
+    let meaning = PlainText::new(meaning);
+    let any = |test: &dyn Fn(&PlainText) -> bool| names.iter().any(test);
     let ranks = [
         any(&|name| name.joined() == search.joined()),
         any(&|name| name.joined().starts_with(&search.joined())),
@@ -235,13 +235,13 @@ pub(crate) fn rank(search: &str, names: &[&str], meaning: &str) -> usize {
 }
 
 /// A text in lower case, with a blank before each word of letters and digits.
-struct Plain(String);
+struct PlainText(String);
 
-impl Plain {
+impl PlainText {
     fn new(text: &str) -> Self {
         let words = text.split(|char: char| !char.is_alphanumeric());
         let words = words.filter(|word| !word.is_empty());
-        Plain(words.flat_map(|word| [" ".to_owned(), word.to_lowercase()]).collect())
+        PlainText(words.flat_map(|word| [" ".to_owned(), word.to_lowercase()]).collect())
     }
 
     /// The text without blanks: `fig 16` becomes `fig16`.
@@ -249,7 +249,7 @@ impl Plain {
         self.0.replace(' ', "")
     }
 
-    fn has_at_a_word(&self, search: &Plain) -> bool {
+    fn has_at_a_word(&self, search: &PlainText) -> bool {
         self.0.contains(&search.0)
     }
 }

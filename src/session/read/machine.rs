@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use crate::fit::Fitted;
+use crate::fit::FitResult;
 use crate::flow::Problem;
 use crate::model::{Belt, Body, Knob, Parameters, Source};
 use crate::portrait::Margin;
@@ -103,7 +103,7 @@ impl Session {
     /// The unit of r and w, in newtons. Fails with one line if there is no machine and no record with a known
     /// mass.
     pub(crate) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
-        let fitted = self.fitted().and_then(Fitted::units);
+        let fitted = self.fitted().and_then(FitResult::units);
         if let Some(units) = fitted {
             let known = Some(units.force).filter(|force| force.is_finite());
             return known.ok_or_else(|| {

@@ -188,7 +188,7 @@ mod tests {
         session.problem = Problem { parameters: BRAKED, initial: START, ..session.problem };
         let request = session.request(crate::scene::Topic::Trajectory, 0).unwrap();
         let answer = crate::question::answer(&request, &Limits::PATIENT).unwrap();
-        session.take(crate::scene::Answered {
+        session.take(crate::scene::Reply {
             request,
             result: Ok(answer),
             seconds: 0.0,

@@ -208,8 +208,8 @@ impl Session {
         let mut asked = self.requests(Topic::Branch, plot).into_iter();
         let asked = asked.find(|(index, _)| *index == variant);
         let standing = asked.map(|(_, request)| self.answers.standing(&request));
-        let answered = standing.and_then(AnswerState::answered);
-        let friction = match answered.map(|found| &found.request) {
+        let reply = standing.and_then(AnswerState::reply);
+        let friction = match reply.map(|found| &found.request) {
             Some(Request::Branch { parameters, .. }) => parameters.r,
             _ => self.problem.parameters.r,
         };

@@ -12,7 +12,7 @@ use crate::flow::Problem;
 use crate::model::{Belt, Knob};
 use crate::numerics::{distinct, exp2, hypot, log2};
 use crate::scene::{Axes, Finding, Layer, Request, Span, TOPICS, Topic, View, Window};
-use crate::session::{Framing, List, Listed, Overlay, Pane, Row, Session};
+use crate::session::{Framing, List, ListKind, Overlay, Pane, Row, Session};
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
 /// questions on it are first answered by drafts.
@@ -51,7 +51,7 @@ impl Session {
             .on_show()
             .flat_map(|plot| self.needs(plot).into_iter().map(move |topic| (topic, plot)))
             .collect();
-        let claims = matches!(self.overlay, Some(Overlay::List(Listed::Paper, _)));
+        let claims = matches!(self.overlay, Some(Overlay::List(ListKind::Paper, _)));
         let each = needed.iter().flat_map(|(topic, plot)| self.requests(*topic, *plot));
         let last = self.measures().then(|| self.request(Topic::Reference, self.plot)).flatten();
         let awaited = self.waiting.iter().map(|waiting| waiting.request.clone());

@@ -2,7 +2,7 @@
 
 use crate::accuracy::trade::TradePoint;
 use crate::closed_form::lyapunov;
-use crate::fit::{Dropped, RecordPoint, Signal};
+use crate::fit::{DropReason, RecordPoint, Signal};
 use crate::flow::{Motion, Outcome};
 use crate::model::parameters::energy;
 use crate::model::{Knob, State};
@@ -202,7 +202,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     // Outliers far away are shown at the edge.
     let near = |at: &RecordPoint| {
         let y = at.shown(signal)?;
-        (at.dropped != Some(Dropped::Outlier) || y.abs() < ESCAPE * swinging).then_some(y)
+        (at.dropped != Some(DropReason::Outlier) || y.abs() < ESCAPE * swinging).then_some(y)
     };
     values.extend(record.iter().filter_map(near));
     let y = Span::covering(values)?;

@@ -8,7 +8,7 @@ use thiserror::Error;
 use crate::model::{Group, Knob};
 use crate::numerics::similar::most_similar;
 use crate::scene::Point;
-use crate::session::{Code, Gesture, Key, Msg, Pointed, PointerTarget, key};
+use crate::session::{Code, Gesture, Key, MouseAction, Msg, PointerTarget, key};
 use crate::words::printable;
 
 /// Longest time in a single step, in s.
@@ -157,7 +157,7 @@ impl fmt::Display for Instruction {
 /// A message as it is written in a file; `None` for one that results from other steps.
 fn written(message: &Msg) -> Option<String> {
     Some(match message {
-        Msg::Pointed(Pointed { gesture, place }) => {
+        Msg::Pointed(MouseAction { gesture, place }) => {
             // Positions refer to the plots, not to the screen, so that a file has the same effect at every size.
             let gesture: &str = gesture.into();
             match place {
@@ -349,7 +349,7 @@ fn pointed(gesture: Gesture, rest: &str) -> Option<Instruction> {
         }
         _ => return None,
     };
-    Some(Instruction::Give(Msg::Pointed(Pointed { gesture, place })))
+    Some(Instruction::Give(Msg::Pointed(MouseAction { gesture, place })))
 }
 
 fn resize(rest: &str) -> Option<Instruction> {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::flow::{Fate, Reason};
 use crate::model::State;
 use crate::question::NoAnswer;
-use crate::scene::{Answered, Finding, Request};
+use crate::scene::{Finding, Reply, Request};
 
 /// Limit on the integration steps in answers to questions that are no longer asked: some ten megabytes of
 /// points.
@@ -20,18 +20,18 @@ const MOST: usize = 64;
 /// The state of the answer to a question.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnswerState<'a> {
-    Fresh(&'a Answered),
+    Fresh(&'a Reply),
     /// Only the answer to the draft is there.
-    Draft(&'a Answered),
+    Draft(&'a Reply),
     /// The answer to another question is shown in its place.
-    Stale(&'a Answered),
+    Stale(&'a Reply),
     /// No answer can stand in.
     None,
 }
 
 impl<'a> AnswerState<'a> {
     /// The answer that is there, with its question.
-    pub fn answered(self) -> Option<&'a Answered> {
+    pub fn reply(self) -> Option<&'a Reply> {
         match self {
             AnswerState::Fresh(found) | AnswerState::Draft(found) | AnswerState::Stale(found) => {
                 Some(found)
@@ -42,7 +42,7 @@ impl<'a> AnswerState<'a> {
 
     /// What is there to be drawn.
     pub fn answer(self) -> Option<&'a Finding> {
-        self.answered()?.result.as_ref().ok()
+        self.reply()?.result.as_ref().ok()
     }
 
     pub fn is_fresh(self) -> bool {
@@ -70,7 +70,7 @@ pub struct Course {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answers {
     /// Sorted by last use, the most recent last.
-    held: Vec<Arc<Answered>>,
+    held: Vec<Arc<Reply>>,
     /// The present questions and their drafts.
     asked: Vec<Request>,
     /// What becomes of the motion on show by these answers.
@@ -87,7 +87,7 @@ impl Answers {
             return AnswerState::Draft(draft);
         }
         // The answer to another present question does not stand in.
-        let others = |held: &&Arc<Answered>| !self.asked.contains(&held.request);
+        let others = |held: &&Arc<Reply>| !self.asked.contains(&held.request);
         self.nearest(request, others).map_or(AnswerState::None, AnswerState::Stale)
     }
 
@@ -110,10 +110,10 @@ impl Answers {
     }
 
     /// Stores an answer in place of the previous one; an interrupted one is ignored.
-    pub fn keep(&mut self, answered: Answered) {
-        if answered.result != Err(NoAnswer::Reason(Reason::Interrupted)) {
-            self.held.retain(|held| held.request != answered.request);
-            self.held.push(Arc::new(answered));
+    pub fn keep(&mut self, reply: Reply) {
+        if reply.result != Err(NoAnswer::Reason(Reason::Interrupted)) {
+            self.held.retain(|held| held.request != reply.request);
+            self.held.push(Arc::new(reply));
         }
     }
 
@@ -124,7 +124,7 @@ impl Answers {
         let (used, others): (Vec<_>, Vec<_>) =
             self.held.drain(..).partition(|held| self.asked.contains(&held.request));
         let mut steps = 0;
-        let fits = |held: &Arc<Answered>| {
+        let fits = |held: &Arc<Reply>| {
             let before = steps;
             steps += held.result.as_ref().map_or(0, |answer| answer.cost().steps);
             before <= MOST_STEPS
@@ -148,24 +148,20 @@ impl Answers {
 
     /// All answers, for tests that change them.
     #[cfg(test)]
-    pub fn each(&mut self) -> impl Iterator<Item = &mut Answered> {
+    pub fn each(&mut self) -> impl Iterator<Item = &mut Reply> {
         self.held.iter_mut().map(Arc::make_mut)
     }
 
-    fn held(&self, request: &Request) -> Option<&Answered> {
+    fn held(&self, request: &Request) -> Option<&Reply> {
         self.held.iter().find(|held| held.request == *request).map(|held| &**held)
     }
 
-    fn good(&self, request: &Request) -> Option<&Answered> {
+    fn good(&self, request: &Request) -> Option<&Reply> {
         self.held(request).filter(|held| held.result.is_ok())
     }
 
     /// The good answer to the most similar question; of several, the one used last.
-    fn nearest(
-        &self,
-        request: &Request,
-        counts: impl Fn(&&Arc<Answered>) -> bool,
-    ) -> Option<&Answered> {
+    fn nearest(&self, request: &Request, counts: impl Fn(&&Arc<Reply>) -> bool) -> Option<&Reply> {
         let good = self.held.iter().filter(|held| held.result.is_ok()).filter(counts);
         let alike = good.filter_map(|held| Some((held.request.likeness(request)?, held)));
         alike.max_by_key(|(likeness, _)| *likeness).map(|(_, held)| &**held)

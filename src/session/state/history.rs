@@ -13,8 +13,8 @@ use crate::session::{Setup, StepSizes};
 
 /// The state before a change, limited to what the change affects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", from = "SavedBefore")]
-pub enum Before {
+#[serde(rename_all = "kebab-case", from = "SavedEarlierState")]
+pub enum EarlierState {
     /// A number was changed. Undoing that leaves zoom and layers alone.
     #[serde(rename = "motions")]
     Setup(Box<Setup>),
@@ -25,13 +25,13 @@ pub enum Before {
     Scene { plots: Vec<PlotSetup>, show: Box<Snapshot> },
 }
 
-impl Before {
+impl EarlierState {
     /// Fails with one line that names the first number that is not within its range.
     pub(crate) fn check(&self) -> Result<(), String> {
         match self {
-            Before::Setup(setup) => setup.check(),
-            Before::ScreenSetup(screen_setup) => check_number(&screen_setup.plots),
-            Before::Scene { plots, show } => check_number(plots).and_then(|()| show.check()),
+            EarlierState::Setup(setup) => setup.check(),
+            EarlierState::ScreenSetup(screen_setup) => check_number(&screen_setup.plots),
+            EarlierState::Scene { plots, show } => check_number(plots).and_then(|()| show.check()),
         }
     }
 }
@@ -39,7 +39,7 @@ impl Before {
 /// The same as this and earlier versions wrote it.
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum SavedBefore {
+enum SavedEarlierState {
     /// A motion alone, without a machine and known exactly: earlier versions wrote that.
     Motion(Problem),
     #[serde(alias = "motion-on-belt")]
@@ -51,13 +51,15 @@ enum SavedBefore {
     },
 }
 
-impl From<SavedBefore> for Before {
-    fn from(saved: SavedBefore) -> Self {
+impl From<SavedEarlierState> for EarlierState {
+    fn from(saved: SavedEarlierState) -> Self {
         match saved {
-            SavedBefore::Motion(problem) => Before::Setup(Box::new(Setup::alone(problem))),
-            SavedBefore::Motions(setup) => Before::Setup(setup),
-            SavedBefore::Plots(screen_setup) => Before::ScreenSetup(screen_setup),
-            SavedBefore::Scene { plots, show } => Before::Scene { plots, show },
+            SavedEarlierState::Motion(problem) => {
+                EarlierState::Setup(Box::new(Setup::alone(problem)))
+            }
+            SavedEarlierState::Motions(setup) => EarlierState::Setup(setup),
+            SavedEarlierState::Plots(screen_setup) => EarlierState::ScreenSetup(screen_setup),
+            SavedEarlierState::Scene { plots, show } => EarlierState::Scene { plots, show },
         }
     }
 }
@@ -127,8 +129,8 @@ fn named_or_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Scen
 /// The past and, after an undo, the future; the most recent change last in each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
-    pub past: Vec<Before>,
-    pub future: Vec<Before>,
+    pub past: Vec<EarlierState>,
+    pub future: Vec<EarlierState>,
 }
 
 impl History {
@@ -137,9 +139,9 @@ impl History {
     pub fn forget_windows(&mut self) {
         for before in self.past.iter_mut().chain(&mut self.future) {
             let plots = match before {
-                Before::Setup(_) => continue,
-                Before::ScreenSetup(screen_setup) => &mut screen_setup.plots,
-                Before::Scene { plots, .. } => plots,
+                EarlierState::Setup(_) => continue,
+                EarlierState::ScreenSetup(screen_setup) => &mut screen_setup.plots,
+                EarlierState::Scene { plots, .. } => plots,
             };
             for plot in plots {
                 plot.window = None;
@@ -148,14 +150,14 @@ impl History {
     }
 
     /// Records the state before a change. Changes that were undone can no longer be redone.
-    pub fn record(&mut self, before: Before) {
+    pub fn record(&mut self, before: EarlierState) {
         self.past.push(before);
         self.future.clear();
     }
 
     /// Merges the changes recorded since the past had this depth into one, if all of them are of numbers.
     pub fn merge(&mut self, depth: usize) {
-        let is_of_numbers = |before: &Before| matches!(before, Before::Setup(_));
+        let is_of_numbers = |before: &EarlierState| matches!(before, EarlierState::Setup(_));
         if self.past.get(depth..).is_some_and(|since| since.iter().all(is_of_numbers)) {
             self.past.truncate(depth + 1);
         }

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 use crate::scene::{Layer, VIEWS, View};
-use crate::session::{Done, Key, Listed, Session};
+use crate::session::{Done, Key, ListKind, Session};
 
 /// Something that a key can do, or a line with words.
 #[derive(Debug)]
@@ -225,7 +225,7 @@ pub enum Context {
     /// No overlay is open.
     Everywhere,
     /// This list is open and not being searched; that of the costs has the keys of the palette.
-    List(Listed),
+    List(ListKind),
     /// The palette is being searched.
     Palette,
     /// A count is being typed before a key.
@@ -279,12 +279,12 @@ const OTHERS: [ContextSpec; 19] = [
     row(Context::Walk, "walk", "Walking along the branch", ALONE),
     row(Context::Plots, "plots", "Every plot", None),
     row(Context::Everywhere, "everywhere", "Everywhere", None),
-    row(Context::List(Listed::Palette), "help", "In this list", LIST),
-    row(Context::List(Listed::Scenes), "scenes", "In the scene picker", LIST),
-    row(Context::List(Listed::Layers), "layers", "In the layer list", LIST),
-    row(Context::List(Listed::Views), "views", "In the picker of views", LIST),
-    row(Context::List(Listed::Paper), "paper", "In the list of claims", LIST),
-    row(Context::List(Listed::Interrupted), "interrupted", "In the list of interrupted sessions", LIST),
+    row(Context::List(ListKind::Palette), "help", "In this list", LIST),
+    row(Context::List(ListKind::Scenes), "scenes", "In the scene picker", LIST),
+    row(Context::List(ListKind::Layers), "layers", "In the layer list", LIST),
+    row(Context::List(ListKind::Views), "views", "In the picker of views", LIST),
+    row(Context::List(ListKind::Paper), "paper", "In the list of claims", LIST),
+    row(Context::List(ListKind::Interrupted), "interrupted", "In the list of interrupted sessions", LIST),
     row(Context::Palette, "palette", "While searching the list", ALONE),
     row(Context::Count, "count", "After a count", ALONE),
     row(Context::Letter, "letter", "Before the letter of a mark", ALONE),

@@ -8,7 +8,7 @@ use crate::session::{Row, Script};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Overlay {
     /// A list that can be scrolled and searched.
-    List(Listed, List),
+    List(ListKind, List),
     /// A line for typing a command by name, or a value.
     Prompt(Prompt),
     /// A pasted keystroke file, waiting for confirmation.
@@ -16,7 +16,7 @@ pub enum Overlay {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Listed {
+pub enum ListKind {
     /// The scenes, to pick one.
     Scenes,
     /// The layers, to switch on and off.
@@ -35,9 +35,9 @@ pub enum Listed {
 
 impl Overlay {
     /// What kind of overlay this is, whatever it contains.
-    pub fn kind(&self) -> (Discriminant<Self>, Option<Listed>) {
-        let listed = if let Overlay::List(listed, _) = self { Some(*listed) } else { None };
-        (discriminant(self), listed)
+    pub fn kind(&self) -> (Discriminant<Self>, Option<ListKind>) {
+        let kind = if let Overlay::List(kind, _) = self { Some(*kind) } else { None };
+        (discriminant(self), kind)
     }
 }
 

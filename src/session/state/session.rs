@@ -125,9 +125,9 @@ pub struct Session {
     pub overlay: Option<Overlay>,
     pub history: History,
     /// A count or a letter that the next key completes.
-    pub pending: Option<Pending>,
+    pub pending: Option<PendingInput>,
     /// A press that waits for an answer.
-    pub waiting: Option<Waiting>,
+    pub waiting: Option<WaitingPress>,
     /// Number of presses since nothing was open and nothing pending: they lead up to a command.
     pub chord: u32,
     /// Number of presses of the last such sequence that is complete.
@@ -137,7 +137,7 @@ pub struct Session {
     /// The caption above the status lines.
     pub caption: SessionCaption,
     /// Interrupted sessions that can be continued, the most recent first.
-    pub interrupted: Vec<Kept>,
+    pub interrupted: Vec<InterruptedSession>,
     /// The file of the figure in progress.
     pub writing: Option<PathBuf>,
     /// Lines typed on the command line, the most recent last.
@@ -240,19 +240,19 @@ pub const LARGEST_COUNT: u32 = 9999;
 
 /// Input that the next key completes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pending {
+pub enum PendingInput {
     /// The next key is another digit, or the key to press this many times. Zero means no digit yet.
     Count(u32),
     /// The letter of a mark.
     Letter(Letter),
 }
 
-impl Pending {
+impl PendingInput {
     /// The context of the next key.
     pub fn context(self) -> Context {
         match self {
-            Pending::Count(_) => Context::Count,
-            Pending::Letter(_) => Context::Letter,
+            PendingInput::Count(_) => Context::Count,
+            PendingInput::Letter(_) => Context::Letter,
         }
     }
 }
@@ -306,7 +306,7 @@ impl Default for Playback {
 
 /// A session that was interrupted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Kept {
+pub struct InterruptedSession {
     pub path: PathBuf,
     /// How long ago it ended, in words.
     pub when: String,
@@ -316,7 +316,7 @@ pub struct Kept {
 
 /// A press that waits, and the request whose answer it needs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Waiting {
+pub struct WaitingPress {
     pub message: Msg,
     /// The request that must be answered first.
     pub request: Request,

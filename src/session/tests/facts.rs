@@ -96,7 +96,7 @@ fn overlay(session: &Session, name: &str) -> Option<String> {
     let overlay = session.overlay.as_ref();
     let (open, typed, refused) = match overlay {
         None => ("none".to_owned(), None, None),
-        Some(Overlay::List(listed, _)) => (format!("{listed:?}"), None, None),
+        Some(Overlay::List(kind, _)) => (format!("{kind:?}"), None, None),
         Some(Overlay::Prompt(it)) => {
             let what = if it.row.is_some() { "entry" } else { "prompt" };
             (what.to_owned(), Some(it.input.text()), it.refused.clone())

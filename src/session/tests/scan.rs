@@ -9,7 +9,7 @@ use crate::flow::Cost;
 use crate::question::Rows;
 use crate::scan::grid::{Scan, ScanRow};
 use crate::scan::measure::Value;
-use crate::scene::{Answered, Finding, Request, Topic, View};
+use crate::scene::{Finding, Reply, Request, Topic, View};
 use crate::session::scan::ScanProgress;
 use crate::session::{Content, Effect, Msg, Pane, ScanOnShow, Session, update};
 
@@ -33,8 +33,8 @@ fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
     let complete = points.end == scan.points();
     let rows = Rows { first: points.start, rows: rows(scan, points) };
     let (request, result) = (request.clone(), Ok(Finding::Scan(rows)));
-    let answered = Answered { request, result, seconds: 1.0, complete };
-    update(session, Msg::Answered(Box::new(answered)));
+    let reply = Reply { request, result, seconds: 1.0, complete };
+    update(session, Msg::Answered(Box::new(reply)));
 }
 
 /// A session that scans D over 6 values, without any row yet.

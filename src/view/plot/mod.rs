@@ -19,7 +19,7 @@ use geometry::{Geometry, along, centred, column};
 pub use geometry::{point_at, rows, shown};
 
 use super::dots::{Covering, DotPen, Dots};
-use super::{Look, Surface, pane::Framed};
+use super::{Look, Surface, pane::FramedPicture};
 use crate::numerics::elementary::atan2;
 use crate::picture::{Dash, Role, Tick, Ticks};
 use crate::scene::{Point, Window};
@@ -36,9 +36,9 @@ pub struct Canvas<'a> {
 
 impl<'a> Canvas<'a> {
     /// Writes the title and the axes of a picture into its place, and gives the raster between them.
-    pub fn new(framed: &Framed, screen: &mut Surface<'a>) -> Self {
+    pub fn new(framed: &FramedPicture, screen: &mut Surface<'a>) -> Self {
         let look = screen.look;
-        let Framed { area, picture, heading } = framed;
+        let FramedPicture { area, picture, heading } = framed;
         let (window, scales) = (picture.window, picture.scales);
         let Geometry { inner, roomy, rightward, mut upward } =
             Geometry::of(*area, window, scales, picture.upward.clone());

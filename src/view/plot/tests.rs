@@ -17,7 +17,7 @@ fn look(glyphs: Glyphs) -> Look {
 fn canvas<'a>(size: (u16, u16), window: Window, screen: &mut Surface<'a>) -> Canvas<'a> {
     let picture = Picture::new("", "", "y", window);
     let area = Rect::new(0, 0, size.0, size.1);
-    Canvas::new(&Framed { area, picture, heading: Heading::default() }, screen)
+    Canvas::new(&FramedPicture { area, picture, heading: Heading::default() }, screen)
 }
 
 /// The rows in which something stands.

@@ -15,7 +15,7 @@ fn nothing(_: &str) -> Result<String, String> {
     Err("no file".to_owned())
 }
 
-fn read(text: &str) -> Result<Machine, Misread> {
+fn read(text: &str) -> Result<Machine, FileMistake> {
     Ok(parse("test", "test.toml", text, nothing)?.try_into().unwrap())
 }
 

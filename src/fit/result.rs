@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use super::{
-    Curves, D, D2, D3, Dropped, Estimate, Extent, Inertia, LAST, MarginQuestion, Margins, NAMES,
+    Curves, D, D2, D3, DropReason, Estimate, Extent, Inertia, LAST, MarginQuestion, Margins, NAMES,
     NameSpec, OFFSET, OMEGA0, PlotPoint, Q0, R, Record, Signal, StartKind, averaged,
     length_in_metres, parameters, rate, row_of,
 };
@@ -22,7 +22,7 @@ use crate::numerics::{powi, real};
 
 /// The whole result of a fit.
 #[derive(Clone, Debug)]
-pub struct Fitted {
+pub struct FitResult {
     /// The name of the file.
     pub name: String,
     /// The data read from the file.
@@ -62,7 +62,7 @@ pub struct RecordPoint {
     /// acceleration NaN.
     pub v: f64,
     /// Why it does not count in the fit; `None` if it does.
-    pub dropped: Option<Dropped>,
+    pub dropped: Option<DropReason>,
 }
 
 impl RecordPoint {
@@ -77,7 +77,7 @@ impl RecordPoint {
     }
 }
 
-impl Fitted {
+impl FitResult {
     /// A fit with its curves.
     #[must_use]
     pub fn new(name: String, record: Record, estimate: Estimate, margins: Margins) -> Self {
@@ -85,7 +85,7 @@ impl Fitted {
         let points = points(&record, &estimate);
         let line = line_through(&points, &estimate.data);
         let (rise, drawn, seconds) = (0.0, true, 0.0);
-        Fitted { name, record, estimate, margins, curves, points, line, rise, drawn, seconds }
+        FitResult { name, record, estimate, margins, curves, points, line, rise, drawn, seconds }
     }
 
     /// The samples of the fitted motion as a line through the places that `of` reads, without outliers and jumps, and with a
@@ -197,7 +197,7 @@ impl Fitted {
     }
 }
 
-/// The points that are drawn as a line, see [`Fitted::line`].
+/// The points that are drawn as a line, see [`FitResult::line`].
 fn line_through(points: &[RecordPoint], data: &Record) -> Vec<Option<RecordPoint>> {
     /// Maximum number of samples.
     const MOST: usize = 4000;
@@ -208,10 +208,10 @@ fn line_through(points: &[RecordPoint], data: &Record) -> Vec<Option<RecordPoint
     }
     let every = data.t.len().div_ceil(MOST);
     let gap = GAP * real(every) / rate(&data.t);
-    let fitted = points.iter().filter(|it| !it.dropped.is_some_and(Dropped::is_outside));
+    let fitted = points.iter().filter(|it| !it.dropped.is_some_and(DropReason::is_outside));
     let (mut line, mut last) = (Vec::new(), f64::INFINITY);
     for point in fitted.step_by(every) {
-        if matches!(point.dropped, Some(Dropped::Outlier | Dropped::Jump)) {
+        if matches!(point.dropped, Some(DropReason::Outlier | DropReason::Jump)) {
             continue;
         }
         if point.t - last > gap {
@@ -231,7 +231,7 @@ fn points(record: &Record, estimate: &Estimate) -> Vec<RecordPoint> {
     let mut fitted = estimate.states.iter().copied().zip(estimate.residuals.iter().copied());
     let all = record.t.iter().zip(&record.x).zip(&estimate.dropped);
     all.map(|((&t, &x), &dropped)| {
-        let is_outside = dropped.is_some_and(Dropped::is_outside);
+        let is_outside = dropped.is_some_and(DropReason::is_outside);
         let fitted = if is_outside { None } else { fitted.next() };
         let (State { q, v }, residual) = fitted.unwrap_or((State { q: 0.0, v: 0.0 }, f64::NAN));
         let seen = x - data.zero(p, t);
@@ -286,12 +286,12 @@ const LAWS: [Law; 6] = [
 
 /// The physical numbers with standard errors from the covariance of the fit; none if neither mass nor stiffness is
 /// known.
-pub fn rows(fitted: &Fitted) -> Vec<EstimatedNumber> {
+pub fn rows(fitted: &FitResult) -> Vec<EstimatedNumber> {
     let Some((inertia, metres)) = fitted.inertia() else { return Vec::new() };
     LAWS.iter().map(|law| row(fitted, law, inertia, metres)).collect()
 }
 
-fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNumber {
+fn row(fitted: &FitResult, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNumber {
     let estimate = &fitted.estimate;
     let omega0 = estimate.p[OMEGA0];
     let scale = law.factor * powi(metres, law.length);

@@ -10,7 +10,7 @@ use crate::words::printable;
 /// A mistake in a file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{}:{line}:{column}: {}", printable::line(.file), printable::line(.message))]
-pub struct Misread {
+pub struct FileMistake {
     pub file: String,
     /// Line, from 1.
     pub line: usize,
@@ -36,11 +36,11 @@ impl Complaint {
         Complaint { at: error.span().unwrap_or(at), message }
     }
 
-    /// The complaint as a [`Misread`] at the line and column where its range begins.
-    pub fn in_file(self, file: &str, text: &str) -> Misread {
+    /// The complaint as a [`FileMistake`] at the line and column where its range begins.
+    pub fn in_file(self, file: &str, text: &str) -> FileMistake {
         let before = text.get(..self.at.start).unwrap_or(text);
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        Misread {
+        FileMistake {
             file: file.to_owned(),
             line: before.matches('\n').count() + 1,
             column: before[line_start..].chars().count() + 1,
@@ -49,8 +49,8 @@ impl Complaint {
     }
 }
 
-/// Reads a TOML file. Fails with the first mistake as a [`Misread`].
-pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, Misread> {
+/// Reads a TOML file. Fails with the first mistake as a [`FileMistake`].
+pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, FileMistake> {
     toml::from_str(text).map_err(|error| Complaint::new(&error, 0..0).in_file(file, text))
 }
 
@@ -68,7 +68,7 @@ pub(super) use texts;
 /// Never: tests read every file.
 pub fn built_in<T>(
     files: &[(&str, &str)],
-    parse: impl Fn(&str, &str, &str) -> Result<T, Misread>,
+    parse: impl Fn(&str, &str, &str) -> Result<T, FileMistake>,
 ) -> Vec<T> {
     let read = |(name, text): &(&str, &str)| match parse(name, &format!("{name}.toml"), text) {
         Ok(found) => found,
