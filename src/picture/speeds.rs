@@ -1,4 +1,4 @@
-//! The cycles of a machine over the speed of its belt, each kind drawn in its own way: slip in lines, solid
+//! The cycles of a machine over one of its numbers, each kind drawn in its own way: slip in lines, solid
 //! where it is stable and dashed where it is not, stick-slip in thick ones, overtaking dotted; and where a
 //! stable state ends, the jump to the one that is left.
 
@@ -24,15 +24,16 @@ fn kind(cycle: &Cycle) -> &'static str {
 }
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
-    picture.axes("v0 [m/s]", "x_max [m]");
+    let varied = session.plots[index].axes.machine;
+    let (name, unit) = (varied.spec().name, varied.spec().unit);
+    let label = if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") };
+    picture.axes(label, "x_max [m]");
     picture.add_to_title("whole model");
-    if let Some(running) = session.running() {
-        picture.upright("present speed", running.machine.belt.belt_speed);
-    }
+    picture.upright("present value", session.value(varied));
     if session.layers.contains(&Layer::Speeds)
         && let Some(found) = session.speeds(index)
     {
-        // A speed without an answer is left out.
+        // A value without an answer is left out.
         let known = found.points.iter();
         let known = known.filter_map(|it| Some((it.value, it.found.as_ref().ok()?)));
         let points: Vec<_> = known.collect();
@@ -41,12 +42,12 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         }
         rest(picture, &points);
         for special in &found.special {
-            changes(picture, special);
+            changes(picture, special, unit);
         }
     }
 }
 
-/// The cycles of a kind: the smallest of it at all speeds are one curve, the next ones another.
+/// The cycles of a kind: the smallest of it at all values are one curve, the next ones another.
 fn cycles(picture: &mut Picture, points: &[(f64, &Portrait)], kind: &'static str) {
     let is = |cycle: &&Cycle| self::kind(cycle) == kind;
     let most = points.iter().map(|(_, found)| found.cycles.iter().filter(is).count()).max();
@@ -75,9 +76,9 @@ fn rest(picture: &mut Picture, points: &[(f64, &Portrait)]) {
 }
 
 /// A change, by its letter, and the jumps from the stable states that end there.
-fn changes(picture: &mut Picture, special: &Special) {
+fn changes(picture: &mut Picture, special: &Special, unit: &str) {
     let at = special.value;
-    let ways = ["jump on a faster belt", "jump on a slower belt"];
+    let ways = ["jump as it grows", "jump as it falls"];
     let jumps = special.jumps.unwrap_or_default();
     for (jump, name) in [jumps.up, jumps.down].into_iter().zip(ways) {
         let Some(jump) = jump else { continue };
@@ -86,5 +87,5 @@ fn changes(picture: &mut Picture, special: &Special) {
         picture.curve(name, [[at, jump.from], [at, to]]);
     }
     let place = Point { x: at, y: special.q_max.unwrap_or(0.0) };
-    picture.special(place, special.kind.letter(None), &with_unit(at, 4, "m/s"));
+    picture.special(place, special.kind.letter(None), &with_unit(at, 4, unit));
 }

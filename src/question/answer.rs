@@ -207,8 +207,8 @@ pub fn answer_for(
         Request::Regimes { parameters, plane, rough } => {
             Finding::Regimes(regimes(parameters, *plane, *rough, fineness, limits)?)
         }
-        Request::Speeds { belt, range, rough } => {
-            Finding::Speeds(speeds(belt, *range, *rough, limits)?)
+        Request::Speeds { belt, varied, range, rough } => {
+            Finding::Speeds(along_number(belt, *varied, *range, *rough, limits)?)
         }
         Request::Trade(problem) => {
             Finding::Trade(Box::new(Trade::of(None, problem, &limits.up_to(ROW))?))
@@ -243,28 +243,29 @@ fn regimes(
     chart(parameters, plane, if rough { DRAFT } else { fine }, limits)
 }
 
-/// The cycles of a machine over these speeds of its belt, and the changes between them unless it is a `rough` draft. Fails
-/// with [`Reason::Interrupted`], or where the belt does not run.
-fn speeds(
+/// The cycles of a machine over these values of one of its numbers, and the changes between them unless it is a `rough`
+/// draft. Fails with [`Reason::Interrupted`], or where the machine has no such number.
+fn along_number(
     belt: &Belt,
+    varied: Knob,
     range: (f64, f64),
     rough: bool,
     limits: &Limits,
 ) -> Result<MachineBranch, Reason> {
-    /// Number of evenly spaced speeds, and of those in a draft.
-    const SPEEDS: usize = 33;
+    /// Number of evenly spaced values, and of those in a draft.
+    const VALUES: usize = 33;
     const FEW: usize = 7;
-    /// Where further speeds are on both sides of a change, as fractions of the distance between two: there cycles end,
+    /// Where further values are on both sides of a change, as fractions of the distance between two: there cycles end,
     /// and their curves turn as steeply as a square root.
     const BESIDE: [f64; 6] = [-0.5, -0.1, -0.02, 0.02, 0.1, 0.5];
     let tolerance = rough.then_some(DRAFT.tolerance);
     let source = Source { tolerance, ..Source::from(belt) };
-    let values = if rough { (FEW, None) } else { (SPEEDS, Some(BESIDE.as_slice())) };
-    let found = MachineBranch::along(&source, Knob::BeltSpeed, range, values, limits);
+    let values = if rough { (FEW, None) } else { (VALUES, Some(BESIDE.as_slice())) };
+    let found = MachineBranch::along(&source, varied, range, values, limits);
     if (limits.interrupted)() {
         return Err(Reason::Interrupted);
     }
-    found.map_err(|_| Reason::NotApplicable { needs: "a belt that runs" })
+    found.map_err(|_| Reason::NotApplicable { needs: "a machine with that number" })
 }
 
 // Motions and cycles, of the paper's oscillator or of a machine by the whole model, drawn in the units of the former,

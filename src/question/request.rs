@@ -125,13 +125,15 @@ pub enum Request {
         /// Whether a draft of few lines is enough.
         rough: bool,
     },
-    /// The cycles of a machine over the speed of its belt.
+    /// The cycles of a machine over one of its numbers.
     Speeds {
-        /// The machine; its own belt speed is set to 1, so that stepping it leaves the request unchanged.
+        /// The machine; the number that varies is set to 1, so that stepping it leaves the request unchanged.
         belt: Arc<Belt>,
-        /// Smallest and largest speed, in m/s; a speed without an answer is left out.
+        /// The number that varies.
+        varied: Knob,
+        /// Its smallest and largest value, in SI units; a value without an answer is left out.
         range: (f64, f64),
-        /// Whether a draft of few speeds, without the changes between them, is enough.
+        /// Whether a draft of few values, without the changes between them, is enough.
         rough: bool,
     },
     /// Accuracy against cost of every method on a motion, whose own method and accuracy are the usual ones.
@@ -201,6 +203,9 @@ impl Request {
         match (self, wanted) {
             (Request::Branch { parameter, .. }, Request::Branch { parameter: wanted, .. }) => {
                 parameter == wanted
+            }
+            (Request::Speeds { varied, .. }, Request::Speeds { varied: wanted, .. }) => {
+                varied == wanted
             }
             (Request::Regimes { plane, .. }, Request::Regimes { plane: wanted, .. }) => {
                 (plane.right, plane.up) == (wanted.right, wanted.up)

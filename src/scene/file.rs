@@ -242,9 +242,10 @@ plots = [
             assert!(held.into_iter().all(|(knob, value)| knob.check(*value).is_ok()), "{name}");
             assert!((1..=MOST_PLOTS).contains(&scene.plots.len()), "{name}");
             for PlotSetup { view, axes, .. } in &scene.plots {
-                let Axes { abscissa, against, ordinate, unit } = *axes;
+                let Axes { abscissa, against, ordinate, unit, machine } = *axes;
                 let usual = Axes::default();
                 assert!(abscissa.is_parameter() && against.is_parameter(), "{name}");
+                assert!(machine.is_of_machine(), "{name}");
                 let chart = *view == View::Regimes;
                 assert!(chart || against == usual.against, "{name}: upwards only in a chart");
                 assert!(!chart || abscissa != against, "{name}: one axis twice");

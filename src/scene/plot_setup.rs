@@ -6,12 +6,13 @@
 
 use std::f64::consts::{LN_10, TAU};
 
+use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize};
 use strum::{IntoStaticStr, VariantArray};
 
 use super::views::View;
 use super::window::{Span, Window};
-use crate::model::Knob;
+use crate::model::{Group, Knob};
 use crate::portrait::Cycle;
 
 /// A property of a cycle that the diagram can show.
@@ -177,16 +178,52 @@ pub struct Axes {
     pub unit: Unit,
     /// The parameter upwards, in a chart over two parameters.
     pub against: Knob,
+    /// The number of a machine to the right, in a diagram of its cycles.
+    #[serde(default = "belt_speed", skip_serializing_if = "is_belt_speed")]
+    #[serde(deserialize_with = "number_of_machine")]
+    pub machine: Knob,
+}
+
+fn belt_speed() -> Knob {
+    Knob::BeltSpeed
+}
+
+fn is_belt_speed(knob: &Knob) -> bool {
+    *knob == Knob::BeltSpeed
+}
+
+fn number_of_machine<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Knob, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    Knob::named(&name, &[Group::Machine, Group::Law]).map_err(D::Error::custom)
 }
 
 impl Default for Axes {
     /// The axes of the paper's diagrams.
     fn default() -> Self {
-        Axes { abscissa: Knob::D, ordinate: Ordinate::QMax, unit: Unit::One, against: Knob::D3 }
+        Axes {
+            abscissa: Knob::D,
+            ordinate: Ordinate::QMax,
+            unit: Unit::One,
+            against: Knob::D3,
+            machine: Knob::BeltSpeed,
+        }
     }
 }
 
 impl Axes {
+    /// The number to the right in a view.
+    pub fn right(&self, view: View) -> Knob {
+        if view == View::Speeds { self.machine } else { self.abscissa }
+    }
+
+    /// The same with another number to the right in a view.
+    pub fn with_right(self, view: View, knob: Knob) -> Self {
+        match view {
+            View::Speeds => Axes { machine: knob, ..self },
+            _ => Axes { abscissa: knob, ..self },
+        }
+    }
+
     /// The label of the ordinate of a diagram.
     pub fn label(&self) -> &'static str {
         let spec = self.ordinate.spec();
@@ -217,11 +254,18 @@ pub struct PlotSetup {
 impl From<View> for PlotSetup {
     /// A view with its usual axes, in a fitted window.
     fn from(view: View) -> Self {
-        PlotSetup { view, axes: Axes::default(), window: None, family: None }
+        PlotSetup::fitting(view, Axes::default())
     }
 }
 
 impl PlotSetup {
+    /// A view with these axes, in a fitted window. A machine's diagram is over the speed of its belt: the range of its
+    /// other numbers depends on the machine.
+    pub fn fitting(view: View, axes: Axes) -> Self {
+        let axes = Axes { machine: Knob::BeltSpeed, ..axes };
+        PlotSetup { view, axes, window: None, family: None }
+    }
+
     /// The window with which the plot opens, or from which fitting begins if none is given.
     pub fn opening(&self) -> Window {
         let usual = self.view.spec().window;

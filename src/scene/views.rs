@@ -190,7 +190,7 @@ layers! {
     Record: "record", TimeSeries, Some(Topic::Fit), false, "measured displacements of the record";
     Recorded: "recorded", Phase, Some(Topic::Fit), false, "measured displacements over their fitted velocity";
     Whole: "whole", Phase, None, false, "the whole model in place of its cubic expansion";
-    Speeds: "speeds", Speeds, Some(Topic::Speeds), true, "cycles over the belt's speed, and the jumps";
+    Speeds: "speeds", Speeds, Some(Topic::Speeds), true, "cycles over a number of the machine, and the jumps";
     Safe: "safe", Phase, Some(Topic::Zones), false, "surely safe, for all half widths and disturbances";
     Lost: "lost", Phase, Some(Topic::Zones), false, "surely lost, for the same";
     Damping: "decrements", Damping, Some(Topic::Fit), true, "measured decrements, exact and averaged damping";

@@ -38,7 +38,7 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("use-method", Try(plots::use_method)),
     ("jump-here", Try(plots::jump_here)),
 
-    ("next-parameter", Move(|s, [_, up]| plots::next_parameter(s, up > 0))),
+    ("next-abscissa", Move(|s, [_, up]| plots::next_abscissa(s, up > 0))),
     ("next-ordinate", Act(|s, _| plots::next_ordinate(s))),
     ("next-unit", Try(plots::next_unit)),
     ("walk", Try(walk::take_hold)),

@@ -130,9 +130,9 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerT
     let parts = layout(screen, session)?;
     if parts.parameters.contains(cell) {
         // The first line is the title.
-        let line = (cell.y - parts.parameters.y).checked_sub(1).map(usize::from);
-        let first = parameters::first(session, parts.parameters.height);
-        return line.map(|line| PointerTarget::Row(first + line));
+        let line = (cell.y - parts.parameters.y).checked_sub(1)?;
+        let mut rows = parameters::shown(session, parts.parameters.height);
+        return rows.nth(line.into()).map(PointerTarget::Row);
     }
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
     let area = parts.plots[index];

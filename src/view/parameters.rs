@@ -1,5 +1,7 @@
 //! The parameter pane: what the model is, in numbers that the keys change, and what follows from them.
 
+use std::ops::Range;
+
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
@@ -33,13 +35,21 @@ const WITH_MEANINGS: u16 = 50;
 pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let heading = Heading::of(session, Pane::Parameters);
-    let of = session.number(0).map_or_else(String::new, |number| format!("of motion {number}"));
+    let (rows, shown) = (session.rows(), shown(session, area.height));
+    let of = match session.number(0) {
+        Some(number) => format!("of motion {number}"),
+        None if shown.len() < rows.len() => format!("+{} more", rows.len() - shown.len()),
+        None => String::new(),
+    };
     screen.title(area, "parameters", &of, &heading);
-    let rows = session.rows().into_iter().skip(first(session, area.height));
+    let rows = rows[shown].iter().copied();
     let mut lines: Vec<Line> = rows.map(|row| row_line(session, row, area.width, look)).collect();
     lines.extend(folded(session).map(|folded| look.span(format!(" {folded}"), Role::Quiet).into()));
-    lines.push(Line::default());
-    lines.extend(cycles(session, area.width.into(), look));
+    let below = cycles(session, area.width.into(), look);
+    // The numbers of a machine leave little room.
+    let apart = session.running().is_none() || lines.len() + below.len() < area.height.into();
+    lines.extend(apart.then(Line::default));
+    lines.extend(below);
     let taken = u16::try_from(lines.len()).unwrap_or(u16::MAX);
     let body = pane::below(area, 1);
     screen.lines(body, lines);
@@ -53,10 +63,16 @@ fn is_wide(width: u16) -> bool {
     usize::from(width) >= VALUES + STEP
 }
 
-/// The first row that is on show, so that the selected one is: a machine can have more rows than fit.
-pub fn first(session: &Session, height: u16) -> usize {
-    let selected = session.rows().iter().position(|row| *row == session.selected).unwrap_or(0);
-    (selected + 2).saturating_sub(height.into())
+/// The rows on show, the selected one among them: a machine can have more rows than fit above the cycles.
+pub fn shown(session: &Session, height: u16) -> Range<usize> {
+    /// Lines of the heading and of two cycles below, unless fewer than `FEW` rows were left.
+    const BELOW: usize = 4;
+    const FEW: usize = 10;
+    let (rows, lines) = (session.rows(), usize::from(height));
+    let most = lines.saturating_sub(BELOW).max(FEW).min(lines.saturating_sub(1)).max(1);
+    let selected = rows.iter().position(|row| *row == session.selected).unwrap_or(0);
+    let first = (selected + 1).saturating_sub(most);
+    first..rows.len().min(first + most)
 }
 
 /// What to look at in this scene and what to press. Where there is no room for both texts, the key that shows
@@ -103,6 +119,7 @@ fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'stati
     // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
     let off = row.is_of_machine() && session.is_on_the_belt() == Some(false);
     let value = if off { format!("({value})") } else { value };
+    let unit_alone = row.is_of_machine() && !is_wide(width);
     let gap = end.saturating_sub(name.len() + value.chars().count() + 1).max(1);
     let style = look.style(role);
     let value_style = if off && !selected {
@@ -115,7 +132,7 @@ fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'stati
     Line::from(vec![
         Span::styled(format!("{pointer}{name}{:gap$}", ""), style),
         Span::styled(value, value_style),
-        look.span(tail, Role::Quiet),
+        look.span(tail, if unit_alone { Role::Text } else { Role::Quiet }),
     ])
 }
 
@@ -134,12 +151,21 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
         told.iter().find(|text| fits(text)).or(told.last()).cloned()
     });
     if width >= WITH_MEANINGS {
-        let meaning = physical.unwrap_or_else(|| meaning(&session.problem, row).to_owned());
-        return format!("  {step:<STEP$}  {meaning}");
+        let meaning = meaning(&session.problem, row);
+        return match physical {
+            Some(unit) if row.is_of_machine() => format!("  {step:<STEP$}  {meaning} [{unit}]"),
+            Some(physical) => format!("  {step:<STEP$}  {physical}"),
+            None => format!("  {step:<STEP$}  {meaning}"),
+        };
     }
     // On a narrow pane what the number means on the machine stands in place of the step, of which the
-    // selected row alone needs to speak.
-    let text = physical.filter(|text| (!selected || recorded) && fits(text)).unwrap_or(step);
+    // selected row alone needs to speak; the unit of a number of the machine stands right behind it.
+    let text = match physical {
+        Some(unit) if row.is_of_machine() && selected => Some(format!("{step} {unit}")),
+        Some(unit) if row.is_of_machine() && fits(&unit) => return format!(" {unit}"),
+        physical => physical.filter(|_| !selected || recorded),
+    };
+    let text = text.filter(fits).unwrap_or(step);
     // Where there is no room behind the values, the selected one moves to the left.
     let blanks = if fits(&text) { 2 } else { 1 };
     if text.is_empty() { text } else { format!("{:blanks$}{text}", "") }
@@ -155,12 +181,17 @@ fn physical(session: &Session, row: Row) -> Option<String> {
             ("t", session.problem.until * units.time, "s")
         }
         (Row::BELT, _, Some(_)) if session.is_on_the_belt() == Some(false) => {
-            return Some("v0 off the belt".to_owned());
+            return Some("off the belt".to_owned());
+        }
+        (Row::Number(knob), ..) if row.is_of_machine() => {
+            return Some(knob.spec().unit.to_owned()).filter(|unit| !unit.is_empty());
+        }
+        // R has a row of its own.
+        (Row::Number(Knob::R), _, Some(_)) if session.is_on_the_belt() == Some(true) => {
+            return None;
         }
         (Row::Number(knob), _, Some(running)) => {
-            let (value, of_machine) = (session.value(knob), row.is_of_machine());
-            let (knob, value) =
-                if of_machine { (knob, value) } else { running.meaning(knob, value)? };
+            let (knob, value) = running.meaning(knob, session.value(knob))?;
             (knob.spec().name, value, knob.spec().unit)
         }
         _ => return None,

@@ -3,7 +3,9 @@
 use super::explorer_session::{Trial, refuses, reopened};
 use super::*;
 use hopfscope::model::belt::ReducedBelt;
-use hopfscope::model::{Group, Knob};
+use hopfscope::model::{Belt, Group, Knob};
+use hopfscope::portrait::Portrait;
+use hopfscope::scene::View;
 use hopfscope::session::{Effect, Msg, Purpose, Row, run_line, save};
 
 /// Plays keys on a scene, without a terminal; returns the session and the last screen.
@@ -82,7 +84,18 @@ fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
     let scene = ScaledMachine::try_from(machine.clone()).unwrap().scene();
     let (session, text) = screen(scene.clone(), "");
     assert_eq!(session.contact(), None);
-    for words in ["1 N", "1 mm", "2 s", "margin from rest: 1.249 mm, 0.1448 N s", "belt"] {
+    // Its own numbers come first, in their units; those that follow and what sets them stand beneath.
+    let mut rows = text.lines().map(str::trim_start);
+    for start in
+        ["m              2 kg", "c           5000 N/m", "F            100 N", "R   ", "rest  "]
+            .into_iter()
+            .chain(["belt         0.3 m/s", ">D    -0.097626", "D2  ", "D3  ", "r       0.036553"])
+    {
+        assert!(rows.any(|row| row.starts_with(start)), "{start} in {text}");
+    }
+    let (_, unfolded) = screen(scene.clone(), "x");
+    assert!(unfolded.contains("d3           600") && !text.contains("d3 "), "{unfolded}");
+    for words in ["x 1 mm", "margin from rest: 1.249 mm, 0.1448 N s"] {
         assert!(text.contains(words), "{words} in {text}");
     }
     // The line is where the velocity of the mass equals that of the belt.
@@ -335,7 +348,7 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     trial.press("u");
     assert_eq!(trial.session.machine().unwrap().friction, 2.0);
     trial.press("u");
-    assert_eq!(trial.notice(), "undo: R = as in its file, m = as in its file");
+    assert_eq!(trial.notice(), "undo: m = as in its file, R = as in its file");
     assert_eq!(trial.session.setup(), before);
     trial.press("U");
     trial.session.selected = Row::Number(Knob::Friction);
@@ -379,4 +392,31 @@ fn a_session_of_an_earlier_version_opens_with_its_whole_history() {
     trial.press("uuuuuu");
     let start = Trial::open("benchmark").session;
     assert_eq!(trial.session.problem, start.problem);
+}
+
+#[test]
+fn a_machine_s_diagram_is_over_any_of_its_numbers() {
+    let scene = (*hopfscope::scene::find("slow-belt").unwrap()).clone();
+    let (session, text) = screen(scene.clone(), ":axes<space>F<enter>");
+    assert!(text.contains("x_max [m] over F [N]"), "{text}");
+    let found = session.speeds(session.plot).unwrap();
+    let belt = &scene.machine.as_ref().unwrap().machine.belt;
+    assert!(found.points.len() > 30 && found.points.iter().any(|point| point.value == 300.0));
+    for point in &found.points {
+        let alone = Belt { normal_force: point.value, ..belt.clone() };
+        let cycles = Portrait::of_belt(&alone).unwrap().cycles;
+        assert_eq!(point.found.as_ref().unwrap().cycles, cycles, "F = {} N", point.value);
+    }
+    // Stepping its own number asks nothing again, and the number under the cursor can be taken.
+    let (taken, _) = screen(scene.clone(), ":axes<space>F<enter> <right> <enter>");
+    assert_eq!(taken.machine().unwrap().normal_force, 105.0);
+    assert_eq!(taken.speeds(taken.plot), session.speeds(session.plot));
+    // The key visits every number of the machine, and comes back to the speed of its belt in the scene's window.
+    let count = session.abscissae(View::Speeds).len();
+    let (back, _) = screen(scene.clone(), &format!(":axes<space>v0<enter> <X*{count}>"));
+    let opened = Session::new(Arc::new(scene.clone()), back.size);
+    assert_eq!(back.plots[back.plot].axes, opened.plots[back.plot].axes);
+    assert_eq!(back.plots[back.plot].window.x, opened.plots[back.plot].window.x);
+    let (_, refused) = screen(scene, ":axes<space>F<space>period<enter>");
+    assert!(refused.contains("a machine's diagram shows x_max"), "{refused}");
 }

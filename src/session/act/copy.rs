@@ -62,7 +62,7 @@ fn point(session: &Session) -> Vec<NamedNumber> {
         let row = session.selected;
         return vec![(row.name().to_owned(), plain_value(session, row))];
     };
-    let Axes { abscissa, against, ordinate, .. } = plot.axes;
+    let Axes { abscissa, against, ordinate, machine, .. } = plot.axes;
     if let Some(held) = session.held {
         let height = held.cycle.map(|cycle| named("q_max", cycle.q_max));
         return std::iter::once(named(abscissa.spec().name, held.value)).chain(height).collect();
@@ -76,6 +76,7 @@ fn point(session: &Session) -> Vec<NamedNumber> {
     let (x, y) = match plot.view {
         View::Diagram => (abscissa.spec().name, ordinate.spec().name),
         View::Regimes => (abscissa.spec().name, against.spec().name),
+        View::Speeds => (machine.spec().name, "x_max"),
         view => view.spec().coordinates,
     };
     vec![named(x, at.x), named(y, at.y)]

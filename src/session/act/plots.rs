@@ -2,9 +2,9 @@
 //! want it.
 
 use crate::flow::Problem;
-use crate::model::{Knob, State};
+use crate::model::State;
 use crate::numerics::decimal::{StepSize, shortest};
-use crate::scene::{Axes, ORDINATES, PlotSetup, Point, Span, Unit, View, Window, usual_values};
+use crate::scene::{Axes, ORDINATES, PlotSetup, Point, Span, Unit, View, Window};
 use crate::session::act::general::flip;
 use crate::session::act::motions::start;
 use crate::session::act::parameters::{change, put};
@@ -32,11 +32,10 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
     let (x, y) = match plot.view {
         View::Phase => (q, v),
         View::Belt => (q, center.y),
-        View::Diagram => (session.value(plot.axes.abscissa), center.y),
+        view @ (View::Diagram | View::Speeds) => (session.value(plot.axes.right(view)), center.y),
         View::TimeSeries => (0.0, q),
         View::EnergyLedger => (0.0, 0.0),
         View::EnergyRate => (v, 0.0),
-        View::Speeds => (session.value(Knob::BeltSpeed), center.y),
         View::ReturnMap => (q, q),
         View::Regimes => (session.value(plot.axes.abscissa), session.value(plot.axes.against)),
         _ => (center.x, center.y),
@@ -137,8 +136,8 @@ pub fn fit(session: &mut Session) {
 pub fn home(session: &mut Session) {
     let index = session.plot;
     let Some(plot) = session.focused() else { return };
-    let usual = PlotSetup { view: plot.view, axes: plot.axes, window: None, family: None };
-    let plot_setup = session.plot_of_scene(index, plot.view).unwrap_or(usual);
+    let fitting = PlotSetup::fitting(plot.view, plot.axes);
+    let plot_setup = session.plot_of_scene(index, plot.view).unwrap_or(fitting);
     if let Some(plot) = session.focused_mut() {
         *plot = Plot { cursor: plot.cursor, ..Plot::opened(&plot_setup) };
     }
@@ -186,41 +185,31 @@ pub fn start_here(session: &mut Session) -> Done {
     Ok(())
 }
 
-/// Sets the parameter of a diagram, both of a chart, or the speed of the belt to the values under the cursor.
+/// Sets the number of a diagram, or both parameters of a chart, to the values under the cursor.
 pub fn jump_here(session: &mut Session) -> Done {
     let Point { x, y } = cursor(session)?;
-    let Plot { view, axes: Axes { abscissa, against, .. }, .. } = session.plots[session.plot];
-    let numbers = match view {
-        View::Regimes => vec![(abscissa, x), (against, y)],
-        View::Speeds => vec![(Knob::BeltSpeed, x)],
-        _ => vec![(abscissa, x)],
-    };
+    let Plot { view, axes, .. } = session.plots[session.plot];
+    let upwards = (view == View::Regimes).then_some((axes.against, y));
     let mut setup = session.setup();
-    for (knob, value) in numbers {
+    for (knob, value) in std::iter::once((axes.right(view), x)).chain(upwards) {
         setup = session.with(&setup, knob, value)?;
     }
     put(session, setup);
     Ok(())
 }
 
-/// Factor for room beside the present value if it lies outside of the first range.
-const ROOM: f64 = 1.25;
-
-/// The parameter that many places later in the table, cycling.
-fn after(parameter: Knob, places: usize) -> Knob {
-    Knob::PARAMETERS[(parameter.place() + places) % Knob::PARAMETERS.len()]
-}
-
-/// Draws the diagram or the chart in focus over the next parameter to the right or upwards, cycling; both axes of a
-/// chart always differ.
-pub fn next_parameter(session: &mut Session, upwards: bool) {
+/// Draws the diagram or the chart in focus over the next number to the right or upwards, cycling; both axes of a chart
+/// always differ.
+pub fn next_abscissa(session: &mut Session, upwards: bool) {
     let Some(&Plot { view, axes, .. }) = session.focused() else { return };
-    let Axes { abscissa, against, .. } = axes;
-    let (present, other) = if upwards { (against, abscissa) } else { (abscissa, against) };
-    let (chart, next) = (view == View::Regimes, after(present, 1));
-    let symbol = if chart && next == other { after(present, 2) } else { next };
-    let axes =
-        if upwards { Axes { against: symbol, ..axes } } else { Axes { abscissa: symbol, ..axes } };
+    let (right, against) = (axes.right(view), axes.against);
+    let (present, other) = if upwards { (against, right) } else { (right, against) };
+    let chart = view == View::Regimes;
+    let all = session.abscissae(view);
+    let place = all.iter().position(|knob| *knob == present).unwrap_or(0);
+    let mut later = all.iter().copied().cycle().skip(place + 1);
+    let Some(knob) = later.find(|knob| !(chart && *knob == other)) else { return };
+    let axes = if upwards { Axes { against: knob, ..axes } } else { axes.with_right(view, knob) };
     match session.focused_mut().filter(|_| chart) {
         // No scene sets a window for these axes: starts from the usual one, which is then fitted to include the
         // present point.
@@ -231,22 +220,20 @@ pub fn next_parameter(session: &mut Session, upwards: bool) {
         }
         None => set_axes(session, axes),
     }
-    session.inform(format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
+    session.inform(format!("over {}: {}", knob.spec().name, knob.spec().meaning));
 }
 
 /// Gives the diagram in focus these axes: in the scene's window if they are the scene's, otherwise in one that is
 /// fitted to the branch.
 pub fn set_axes(session: &mut Session, axes: Axes) {
-    let Some(plot) = session.focused() else { return };
-    let symbol = axes.abscissa;
-    let of_scene = session.plot_of_scene(session.plot, View::Diagram);
-    let opened = of_scene.filter(|it| it.axes.abscissa == symbol).map(|it| it.opening().x);
-    let x = if symbol == plot.axes.abscissa {
-        plot.window.x
+    let Some(&Plot { view, window, axes: present, .. }) = session.focused() else { return };
+    let knob = axes.right(view);
+    let of_scene = session.plot_of_scene(session.plot, view);
+    let opened = of_scene.filter(|it| it.axes.right(view) == knob).map(|it| it.opening().x);
+    let x = if knob == present.right(view) {
+        window.x
     } else {
-        let usual = usual_values(symbol);
-        let ends = [usual.from(), usual.to(), ROOM * session.value(symbol)];
-        opened.or_else(|| Span::covering(ends)).unwrap_or(usual)
+        opened.unwrap_or_else(|| session.values_around(knob))
     };
     let Some(plot) = session.focused_mut() else { return };
     if let Some(same) = of_scene.filter(|it| it.axes == axes && it.opening().x == x) {

@@ -35,8 +35,8 @@ fn plot_setup(session: &Session, plot: usize, view: View) -> PlotSetup {
     let of_scene = here.into_iter().chain(&session.scene.plots);
     let mut of_scene = of_scene.filter(|plot_setup| plot_setup.view == view);
     let axes = session.plots.get(plot).map(|plot| plot.axes).unwrap_or_default();
-    let all = PlotSetup { view, axes, window: None, family: None };
-    of_scene.find(|plot_setup| absent(plot_setup)).or(others.first()).copied().unwrap_or(all)
+    let fitting = PlotSetup::fitting(view, axes);
+    of_scene.find(|plot_setup| absent(plot_setup)).or(others.first()).copied().unwrap_or(fitting)
 }
 
 /// Switches on the usual layers of a view if all its layers are off.

@@ -10,7 +10,7 @@ use crate::scene::{
 use crate::session::act::{general, history, parameters, plots, screen_setup};
 use crate::session::read::completion::{properties, rows};
 use crate::session::state::session::MOST_HARMONICS;
-use crate::session::{Done, Framing, Pane, Row, Session};
+use crate::session::{Done, Framing, Pane, Plot, Row, Session};
 use crate::words::one_of;
 
 /// The row of the parameter pane with this name.
@@ -106,13 +106,16 @@ pub fn window(session: &mut Session, rest: &str) -> Done {
     Ok(())
 }
 
-/// Sets the axes of the diagram in use: a parameter, and optionally a property of the cycles.
+/// Sets the axes of the diagram in use: a number, and, unless it is one of a machine, optionally a property of the cycles.
 pub fn axes(session: &mut Session, rest: &str) -> Done {
     let (over, property) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-    let rows = Knob::PARAMETERS.map(|knob| (knob.spec().name, knob));
-    let abscissa = one_of("diagram over", over, rows)?;
-    let index = diagram(session).ok_or("no plot shows a diagram; view diagram makes one")?;
-    let axes = session.plots[index].axes;
+    let index = session.diagram().ok_or("no plot shows a diagram; view diagram makes one")?;
+    let Plot { view, axes, .. } = session.plots[index];
+    let rows = session.abscissae(view).into_iter().map(|knob| (knob.spec().name, knob));
+    let right = one_of("diagram over", over, rows)?;
+    if view == View::Speeds && !property.trim().is_empty() {
+        return Err(format!("a machine's diagram shows x_max; allowed: {over} alone"));
+    }
     let (ordinate, unit) = match property.trim() {
         "" => (axes.ordinate, axes.unit),
         name => {
@@ -121,14 +124,8 @@ pub fn axes(session: &mut Session, rest: &str) -> Done {
         }
     };
     screen_setup::focus_on(session, Pane::Plot(index));
-    plots::set_axes(session, Axes { abscissa, ordinate, unit, ..axes });
+    plots::set_axes(session, Axes { ordinate, unit, ..axes.with_right(view, right) });
     Ok(())
-}
-
-/// The plot in use if it is a diagram, otherwise the first diagram on show.
-fn diagram(session: &Session) -> Option<usize> {
-    let is_one = |index: &usize| session.plots[*index].view == View::Diagram;
-    Some(session.plot).filter(is_one).or_else(|| session.on_show().find(is_one))
 }
 
 /// Shows the cycles by N harmonics.

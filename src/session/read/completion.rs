@@ -31,10 +31,13 @@ pub fn switch(_: &Session, given: &[&str]) -> Vec<String> {
     if given.len() == 1 { all(["on", "off"]) } else { Vec::new() }
 }
 
-/// A parameter, then a property of the cycles.
-pub fn axes(_: &Session, given: &[&str]) -> Vec<String> {
+/// A number of the diagram in use, then a property of the cycles.
+pub fn axes(session: &Session, given: &[&str]) -> Vec<String> {
     match given.len() {
-        1 => all(Knob::PARAMETERS),
+        1 => {
+            let plot = session.diagram().unwrap_or(session.plot);
+            all(session.abscissae(session.plots[plot].view))
+        }
         2 => properties().map(|row| row.0).collect(),
         _ => Vec::new(),
     }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::branch::chart::Plane;
 use crate::flow::Problem;
-use crate::model::{Belt, Knob};
+use crate::model::Knob;
 use crate::numerics::{distinct, exp2, hypot, log2};
 use crate::scene::{Axes, Finding, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::{Framing, List, ListKind, Overlay, Pane, Row, Session};
@@ -179,9 +179,12 @@ impl Session {
                 }
             }
             Topic::Speeds => {
-                let range = within(Knob::BeltSpeed, own(View::Speeds)?.window.x)?;
-                let belt = Arc::new(Belt { belt_speed: 1.0, ..self.machine()? });
-                Request::Speeds { belt, range, rough: false }
+                let plot = own(View::Speeds)?;
+                let varied = plot.axes.machine;
+                let range = within(varied, plot.window.x)?;
+                let mut belt = self.machine()?;
+                varied.set_in_belt(&mut belt, 1.0).ok()?;
+                Request::Speeds { belt: Arc::new(belt), varied, range, rough: false }
             }
             Topic::ReturnMap => {
                 // Until the window is known, there is nothing to ask.

@@ -8,7 +8,8 @@ use crate::model::parameters::energy;
 use crate::model::{Knob, State};
 use crate::numerics::{hypot, real, truncated};
 use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window, usual_values};
-use crate::session::{Framing, ScanOnShow, Session};
+use crate::session::state::setup::size;
+use crate::session::{Framing, Row, ScanOnShow, Session};
 
 /// Width of a fitted window, relative to its content.
 const ROOM: f64 = 1.1;
@@ -252,11 +253,38 @@ fn eigenvalues(session: &Session) -> Option<Window> {
 /// The first ranges of both parameters, and the present point.
 fn regimes(session: &Session, plot: usize) -> Option<Window> {
     let Axes { abscissa, against, .. } = session.plots[plot].axes;
-    let around = |symbol: Knob| {
-        let usual = usual_values(symbol);
-        Span::covering([usual.from(), usual.to(), ROOM * session.value(symbol)])
-    };
-    Some(Window { x: around(abscissa)?, y: around(against)? })
+    Some(Window { x: session.values_around(abscissa), y: session.values_around(against) })
+}
+
+impl Session {
+    /// The plot in use if it is a diagram, otherwise the first diagram on show.
+    pub fn diagram(&self) -> Option<usize> {
+        let diagrams = [View::Diagram, View::Speeds];
+        let is_one = |index: &usize| diagrams.contains(&self.plots[*index].view);
+        Some(self.plot).filter(is_one).or_else(|| self.on_show().find(is_one))
+    }
+
+    /// The numbers over which a view can be drawn.
+    pub fn abscissae(&self, view: View) -> Vec<Knob> {
+        if view != View::Speeds {
+            return Knob::PARAMETERS.to_vec();
+        }
+        let own = Row::all().filter(|row| row.is_of_machine() && self.has(*row));
+        own.filter_map(Row::stepped).collect()
+    }
+
+    /// The first range of a diagram over a number, with room for the present value: of a machine from a tenth to three times
+    /// that, and around 0 as wide as a number of its kind is large.
+    pub(crate) fn values_around(&self, knob: Knob) -> Span {
+        let (value, usual) = (self.value(knob), usual_values(knob));
+        let size = self.running().filter(|_| knob.is_of_machine()).map(|it| size(it, knob));
+        let ends = match size {
+            None => [usual.from(), usual.to(), ROOM * value],
+            Some(size) if value == 0.0 => [(-size).max(knob.spec().min), size, 0.0],
+            Some(_) => [0.1 * value, 3.0 * value, value],
+        };
+        Span::covering(ends).unwrap_or(usual)
+    }
 }
 
 /// The value that this fraction of the sorted values does not exceed.

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::branch::{BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Problem};
-use crate::model::{Knob, State};
+use crate::model::{Belt, Knob, State};
 use crate::portrait::{Cycle, RandomKick};
 use crate::scene::{
     Arrangement, Axes, Layer, PlotSetup, Point, Request, ScaledMachine, Scene, Setting, Topic,
@@ -214,14 +214,22 @@ impl Session {
         row.stepped().filter(|knob| knob.is_of_machine()).is_none_or(of_belt)
     }
 
-    /// The rows of the parameter pane: those that the scene declares and those that are not zero; all rows if
-    /// unfolded.
+    /// The rows of the parameter pane: those that the scene declares and those that are not zero, and of a machine those
+    /// that no others determine, in place of how a motion is computed unless that is changed; all rows if unfolded.
     pub fn rows(&self) -> Vec<Row> {
-        let stands = |row: &Row| match *row {
+        let stands = |&row: &Row| match row {
             row if !self.has(row) => false,
             Row::Number(_) if self.unfolded => true,
+            Row::Method | Row::Tolerance | Row::Number(Knob::Until) => {
+                let opened = &self.scene.problem;
+                let asked = |it: &Problem| (it.until, it.method, it.setting());
+                let as_opened = asked(&self.problem) == asked(opened);
+                self.unfolded || self.scene.machine.is_none() || !as_opened
+            }
             Row::Number(knob) if row.is_of_machine() => {
-                self.setting.as_ref().is_some_and(|it| it.get(knob).is_some())
+                let is_set = self.setting.as_ref().is_some_and(|it| it.get(knob).is_some());
+                is_set
+                    || self.scene.machine.as_ref().is_some_and(|it| is_told(&it.machine.belt, knob))
             }
             Row::Number(Knob::Disturbance) => {
                 self.scene.recording.is_some()
@@ -229,10 +237,22 @@ impl Session {
                     || [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it))
             }
             Row::Number(knob) => self.scene.declares(knob) || self.value(knob) != 0.0,
-            Row::Method | Row::Tolerance => true,
         };
         Row::all().filter(stands).collect()
     }
+}
+
+/// Whether a number of a machine is told where not all are: those that are no coefficient of a damper, which stands beside D
+/// and D3, and neither usual nor determined by others.
+fn is_told(belt: &Belt, knob: Knob) -> bool {
+    let determined = match knob {
+        Knob::Damping | Knob::CubicDamping => return false,
+        Knob::Friction => None,
+        Knob::StaticCoefficient => belt.law.mu(0.0),
+        Knob::StaticGuide => Some(belt.friction),
+        _ => knob.spec().default,
+    };
+    knob.of_belt(belt) != determined
 }
 
 /// Largest count before a key.

@@ -194,9 +194,6 @@ pub enum Row {
     Tolerance,
 }
 
-/// The numbers of a machine that are changed while it runs; they stand above the others.
-const FIRST_OF_MACHINE: [Knob; 3] = [Knob::BeltSpeed, Knob::NormalForce, Knob::Friction];
-
 impl Default for Row {
     /// The row that is selected initially.
     fn default() -> Self {
@@ -205,12 +202,11 @@ impl Default for Row {
 }
 
 impl Row {
-    /// All rows, from top to bottom.
+    /// All rows, from top to bottom: a machine's own numbers, that which is changed most next to those that follow.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
         let others = [Knob::Disturbance, Knob::Q0, Knob::V0, Knob::Until];
-        let of_machines = Group::Machine.knobs().chain(Group::Law.knobs());
-        let rest = of_machines.filter(|knob| !FIRST_OF_MACHINE.contains(knob));
-        let machine = FIRST_OF_MACHINE.into_iter().chain(rest);
+        let machine = Group::Machine.knobs().filter(|knob| *knob != Knob::BeltSpeed);
+        let machine = machine.chain(Group::Law.knobs()).chain([Knob::BeltSpeed]);
         let numbers = machine.chain(Knob::PARAMETERS).chain(others);
         numbers.map(Row::Number).chain([Row::Method, Row::Tolerance])
     }
@@ -334,7 +330,7 @@ impl StepSizes {
 
 /// The size of a number of a machine; of a damper or a friction that is zero, the unit of D, D3 or r; of another one
 /// that is zero, 1 in its SI unit.
-fn size(scaled: &ScaledMachine, knob: Knob) -> f64 {
+pub(crate) fn size(scaled: &ScaledMachine, knob: Knob) -> f64 {
     let size = knob.of_belt(&scaled.machine.belt).map_or(0.0, f64::abs);
     let unit = symbol_of(knob).map(|symbol| scaled.scale(symbol));
     if size > 0.0 { size } else { unit.unwrap_or(1.0) }

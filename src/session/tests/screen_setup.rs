@@ -103,7 +103,7 @@ fn no_list_puts_a_view_that_can_show_nothing_in_place_of_a_plot() {
     let opened = trial.session.plots.clone();
     trial.goes(&[
         ("V/damping<enter>", "notice damping needs a recorded motion: :fit FILE opens one"),
-        ("V/speeds<enter>", "notice belt speeds needs a machine: :belt clutch opens one"),
+        ("V/speeds<enter>", "notice belt diagram needs a machine: :belt clutch opens one"),
         ("<space>residuals<enter>", "notice residuals needs a recorded motion: .."),
         ("V/margin<enter>", "notice margin needs a recorded motion: .."),
         ("V/scan<enter>", "notice scan needs a scan: % opens the line for one"),
@@ -123,5 +123,5 @@ fn no_list_puts_a_view_that_can_show_nothing_in_place_of_a_plot() {
         trial.session.nothing(trial.session.plot).as_deref()
     );
     // A machine gives what the speeds of its belt need.
-    trial.goes(&[(":belt<space>clutch<enter><tab>V/speeds<enter>", "notice belt speeds: ..")]);
+    trial.goes(&[(":belt<space>clutch<enter><tab>V/speeds<enter>", "notice belt diagram: ..")]);
 }
