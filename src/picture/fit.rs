@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use super::units::with_unit;
 use super::{
     Dash, Item, LineStyle, Mark, Marks, Picture, Role, cycle_mark, cycle_name, cycle_role,
 };
@@ -240,9 +241,4 @@ fn around(picture: &Picture) -> Option<Window> {
         Some(span.scaled(span.center(), 1.06))
     };
     Some(Window { x: span(|point| point.x)?, y: span(|point| point.y)? })
-}
-
-/// `name [unit]`.
-fn with_unit(name: &str, unit: &str) -> String {
-    if unit.is_empty() { name.into() } else { format!("{name} [{unit}]") }
 }

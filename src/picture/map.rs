@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
+use super::units;
 use crate::numerics::{cells, distinct, ln, pow};
 use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
@@ -18,16 +19,16 @@ pub enum DangerousValues {
     Large,
 }
 
-/// The lines of `assets/columns.txt`: a column, its unit, which of its values are dangerous, and what it means that there
-/// is none.
-static COLUMNS: LazyLock<Vec<[&str; 4]>> =
+/// The lines of `assets/columns.txt`: a column, its unit, that of a machine's, which of its values are dangerous, and what it
+/// means that there is none.
+static COLUMNS: LazyLock<Vec<[&str; 5]>> =
     LazyLock::new(|| include_str!("../../assets/columns.txt").lines().filter_map(cells).collect());
 
 /// What [`COLUMNS`] says of the column that is plotted.
-fn plotted(scanned: &ScanOnShow) -> [&'static str; 4] {
+fn plotted(scanned: &ScanOnShow) -> [&'static str; 5] {
     let column = measured(scanned);
     let row = COLUMNS.iter().find(|[known, ..]| *known == column);
-    row.copied().unwrap_or([column, "-", "-", "none"])
+    row.copied().unwrap_or([column, "-", "-", "-", "none"])
 }
 
 /// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.
@@ -40,8 +41,9 @@ pub fn measured(scanned: &ScanOnShow) -> &'static str {
 
 /// What is plotted, with the unit of a length, a velocity or a time.
 pub fn with_unit(scanned: &ScanOnShow) -> String {
-    let [column, unit, ..] = plotted(scanned);
-    if unit == "-" { column.to_owned() } else { format!("{column} [{unit}]") }
+    let [column, own, si, ..] = plotted(scanned);
+    let unit = if scanned.scan.problem(0).is_some() { own } else { si };
+    units::with_unit(column, unit.trim_matches('-'))
 }
 
 /// What it means that there is no number at a point; `None` where there is one.
@@ -177,7 +179,7 @@ mod tests {
         let lines = include_str!("../../assets/columns.txt").lines();
         let told = lines.filter(|line| !(line.is_empty() || line.starts_with('#')));
         assert_eq!(told.count(), COLUMNS.len(), "every line of the file is read");
-        for [column, _, dangerous, _] in COLUMNS.iter() {
+        for [column, .., dangerous, _] in COLUMNS.iter() {
             assert!(MEASURES.iter().any(|row| row.columns.contains(column)), "{column}");
             let known = *dangerous == "-" || named::<DangerousValues>(dangerous).is_some();
             assert!(known, "{column}: {dangerous}");

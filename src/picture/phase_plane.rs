@@ -346,9 +346,6 @@ fn kicks(picture: &mut Picture, session: &Session, index: usize) {
 
 /// The lost part with its error, at the present parameters; or why it is not known.
 fn lost_part(session: &Session, index: usize) -> String {
-    if session.draws_whole() {
-        return "kicks lost: not known of the whole model".to_owned();
-    }
     if let Some(failure) = session.failure(Topic::Kicks, index) {
         return format!("kicks lost: {failure}");
     }

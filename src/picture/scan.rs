@@ -1,6 +1,8 @@
 //! A scan: a curve over one parameter, or a map over two.
 
-use super::{Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap, map::measured};
+use super::{
+    Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap, map::with_unit, units,
+};
 use crate::scan::sweep::{Spacing, Sweep};
 use crate::scene::Point;
 use crate::session::{Session, scan::ScanOnShow};
@@ -21,16 +23,16 @@ pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {
 pub fn draw(picture: &mut Picture, session: &Session) {
     let Some(scanned) = &session.scanned else { return };
     picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
-    let names: Vec<&str> = picture.varied.iter().map(|knob| knob.spec().name).collect();
-    let upward = names.get(1).copied().unwrap_or_else(|| measured(scanned));
-    picture.axes(names[0], upward);
+    let labels: Vec<String> = picture.varied.iter().map(|knob| units::label(*knob)).collect();
+    let upward = labels.get(1).cloned().unwrap_or_else(|| with_unit(scanned));
+    picture.axes(labels[0].clone(), upward.clone());
     // The lines below the plot say what stands at the cursor.
     (picture.cursor, picture.reading) = (scanned.place(scanned.at), None);
     picture.map = ScanMap::of(scanned);
     if let Some(name) = picture.map.as_ref().map(|map| map.name.clone()) {
         picture.add_to_title(&name);
     } else {
-        curve(picture, scanned, upward.to_owned());
+        curve(picture, scanned, upward);
     }
 }
 

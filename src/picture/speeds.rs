@@ -2,7 +2,7 @@
 //! where it is stable and dashed where it is not, stick-slip in thick ones, overtaking dotted; and where a
 //! stable state ends, the jump to the one that is left.
 
-use super::{Picture, phase_plane};
+use super::{Picture, phase_plane, units};
 use crate::branch::Special;
 use crate::portrait::{Border, Cycle, Portrait};
 use crate::scene::{Layer, Point};
@@ -25,9 +25,7 @@ fn kind(cycle: &Cycle) -> &'static str {
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     let varied = session.plots[index].axes.machine;
-    let (name, unit) = (varied.spec().name, varied.spec().unit);
-    let label = if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") };
-    picture.axes(label, "x_max [m]");
+    picture.axes(units::label(varied), "x_max [m]");
     picture.add_to_title("whole model");
     picture.upright("present value", session.value(varied));
     if session.layers.contains(&Layer::Speeds)
@@ -42,7 +40,7 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         }
         rest(picture, &points);
         for special in &found.special {
-            changes(picture, special, unit);
+            changes(picture, special, varied.spec().unit);
         }
     }
 }

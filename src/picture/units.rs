@@ -2,6 +2,7 @@
 //! told apart.
 
 use super::Scale;
+use crate::model::Knob;
 use crate::model::belt::Units as Physical;
 use crate::scene::{Layer, Span, View, Window};
 use crate::session::Session;
@@ -47,6 +48,16 @@ pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
         }
         _ => return None,
     })
+}
+
+/// `name [unit]`.
+pub fn with_unit(name: &str, unit: &str) -> String {
+    if unit.is_empty() { name.into() } else { format!("{name} [{unit}]") }
+}
+
+/// The label of an axis over a number.
+pub fn label(knob: Knob) -> String {
+    with_unit(knob.spec().name, knob.spec().unit)
 }
 
 /// A number along an axis under its name there, or under `name` where the axis has no other unit, to the digits that

@@ -16,7 +16,7 @@ use crate::branch::machine::MachineBranch;
 use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, follow};
-use crate::model::{Belt, Knob, Model, Parameters, Source, State};
+use crate::model::{Belt, Body, Knob, Model, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Drawing, Margin, Portrait, ReturnMap, Share, bands, picture_reach};
@@ -183,8 +183,13 @@ pub fn answer_for(
         Request::Zones { source, tolerances } => {
             Finding::Zones(zones(source, tolerances, points, limits)?)
         }
-        Request::Kicks { parameters, kicks } => {
-            let found = Portrait::of_oscillator(parameters, kicks.reach(), limits)?;
+        Request::Kicks { source, kicks } => {
+            let found = match &source.body {
+                Body::Paper(parameters) => {
+                    Portrait::of_oscillator(parameters, kicks.reach(), limits)?
+                }
+                _ => source.portrait()?,
+            };
             Finding::Kicks(kicks.lost(&found)?, found.cost)
         }
         Request::Capture { parameters, reach, most } => {

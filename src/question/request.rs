@@ -78,8 +78,9 @@ pub enum Request {
     },
     /// The fraction of random kicks that is lost.
     Kicks {
-        parameters: Parameters,
-        /// The density of the kicks.
+        /// What is kicked: the oscillator of the paper, or a machine by the whole model.
+        source: Arc<Source>,
+        /// The density of the kicks, in SI units of a machine.
         kicks: RandomKick,
     },
     /// The borders of the bands of capture.
@@ -235,8 +236,9 @@ impl Request {
                 let numbers = source.numbers().map(|(_, value)| value);
                 numbers.chain([tolerances.disturbance]).collect()
             }
-            Request::Kicks { parameters, kicks: RandomKick { q, v, .. } } => {
-                with(*parameters, &[q.0, q.1, v.0, v.1])
+            Request::Kicks { source, kicks: RandomKick { q, v, .. } } => {
+                let numbers = source.numbers().map(|(_, value)| value);
+                numbers.chain([q.0, q.1, v.0, v.1]).collect()
             }
             Request::Capture { parameters, reach, .. } => with(*parameters, &[*reach]),
             Request::Branch { parameters, range, .. }

@@ -420,3 +420,28 @@ fn a_machine_s_diagram_is_over_any_of_its_numbers() {
     let (_, refused) = screen(scene, ":axes<space>F<space>period<enter>");
     assert!(refused.contains("a machine's diagram shows x_max"), "{refused}");
 }
+
+#[test]
+fn a_machine_is_scanned_over_its_own_numbers_by_the_whole_model() {
+    let scene = (*hopfscope::scene::find("slow-belt").unwrap()).clone();
+    let line = ":scan<space>v0=0.1:0.3:3<space>F=50:100:2<space>from-rest<enter>";
+    let (session, text) = screen(scene.clone(), line);
+    assert!(text.contains("F [N] over v0 [m/s]"), "{text}");
+    let scanned = session.scanned.as_ref().unwrap();
+    let belt = &scene.machine.as_ref().unwrap().machine.belt;
+    let places = [0.1, 0.2, 0.3].into_iter().flat_map(|speed| [(speed, 50.0), (speed, 100.0)]);
+    for (row, (belt_speed, normal_force)) in scanned.rows.iter().zip(places) {
+        let alone = Belt { belt_speed, normal_force, ..belt.clone() };
+        let from_rest = Portrait::of_belt(&alone).unwrap().margin.from_rest;
+        let told = row.values[..2].iter().map(|value| value.number()).collect::<Vec<_>>();
+        assert_eq!(told, [from_rest.displacement, from_rest.impulse], "{belt_speed} m/s");
+    }
+    // A point is taken, and the cubic expansion is scanned over the parameters of the oscillator.
+    let (taken, _) = screen(scene.clone(), &format!("{line} <right> <up> <enter>"));
+    let machine = taken.machine().unwrap();
+    assert_eq!((machine.belt_speed, machine.normal_force), (0.2, 100.0));
+    let (_, refused) = screen(scene.clone(), ":scan<space>D=-0.3:0:3<enter>");
+    assert!(refused.contains("no number \"D\""), "{refused}");
+    let (expansion, _) = screen(scene, "| :scan<space>D=-0.3:-0.1:3<enter>");
+    assert_eq!(expansion.scanned.unwrap().rows.len(), 3);
+}

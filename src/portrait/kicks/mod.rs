@@ -146,6 +146,15 @@ impl Distribution {
 }
 
 impl RandomKick {
+    /// The same kick in other units, given in its own.
+    #[must_use]
+    pub fn in_units(mut self, displacement: f64, velocity: f64) -> Self {
+        for (part, unit) in [(&mut self.q, displacement), (&mut self.v, velocity)] {
+            *part = (part.0 / unit, part.1 / unit);
+        }
+        self
+    }
+
     /// The largest displacement that matters.
     pub fn reach(&self) -> f64 {
         self.q.0.abs() + self.law.reach() * self.q.1

@@ -201,7 +201,13 @@ impl Session {
             let scaled = scaled.clone()?;
             Some((Setting::of_speed(scaled.machine.belt.belt_speed), scaled))
         };
+        let before = self.units();
         (self.setting, self.scaled) = set.or_else(own).unzip();
+        // Kicks keep their metres.
+        if let Some((from, to)) = before.zip(self.units()) {
+            let ratios = [to.displacement / from.displacement, to.velocity / from.velocity];
+            self.kicks = self.kicks.in_units(ratios[0], ratios[1]);
+        }
         // The energy ledger has lines for each motion.
         if self.others.len() != others.len() {
             for plot in &mut self.plots {

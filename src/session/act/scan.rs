@@ -1,13 +1,13 @@
 //! Scans: starting and stopping, moving over the points, and using one of them.
 
-use crate::model::{Group, Knob, KnobSpec};
-use crate::numerics::decimal::shortest;
+use crate::flow::{Problem, Subject};
+use crate::model::{Knob, KnobSpec, State};
 use crate::portrait::basin;
 use crate::scan::grid::Scan;
 use crate::scan::measure::Measure;
 use crate::scan::sweep::Sweep;
 use crate::scene::{Request, Span, View};
-use crate::session::act::parameters::change;
+use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::{add, focus_on, show};
 use crate::session::scan::SCANNING;
 use crate::session::{
@@ -40,14 +40,20 @@ fn usual(session: &Session) -> String {
         let [from, to] = [from, to].map(|end| resolved(end, ROUND * (to - from)));
         format!("{knob}={from}:{to}:100 from-rest")
     };
-    if let Some(diagram) = session.plots.iter().find(|plot| plot.view == View::Diagram) {
-        let symbol = diagram.axes.abscissa;
+    let view = if session.draws_whole() { View::Speeds } else { View::Diagram };
+    if let Some(diagram) = session.plots.iter().find(|plot| plot.view == view) {
+        let symbol = diagram.axes.right(view);
         let KnobSpec { min, max, .. } = *symbol.spec();
         if let Some(span) = diagram.window.x.within(min, max) {
             return over(symbol, span.from(), span.to());
         }
     }
     let symbol = session.selected.knob_in(&session.problem);
+    if session.draws_whole() {
+        let knob = Some(symbol).filter(|knob| knob.is_of_machine()).unwrap_or(Knob::BeltSpeed);
+        let span = session.values_around(knob);
+        return over(knob, span.from(), span.to());
+    }
     if !Knob::MOTION.contains(&symbol) {
         return over(Knob::D, -0.9, 0.0);
     }
@@ -157,18 +163,17 @@ pub fn go(session: &mut Session, [right, up]: [isize; 2]) -> Done {
     Ok(())
 }
 
-/// Sets the motion on show to the parameters of the selected point.
+/// Sets the numbers on show to those of the selected point.
 pub fn take(session: &mut Session) -> Done {
-    let mut problem = session.problem;
     let scanned = scanned(session)?;
-    let taken = scanned.scan.problem(scanned.at).unwrap_or(problem);
-    let mut said = Vec::new();
-    for Sweep { symbol, .. } in scanned.scan.over() {
-        let value = taken.get(*symbol);
-        problem.set(*symbol, value);
-        said.push(format!("{symbol} = {}", shortest(value)));
+    let (scan, place) = (scanned.scan.clone(), scanned.scan.place(scanned.at));
+    let (mut setup, mut said) = (session.setup(), Vec::new());
+    for (sweep, which) in scan.over().iter().zip(place) {
+        let (knob, value) = (sweep.symbol, sweep.value(which));
+        setup = session.with(&setup, knob, value)?;
+        said.push(format!("{knob} = {}", knob.print(value)));
     }
-    change(session, problem);
+    put(session, setup);
     session.inform(said.join(", "));
     Ok(())
 }
@@ -186,7 +191,8 @@ pub fn save(session: &mut Session, path: &str) -> Done {
 pub fn scan(session: &mut Session, rest: &str) -> Done {
     let (sweeps, measures): (Vec<&str>, Vec<&str>) =
         rest.split_whitespace().partition(|word| word.contains('='));
-    let over = sweeps.into_iter().map(|text| Sweep::read(text, &[Group::Motion]));
+    let groups = session.scanned_groups();
+    let over = sweeps.into_iter().map(|text| Sweep::read(text, groups));
     let over = over.collect::<Result<Vec<_>, _>>()?;
     let measures = if measures.is_empty() { "from-rest".to_owned() } else { measures.join(",") };
     let scan = scan_of(session, over, &measures)?;
@@ -194,16 +200,28 @@ pub fn scan(session: &mut Session, rest: &str) -> Done {
     Ok(())
 }
 
-/// A scan of the motion on show; the window for `stability` is that of a phase plane on show. Fails with one
-/// line that says what is wrong and what is allowed.
+/// A scan of the motion on show, of a machine by the model that is drawn; the window for `stability` is that of a phase plane
+/// on show. Fails with one line that says what is wrong and what is allowed.
 fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, String> {
     let measures = measures.split(',').map(|name| Measure::named(name.trim()));
     let measures = measures.collect::<Result<Vec<_>, _>>()?;
     let plane = session.plots.iter().find(|plot| plot.view == View::Phase);
     let window = plane.map_or(View::Phase.spec().window, |plot| plot.window);
-    let ends = |span: Span| (span.from(), span.to());
-    let window = basin::StartWindow { q: ends(window.x), v: ends(window.y) };
-    Scan::new(session.problem, over, measures, window)
+    let ends = |span: Span, unit: f64| (unit * span.from(), unit * span.to());
+    let (source, units) = session.source(&session.problem.parameters);
+    let window = basin::StartWindow {
+        q: ends(window.x, units.displacement),
+        v: ends(window.y, units.velocity),
+    };
+    let Some(belt) = source.of_belt() else {
+        return Scan::new(session.problem, over, measures, window);
+    };
+    let running = session.running().ok_or("there is no machine")?;
+    let tolerances = session.doubt.on_machine(running, belt)?;
+    let Problem { initial: State { q, v }, until, .. } = session.problem;
+    let start = (q * units.displacement, v * units.velocity);
+    let subject = Subject::moving(source, tolerances, start, until * units.time);
+    Scan::new(subject, over, measures, window)
 }
 
 impl Session {

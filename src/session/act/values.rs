@@ -137,17 +137,14 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
     Ok(())
 }
 
-/// Shows random kicks over the basin.
+/// Shows random kicks over the basin; of a machine, in metres and metres per second.
 pub fn kicks(session: &mut Session, rest: &str) -> Done {
-    let kicks = RandomKick::read(rest, ["", ""])?;
-    if session.draws_whole() {
-        return Err(
-            "kicks are counted by the cubic expansion alone: switch the layer whole off".to_owned()
-        );
-    }
-    session.kicks = kicks;
+    let units = session.running().map(|running| running.reduced.units);
+    let kicks = RandomKick::read(rest, if units.is_some() { ["m", "m/s"] } else { ["", ""] })?;
+    session.kicks = units.map_or(kicks, |units| kicks.in_units(units.displacement, units.velocity));
     session.layers.insert(Layer::Kicks);
-    session.inform(format!("{} kicks {kicks}, in q and v", kicks.law.name()));
+    let of = if units.is_some() { "in m and m/s" } else { "in q and v" };
+    session.inform(format!("{} kicks {kicks}, {of}", kicks.law.name()));
     Ok(())
 }
 

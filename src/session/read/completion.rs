@@ -86,9 +86,11 @@ pub fn window(session: &Session, _: &[&str]) -> Vec<String> {
     vec![format!("{x0}:{x1},{y0}:{y1}")]
 }
 
-/// Parameters with `=`, and once one of them is given, also measures.
-pub fn scan(_: &Session, words: &[&str]) -> Vec<String> {
-    let sweeps = Knob::MOTION.iter().map(|knob| format!("{knob}="));
+/// Numbers with `=`, and once one of them is given, also measures.
+pub fn scan(session: &Session, words: &[&str]) -> Vec<String> {
+    let knobs = session.scanned_groups().iter().flat_map(|group| group.knobs());
+    let knobs = knobs.filter(|knob| session.has(Row::Number(*knob)));
+    let sweeps = knobs.map(|knob| format!("{knob}="));
     let moved = words.iter().any(|word| word.contains('='));
     let measures = MEASURES.iter().filter(|_| moved).map(|row| row.name.to_owned());
     sweeps.chain(measures).collect()

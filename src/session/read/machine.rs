@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use crate::fit::FitResult;
 use crate::flow::Problem;
+use crate::model::belt::Units;
 use crate::model::{Belt, Body, Knob, Parameters, Source};
 use crate::portrait::Margin;
 use crate::scene::machine::unlikely::unlikely;
@@ -158,15 +159,22 @@ impl Session {
         phase && (layers || !self.doubt.is_certain())
     }
 
+    /// What moves by the model that is drawn, at these parameters, and the units of its numbers.
+    pub(crate) fn source(&self, parameters: &Parameters) -> (Source, Units) {
+        let running = self.running().filter(|_| self.draws_whole());
+        match running.zip(self.machine()) {
+            Some((running, belt)) => (Source::from(&belt), running.reduced.units),
+            None => (Body::Paper(*parameters).into(), Units::SI),
+        }
+    }
+
     /// The question for the starts that are certainly safe or lost at these parameters, by the model that is
     /// drawn. `None` if something uncertain corresponds to no part of the machine.
     pub(crate) fn zones_request(&self, parameters: &Parameters) -> Option<Request> {
-        let running = self.running().filter(|_| self.draws_whole());
-        let (source, tolerances) = match running.zip(self.machine()) {
-            Some((running, belt)) => {
-                (Source::from(&belt), self.doubt.on_machine(running, &belt).ok()?)
-            }
-            None => (Body::Paper(*parameters).into(), self.doubt.tolerances()),
+        let (source, _) = self.source(parameters);
+        let tolerances = match source.of_belt() {
+            Some(belt) => self.doubt.on_machine(self.running()?, belt).ok()?,
+            None => self.doubt.tolerances(),
         };
         Some(Request::Zones { source: Arc::new(source), tolerances })
     }

@@ -157,12 +157,15 @@ impl Session {
             Topic::Balance => Request::Balance { parameters, harmonics: self.harmonics },
             Topic::Trade => Request::Trade(motion()),
             Topic::Reference => Request::Reference(motion()),
-            // The whole model of a machine has no proof, and its basin is no graph over which kicks could be
-            // integrated.
-            Topic::Proof | Topic::Kicks if self.draws_whole() => return None,
+            // The whole model of a machine has no proof.
+            Topic::Proof if self.draws_whole() => return None,
             Topic::Proof => Request::Proof { parameters },
             Topic::Zones => self.zones_request(&parameters)?,
-            Topic::Kicks => Request::Kicks { parameters, kicks: self.kicks },
+            Topic::Kicks => {
+                let (source, units) = self.source(&parameters);
+                let kicks = self.kicks.in_units(1.0 / units.displacement, 1.0 / units.velocity);
+                Request::Kicks { source: Arc::new(source), kicks }
+            }
             Topic::Capture if parameters.r == 0.0 => return None,
             Topic::Capture => {
                 let reach = reach(own(View::Phase)?.window);

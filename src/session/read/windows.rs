@@ -5,7 +5,7 @@ use crate::closed_form::lyapunov;
 use crate::fit::{DropReason, RecordPoint, Signal};
 use crate::flow::{Motion, Outcome};
 use crate::model::parameters::energy;
-use crate::model::{Knob, State};
+use crate::model::{Group, Knob, State};
 use crate::numerics::{hypot, real, truncated};
 use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window, usual_values};
 use crate::session::state::setup::size;
@@ -262,6 +262,11 @@ impl Session {
         let diagrams = [View::Diagram, View::Speeds];
         let is_one = |index: &usize| diagrams.contains(&self.plots[*index].view);
         Some(self.plot).filter(is_one).or_else(|| self.on_show().find(is_one))
+    }
+
+    /// The numbers over which the model that is drawn is scanned.
+    pub(crate) fn scanned_groups(&self) -> &'static [Group] {
+        if self.draws_whole() { &[Group::Machine, Group::Law] } else { &[Group::Motion] }
     }
 
     /// The numbers over which a view can be drawn.

@@ -5,8 +5,8 @@ use super::saved::reopened;
 use crate::flow::Limits;
 use crate::picture;
 use crate::picture::Item;
-use crate::portrait::Portrait;
 use crate::portrait::kicks::repeated::repeated;
+use crate::portrait::{Portrait, RandomKick};
 use crate::question::{Finding, Request, answer};
 use crate::scene::{Layer, Topic};
 use crate::session::Msg;
@@ -65,13 +65,30 @@ fn the_part_told_is_that_of_the_headless_command() {
 }
 
 #[test]
-fn of_the_whole_model_of_a_machine_nothing_is_told() {
-    let mut trial = Trial::open("groan");
-    trial.press("<run \"layer whole on\"><run \"layer kicks on\">");
+fn a_machine_is_kicked_in_metres_by_the_whole_model() {
+    let mut trial = Trial::open("slow-belt");
+    trial.press("<run \"kicks q=0.1 mm+-0.3 mm,v=0+-20 mm/s\">");
     assert!(trial.session.draws_whole());
-    assert!(titles(&trial).iter().any(|title| title.contains("not known of the whole model")));
-    assert!(trial.session.asks().iter().all(|request| request.topic() != Topic::Kicks));
-    let before = trial.session.kicks;
-    trial.give(Msg::Run("kicks q=0+-0.1".to_owned()));
-    assert_eq!(trial.session.kicks, before);
+    let asked = |trial: &Trial| {
+        let mut asked = trial.session.asks().into_iter();
+        asked.find(|request| request.topic() == Topic::Kicks).unwrap()
+    };
+    let typed = RandomKick::read("q=1e-4+-3e-4,v=0+-0.02", ["m", "m/s"]).unwrap();
+    let close = |request: &Request| {
+        let Request::Kicks { kicks: RandomKick { q, v, .. }, .. } = request else { panic!() };
+        [(q.0, typed.q.0), (q.1, typed.q.1), (v.1, typed.v.1)]
+            .iter()
+            .all(|(it, typed)| (it / typed - 1.0).abs() < 1e-14)
+    };
+    let first = asked(&trial);
+    assert!(close(&first), "{first:?}");
+    let Ok(Finding::Kicks(found, _)) = answer(&first, &Limits::PATIENT) else { panic!() };
+    let belt = trial.session.machine().unwrap();
+    let alone = typed.lost(&Portrait::of_belt(&belt).unwrap()).unwrap();
+    assert!((found.part - alone.part).abs() <= found.error + alone.error, "{found:?} {alone:?}");
+    assert!((0.01..0.5).contains(&found.part), "{found:?}");
+    // They keep their metres where the unit of length changes.
+    trial.press("<run \"set F=150 N\">");
+    let second = asked(&trial);
+    assert!(second != first && close(&second), "{second:?}");
 }
