@@ -12,7 +12,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::Complex;
+use nalgebra::{Complex, ComplexField};
 
 use crate::numerics::{Bracket, PlaceTolerance, newton, powi, real, sin_cos};
 
@@ -96,7 +96,7 @@ impl Fourier {
     pub fn bound(&self, derivative: usize) -> f64 {
         let terms = self.coefficients.iter().enumerate().skip(1);
         let power = i32::try_from(derivative).unwrap_or(i32::MAX);
-        terms.map(|(k, c)| 2.0 * powi(real(k), power) * c.norm()).sum()
+        terms.map(|(k, c)| 2.0 * powi(real(k), power) * c.modulus()).sum()
     }
 }
 
@@ -289,7 +289,7 @@ mod tests {
             let pairs: Vec<_> = angles.chunks(2).map(|pair| (pair[0], pair[1])).collect();
             let function = with_roots(&pairs);
             // Where roots crowd, what lies between them drowns in the rounding of the coefficients.
-            let scale: f64 = function.coefficients.iter().map(|part| part.norm()).sum();
+            let scale: f64 = function.coefficients.iter().map(|part| part.modulus()).sum();
             let between = |pair: &[f64]| function.at::<1>(0.5 * (pair[0] + pair[1]))[0].abs();
             prop_assume!(angles.windows(2).all(|pair| between(pair) > 1e-9 * scale));
             let found = sign_changes(&function);

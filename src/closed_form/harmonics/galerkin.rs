@@ -16,7 +16,7 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU};
 
 use super::fourier::{Fourier, SignChange, sign_changes};
 use crate::model::{Parameters, Reason};
@@ -118,7 +118,7 @@ impl BalanceResidual {
     /// The largest of what the equations leave, relative to the largest term in them.
     pub fn relative(&self) -> f64 {
         let largest =
-            |series: &Fourier| series.coefficients.iter().map(|c| c.norm()).fold(0.0, f64::max);
+            |series: &Fourier| series.coefficients.iter().map(|c| c.modulus()).fold(0.0, f64::max);
         let sizes = self.factors().into_iter().zip(&self.powers[1..]);
         let sizes = sizes.map(|(factor, power)| factor.abs() * largest(power));
         let terms = sizes.chain([largest(&self.ansatz.q)]);
@@ -355,7 +355,7 @@ mod tests {
                 9 => -2.0 / (3.0 * PI),
                 _ => 0.0,
             };
-            assert!((residual.sign(k) - Complex::from(expected)).norm() < 1e-14, "{k}");
+            assert!((residual.sign(k) - Complex::from(expected)).modulus() < 1e-14, "{k}");
         }
     }
 
