@@ -285,14 +285,13 @@ fn a_copied_command_line_gives_the_numbers_on_the_screen() {
 
 #[test]
 fn signals_end_it_with_their_exit_code() {
-    for (signal, code) in
-        [(Signal::TERM, 143), (Signal::HUP, 129), (Signal::INT, 130), (Signal::QUIT, 131)]
-    {
+    let cases = [(Signal::TERM, 143), (Signal::HUP, 129), (Signal::INT, 130), (Signal::QUIT, 131)];
+    all_at_once(&cases, |&(signal, code)| {
         let mut terminal = explorer(&[], &[], (80, 24));
         terminal.signal(signal);
         assert_eq!(terminal.end(), code, "{signal:?}");
         terminal.assert_restored();
-    }
+    });
 }
 
 #[test]

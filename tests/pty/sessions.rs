@@ -42,7 +42,7 @@ fn the_first_start_says_what_to_press_and_the_next_one_does_not() {
 
 #[test]
 fn an_interrupted_session_is_kept_offered_and_brought_back() {
-    for signal in [Signal::HUP, Signal::TERM] {
+    all_at_once(&[Signal::HUP, Signal::TERM], |&signal| {
         let memory = tempfile::tempdir().unwrap();
         let mut terminal = explorer(&["linear"], memory.path());
         terminal.types("-0.345\r");
@@ -59,7 +59,7 @@ fn an_interrupted_session_is_kept_offered_and_brought_back() {
         terminal.wait_for("-0.345");
         assert_eq!(kept(memory.path()), [] as [PathBuf; 0]);
         terminal.leave();
-    }
+    });
 }
 
 #[test]
