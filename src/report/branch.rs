@@ -36,8 +36,8 @@ fn point_columns<'a>(value: &'static str, digits: usize) -> Columns<'a, PieceRow
         .file("piece", |row: &PieceRow| row.piece)
         .number(value, Quantity::pure(digits), |row| row.point.value)
         .and(cycle_fields(|row: &PieceRow| Some(row.point.cycle)))
-        .text("piece", |row| row.piece.to_string())
-        .text("cycle", |row| stability(row.point.cycle.stable).to_owned());
+        .text("piece", |row| row.piece)
+        .text("cycle", |row| stability(row.point.cycle.stable));
     number_columns(columns, move |row, number| number.text(&row.point.cycle, digits))
 }
 
@@ -68,7 +68,7 @@ pub fn branch(
     let rows = points().map(|point| BranchRow { point: Some(point), ..BranchRow::default() });
     let special = Quantity::pure(digits(tolerance));
     let special = Columns::default()
-        .text("special point", |it: &Special| it.kind.name(it.cycle.as_ref()).to_owned())
+        .text("special point", |it: &Special| it.kind.name(it.cycle.as_ref()))
         .number(name, special, |it| it.value)
         .number("q_max", special, |it| it.q_max);
     let mut answer = about
@@ -112,18 +112,17 @@ pub fn border<'a>(
 ) -> Answer {
     const EXACT: Quantity = Quantity::pure(12);
     const SHORT: Quantity = Quantity::pure(8);
-    let kind = |point: &BoundaryPoint| {
-        point.fold.map_or("-", |fold| if fold.grazes { "grazing" } else { "fold" })
-    };
+    let kind =
+        |point: &BoundaryPoint| point.fold.map(|fold| if fold.grazes { "grazing" } else { "fold" });
     let name = found.second.spec().name;
     let proved =
         Columns::default().part("certified", border_columns(), |(_, proof): &BorderRow<'a>| *proof);
     let columns = Columns::default()
         .number(name, Quantity::pure(10), |(point, _): &BorderRow<'a>| point.value)
-        .number("D_F", EXACT, |(point, _)| point.fold.map(|fold| fold.d))
-        .text("is a", move |(point, _)| kind(point).to_owned())
-        .number("q_max", SHORT, |(point, _)| point.fold.map(|fold| fold.q_max))
-        .number("period", SHORT, |(point, _)| point.fold.map(|fold| fold.period))
+        .number("D_F", EXACT, |(point, _)| Some(point.fold?.d))
+        .text("is a", move |(point, _)| kind(point))
+        .number("q_max", SHORT, |(point, _)| Some(point.fold?.q_max))
+        .number("period", SHORT, |(point, _)| Some(point.fold?.period))
         .number("D_F_harmonic", SHORT, |(point, _)| point.harmonic_fold)
         .number("D_c", EXACT, |(point, _)| point.escape)
         .file("reason", |(point, _)| point.reason.clone())

@@ -5,35 +5,35 @@ use crate::numerics::Interval;
 use crate::paper::{Certainty, ClaimResult, Evidence, Verdict};
 use crate::words::claim;
 
-/// Something of what was found; `None` if nothing could be computed.
-fn found<T>(examined: &ClaimResult, part: impl Fn(&Evidence) -> T) -> Option<T> {
-    examined.evidence.as_ref().ok().map(part)
+/// What was found; `None` if nothing could be computed.
+fn found(examined: &ClaimResult) -> Option<&Evidence> {
+    examined.evidence.as_ref().ok()
 }
 
 fn columns<'a>() -> Columns<'a, ClaimResult> {
     const NUMBER: Quantity = Quantity::pure(6);
-    let place = |it: &Evidence| Some(it.place.clone()).filter(|place| !place.is_empty());
+    let place = |it: &ClaimResult| Some(found(it)?.place.clone()).filter(|it| !it.is_empty());
     let end = |it: &ClaimResult, end: fn(Interval) -> f64| {
-        found(it, |it| it.computed.bounds).flatten().map(end).filter(|end| end.is_finite())
+        found(it)?.computed.bounds.map(end).filter(|end| end.is_finite())
     };
     Columns::default()
         .word("equation", |it: &ClaimResult| it.claim.equation)
         .file("section", |it| it.claim.section)
         .file("claim", |it| it.claim.statement)
-        .file("at", move |it| found(it, place).flatten())
+        .file("at", place)
         .word("basis", |it| it.claim.basis)
-        .file("sense", |it| found(it, |it| it.sense))
-        .text("sense", |it| found(it, |it| claim::sense(it.sense)).unwrap_or("-".to_owned()))
+        .file("sense", |it| Some(found(it)?.sense))
+        .text("sense", |it| Some(claim::sense(found(it)?.sense)))
         .text("verdict", claim::verdict)
-        .text("proof", |it| it.mark().map_or("-", Certainty::name).to_owned())
-        .file("cases", |it| found(it, |it| it.cases))
-        .file("held", |it| found(it, |it| it.held))
-        .number("paper", NUMBER, |it| found(it, |it| it.paper).flatten())
-        .number("corrected", NUMBER, |it| found(it, |it| it.corrected).flatten())
-        .number("computed", NUMBER, |it| found(it, |it| it.computed.value))
-        .file("error", |it| found(it, |it| it.computed.error))
-        .file("difference", |it| found(it, Evidence::difference).flatten())
-        .file("bound", |it| found(it, Evidence::bound))
+        .text("proof", |it| it.mark().map(Certainty::name))
+        .file("cases", |it| Some(found(it)?.cases))
+        .file("held", |it| Some(found(it)?.held))
+        .number("paper", NUMBER, |it| found(it)?.paper)
+        .number("corrected", NUMBER, |it| found(it)?.corrected)
+        .number("computed", NUMBER, |it| Some(found(it)?.computed.value))
+        .file("error", |it| Some(found(it)?.computed.error))
+        .file("difference", |it| found(it)?.difference())
+        .file("bound", |it| Some(found(it)?.bound()))
         .file("verdict", |it| claim::name(it))
         .file("within", |it| it.verdict().and_then(Verdict::within))
         .file("scene", |it| it.claim.scene)

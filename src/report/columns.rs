@@ -112,9 +112,13 @@ impl<'a, R: 'a> Columns<'a, R> {
         self
     }
 
-    /// A column of text alone.
-    pub fn text(mut self, title: &str, cell: impl Fn(&R) -> String + 'a) -> Self {
+    /// A column of text alone: words, counts or marks, and `-` for what does not exist.
+    pub fn text<V: Serialize>(mut self, title: &str, value: impl Fn(&R) -> V + 'a) -> Self {
         let title = title.to_owned();
+        let cell = move |row: &R| match json::value(&value(row)) {
+            Value::Null => "-".to_owned(),
+            value => cell(&value),
+        };
         self.texts.push(TextColumn { title, cell: Box::new(cell) });
         self
     }
@@ -130,16 +134,9 @@ impl<'a, R: 'a> Columns<'a, R> {
             .text(title(name), move |row| quantity.text(value(row)))
     }
 
-    /// Words, counts or marks.
-    pub fn word<V: Serialize>(
-        self,
-        name: &'static str,
-        value: impl Fn(&R) -> V + Copy + 'a,
-    ) -> Self {
-        self.file(name, value).text(title(name), move |row| match json::value(&value(row)) {
-            Value::Null => "-".to_owned(),
-            value => cell(&value),
-        })
+    /// Words, counts or marks, in files and in text.
+    pub fn word<V: Serialize>(self, name: &str, value: impl Fn(&R) -> V + Copy + 'a) -> Self {
+        self.file(name, value).text(title(name), value)
     }
 
     /// Both ends of an interval that is proved, as `name_lower` and `name_upper`; in text its certain digits.
@@ -147,9 +144,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         ENDS.into_iter()
             .fold(self, |all, end| all.column(format!("{name}_{end}"), [name, end]))
             .field(name, move |row| value(row).map(bounds))
-            .text(&format!("{}, proved", title(name)), move |row| {
-                value(row).map_or_else(|| "-".to_owned(), certain)
-            })
+            .text(&format!("{}, proved", title(name)), move |row| value(row).map(certain))
     }
 
     /// A column of files for each field of records like `example` that is neither a record nor a list.
@@ -174,11 +169,8 @@ impl<'a, R: 'a> Columns<'a, R> {
         mut columns: Columns<'a, P>,
         part: impl Fn(&R) -> Option<P> + Copy + 'a,
     ) -> Self {
-        for text in std::mem::take(&mut columns.texts) {
-            let title = text.title.clone();
-            self = self.text(&title, move |row| {
-                part(row).map_or_else(|| "-".to_owned(), |it| (text.cell)(&it))
-            });
+        for TextColumn { title, cell } in std::mem::take(&mut columns.texts) {
+            self = self.text(&title, move |row| part(row).map(|part| cell(&part)));
         }
         for column in std::mem::take(&mut columns.files) {
             let place = std::iter::once(name).chain(column.place.iter().map(String::as_str));

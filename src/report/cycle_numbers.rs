@@ -90,7 +90,7 @@ pub(super) fn machine_cycles<'a, R: 'a>(
         .file("overtakes", move |row| cycle(row).map(|it| it.overtakes))
         .and(cycle_fields(cycle))
         .file("stick_duration", move |row| cycle(row).map(|it| it.stick_duration()))
-        .text("cycle", move |row| cycle(row).map_or_else(|| "-".to_owned(), described));
+        .text("cycle", move |row| cycle(row).map(described));
     of_machine().fold(columns, |columns, CycleNumber { name, unit, value, .. }| {
         let text = |cycle: Cycle| Quantity::of(unit, PLACES).text(value(&cycle));
         columns.text(name, move |row| cycle(row).map(text).unwrap_or_default())

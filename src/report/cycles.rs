@@ -24,7 +24,7 @@ pub fn cycles(
     const SHORT: Quantity = Quantity::pure(6);
     let by_one = amplitudes(&found.parameters);
     let harmonic = Columns::default()
-        .text("by one harmonic", |it: &Harmonic| stability(it.stable).to_owned())
+        .text("by one harmonic", |it: &Harmonic| stability(it.stable))
         .number("amplitude", SHORT, |it| it.amplitude)
         .number("mean", SHORT, |it| it.mean);
     let mut answer = with_proof(about.answer(), &ProvedRow::found(&found.cycles, proof), proof)
@@ -115,29 +115,27 @@ fn balance_columns<'a>() -> Columns<'a, BalanceRow<'a>> {
     /// Digits shown of a cycle, which is an approximation here.
     const NUMBER: Quantity = Quantity::pure(6);
     const ERROR: Quantity = Quantity::pure(3);
-    fn of((_, balanced): &BalanceRow, number: fn(&HarmonicCycle) -> f64) -> Option<f64> {
-        balanced.cycle.as_ref().ok().map(number)
+    fn of<'a>((_, balanced): &BalanceRow<'a>) -> Option<&'a HarmonicCycle> {
+        balanced.cycle.as_ref().ok()
     }
     let described = |(harmonics, balanced): &BalanceRow| {
         format!("{harmonics} {}", stability(balanced.first.stable))
     };
-    let crossings =
-        |(_, balanced): &BalanceRow| balanced.cycle.as_ref().ok().map(|cycle| cycle.crossings);
     Columns::default()
         .text("harmonics", described)
         .file("harmonics", |(harmonics, _): &BalanceRow| *harmonics)
         .file("stable", |(_, balanced)| balanced.first.stable)
-        .file("amplitude", |row| of(row, HarmonicCycle::amplitude))
-        .file("mean", |row| of(row, |cycle| cycle.mean))
-        .number("q_min", NUMBER, |row| of(row, |cycle| cycle.q_min))
-        .number("q_max", NUMBER, |row| of(row, |cycle| cycle.q_max))
-        .number("v_min", NUMBER, |row| of(row, |cycle| cycle.v_min))
-        .number("v_max", NUMBER, |row| of(row, |cycle| cycle.v_max))
-        .number("period", NUMBER, |row| of(row, |cycle| cycle.period))
-        .word("crossings", crossings)
-        .number("residual", ERROR, |row| of(row, |cycle| cycle.residual))
-        .number("amplitude_error", ERROR, |(_, it)| it.error.map(|error| error.amplitude))
-        .number("frequency_error", ERROR, |(_, it)| it.error.map(|error| error.frequency))
+        .file("amplitude", |row| Some(of(row)?.amplitude()))
+        .file("mean", |row| Some(of(row)?.mean))
+        .number("q_min", NUMBER, |row| Some(of(row)?.q_min))
+        .number("q_max", NUMBER, |row| Some(of(row)?.q_max))
+        .number("v_min", NUMBER, |row| Some(of(row)?.v_min))
+        .number("v_max", NUMBER, |row| Some(of(row)?.v_max))
+        .number("period", NUMBER, |row| Some(of(row)?.period))
+        .word("crossings", |row| Some(of(row)?.crossings))
+        .number("residual", ERROR, |row| Some(of(row)?.residual))
+        .number("amplitude_error", ERROR, |(_, it)| Some(it.error?.amplitude))
+        .number("frequency_error", ERROR, |(_, it)| Some(it.error?.frequency))
         .word("lost", |(_, it)| it.cycle.as_ref().err().map(ToString::to_string))
 }
 

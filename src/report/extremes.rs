@@ -24,13 +24,7 @@ pub fn extremes(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: 
         .with("motions", verdicts)
         .with("named", named)
         .csv(&columns, rows)
-        .lines([format!(
-            "Below the name of a method: digits lost of those that the tolerance {tolerance:e} asks for,\n\
-             or why there is no number: gave up within {BUDGET} evaluations, wrong (contradicts the \
-             reference),\n? (nothing to compare with), nothing (it does not serve these parameters).\n\
-             Sensitive: digits by which the answer magnifies a change of the damping (where a digit was \
-             lost)."
-        )])
+        .lines([format!(include_str!("../../assets/extremes.txt"), tolerance, BUDGET).trim_end()])
         .table(columns.table(first).unbroken(None))
         .table(summary(verdicts))
         .table(named_columns().table(named))
@@ -74,11 +68,30 @@ fn parameter_columns<'a, R: 'a>(parameters: fn(&R) -> Parameters) -> Columns<'a,
 
 /// How well a method answered.
 fn mark(answer: &MethodAnswer) -> String {
-    match answer {
-        MethodAnswer { contradicts: true, .. } => "wrong".into(),
-        MethodAnswer { digits_lost: Some(lost), .. } => format!("{lost:.1}"),
-        MethodAnswer { outcome: Outcome::GaveUp { .. }, .. } => "gave up".into(),
-        _ => "?".into(),
+    match (answer.digits_lost, kind(answer)) {
+        (Some(lost), _) => format!("{lost:.1}"),
+        (None, UNCHECKED) => "?".to_owned(),
+        (None, why) => why.to_owned(),
+    }
+}
+
+/// Kinds of answers, the best first.
+const KINDS: [&str; 7] =
+    ["all digits", "1 lost", "2-4 lost", "more lost", "wrong", UNCHECKED, "gave up"];
+
+/// The kind of an answer with which nothing can be compared.
+const UNCHECKED: &str = "unchecked";
+
+/// The one of [`KINDS`] to which an answer belongs.
+fn kind(answer: &MethodAnswer) -> &'static str {
+    match (answer.digits_lost, answer.outcome) {
+        _ if answer.contradicts => "wrong",
+        (Some(..=0.0), _) => "all digits",
+        (Some(..=1.0), _) => "1 lost",
+        (Some(..=4.0), _) => "2-4 lost",
+        (Some(_), _) => "more lost",
+        (None, Outcome::GaveUp { .. }) => "gave up",
+        (None, _) => UNCHECKED,
     }
 }
 
@@ -86,25 +99,15 @@ fn mark(answer: &MethodAnswer) -> String {
 fn summary(verdicts: &[MethodsVerdict]) -> Table {
     type Asked<'a> = (Method, Vec<&'a MethodAnswer>);
     let asked = |method| (method, verdicts.iter().filter_map(|it| it.answer(method)).collect());
-    let count = |answers: &[&MethodAnswer], which: &dyn Fn(&MethodAnswer) -> bool| {
-        answers.iter().filter(|it| which(it)).count().to_string()
-    };
-    let lost = |answers: &[&MethodAnswer], low: f64, high: f64| {
-        count(answers, &|it| it.digits_lost.is_some_and(|lost| lost > low && lost <= high))
-    };
-    let gave_up = |it: &MethodAnswer| matches!(it.outcome, Outcome::GaveUp { .. });
-    let unchecked = |it: &MethodAnswer| !it.contradicts && it.digits_lost.is_none() && !gave_up(it);
     let most = |answers: &[&MethodAnswer]| answers.iter().map(|it| it.cost.evaluations).max();
-    Columns::default()
-        .text("method", |(method, _): &Asked| method.to_string())
-        .text("motions", |(_, answers)| answers.len().to_string())
-        .text("all digits", move |(_, answers)| lost(answers, f64::NEG_INFINITY, 0.0))
-        .text("1 lost", move |(_, answers)| lost(answers, 0.0, 1.0))
-        .text("2-4 lost", move |(_, answers)| lost(answers, 1.0, 4.0))
-        .text("more lost", move |(_, answers)| lost(answers, 4.0, f64::INFINITY))
-        .text("wrong", move |(_, answers)| count(answers, &|it| it.contradicts))
-        .text("unchecked", move |(_, answers)| count(answers, &unchecked))
-        .text("gave up", move |(_, answers)| count(answers, &gave_up))
+    let columns = Columns::default()
+        .text("method", |(method, _): &Asked| *method)
+        .text("motions", |(_, answers)| answers.len());
+    let columns = KINDS.into_iter().fold(columns, |columns, name| {
+        let is = move |answer: &&&MethodAnswer| kind(answer) == name;
+        columns.text(name, move |(_, answers)| answers.iter().filter(is).count())
+    });
+    columns
         .text("evaluations", move |(_, answers)| format!("<= {}", most(answers).unwrap_or(0)))
         .table(METHODS.map(asked))
 }
@@ -112,12 +115,12 @@ fn summary(verdicts: &[MethodsVerdict]) -> Table {
 fn named_columns<'a>() -> Columns<'a, NamedExtreme> {
     const NUMBER: Quantity = Quantity::pure(2);
     Columns::default()
-        .text("extreme", |it: &NamedExtreme| it.what.to_owned())
-        .text("method", |it| it.method.to_string())
-        .text("what is measured", |it| it.measure.to_owned())
+        .text("extreme", |it: &NamedExtreme| it.what)
+        .text("method", |it| it.method)
+        .text("what is measured", |it| it.measure)
         .number("measured", NUMBER, |it| it.measured)
         .number("allowed", NUMBER, |it| it.allowed)
-        .text("evaluations", |it| it.cost.evaluations.to_string())
+        .text("evaluations", |it| it.cost.evaluations)
 }
 
 /// The limit cycles at the extremes: one row for each cycle, and one for a set without cycles.
@@ -139,11 +142,7 @@ pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer {
         .with("budget", BUDGET_OF_SET)
         .with("sets", sets.collect::<Vec<_>>())
         .csv(&set_columns(), rows.clone())
-        .lines([format!(
-            "Every limit cycle by amplitude, or why the search gave up within {BUDGET_OF_SET} evaluations of a half \
-             map.\nResidual: by what fraction of the clearance a turn fails to close, followed again by other \
-             steps."
-        )])
+        .lines([format!(include_str!("../../assets/extreme-cycles.txt"), BUDGET_OF_SET).trim_end()])
         .table(set_columns().table(rows).unbroken(None))
         .table(sets_summary(verdicts))
 }
@@ -161,13 +160,13 @@ fn set_columns<'a>() -> Columns<'a, SetRow<'a>> {
     let shown = |(_, cycle): &SetRow, value: fn(&LatticeCycle) -> f64| FEW.text(cycle.map(value));
     parameter_columns(|(verdict, _): &SetRow| verdict.parameters)
         .word("answer", kind)
-        .text("stability", |(_, cycle)| cycle.map_or("-", |it| stability(it.cycle.stable)).into())
+        .text("stability", |(_, cycle)| Some(stability((*cycle)?.cycle.stable)))
         .text("q_max", move |row| shown(row, |it| it.cycle.q_max))
         .text("ln multiplier", move |row| shown(row, |it| it.cycle.log_multiplier))
         .word("reason", reason)
         .word("evaluations", |(verdict, _)| verdict.cost.evaluations)
-        .number("residual", Quantity::pure(2), |(_, cycle)| cycle.map(|found| found.residual))
-        .and(cycle_fields(|(_, cycle): &SetRow| cycle.map(|found| found.cycle)))
+        .number("residual", Quantity::pure(2), |(_, cycle)| Some((*cycle)?.residual))
+        .and(cycle_fields(|(_, cycle): &SetRow| Some((*cycle)?.cycle)))
 }
 
 /// Residual above which the summary counts a cycle as not closed.

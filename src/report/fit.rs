@@ -209,19 +209,18 @@ impl EstimateRow {
 /// The columns of an estimate.
 fn estimate_columns<'a>() -> Columns<'a, EstimateRow> {
     let percent = |share: f64| format!("{} %", significant(100.0 * share, 2));
-    let shown = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
     Columns::default()
         .text("number", |row: &EstimateRow| row.name.clone())
         .file("value", |row| row.value)
         .text("value", |row| row.text(row.value))
         .file("standard_error", |row| row.standard_error)
-        .text("error", move |row| shown(row.standard_error.map(|error| significant(error, 2))))
+        .text("error", |row| Some(significant(row.standard_error?, 2)))
         .file("lower", |row| row.lower)
         .text("from", |row| row.text(row.lower))
         .file("upper", |row| row.upper)
         .text("to", |row| row.text(row.upper))
         .field("quadratic", |row| row.quadratic)
-        .text("none", move |row| shown(row.none.map(percent)))
+        .text("none", move |row| row.none.map(percent))
         .text("unit", |row| row.unit.1.clone())
 }
 
@@ -297,8 +296,7 @@ fn correlations(fitted: &FitResult) -> Table {
     if wanted.len() < 2 {
         return Table::default();
     }
-    let correlations =
-        Columns::default().text("correlation", |row: &&NameSpec| row.name.to_owned());
+    let correlations = Columns::default().text("correlation", |row: &&NameSpec| row.name);
     let correlations = wanted.iter().fold(correlations, |columns, other| {
         let of = |row: &NameSpec| estimate.covariance.correlation(row.place, other.place);
         columns.text(other.name, move |row| format!("{:.3}", of(row)))
@@ -309,8 +307,8 @@ fn correlations(fitted: &FitResult) -> Table {
 /// The conditions with their results.
 fn tested(conditions: &[Condition]) -> Table {
     Columns::default()
-        .text("condition", |it: &Condition| it.name.to_owned())
-        .text("result", |it| it.verdict().to_owned())
+        .text("condition", |it: &Condition| it.name)
+        .text("result", Condition::verdict)
         .text("what was found", |it| it.detail.clone())
         .table(conditions)
 }

@@ -47,11 +47,10 @@ pub fn margins(
     let rows = [("nominal", nominal), (GUARANTEED, margin)];
     let shown = certain.map(|margin| guaranteed(about, margin, 12));
     let shown = [rows[0]].into_iter().chain(shown);
-    let name = |(name, _): &MarginRow| (*name).to_owned();
+    let name = |(name, _): &MarginRow| *name;
     let why = reason.clone();
     let columns = Columns::default()
-        .file("margin", name)
-        .text("smallest kick that is not survived", name)
+        .word("margin", name)
         .and(margin_columns(about, 12))
         .file("reason", move |(name, _)| why.clone().filter(|_| *name == GUARANTEED));
     let known = about.parameters(|known| known);
@@ -92,7 +91,7 @@ pub fn basin(
         .map(|kicks| Columns::default().part("certified", kick_columns(), move |_| Some(kicks)));
     let heading = "starts of the window, smallest kicks not captured";
     let columns = Columns::default()
-        .text(heading, |(name, _): &MarginRow| (*name).to_owned())
+        .text(heading, |(name, _): &MarginRow| *name)
         .word("captured", move |_| counts.captured)
         .word("cycle", move |_| counts.cycle)
         .word("escaped", move |_| counts.escaped)

@@ -48,11 +48,9 @@ pub fn motion(
     let columns = columns_of_points(about, digits(problem.tolerance));
     let energy = motion.ledger.as_ref().map(|ledger| energy(ledger, machine));
     let amounts: Vec<_> = energy.iter().flat_map(Document::numbers).collect();
-    let works = Columns::default().text("energy", |(name, _): &(String, f64)| name.clone()).number(
-        "amount",
-        about.quantity("J", 6),
-        |(_, amount)| *amount,
-    );
+    let name = |(name, _): &(String, f64)| name.clone();
+    let works = Columns::default().text("energy", name);
+    let works = works.number("amount", about.quantity("J", 6), |(_, amount)| *amount);
     let (steps, rejected) = (motion.cost.steps, motion.cost.rejected);
     let tolerance = exact(problem.tolerance, 24);
     let how = format!(
@@ -167,7 +165,7 @@ fn columns_of_trade(trade: &Trade) -> Columns<'_, &TradePoint> {
     let known = |row: &&TradePoint| row.deviation.ok();
     Columns::default()
         .word("method", |row: &&TradePoint| row.problem.method)
-        .text("set to", |row| setting(row).unwrap_or("-".to_owned()))
+        .text("set to", |row| setting(row))
         .file("used", move |row| known(row).map(|_| row.method))
         .and(dial_columns())
         .number("error", Quantity::pure(2), |row| row.error())
@@ -182,7 +180,7 @@ fn columns_of_trade(trade: &Trade) -> Columns<'_, &TradePoint> {
         .file("front", move |row| known(row).map(|_| by_time(row)))
         .file("front_by_evaluations", move |row| known(row).map(|_| by_evaluations(row)))
         .file("own", move |row| known(row).map(|_| trade.is_own(row)))
-        .text("ends", |row| row.outcome.word().to_owned())
+        .text("ends", |row| row.outcome.word())
         .text("at", |row| {
             let outcome = row.outcome;
             significant(outcome.state().map_or(outcome.tau(), |(q, _)| q), 6)
@@ -281,17 +279,12 @@ fn price(trade: &Trade) -> Table {
         all if all == rows.len() => "always".to_owned(),
         some => format!("{some} of {}", rows.len()),
     };
-    let columns =
-        Columns::default().text("cost of an error", |(spec, _): &MethodRows| spec.name.to_owned());
+    let columns = Columns::default().text("cost of an error", |(spec, _): &MethodRows| spec.name);
     let columns = LEVELS.into_iter().fold(columns, |columns, error| {
-        columns.text(&format!("{error:e}"), move |(_, rows)| {
-            cheapest(rows, error).unwrap_or("-".to_owned())
-        })
+        columns.text(&format!("{error:e}"), move |(_, rows)| cheapest(rows, error))
     });
     columns
-        .text("a digit more", |(_, rows)| {
-            growth(rows).map_or_else(|| "-".to_owned(), |factor| format!("x{factor:.2}"))
-        })
+        .text("a digit more", |(_, rows)| Some(format!("x{:.2}", growth(rows)?)))
         .text("ends right", move |(_, rows)| right(rows))
         .table(methods)
 }

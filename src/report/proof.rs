@@ -84,12 +84,7 @@ fn bound_columns(proof: &Proof) -> Columns<'_, ProvedRow<'_>> {
 pub(super) fn with_proof(answer: Answer, rows: &[ProvedRow], proof: &Proof) -> Answer {
     let open = proof.open.iter().map(|gap| ProvedRow { open: Some(*gap), ..Default::default() });
     let open: Vec<_> = open.collect();
-    let gap = |gap: &Interval| {
-        Document::default()
-            .with("lower", gap.lower())
-            .with("upper", gap.upper())
-            .with("reason", proof.why_open(*gap))
-    };
+    let gap = |gap: &Interval| bounds(*gap).with("reason", proof.why_open(*gap));
     let is_box = !proof.parameters.is_point();
     let own = if is_box {
         Columns::default().file("stable", |row: &ProvedRow| row.stable)
@@ -160,10 +155,9 @@ pub fn certificate_table(certificate: &Certificate) -> String {
     let interval = |[lower, upper]: Bounds| Interval::new(lower, upper);
     let steps = certificate.steps.iter();
     let proved = steps.filter_map(|step| Some((step.kind, step.clearance?)));
+    let stable = |(kind, _): &(StepKind, Bounds)| stability(*kind == StepKind::Stable);
     let columns = Columns::default()
-        .text("cycle", |(kind, _): &(StepKind, Bounds)| {
-            stability(*kind == StepKind::Stable).to_owned()
-        })
+        .text("cycle", stable)
         .text("right clearance", move |(_, clearance)| certain(interval(*clearance)));
     let count = match certificate.cycles {
         0 => "no limit cycle".to_owned(),

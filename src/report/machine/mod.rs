@@ -10,7 +10,7 @@ pub use expansion::CubicExpansion;
 use super::answer::PLACES;
 use super::cycle_numbers::{machine_cycles, of_machine};
 use super::cycles::{NO_CYCLE, known};
-use super::margin::{guaranteed, margin_columns};
+use super::margin::{MarginRow, guaranteed, margin_columns};
 use super::page::SourceFile;
 use super::{About, Answer, Columns, Quantity};
 use crate::flow::{Fate, Motion, Subject};
@@ -74,7 +74,7 @@ pub fn machine(found: &MachineAnswer) -> Answer {
     let margins = [("nominal", portrait.margin)].into_iter();
     let margins = margins.chain(certain.map(|margin| guaranteed(about, margin, PLACES)));
     let kicks = Columns::default()
-        .text("smallest kick that is not survived", |(name, _): &(&str, Margin)| (*name).to_owned())
+        .text("smallest kick that is not survived", |(name, _): &MarginRow| *name)
         .and(margin_columns(about, PLACES));
     let (statement, holds) = text::statement(found);
     let allowance = text::allowance(found).unwrap_or_default();
@@ -186,11 +186,8 @@ fn rows(answer: &MachineAnswer) -> Vec<QuantityRow> {
             physical(&what, (number.value)(cycle), number.unit)
         }));
     }
-    rows.extend(
-        answer
-            .rest_share
-            .map(|share| QuantityRow { dimensionless: share, ..named("rest share of the window") }),
-    );
+    let share = |share| QuantityRow { dimensionless: share, ..named("rest share of the window") };
+    rows.extend(answer.rest_share.map(share));
     let least = |it: DesignAnswer| physical("R for the margin", it.needed.least(), "N");
     rows.extend(answer.design.map(least));
     rows
