@@ -14,9 +14,7 @@ use crate::model::unit::TolerancedNumber;
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Kick, Portrait, StartWindow, friction_for};
 use crate::report::About;
-use crate::report::machine::{
-    CubicExpansion, DesignAnswer, MachineAnswer, RestShare, machine, page,
-};
+use crate::report::machine::{CubicExpansion, DesignAnswer, MachineAnswer, RestShare, machine};
 use crate::runtime::print::figure;
 use crate::runtime::provenance_file;
 use crate::scene::machine::library::{TEXTBOOK, machines};
@@ -96,7 +94,9 @@ impl BeltCommand {
         let answer = MachineAnswer { seconds, ..found.map_err(troubled)? };
         if let Some(path) = &self.report {
             let (pictures, provenance) = (pictures(&case)?, provenance_file::of_process());
-            let page = page(&answer, &pictures, &provenance, &case.sources);
+            let is_mass = answer.expansion.is_some();
+            let kind = if is_mass { "A mass on a belt" } else { "A vibration mode" };
+            let page = machine(&answer).page(kind, &pictures, &provenance, &case.sources);
             write(path, page.as_bytes(), self.force)?;
         }
         self.output.print(machine(&answer))?;

@@ -5,7 +5,7 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::input::MACHINE;
-use super::{CertifyOption, CommandCase, Failure, Output, QuestionOptions, given, read, timed};
+use super::{CERTIFY, CommandCase, Failure, Output, QuestionOptions, given, read, timed};
 use crate::branch::along::{Points, branch};
 use crate::branch::fold::{Boundary, BoundaryPoint, border};
 use crate::branch::machine::MachineBranch;
@@ -21,8 +21,8 @@ use crate::scan::sweep::{Spacing, Sweep};
 /// Follows the limit cycles along a parameter, with folds and other special points
 #[derive(Debug, Args)]
 pub struct BranchCommand {
-    #[command(flatten)]
-    certify: CertifyOption,
+    #[arg(long, help = CERTIFY)]
+    certify: bool,
     /// The parameter (D, D2, D3 or r, or a number of the machine), its range, and the number of points, which is
     /// approximate for D, D2, D3 and r
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
@@ -61,7 +61,7 @@ impl BranchCommand {
         let follow =
             || branch(base, symbol, ends, Points::Even(count), tolerance, &Limits::PATIENT);
         let (found, seconds) = asked.output.timed("the branch could not be completed", follow)?;
-        let certified = self.certify.ask(|| range(&ParameterBox::from(base), symbol, ends));
+        let certified = self.certify.then(|| range(&ParameterBox::from(base), symbol, ends));
         let certified = certified.as_ref();
         asked.output.print(report::branch(&about, &found, certified, tolerance, seconds))
     }
@@ -70,8 +70,8 @@ impl BranchCommand {
 /// Continues the fold `D_F` and the escape point `D_c` in a second parameter
 #[derive(Debug, Args)]
 pub struct BorderCommand {
-    #[command(flatten)]
-    certify: CertifyOption,
+    #[arg(long, help = CERTIFY)]
+    certify: bool,
     /// The second parameter (D2, D3 or r, or a number of the machine), its range, and the number of values
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
     over: String,
@@ -103,7 +103,7 @@ impl BorderCommand {
         let range = range_of(&over);
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
         let (found, seconds) = asked.output.timed("the boundary could not be completed", follow)?;
-        let certified = self.certify.ask(|| enclosed(&found));
+        let certified = self.certify.then(|| enclosed(&found));
         let about = case.about().but(&[symbol]);
         asked.output.print(report::border(&about, &found, certified.as_deref(), seconds))
     }

@@ -18,8 +18,9 @@ use crate::scene::{Scene, find, plain};
 use crate::session::config::Config;
 use crate::session::replay::{Instruction, Recorder, Script};
 use crate::session::save::opening;
-use crate::session::{InterruptedSession, Key, Msg, Notice, Session, Size, save};
+use crate::session::{InterruptedSession, Msg, Session, Size, save};
 use crate::terminal::Environment;
+use crate::words::joined;
 
 /// Opens the explorer.
 #[derive(Debug, Args)]
@@ -74,13 +75,14 @@ impl ExploreCommand {
         };
         let play = self.play.as_deref().map(played).transpose()?.unwrap_or_default();
         let mut session = session(scene, self.looks, config);
-        session.notice = session.unlikely_number().map(|text| Notice { error: false, text });
+        if let Some(text) = session.unlikely_number() {
+            session.inform(text);
+        }
         let last = self.last.then(last).transpose()?;
         if let Some(path) = self.open.as_ref().or(last.as_ref()) {
             let text = Files::read(path).map_err(Failure::Usage)?;
             save::open(&mut session, &text).map_err(|why| Failure::file(path, why))?;
-            let text = format!("opened {}", path.display());
-            session.notice = Some(Notice { error: false, text });
+            session.inform(format!("opened {}", path.display()));
         }
         let record = self.record.as_deref().map(|path| (path, self.force));
         go(session, &play, record, self.allow_write)
@@ -149,8 +151,7 @@ pub fn go(
     let memory = Memory::open();
     if let Some(memory) = &memory {
         session.interrupted = memory.interrupted().into_iter().map(kept).collect();
-        let welcome = welcome(&session, memory).map(|text| Notice { error: false, text });
-        session.notice = welcome.or(session.notice);
+        welcome(&mut session, memory);
     }
     let files =
         Files { copies: memory.as_ref().map(|memory| memory.copies.clone()), may_play_write };
@@ -184,8 +185,8 @@ fn ago(seconds: u64) -> String {
     }
 }
 
-/// The message before the first key: that sessions were interrupted or, at the first start, which keys to press.
-fn welcome(session: &Session, memory: &Memory) -> Option<String> {
+/// Says before the first key that sessions were interrupted or, at the first start, which keys to press.
+fn welcome(session: &mut Session, memory: &Memory) {
     let said = if session.interrupted.len() > 1 {
         "sessions were interrupted: {restore} lists them, {forget-interrupted} forgets all"
     } else if !session.interrupted.is_empty() {
@@ -193,9 +194,9 @@ fn welcome(session: &Session, memory: &Memory) -> Option<String> {
     } else if memory.is_new {
         "arrows change the numbers; {help} keys, {palette} commands, {explain} what to see, {tour} a tour"
     } else {
-        return None;
+        return;
     };
-    Some(session.keymap.fill(said, Key::said))
+    session.inform_of_keys(said);
 }
 
 /// The error for a first word that is neither a scene nor a command, with names that are similar.
@@ -204,8 +205,7 @@ fn neither_scene_nor_command(name: &str, commands: &[&str]) -> Failure {
     let commands = commands.iter().map(|&command| command.to_owned());
     let meant = similar(name, scenes.iter().cloned().chain(commands)).into_iter();
     let told = |found| if scenes.contains(&found) { found } else { format!("the command {found}") };
-    let meant = meant.map(told);
-    let meant = meant.collect::<Vec<_>>().join(" or ");
+    let meant = joined(meant.map(told), " or ");
     let line = format!("there is no scene and no command {name:?}");
     Failure::Usage(if meant.is_empty() {
         format!("{line}; hopfscope scenes lists the scenes, hopfscope --help the commands")

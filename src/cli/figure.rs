@@ -16,6 +16,7 @@ use crate::scene::Scene;
 use crate::scene::machine::NO_BELT;
 use crate::session::{Session, Size};
 use crate::view::{self, Look, screen};
+use crate::words::joined;
 
 /// Writes the plots of a scene as SVG, PNG, CSV or JSON, or draws them in the terminal
 #[derive(Debug, Args)]
@@ -92,6 +93,6 @@ fn in_letters(session: &Session) -> String {
     let look = Look::new(session.display);
     let Size { width, height } = session.size;
     let panels = view::panels(session, (width, height), &look);
-    let parts: Vec<String> = panels.iter().map(screen::text).collect();
-    format!("{}: {}\n\n{}", session.scene.name, session.scene.title, parts.join("\n"))
+    let parts = joined(panels.iter().map(screen::text), "\n");
+    format!("{}: {}\n\n{parts}", session.scene.name, session.scene.title)
 }

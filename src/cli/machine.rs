@@ -19,6 +19,7 @@ use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{find, machines};
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Machine, ScaledMachine, Scene};
+use crate::words::joined;
 
 /// Why a mode takes no tolerances.
 const UNCERTAIN_MODE: &str =
@@ -54,8 +55,7 @@ impl CommandCase {
             return Ok(CommandCase { described: machine.described(), sources: Vec::new() });
         }
         let text = text.map_err(|error| {
-            let known = machines().iter().map(|machine| machine.name.as_str());
-            let known = known.collect::<Vec<_>>().join(", ");
+            let known = joined(machines().iter().map(|machine| &machine.name), ", ");
             Failure::Usage(format!("{error}; the machines of the program are {known}"))
         })?;
         let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();

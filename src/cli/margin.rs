@@ -4,8 +4,7 @@ use clap::Args;
 
 use super::input::{self, WINDOW};
 use super::{
-    CertifyOption, CommandCase, Failure, Output, QuestionOptions, given, number, read, timed,
-    troubled,
+    CERTIFY, CommandCase, Failure, Output, QuestionOptions, given, number, read, timed, troubled,
 };
 use crate::flow::{Limits, Subject};
 use crate::model::{Knob, Parameters};
@@ -72,8 +71,8 @@ fn of_machine(case: &CommandCase, output: &Output) -> Result<(), Failure> {
 /// Shows where the starts in a window end, and how large a kick is survived
 #[derive(Debug, Args)]
 pub struct BasinCommand {
-    #[command(flatten)]
-    certify: CertifyOption,
+    #[arg(long, help = CERTIFY)]
+    certify: bool,
     /// Displacements and velocities of the starts (default: -3:3,-3:3; of a machine one and a half times its largest
     /// cycle, or its margin)
     #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", allow_hyphen_values = true)]
@@ -97,7 +96,7 @@ impl BasinCommand {
         // What is proved, is proved of the oscillator of the paper.
         let parameters = found.model.parameters().filter(|_| !about.is_machine());
         let enclose = |parameters: Parameters| proved_kicks(&parameters, &found);
-        let certified = self.certify.ask(|| parameters.map(enclose)).flatten();
+        let certified = self.certify.then(|| parameters.map(enclose)).flatten();
         let seconds = before + seconds;
         asked.output.print(basin(&about, &found, (&window, counts), certified.as_ref(), seconds))
     }

@@ -38,7 +38,7 @@ use signal_hook::flag;
 pub(super) use crate::runtime::failure::Failure;
 pub(super) use input::{given, number, read};
 pub(super) use machine::{CommandCase, second, troubled};
-pub(super) use output::{CertifyOption, Output, in_turn, print, timed, write};
+pub(super) use output::{CERTIFY, Output, in_turn, print, timed, write};
 pub(super) use source::{QuestionOptions, SourceOptions, StartOptions};
 
 use crate::words::usage;

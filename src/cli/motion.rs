@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{CertifyOption, Failure, QuestionOptions, in_turn, number, second, timed, troubled};
+use super::{CERTIFY, Failure, QuestionOptions, in_turn, number, second, timed, troubled};
 use crate::accuracy::trade::Trade;
 use crate::flow::{Detail, Limits, Motion, Outcome, Problem};
 use crate::model::{Knob, Model};
@@ -57,8 +57,8 @@ pub struct TrajectoryCommand {
     /// Time at which to stop, 0 .. 1e9 (default: the scene's)
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
-    #[command(flatten)]
-    certify: CertifyOption,
+    #[arg(long, help = CERTIFY)]
+    certify: bool,
 }
 
 impl TrajectoryCommand {
@@ -76,7 +76,7 @@ impl TrajectoryCommand {
             let start = [problem.initial.q, problem.initial.v].map(Interval::point);
             enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
         };
-        let certified = (!is_machine).then(|| self.certify.ask(enclose)).flatten();
+        let certified = (self.certify && !is_machine).then(enclose);
         question.output.print(motion::motion(&asked.about, &found, certified.as_ref(), seconds))?;
         match found.outcome {
             Outcome::GaveUp { tau, reason } if !is_machine => {

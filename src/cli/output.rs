@@ -74,20 +74,8 @@ pub fn columns() -> Option<usize> {
     rustix::termios::tcgetwinsize(rustix::stdio::stdout()).map(|size| size.ws_col.into()).ok()
 }
 
-/// Whether an answer is also enclosed.
-#[derive(Clone, Copy, Debug, Args)]
-pub struct CertifyOption {
-    /// Encloses the answer between proved bounds, or says what remains open
-    #[arg(long)]
-    certify: bool,
-}
-
-impl CertifyOption {
-    /// Computes the enclosure if it is wanted.
-    pub fn ask<T>(self, ask: impl FnOnce() -> T) -> Option<T> {
-        self.certify.then(ask)
-    }
-}
+/// What the option `--certify` does.
+pub const CERTIFY: &str = "Encloses the answer between proved bounds, or says what remains open";
 
 /// Prints an answer in printable characters. A closed pipe is not an error: its reader has seen enough.
 pub fn print(text: &str) -> Result<(), Failure> {

@@ -29,6 +29,7 @@ use crate::runtime::standard::tell;
 use crate::scan::grid::Scan;
 use crate::scan::measure::{Conditions, MEASURES, Measure};
 use crate::scan::sweep::Sweep;
+use crate::words::joined;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
 #[derive(Debug, Args)]
@@ -106,15 +107,14 @@ enum HeaderWhen {
 }
 
 fn measures_help() -> String {
-    let names: Vec<_> = MEASURES.iter().map(|row| row.name).collect();
-    format!("What to measure; repeatable: {}", names.join(", "))
+    let names = joined(MEASURES.iter().map(|row| row.name), ", ");
+    format!("What to measure; repeatable: {names}")
 }
 
 /// The same with the meaning of each measure, in the form in which clap lists possible values.
 fn measures_list() -> String {
     let rows = MEASURES.iter().map(|row| format!("- {}: {}", row.name, row.meaning));
-    let rows: Vec<_> = rows.collect();
-    format!("What to measure; repeatable:\n{}", rows.join("\n"))
+    format!("What to measure; repeatable:\n{}", joined(rows, "\n"))
 }
 
 impl ScanCommand {

@@ -12,6 +12,7 @@ use crate::session::config::{Config, parse};
 use crate::session::settings::{
     Colors, DisplaySettings, Glyphs, NamedValue, Theme, choices, named,
 };
+use crate::words::joined;
 
 /// Which settings file is read.
 #[derive(Clone, Debug, Args)]
@@ -74,8 +75,7 @@ impl Looks {
 }
 
 fn help<T: NamedValue>(what: &str) -> String {
-    let names: Vec<_> = choices::<T>().map(|row| row.0).collect();
-    format!("{what}: {}", names.join(", "))
+    format!("{what}: {}", joined(choices::<T>().map(|row| row.0), ", "))
 }
 
 /// Prefix of the file names of interrupted sessions.

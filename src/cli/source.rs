@@ -12,6 +12,7 @@ use crate::model::{Knob, ParameterBox};
 use crate::runtime::standard::tell;
 use crate::scene::library::PLAIN;
 use crate::scene::{Scene, find};
+use crate::words::joined;
 
 /// What every question is about, and how its answer is printed.
 #[derive(Debug, Args)]
@@ -108,12 +109,11 @@ pub struct StartOptions {
 
 fn parameters_help() -> String {
     let names = Knob::MOTION.map(|knob| format!("{knob} ({})", knob.spec().meaning));
-    format!("Sets a parameter or start value; repeatable: {}", names.join(", "))
+    format!("Sets a parameter or start value; repeatable: {}", joined(names, ", "))
 }
 
 fn methods_help() -> String {
-    let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();
-    format!("Integration method: {}", names.join(", "))
+    format!("Integration method: {}", joined(METHODS.iter().map(|row| row.name), ", "))
 }
 
 impl StartOptions {

@@ -2,7 +2,7 @@
 //! curve.
 
 use super::elements::{self, Anchor};
-use super::paper::{Frame, PLOT, Spot, ink};
+use super::paper::{Frame, Spot, ink};
 use super::{Outline, Panel};
 use crate::numerics::{count::real, elementary::hypot};
 use crate::picture::{Caption, Dash, along};
@@ -40,26 +40,28 @@ impl Rectangle {
 
 /// What a text should not cover, on paper.
 struct Surroundings {
+    frame: Frame,
     curves: Vec<Vec<Spot>>,
     /// Lines to be read against.
     guides: Vec<Vec<Spot>>,
     marks: Vec<Spot>,
+    /// Where texts stand already.
+    taken: Vec<Rectangle>,
 }
 
 /// The places along a curve that lie in the plot.
 fn followed(points: &[[f64; 2]], frame: Frame) -> Vec<Spot> {
-    let inside = |spot: &Spot| {
-        (frame.left..=frame.left + PLOT.0).contains(&spot.0)
-            && (frame.top..=frame.top + PLOT.1).contains(&spot.1)
-    };
     let mut spots: Vec<Spot> = Vec::new();
     for pair in points.windows(2) {
         let [from, to] = [pair[0], pair[1]].map(|point| frame.spot(point.into()));
-        spots.extend(along(from, to, SPACING).filter(inside));
+        spots.extend(along(from, to, SPACING).filter(|spot| frame.holds(*spot, 0.0)));
     }
-    let apart = |one: &Spot, other: &Spot| hypot(one.0 - other.0, one.1 - other.1);
-    spots.dedup_by(|next, last| apart(next, last) < 0.5 * SPACING);
+    spots.dedup_by(|next, last| apart(*next, *last) < 0.5 * SPACING);
     spots
+}
+
+fn apart(one: Spot, other: Spot) -> f64 {
+    hypot(one.0 - other.0, one.1 - other.1)
 }
 
 impl Surroundings {
@@ -72,6 +74,8 @@ impl Surroundings {
         let spots = |curve: &Outline| followed(&curve.points, frame);
         let guides = panel.guides.iter().map(|guide| followed(guide, frame));
         Surroundings {
+            frame,
+            taken: Vec::new(),
             curves: curves.into_iter().map(spots).collect(),
             guides: guides.chain(sparse.into_iter().map(spots)).collect(),
             marks: panel.marks.iter().map(|mark| frame.spot(mark.at)).collect(),
@@ -79,7 +83,7 @@ impl Surroundings {
     }
 
     /// How bad a place is for a text that belongs to a spot; 0 is perfect.
-    fn harm(&self, place: &Rectangle, spot: Spot, taken: &[Rectangle]) -> f64 {
+    fn harm(&self, place: &Rectangle, spot: Spot) -> f64 {
         /// Harm of covering another text, a mark, a curve, a line that is there to be read against.
         const COVERED: [f64; 4] = [1000.0, 12.0, 30.0, 1.0];
         /// Harm of standing nearer to another curve than to its own, within this many pixels.
@@ -89,7 +93,7 @@ impl Surroundings {
         };
         let lines = |of: &[Vec<Spot>]| of.iter().filter(|spots| nearest(spots) < 1.0).count();
         let covered = [
-            taken.iter().filter(|other| place.overlaps(other)).count(),
+            self.taken.iter().filter(|other| place.overlaps(other)).count(),
             self.marks.iter().filter(|mark| place.distance(**mark) < 3.0).count(),
             lines(&self.curves),
             lines(&self.guides),
@@ -97,13 +101,43 @@ impl Surroundings {
         let covered: f64 =
             covered.into_iter().zip(COVERED).map(|(count, harm)| real(count) * harm).sum();
         // Its own curves pass through the spot.
-        let touches = |spots: &&Vec<Spot>| {
-            spots.iter().any(|other| hypot(other.0 - spot.0, other.1 - spot.1) < 2.0 * SPACING)
-        };
+        let touches = |other: &Spot| apart(*other, spot) < 2.0 * SPACING;
         let own = place.distance(spot);
-        let others = self.curves.iter().filter(|spots| !touches(spots));
+        let others = self.curves.iter().filter(|spots| !spots.iter().any(touches));
         let mistaken = others.map(|spots| nearest(spots)).any(|it| it < own.min(MISTAKEN.1));
         covered + if mistaken { MISTAKEN.0 } else { 0.0 }
+    }
+
+    /// The best place of a text of a caption and the harm that it does there, if there is one.
+    fn best<'a>(&self, caption: &Caption, text: &'a str) -> Option<(f64, &'a str, Rectangle)> {
+        /// Harm of the next point of a curve, and of the next place around a point.
+        const LESS_GOOD: (f64, f64) = (0.05, 0.1);
+        /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
+        /// it, what names a point stands there.
+        const FAR: (f64, f64) = (0.3, 1.0);
+        let width = LETTER * real(text.chars().count());
+        let inside = |Rectangle { left, top, .. }: &Rectangle| {
+            let corners = [(*left, *top), (left + width, top + LINE)];
+            corners.into_iter().all(|corner| self.frame.holds(corner, 2.0))
+        };
+        let far = if caption.or_at.is_empty() { FAR.1 } else { FAR.0 };
+        let mut best: Option<(f64, &str, Rectangle)> = None;
+        let spots = std::iter::once(&caption.at).chain(&caption.or_at);
+        for (later, spot) in spots.map(|at| self.frame.spot(*at)).enumerate() {
+            let places = around(spot, width).enumerate();
+            for (farther, place) in places.filter(|(_, place)| inside(place)) {
+                let harm = LESS_GOOD.0 * real(later) + LESS_GOOD.1 * real(farther);
+                let is_least = |harm| best.is_none_or(|(least, ..)| harm < least);
+                if is_least(harm) {
+                    let away = (place.distance(spot) - GAP).max(0.0) * far;
+                    let harm = harm + away + self.harm(&place, spot);
+                    if is_least(harm) {
+                        best = Some((harm, text, place));
+                    }
+                }
+            }
+        }
+        best
     }
 }
 
@@ -128,9 +162,8 @@ type Placed<'a> = (&'a Caption, &'a str, Rectangle);
 fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
     /// Harm from which on the short form is tried: that of a covered curve.
     const MUCH: f64 = 30.0;
-    let surroundings = Surroundings::of(panel, frame);
+    let mut surroundings = Surroundings::of(panel, frame);
     let mut placed: Vec<Placed<'a>> = Vec::new();
-    let mut taken: Vec<Rectangle> = Vec::new();
     // What names a point has few places to go to and comes first.
     let (points, curves): (Vec<_>, Vec<_>) =
         panel.captions.iter().partition(|caption| caption.or_at.is_empty());
@@ -139,58 +172,16 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
         if !frame.window.contains(caption.at) || placed.iter().find(said).is_some() {
             continue;
         }
-        let find = |text: &'a str| {
-            let (harm, place) = best(caption, text, &surroundings, &taken, frame)?;
-            Some((harm, text, place))
-        };
+        let find = |text: &'a str| surroundings.best(caption, text);
         let long = find(&caption.long);
         let short = long.filter(|(harm, ..)| *harm >= MUCH).and_then(|_| find(&caption.short));
         let found = [long, short].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, text, place)) = found {
-            taken.push(place);
+            surroundings.taken.push(place);
             placed.push((caption, text, place));
         }
     }
     placed
-}
-
-/// The best place of a text of a caption and the harm that it does there, if there is one.
-fn best(
-    caption: &Caption,
-    text: &str,
-    surroundings: &Surroundings,
-    taken: &[Rectangle],
-    frame: Frame,
-) -> Option<(f64, Rectangle)> {
-    /// Harm of the next point of a curve, and of the next place around a point.
-    const LESS_GOOD: (f64, f64) = (0.05, 0.1);
-    /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
-    /// it, what names a point stands there.
-    const FAR: (f64, f64) = (0.3, 1.0);
-    let width = LETTER * real(text.chars().count());
-    let inside = |place: &Rectangle| {
-        place.left >= frame.left + 2.0
-            && place.left + width <= frame.left + PLOT.0 - 2.0
-            && place.top >= frame.top + 2.0
-            && place.top + LINE <= frame.top + PLOT.1 - 2.0
-    };
-    let far = if caption.or_at.is_empty() { FAR.1 } else { FAR.0 };
-    let mut best: Option<(f64, Rectangle)> = None;
-    let spots = std::iter::once(&caption.at).chain(&caption.or_at);
-    for (later, spot) in spots.map(|at| frame.spot(*at)).enumerate() {
-        for (farther, place) in around(spot, width).enumerate().filter(|(_, place)| inside(place)) {
-            let harm = LESS_GOOD.0 * real(later) + LESS_GOOD.1 * real(farther);
-            let is_least = |harm| best.is_none_or(|(least, _)| harm < least);
-            if is_least(harm) {
-                let away = (place.distance(spot) - GAP).max(0.0) * far;
-                let harm = harm + away + surroundings.harm(&place, spot, taken);
-                if is_least(harm) {
-                    best = Some((harm, place));
-                }
-            }
-        }
-    }
-    best
 }
 
 pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {

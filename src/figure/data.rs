@@ -1,5 +1,7 @@
 //! A figure as data: one row of comma-separated values a point.
 
+use serde::Serialize;
+
 use super::{Figure, MarkedPoint, Outline, Panel};
 use crate::picture::{MapCell, ScanMap};
 use crate::report::Columns;
@@ -15,21 +17,12 @@ pub fn csv(figure: &Figure) -> String {
     // Only a map has values.
     let map = figure.panels.iter().any(|panel| panel.map.is_some());
     let value = map.then(|| Columns::default().file("value", |row: &PointRow| row.value));
-    let columns = Columns::default()
-        .file("panel", |row: &PointRow| row.panel)
-        .file("kind", |row| row.kind)
-        .file("number", |row| row.number)
-        .file("name", |row| row.name.to_owned())
-        .file("role", |row| row.role)
-        .file("style", |row| row.style)
-        .file("x", |row| row.x)
-        .file("y", |row| row.y)
-        .and(value);
+    let columns = Columns::default().fields(&PointRow::default(), |row| Some(*row)).and(value);
     out + &columns.csv((1..).zip(&figure.panels).flat_map(|(number, shown)| rows(number, shown)))
 }
 
-/// A cell of a map, a point of a curve, of the edge of an area, or a mark.
-#[derive(Clone, Copy, Default)]
+/// A cell of a map, a point of a curve, of the edge of an area, or a mark: a column for each field.
+#[derive(Clone, Copy, Default, Serialize)]
 struct PointRow<'a> {
     panel: u32,
     kind: &'static str,
@@ -39,6 +32,7 @@ struct PointRow<'a> {
     style: &'static str,
     x: f64,
     y: f64,
+    #[serde(skip)]
     value: Option<MapCell>,
 }
 
@@ -83,10 +77,8 @@ pub(super) fn remarks(figure: &Figure) -> Vec<String> {
         remarks.push(format!("{}: {}", provenance.build(), provenance.command));
     }
     for (number, panel) in (1..).zip(&figure.panels) {
-        remarks.push(format!(
-            "panel {number}: {}, {} over {}",
-            panel.title, panel.y.name, panel.x.name
-        ));
+        let Panel { title, x, y, .. } = panel;
+        remarks.push(format!("panel {number}: {title}, {} over {}", y.name, x.name));
     }
     remarks.iter().map(|remark| printable::line(remark).into_owned()).collect()
 }

@@ -49,6 +49,12 @@ impl Frame {
         let (right, up) = (x.fraction(point.x), y.fraction(point.y));
         (self.left + right * PLOT.0, self.top + (1.0 - up) * PLOT.1)
     }
+
+    /// Whether a spot lies in the plot, at least this far from its edges.
+    pub fn holds(&self, (x, y): Spot, apart: f64) -> bool {
+        let (across, down) = (x - self.left, y - self.top);
+        (apart..=PLOT.0 - apart).contains(&across) && (apart..=PLOT.1 - apart).contains(&down)
+    }
 }
 
 /// Panels beside each other.

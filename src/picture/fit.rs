@@ -230,15 +230,9 @@ fn points(places: &[PlotPoint]) -> Vec<Point> {
 
 /// A window that holds all curves with some room; `None` if they have no extent.
 fn around(picture: &Picture) -> Option<Window> {
-    let curves = || {
-        picture.items.iter().filter_map(|item| match item {
-            Item::Curve(_, points) => Some(points),
-            _ => None,
-        })
-    };
-    let span = |place: fn(&Point) -> f64| {
-        let span = Span::covering(curves().flatten().map(place))?;
-        Some(span.scaled(span.center(), 1.06))
-    };
-    Some(Window { x: span(|point| point.x)?, y: span(|point| point.y)? })
+    let curves = picture.items.iter().filter_map(|item| match item {
+        Item::Curve(_, points) => Some(points),
+        _ => None,
+    });
+    Window::around(&curves.flatten().copied().collect::<Vec<_>>(), 1.06)
 }

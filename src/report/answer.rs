@@ -10,7 +10,7 @@ use super::table::Table;
 use crate::flow::Cost;
 use crate::model::{Body, Group, Interval, Knob, ParameterBox, Source};
 use crate::words::provenance::Provenance;
-use crate::words::{duration, exact, with_unit};
+use crate::words::{duration, exact, joined, with_unit};
 
 /// The form of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -183,8 +183,8 @@ impl Answer {
 /// An answer for reading: around tables are empty lines.
 fn text(head: [String; 2], parts: Vec<Part>, cost: Option<String>) -> String {
     let line = |text: String| if text.is_empty() { text } else { text + "\n" };
-    let head = head.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
-    let mut out = line(head);
+    let head = head.into_iter().filter(|part| !part.is_empty());
+    let mut out = line(joined(head, ": "));
     let mut after_table = false;
     for part in parts.into_iter().chain(cost.map(Part::Line)) {
         let is_table = matches!(part, Part::Table(_));
@@ -275,7 +275,7 @@ impl About {
             None => format!("{knob} = {}", exact(known.lower(), 24)),
         };
         let shown = self.numbers.iter().filter(|(.., is_shown)| *is_shown);
-        shown.map(number).collect::<Vec<_>>().join(", ")
+        joined(shown.map(number), ", ")
     }
 
     /// Its numbers as fields of a document.

@@ -187,19 +187,19 @@ fn special_columns<'a, R: 'a>(along: Knob, of: fn(&R) -> &Special) -> Columns<'a
 
 /// The stable states that end at a change, as the number increases and as it decreases.
 fn jumps(special: &Special) -> String {
+    let place = |x: f64| match x {
+        0.0 => "rest".to_owned(),
+        x => format!("x = {}", with_unit(x, 5, "m")),
+    };
     let sentence = |jump: Option<Jump>, way: &str| {
-        jump.map_or_else(String::new, |Jump { from, to }| {
-            let length = |x| with_unit(x, 5, "m");
-            let from =
-                if from == 0.0 { "rest".to_owned() } else { format!("x = {}", length(from)) };
-            let to = match to {
-                JumpEnd::Rest => "rest".to_owned(),
-                JumpEnd::Cycle { q_max } => format!("x = {}", length(q_max)),
-                JumpEnd::Escaped => "beyond all bounds".to_owned(),
-                JumpEnd::Unknown => "where the friction law ends".to_owned(),
-            };
-            format!("; {way}, from {from} to {to}")
-        })
+        let Some(Jump { from, to }) = jump else { return String::new() };
+        let to = match to {
+            JumpEnd::Rest => "rest".to_owned(),
+            JumpEnd::Cycle { q_max } => place(q_max),
+            JumpEnd::Escaped => "beyond all bounds".to_owned(),
+            JumpEnd::Unknown => "where the friction law ends".to_owned(),
+        };
+        format!("; {way}, from {} to {to}", place(from))
     };
     let jumps = special.jumps.unwrap_or_default();
     sentence(jumps.up, "growing") + &sentence(jumps.down, "falling")

@@ -9,8 +9,8 @@ use serde_json::Value;
 
 use super::json::{self, Document};
 use super::table::Table;
-use crate::numerics::{Interval, cells, log10, pow, powi};
-use crate::words::{significant, with_unit};
+use crate::numerics::{Interval, cells, log10, pow};
+use crate::words::{joined, significant, with_unit};
 
 /// What columns are called in text, where that is not their name in files, a line each.
 const TITLES: &str = include_str!("../../assets/titles.txt");
@@ -43,12 +43,6 @@ impl Quantity {
     /// The word of text for a number that does not exist, in place of `-`.
     pub const fn or(self, absent: &'static str) -> Self {
         Quantity { absent, ..self }
-    }
-
-    /// A number that is not above `value` however text rounds it.
-    pub fn below(self, value: f64) -> f64 {
-        let digits = i32::try_from(self.digits).unwrap_or(i32::MAX);
-        value * (1.0 - 0.5 * powi(10.0, 1 - digits))
     }
 
     /// The number as text shows it.
@@ -237,7 +231,7 @@ fn cell(value: &Value) -> String {
         }
         Value::Number(_) | Value::Bool(_) => value.to_string(),
         Value::String(text) => text.clone(),
-        Value::Array(words) => words.iter().map(cell).collect::<Vec<_>>().join(" "),
+        Value::Array(words) => joined(words.iter().map(cell), " "),
         Value::Null | Value::Object(_) => String::new(),
     }
 }

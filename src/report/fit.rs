@@ -10,7 +10,7 @@ use crate::fit::{
 use crate::portrait::Kicks;
 use crate::words::fit::{Statement, left_out as counts, sentences, signed, undetermined};
 use crate::words::number::{in_unit, resolved, with_error};
-use crate::words::significant;
+use crate::words::{joined, significant};
 
 /// The whole answer of a fit: in rows one for each estimated number, then the margins.
 pub fn fit(fitted: &FitResult) -> Answer {
@@ -18,6 +18,7 @@ pub fn fit(fitted: &FitResult) -> Answer {
     let broken = statement.broken();
     let (with, plain) = fitted.motions();
     let motions = Document::default().with("with_derivatives", with).with("without", plain);
+    let counted = format!("{with} motions with derivatives, {plain} without");
     let name = Columns::default().file("name", |row: &EstimateRow| row.name.clone());
     let numbers = || fitted.estimate.wanted().map(|row| EstimateRow::of_number(fitted, row));
     let physical = rows(fitted)
@@ -42,11 +43,7 @@ pub fn fit(fitted: &FitResult) -> Answer {
         .heading("Left out")
         .lines(counts(fitted))
         .lines([places(fitted)])
-        .costing(
-            &format!("{with} motions with derivatives, {plain} without"),
-            motions,
-            fitted.seconds,
-        )
+        .costing(&counted, motions, fitted.seconds)
 }
 
 /// All that was found, as fields of a document.
@@ -320,12 +317,12 @@ fn places(fitted: &FitResult) -> String {
         1 => format!("{} s", time(it.from)),
         several => format!("{} .. {} s ({several} samples)", time(it.from), time(it.to)),
     };
-    let places: Vec<String> =
-        left_out(&fitted.record, &fitted.estimate).iter().map(place).collect();
+    let places = left_out(&fitted.record, &fitted.estimate);
+    let places = joined(places.iter().map(place), "; ");
     if places.is_empty() {
         return "every sample of the record that was read counts".to_owned();
     }
-    format!("samples at these times do not count: {}", places.join("; "))
+    format!("samples at these times do not count: {places}")
 }
 
 /// What the table of the margins shows.

@@ -6,7 +6,9 @@ use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity, Table};
 use crate::accuracy::reference::ReferenceSource;
 use crate::accuracy::trade::{Trade, TradePoint};
-use crate::flow::{Crossing, Leg, METHODS, Method, MethodSpec, Motion, Outcome, Problem, Sample};
+use crate::flow::{
+    Cost, Crossing, Leg, METHODS, Method, MethodSpec, Motion, Outcome, Problem, Sample,
+};
 use crate::model::belt::Units;
 use crate::model::{ContactState, Knob, Ledger, State, Work};
 use crate::numerics::{Interval, log10, pow};
@@ -51,12 +53,9 @@ pub fn motion(
     let name = |(name, _): &(String, f64)| name.clone();
     let works = Columns::default().text("energy", name);
     let works = works.number("amount", about.quantity("J", 6), |(_, amount)| *amount);
-    let (steps, rejected) = (motion.cost.steps, motion.cost.rejected);
+    let Motion { method, cost: Cost { steps, rejected, .. }, .. } = motion;
     let tolerance = exact(problem.tolerance, 24);
-    let how = format!(
-        "method {}, tolerance {tolerance}: {steps} steps, {rejected} rejected",
-        motion.method
-    );
+    let how = format!("method {method}, tolerance {tolerance}: {steps} steps, {rejected} rejected");
     let (lead, how) = match motion.outcome {
         _ if !machine => (Some(sentence(motion, Notation::default())), Some(how)),
         Outcome::GaveUp { reason, .. } => (None, Some(reason.to_string())),

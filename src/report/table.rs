@@ -88,7 +88,6 @@ impl Table {
     }
 
     fn alignment(&self, at: usize) -> Alignment {
-        let length = |text: &str| text.chars().count();
         let cells = || self.rows.iter().map(|row| row[at].as_str());
         let title = length(&self.titles[at]);
         if cells().all(is_gap) || !cells().all(|cell| is_gap(cell) || is_number(cell)) {
@@ -108,7 +107,6 @@ impl Table {
         const NARROWEST: usize = 30;
         /// Blanks before text that goes on below its row.
         const INDENT: usize = 4;
-        let length = |text: &str| text.chars().count();
         let line = |mut cells: Vec<String>| {
             let whole = cells.join("  ").trim_end().to_owned();
             let last = cells.pop().unwrap_or_default();
@@ -132,7 +130,7 @@ impl Table {
     /// the end of a line may be long.
     fn parts(&self) -> Vec<Vec<usize>> {
         let titles = self.padded().swap_remove(0);
-        let width = |at: &usize| titles[*at].chars().count() + 2;
+        let width = |at: &usize| length(&titles[*at]) + 2;
         let mut parts = vec![vec![]];
         for at in 0..titles.len() {
             let last = parts.len() - 1;
@@ -175,6 +173,11 @@ impl Alignment {
         let (before, after) = split(cell);
         if is_number { format!("{before:>whole$}{after:part$}") } else { format!("{cell:whole$}") }
     }
+}
+
+/// Columns of a text.
+fn length(text: &str) -> usize {
+    text.chars().count()
 }
 
 /// Whether a cell stands for a number that does not exist.

@@ -191,6 +191,15 @@ impl From<Point> for [f64; 2] {
 }
 
 impl Window {
+    /// The smallest window around these points, so many times as large; `None` without any that is finite.
+    pub fn around(points: &[Point], times: f64) -> Option<Self> {
+        let span = |place: fn(&Point) -> f64| {
+            let span = Span::covering(points.iter().map(place))?;
+            Some(span.scaled(span.center(), times))
+        };
+        Some(Window { x: span(|point| point.x)?, y: span(|point| point.y)? })
+    }
+
     /// The window between left and right, bottom and top; `None` if it has no extent.
     pub fn of([left, right, low, high]: [f64; 4]) -> Option<Self> {
         Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })

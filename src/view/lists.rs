@@ -14,7 +14,7 @@ use crate::scene::said::said_by;
 use crate::scene::{Finding, Layer, Reply, letters};
 use crate::session::wants::{CostRow, Requirement, consequence};
 use crate::session::{List, ListKind, Overlay, PaletteRow, Session};
-use crate::words::{claim, count, duration, significant};
+use crate::words::{claim, count, duration, joined, significant};
 
 /// Columns of keys in the help.
 const KEYS: usize = 16;
@@ -154,7 +154,7 @@ fn costs(content: &mut ListContent, session: &Session, list: &List, look: &Look)
 }
 
 fn names(layers: &[Layer]) -> String {
-    layers.iter().map(|layer| layer.spec().name).collect::<Vec<_>>().join(", ")
+    joined(layers.iter().map(|layer| layer.spec().name), ", ")
 }
 
 /// What a question took, and for which layers it is asked.
@@ -229,15 +229,14 @@ fn about_claim(claim: &Claim, examined: Option<&ClaimResult>, look: &Look) -> Ve
                 number("computed", Some(evidence.computed.value)),
                 error.map(|error| format!("known to {}", significant(error, 1))),
             ];
-            lines.push(text(parts.into_iter().flatten().collect::<Vec<_>>().join(", ")));
+            lines.push(text(joined(parts.into_iter().flatten(), ", ")));
             let judged = [
                 &format!("compared with: {}", claim.basis),
                 &claim::sense(evidence.sense),
                 &evidence.place,
             ];
-            let judged = judged.into_iter().filter(|text| !text.is_empty());
-            let judged: Vec<&str> = judged.map(String::as_str).collect();
-            lines.push(Line::styled(judged.join("; "), look.style(Role::Quiet)));
+            let judged = joined(judged.into_iter().filter(|text| !text.is_empty()), "; ");
+            lines.push(Line::styled(judged, look.style(Role::Quiet)));
         }
     }
     if let Some(scene) = claim.scene {

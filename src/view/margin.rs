@@ -7,7 +7,7 @@ use crate::portrait::{Border, Margin, RestMargin};
 use crate::scene::Topic;
 use crate::session::{MachineMargins, Session};
 use crate::words::number::rounded_down;
-use crate::words::{significant, with_unit};
+use crate::words::{joined, significant, with_unit};
 
 /// Columns of a screen that has room for margins as forces too.
 const WIDE: u16 = 110;
@@ -52,7 +52,7 @@ impl KickNotation<'_> {
             let size = size.map(|size| self.size(size * one, unit));
             format!("{name}{}", size.unwrap_or_else(|| "any".to_owned()))
         });
-        Some(texts.collect::<Vec<_>>().join(", "))
+        Some(joined(texts, ", "))
     }
 
     fn size(self, size: f64, unit: &str) -> String {

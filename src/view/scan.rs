@@ -15,7 +15,7 @@ use crate::scan::measure::Value;
 use crate::scene::View;
 use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
 use crate::words::number::{measurement, remaining};
-use crate::words::significant;
+use crate::words::{joined, significant};
 
 /// Digits of a value, as many as fit; the first are those of a table.
 const DIGITS: [usize; 5] = [8, 6, 5, 4, 3];
@@ -90,7 +90,7 @@ fn reading(scanned: &ScanOnShow, width: usize) -> String {
         let at = scanned.scan.over().iter().zip(&place).map(|(sweep, which)| {
             format!("{} {}", sweep.symbol, significant(sweep.value(*which), *digits))
         });
-        format!(" {name} {} at {}", found(*digits), at.collect::<Vec<_>>().join(" "))
+        format!(" {name} {} at {}", found(*digits), joined(at, " "))
     };
     pane::fitting(DIGITS.iter().map(text), width)
 }
@@ -100,7 +100,7 @@ fn meaning(scanned: &ScanOnShow, width: usize) -> String {
     let name = measured(scanned);
     if scanned.plots_words() {
         let meanings = WORDS.iter().enumerate().map(|(number, word)| format!("{number} {word}"));
-        let meanings = meanings.collect::<Vec<_>>().join(", ");
+        let meanings = joined(meanings, ", ");
         return pane::fitting([format!(" {name}: {meanings}"), format!(" {meanings}")], width);
     }
     let Some((low, high)) = scanned.range() else { return format!(" {name}") };
@@ -139,7 +139,7 @@ fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
     let more = if widths.len() < names.len() { &look.symbols().more } else { "" };
     let line = |row: &[String]| {
         let cells = row.iter().zip(&widths).map(|(text, width)| format!("{text:>width$} "));
-        cells.collect::<Vec<_>>().concat()
+        cells.collect::<String>()
     };
     let names = Line::styled(line(&names) + more, look.style(Role::Title));
     let rows = rows.iter().zip(seen).map(|(row, index)| {

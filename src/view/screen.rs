@@ -173,13 +173,9 @@ fn shape(path: &mut String, symbol: &str, x: f64, top: f64) -> bool {
     if let Some(dots) = braille(char) {
         for (column, row) in dots {
             let (x, y) = (x + CELL.0 * (0.25 + 0.5 * column), top + CELL.1 * (0.125 + 0.25 * row));
-            let _ = write!(
-                path,
-                "M{} {y}a{DOT} {DOT} 0 1 0 {} 0a{DOT} {DOT} 0 1 0 {} 0",
-                x - DOT,
-                2.0 * DOT,
-                -2.0 * DOT
-            );
+            let (left, size) = (x - DOT, 2.0 * DOT);
+            let _ =
+                write!(path, "M{left} {y}a{DOT} {DOT} 0 1 0 {size} 0a{DOT} {DOT} 0 1 0 -{size} 0");
         }
     } else if let Some((from, to)) = block(char) {
         rectangle(path, (x, top + CELL.1 * from), (CELL.0, CELL.1 * (to - from)));

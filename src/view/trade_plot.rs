@@ -9,7 +9,7 @@ use crate::accuracy::trade::Trade;
 use crate::flow::METHODS;
 use crate::numerics::elementary::log10;
 use crate::picture::{Picture, Role};
-use crate::scene::{Point, Span, Window};
+use crate::scene::{Point, Window};
 use crate::session::settings::{self, Colors, Glyphs};
 
 /// The letter of each of the methods.
@@ -36,20 +36,15 @@ pub fn in_letters(trade: &Trade) -> String {
             points.push((at, if is_best { letter.to_ascii_uppercase() } else { letter }));
         }
     }
-    let around = |place: fn(&Point) -> f64| {
-        let span = Span::covering(points.iter().map(|(point, _)| place(point)))?;
-        Some(span.scaled(span.at(0.5), 1.1))
-    };
-    let (Some(x), Some(y)) = (around(|point| point.x), around(|point| point.y)) else {
-        return String::new();
-    };
+    let places: Vec<Point> = points.iter().map(|(place, _)| *place).collect();
+    let Some(window) = Window::around(&places, 1.1) else { return String::new() };
     let look = Look::new(settings::DisplaySettings {
         glyphs: Glyphs::Ascii,
         colors: Colors::Never,
         ..settings::DisplaySettings::default()
     });
     let mut buffer = Buffer::empty(AREA);
-    let picture = Picture::new("trade", "log10(time/ms)", "log10(error)", Window { x, y });
+    let picture = Picture::new("trade", "log10(time/ms)", "log10(error)", window);
     let framed = FramedPicture { area: AREA, picture, heading: Heading::default() };
     let screen = &mut Surface { look: &look, buffer: &mut buffer };
     let mut plot = Canvas::new(&framed, screen);

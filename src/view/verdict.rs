@@ -10,7 +10,7 @@ use crate::scene::{Finding, Layer, Topic};
 use crate::session::fate::End;
 use crate::session::{BranchStop, Session};
 use crate::words::motion::{Notation, of_machine, sentence, swings};
-use crate::words::{significant, stability};
+use crate::words::{joined, significant, stability};
 
 /// What became of the motion, in a sentence.
 pub fn outcome(session: &Session) -> (String, Role) {
@@ -48,24 +48,24 @@ pub fn outcome(session: &Session) -> (String, Role) {
     (text, Role::Text)
 }
 
+/// Ends of motions by their words in documents, and what is said where several end so.
+const ENDS: [(&str, &str); 4] = [
+    ("captured", "come to rest"),
+    ("moving", "still move"),
+    ("escaped", "escape"),
+    ("gave-up", "given up"),
+];
+
 /// What became of the motions that plots hold, where there are any and all are known.
 fn held_motions(session: &Session) -> Option<String> {
     let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
-    let mut ends = [(0, "come to rest"), (0, "still move"), (0, "escape"), (0, "given up")];
     let motions = |plot| session.found(Topic::Trajectory, plot, Finding::try_as_trajectory_ref);
-    for (_, found) in plots.flat_map(motions) {
-        let end = match found.outcome {
-            Outcome::Captured { .. } => 0,
-            Outcome::Moving { .. } => 1,
-            Outcome::Escaped { .. } => 2,
-            Outcome::GaveUp { .. } => 3,
-        };
-        ends[end].0 += 1;
-    }
-    let all: usize = ends.iter().map(|(count, _)| count).sum();
-    let there = ends.iter().filter(|(count, _)| *count > 0);
-    let parts: Vec<String> = there.map(|(count, end)| format!("{count} {end}")).collect();
-    (all > 0).then(|| format!("{all} motions: {}", parts.join(", ")))
+    let words: Vec<_> = plots.flat_map(motions).map(|(_, found)| found.outcome.word()).collect();
+    let parts = ENDS.into_iter().filter_map(|(word, said)| {
+        let count = words.iter().filter(|own| **own == word).count();
+        (count > 0).then(|| format!("{count} {said}"))
+    });
+    (!words.is_empty()).then(|| format!("{} motions: {}", words.len(), joined(parts, ", ")))
 }
 
 /// What becomes of a motion and why, in a sentence.
@@ -149,11 +149,8 @@ fn point(name: &str, label: &str, held: &BranchStop, digits: usize, dot: &str) -
                 parts.insert(0, stability(cycle.stable).to_owned());
             }
             let short = digits.min(5);
-            parts.push(format!(
-                "q {} .. {}",
-                significant(cycle.q_min, short),
-                significant(cycle.q_max, short)
-            ));
+            let [low, high] = [cycle.q_min, cycle.q_max].map(|end| significant(end, short));
+            parts.push(format!("q {low} .. {high}"));
             parts.push(format!("period {}", significant(cycle.period, short)));
             parts.push(format!("multiplier {}", multiplier(cycle)));
         }

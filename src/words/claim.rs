@@ -1,6 +1,6 @@
 //! The verdicts on the claims of the paper.
 
-use super::number::significant;
+use super::{joined, significant};
 use crate::paper::{ClaimResult, POOR, Sense, Verdict};
 
 /// The name of the verdict if no number could be computed.
@@ -63,5 +63,5 @@ pub fn summary(examined: &[ClaimResult]) -> String {
         let count = examined.iter().filter(carries).count();
         (count > 0).then(|| format!("{count} {words}"))
     });
-    format!("{} claims: {}", examined.len(), parts.collect::<Vec<_>>().join(", "))
+    format!("{} claims: {}", examined.len(), joined(parts, ", "))
 }

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use super::counted;
 use super::number::{in_unit, rounded_down, significant, with_unit};
+use super::{counted, joined};
 use crate::fit::{
     AllowedLoss, Combination, Condition, D, DropReason, FitResult, MarginQuestion, Margins, NAMES,
     NameSpec, R, Rival, StartKind, combination, conditions,
@@ -87,14 +87,12 @@ fn formula(combination: &Combination) -> String {
 fn inseparable(fitted: &FitResult, combination: &Combination) -> String {
     let names: Vec<&str> = combination.terms.iter().map(|(row, _)| row.name).collect();
     let (low, high) = fitted.estimate.amplitudes();
-    format!(
-        "{} cannot be told apart: only {} = {} +- {} is known; the amplitudes span a factor of {}",
-        listed(&names),
-        formula(combination),
-        significant(combination.value, 4),
-        significant(combination.standard_error, 2),
-        significant(high / low, 2),
-    )
+    let (names, formula) = (listed(&names), formula(combination));
+    let value = significant(combination.value, 4);
+    let error = significant(combination.standard_error, 2);
+    let span = significant(high / low, 2);
+    let known = format!("only {formula} = {value} +- {error} is known");
+    format!("{names} cannot be told apart: {known}; the amplitudes span a factor of {span}")
 }
 
 fn bounds(fitted: &FitResult) -> Vec<String> {
@@ -107,16 +105,12 @@ fn bounds(fitted: &FitResult) -> Vec<String> {
     {
         said.push(format!("no friction is shown: r is at most {} (95 %)", significant(upper, 3)));
     }
-    let bent: Vec<&str> = NAMES
-        .iter()
-        .filter(|row| estimate.free[row.place] && !estimate.intervals[row.place].quadratic)
-        .map(|row| row.name)
-        .collect();
+    let is_bent = |place: usize| estimate.free[place] && !estimate.intervals[place].quadratic;
+    let bent = NAMES.iter().filter(|row| is_bent(row.place));
+    let bent = joined(bent.map(|row| row.name), ", ");
     if !bent.is_empty() {
-        said.push(format!(
-            "intervals of {} by the profile of the likelihood, which is not quadratic there",
-            bent.join(", ")
-        ));
+        let why = "by the profile of the likelihood, which is not quadratic there";
+        said.push(format!("intervals of {bent} {why}"));
     }
     said
 }
@@ -162,10 +156,10 @@ pub struct StatementUnits {
 impl Statement {
     /// The conditions of the answer that do not hold, in one line.
     pub fn broken(&self) -> Option<String> {
-        let failing: Vec<String> =
-            self.failing().map(|it| format!("{} ({})", it.name, it.detail)).collect();
-        (!failing.is_empty())
-            .then(|| format!("not to be relied on, because a test fails: {}", failing.join("; ")))
+        let failing = self.failing().map(|it| format!("{} ({})", it.name, it.detail));
+        let failing = joined(failing, "; ");
+        let line = || format!("not to be relied on, because a test fails: {failing}");
+        (!failing.is_empty()).then(line)
     }
 
     fn failing(&self) -> impl Iterator<Item = &Condition> {
@@ -201,12 +195,12 @@ pub fn signed(fitted: &FitResult) -> Statement {
         conditions: conditions(&fitted.estimate, margins),
     };
     statement.conditions.extend([amplitudes(fitted, reach), alternatives(fitted)]);
-    let failing: Vec<&str> = statement.failing().map(|it| it.name).collect();
+    let failing = joined(statement.failing().map(|it| it.name), ", ");
     let sentence = sentence(fitted, &statement);
     statement.text = if failing.is_empty() {
         sentence
     } else {
-        format!("Not to be relied on, as a condition fails ({}): {sentence}", failing.join(", "))
+        format!("Not to be relied on, as a condition fails ({failing}): {sentence}")
     };
     statement
 }
@@ -224,10 +218,8 @@ fn sentence(fitted: &FitResult, statement: &Statement) -> String {
     let StatementUnits { impulse: impulse_unit, displacement: length, .. } = &statement.units;
     let force = force(fitted, statement);
     if statement.impulse == Some(0.0) || statement.displacement == Some(0.0) {
-        return format!(
-            "No kick, however small, is survived with {confidence}: {}.",
-            lost(fitted, force)
-        );
+        let why = lost(fitted, force);
+        return format!("No kick, however small, is survived with {confidence}: {why}.");
     }
     let change = "a change of velocity";
     let kicks = match (statement.impulse, statement.velocity, statement.displacement) {
@@ -317,7 +309,6 @@ fn amplitudes(fitted: &FitResult, reach: Option<f64>) -> Condition {
 fn alternatives(fitted: &FitResult) -> Condition {
     let estimate = &fitted.estimate;
     let tried: BTreeSet<usize> = estimate.rivals.iter().map(|it| it.half_swings).collect();
-    let tried: Vec<String> = tried.iter().map(usize::to_string).collect();
     let fitting = |it: &Rival| match it.delta_chi2 {
         0.0 => it.half_swings.to_string(),
         rise => format!("{} (delta chi^2 = {})", it.half_swings, significant(rise, 2)),
@@ -329,7 +320,7 @@ fn alternatives(fitted: &FitResult) -> Condition {
         StartKind::Release if !estimate.data.has_peaks() => ", and releases some periods off,",
         _ => "",
     };
-    let (tried, fitting) = (tried.join(", "), fitting.join(", "));
+    let (tried, fitting) = (joined(tried, ", "), fitting.join(", "));
     let detail = format!("{tried} half swings{releases} compared; the record allows {fitting}");
     Condition { name: "alternatives", holds, essential: false, detail }
 }

@@ -11,6 +11,7 @@ pub mod usage;
 pub use number::{count, duration, exact, significant, with_unit};
 
 use std::borrow::Cow;
+use std::fmt::Display;
 
 use textwrap::{Options, WordSplitter};
 
@@ -25,6 +26,12 @@ pub fn cycles(count: usize) -> String {
 /// `12 samples` or `1 sample`.
 pub fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Parts of a sentence, with this between them.
+pub fn joined(parts: impl IntoIterator<Item: Display>, between: &str) -> String {
+    let parts = parts.into_iter().map(|part| part.to_string());
+    parts.collect::<Vec<_>>().join(between)
 }
 
 /// `stable` or `unstable`.

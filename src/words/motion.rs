@@ -60,25 +60,19 @@ pub fn sentence(motion: &Motion, notation: Notation) -> String {
 
 /// How a motion of so many half swings ended, in a sentence with numbers of so many digits, one more where it escapes.
 pub fn ended(outcome: &Outcome, count: usize, notation: Notation, digits: usize) -> String {
-    let swings = swings(count);
-    let (place, time) = (|q| notation.position(q, digits), |tau| notation.moment(tau, digits));
+    let (swings, time) = (swings(count), notation.moment(outcome.tau(), digits));
+    let place = outcome.state().map(|(q, _)| notation.position(q, digits)).unwrap_or_default();
     match *outcome {
-        Outcome::Captured { q, .. } if count == 0 => {
-            format!("at rest at {} from the start", place(q))
-        }
-        Outcome::Captured { tau, q } => {
-            format!("comes to rest at {}{swings}, {}", place(q), time(tau))
-        }
-        Outcome::Moving { tau, q, v } => {
+        Outcome::Captured { .. } if count == 0 => format!("at rest at {place} from the start"),
+        Outcome::Captured { .. } => format!("comes to rest at {place}{swings}, {time}"),
+        Outcome::Moving { v, .. } => {
             let velocity = notation.velocity(v, digits);
-            format!("moving at {}{swings}: {}, v = {velocity}", time(tau), place(q))
+            format!("moving at {time}{swings}: {place}, v = {velocity}")
         }
         Outcome::Escaped { tau } => {
             format!("escapes at {}{swings}", notation.moment(tau, digits + 1))
         }
-        Outcome::GaveUp { tau, reason } => {
-            format!("gave up at {}{swings}: {reason}", time(tau))
-        }
+        Outcome::GaveUp { reason, .. } => format!("gave up at {time}{swings}: {reason}"),
     }
 }
 

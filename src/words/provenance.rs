@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::joined;
+
 /// What computed an output, and how to compute it again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Provenance {
@@ -99,7 +101,7 @@ pub fn quoted(words: &[String]) -> String {
             format!("'{}'", word.replace('\'', r"'\''"))
         }
     };
-    words.iter().map(quoted).collect::<Vec<_>>().join(" ")
+    joined(words.iter().map(quoted), " ")
 }
 
 /// The words of a line that [`quoted`] wrote; `None` if a quote is not closed.

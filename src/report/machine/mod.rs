@@ -11,13 +11,11 @@ use super::answer::PLACES;
 use super::cycle_numbers::{machine_cycles, of_machine};
 use super::cycles::{NO_CYCLE, known};
 use super::margin::{MarginRow, guaranteed, margin_columns};
-use super::page::SourceFile;
 use super::{About, Answer, Columns, Quantity};
 use crate::flow::{Fate, Motion, Subject};
 use crate::model::{Interval, Knob};
 use crate::portrait::guarantee::NoGuarantee;
 use crate::portrait::{Cycle, Kick, Margin, Portrait, RequiredFriction};
-use crate::words::provenance::Provenance;
 use crate::words::stability;
 
 /// A part of a window; `None` if it is not known.
@@ -72,7 +70,7 @@ pub fn machine(found: &MachineAnswer) -> Answer {
     let MachineAnswer { about, portrait, expansion, .. } = found;
     let certain = found.certain.and_then(Result::ok);
     let margins = [("nominal", portrait.margin)].into_iter();
-    let margins = margins.chain(certain.map(|margin| guaranteed(about, margin, PLACES)));
+    let margins = margins.chain(certain.map(|margin| guaranteed(margin, PLACES)));
     let kicks = Columns::default()
         .text("smallest kick that is not survived", |(name, _): &MarginRow| *name)
         .and(margin_columns(about, PLACES));
@@ -96,17 +94,6 @@ pub fn machine(found: &MachineAnswer) -> Answer {
         .heading("Remarks")
         .lines(text::remarks(found))
         .cost(portrait.cost, found.seconds)
-}
-
-/// The page of a machine: with its pictures, what computed it, and the files of the machine.
-pub fn page(
-    answer: &MachineAnswer,
-    pictures: &[String],
-    provenance: &Provenance,
-    sources: &[SourceFile],
-) -> String {
-    let kind = if answer.expansion.is_some() { "A mass on a belt" } else { "A vibration mode" };
-    machine(answer).page(kind, pictures, provenance, sources)
 }
 
 /// A number of the answer: what it is, its value without units and in its SI unit, and that unit.

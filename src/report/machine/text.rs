@@ -8,7 +8,7 @@ use crate::portrait::{Kick, RequiredFriction};
 use crate::report::answer::{PLACES, interval};
 use crate::words::motion::of_machine;
 use crate::words::number::rounded_down;
-use crate::words::{significant, with_unit};
+use crate::words::{joined, significant, with_unit};
 
 /// The sentence about the impulse that is survived from any rest position: the guaranteed one, if it was asked for. Its
 /// number is rounded down.
@@ -56,7 +56,7 @@ impl MachineAnswer<'_> {
     /// What the guaranteed margins allow for.
     fn allowed(&self) -> String {
         let disturbance = self.disturbance().map(|force| format!("disturbance {force}"));
-        self.varying().into_iter().chain(disturbance).collect::<Vec<_>>().join(", ")
+        joined(self.varying().into_iter().chain(disturbance), ", ")
     }
 }
 
@@ -117,21 +117,16 @@ impl DesignAnswer {
 pub(super) fn friction(CubicExpansion { belt, reduced, .. }: &CubicExpansion) -> String {
     let Derivatives { value, first, second, third } = reduced.mu;
     let from = match &belt.law {
-        FrictionLaw::Table(spline) => format!(
-            "the smoothest curve near {} points, {} away in the quadratic mean",
-            spline.points(),
-            significant(spline.missed(), 3)
-        ),
+        FrictionLaw::Table(spline) => {
+            let (points, away) = (spline.points(), significant(spline.missed(), 3));
+            format!("the smoothest curve near {points} points, {away} away in the quadratic mean")
+        }
         law => law.name().to_owned(),
     };
-    let number = |value| significant(value, PLACES);
-    format!(
-        "friction ({from}) at v0: mu = {}, mu' = {} s/m, mu'' = {} s^2/m^2, mu''' = {} s^3/m^3",
-        number(value),
-        number(first),
-        number(second),
-        number(third)
-    )
+    let [mu, first, second, third] =
+        [value, first, second, third].map(|number| significant(number, PLACES));
+    let higher = format!("mu'' = {second} s^2/m^2, mu''' = {third} s^3/m^3");
+    format!("friction ({from}) at v0: mu = {mu}, mu' = {first} s/m, {higher}")
 }
 
 /// How the motion ends, in a sentence.
@@ -146,15 +141,13 @@ fn fate(MachineAnswer { subject, portrait, motion, fate, rest, .. }: &MachineAns
 /// The motion by the second method, compared with the first, in a sentence.
 fn by(second: &Motion, first: Sample) -> String {
     let lead = format!("by {} at {:e}: ", second.method, second.problem.tolerance);
-    lead + &match second.known_end() {
-        Ok(end) => format!(
-            "at t = {} x = {}, v = {}; Taylor series differ by {} and {}",
-            with_unit(first.tau, PLACES, "s"),
-            with_unit(end.q, 12, "m"),
-            with_unit(end.v, 12, "m/s"),
-            with_unit((end.q - first.q).abs(), 2, "m"),
-            with_unit((end.v - first.v).abs(), 2, "m/s"),
-        ),
-        Err(stop) => stop.to_string(),
-    }
+    let end = match second.known_end() {
+        Ok(end) => end,
+        Err(stop) => return format!("{lead}{stop}"),
+    };
+    let moment = with_unit(first.tau, PLACES, "s");
+    let state = |q: f64, v: f64, digits| (with_unit(q, digits, "m"), with_unit(v, digits, "m/s"));
+    let (x, v) = state(end.q, end.v, 12);
+    let (shift, change) = state((end.q - first.q).abs(), (end.v - first.v).abs(), 2);
+    format!("{lead}at t = {moment} x = {x}, v = {v}; Taylor series differ by {shift} and {change}")
 }
