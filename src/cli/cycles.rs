@@ -58,9 +58,8 @@ impl CyclesCommand {
     /// The answer for all parameters in a box.
     fn boxed(&self, known: &ParameterBox) -> Result<Answer, Failure> {
         if self.harmonics.is_some() {
-            return Err(Failure::usage(
-                "intervals of parameters: --harmonics has no place for them",
-            ));
+            let line = "intervals of parameters: --harmonics has no place for them";
+            return Err(Failure::usage(line));
         }
         let proof = prove(known, &[]);
         self.certify(&proof)?;

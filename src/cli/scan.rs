@@ -278,9 +278,8 @@ impl ScanCommand {
         let of_file = || self.output.as_deref().map_or(Format::Csv, Format::of_file);
         let form = self.format.unwrap_or_else(of_file);
         if form == Format::Table && self.resume {
-            return Err(Failure::usage(
-                "--format table rounds its numbers; --resume needs csv or json",
-            ));
+            let line = "--format table rounds its numbers; --resume needs csv or json";
+            return Err(Failure::usage(line));
         }
         Ok(form)
     }

@@ -133,9 +133,8 @@ impl StartOptions {
         let Scene { problem, terms, .. } = Arc::make_mut(&mut scene);
         for (symbol, value) in self.assigned(&OSCILLATOR)? {
             if !value.ends.is_point() {
-                return Err(Failure::Usage(format!(
-                    "{symbol}: only cycles and margin take an interval; this command takes a number"
-                )));
+                let why = "only cycles and margin take an interval; this command takes a number";
+                return Err(Failure::Usage(format!("{symbol}: {why}")));
             }
             problem.set(symbol, value.middle.value);
             if symbol.is_parameter() {

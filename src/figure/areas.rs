@@ -160,24 +160,23 @@ impl Cutter<'_> {
         };
         let (below, above) = (corners(lower), corners(upper));
         let apart = 0.1 / f64::from(PLACES) * self.window.x.width();
-        let fits = self.open.len() == lower.1.len()
-            && self.open.iter().zip(lower.1).zip(below.windows(2)).all(|((open, run), ends)| {
-                let meets =
-                    |side: &[Point], x: f64| side.last().is_some_and(|at| (at.x - x).abs() < apart);
-                open.fill == run.1 && meets(&open.left, ends[0].x) && meets(&open.right, ends[1].x)
-            });
+        let begun = |((_, fill), ends): (&FillRun, &[Point])| {
+            let [left, right] = [ends[0], ends[1]].map(|end| vec![end]);
+            OpenPolygon { fill: *fill, left, right }
+        };
+        let begun: Vec<_> = lower.1.iter().zip(below.windows(2)).map(begun).collect();
+        let meets = |side: &[Point], other: &[Point]| {
+            let ends = side.last().zip(other.last());
+            ends.is_some_and(|(one, other)| (one.x - other.x).abs() < apart)
+        };
+        let goes_on = |(open, next): (&OpenPolygon, &OpenPolygon)| {
+            let sides = meets(&open.left, &next.left) && meets(&open.right, &next.right);
+            open.fill == next.fill && sides
+        };
+        let fits = self.open.len() == begun.len() && self.open.iter().zip(&begun).all(goes_on);
         if !fits {
             self.close();
-            self.open = lower
-                .1
-                .iter()
-                .zip(below.windows(2))
-                .map(|(run, ends)| OpenPolygon {
-                    fill: run.1,
-                    left: vec![ends[0]],
-                    right: vec![ends[1]],
-                })
-                .collect();
+            self.open = begun;
         }
         for (open, ends) in self.open.iter_mut().zip(above.windows(2)) {
             open.left.push(ends[0]);

@@ -40,13 +40,12 @@ fn picture(figure: &Figure, alone: Option<u32>) -> String {
     let legend_height = lines * ENTRY.1;
     let above = if alone.is_some() { HEAD } else { 0.0 };
     let height = below + legend_height + real(maps().count()) * map::SCALE + 12.0 - above;
+    let (title, remarks) = (xml(&figure.title), xml(&remarks(figure).join("\n")));
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 {above} {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
-         font-size=\"12\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n\
-         <rect y=\"{above}\" width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
-        xml(&figure.title),
-        xml(&remarks(figure).join("\n")),
+         font-size=\"12\" role=\"img\">\n<title>{title}</title>\n<desc>{remarks}</desc>\n\
+         <rect y=\"{above}\" width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
     );
     if alone.is_none() {
         let spot = (width / 2.0, 22.0);
@@ -246,10 +245,8 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
 fn legend(figure: &Figure) -> Vec<LegendEntry> {
     let entry = |text: &str, role, sample| LegendEntry { sample, role, text: text.to_owned() };
     let of_panel = |panel: &Panel| {
-        let seen = panel.curves.iter().filter(|curve| {
-            let points: Vec<Point> = curve.points.iter().copied().map(Point::from).collect();
-            passes(&points, panel.window)
-        });
+        let is_seen = |curve: &&Outline| passes(&Point::all(&curve.points), panel.window);
+        let seen = panel.curves.iter().filter(is_seen);
         let lines = seen.chain(&panel.areas).map(|it| {
             entry(&it.kind, it.role, it.style.map_or(LegendSample::Shade, LegendSample::Line))
         });

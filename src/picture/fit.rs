@@ -8,8 +8,7 @@ use super::{
     Dash, Item, LineStyle, Mark, Marks, Picture, Role, cycle_mark, cycle_name, cycle_role,
 };
 use crate::fit::{
-    D, D3, DropReason, FitResult, PlotPoint, Q0, R, RISES, Runs, Signal, memory as memory_of,
-    parameters,
+    D, D3, DropReason, FitResult, Q0, R, RISES, Runs, Signal, memory as memory_of, parameters,
 };
 use crate::flow::Limits;
 use crate::model::Parameters;
@@ -103,8 +102,8 @@ pub fn damping(fitted: &FitResult) -> Option<Picture<'static>> {
         let line = LineStyle::new(name.clone(), Role::Ghost, Dash::Solid);
         picture.curve(line, [y - error, y + error].map(|y| [x, y]));
     }
-    picture.items.push(Item::Shade("90 % band of averaged".into(), points(&found.band)));
-    let exact = points(&found.exact);
+    picture.items.push(Item::Shade("90 % band of averaged".into(), Point::all(&found.band)));
+    let exact = Point::all(&found.exact);
     let zeros = exact.windows(2).filter(|two| two[0].y * two[1].y < 0.0);
     picture.items.extend(zeros.map(|two| Item::Marks(zero(two[0], two[1]))));
     let marks = Marks::new(Mark::Turn, Role::Ghost, measured);
@@ -222,10 +221,6 @@ pub fn mark_dropped(picture: &mut Picture, samples: impl Iterator<Item = (Point,
             picture.items.push(Item::Marks(marks));
         }
     }
-}
-
-fn points(places: &[PlotPoint]) -> Vec<Point> {
-    places.iter().copied().map(Point::from).collect()
 }
 
 /// A window that holds all curves with some room; `None` if they have no extent.

@@ -11,7 +11,7 @@ use super::{
 use crate::closed_form::lyapunov;
 use crate::fit::{FitResult, Signal};
 use crate::flow::{Motion, Outcome, Problem, Sample};
-use crate::model::{Field, HalfPlane, Parameters, Side, State};
+use crate::model::{Field, HalfPlane, Parameters, Side};
 use crate::numerics::elementary::hypot;
 use crate::portrait::kicks::{Distribution, RandomKick};
 use crate::portrait::{Border, Cycle, Drawing, Ride};
@@ -199,10 +199,6 @@ pub(super) fn sticking_set(r: f64) -> LineStyle {
     if r == 0.0 { "equilibrium" } else { "sticking set" }.into()
 }
 
-fn points(states: &[State]) -> Vec<Point> {
-    states.iter().map(|state| Point::from(*state)).collect()
-}
-
 /// Direction of the flow (equation 8); on `v = 0` it is that of the upper side.
 fn flow(parameters: &Parameters, Point { x: q, y: v }: Point) -> Point {
     let side = if v < 0.0 { Side::Lower } else { Side::Upper };
@@ -217,7 +213,7 @@ fn basin(picture: &mut Picture, found: &Drawing, variant: &VariantTag, with_cycl
     if found.edge.is_empty() {
         return;
     }
-    let edge = points(&found.edge);
+    let edge = Point::all(&found.edge);
     let area = LineStyle::from("basin of the sticking set").of(variant);
     picture.items.push(Item::Shade(area, edge.clone()));
     if !(with_cycles && found.portrait.border == Border::Cycle) {
@@ -228,7 +224,7 @@ fn basin(picture: &mut Picture, found: &Drawing, variant: &VariantTag, with_cycl
 /// What no motion leaves, whatever the parameters and the disturbance are.
 fn safe(picture: &mut Picture, extent: &Extent) {
     let Extent::Within(border) = extent else { return };
-    let border = points(border);
+    let border = Point::all(border);
     picture.items.push(Item::Shade("surely safe".into(), border.clone()));
     picture.curve("border of the surely safe", border);
 }
@@ -238,7 +234,7 @@ fn lost(picture: &mut Picture, extent: &Extent) {
     /// Ends of a closed border are this near to each other, as a fraction of its width.
     const CLOSED: f64 = 1e-3;
     let Extent::Within(border) = extent else { return };
-    let mut border = points(border);
+    let mut border = Point::all(border);
     let (Some(first), Some(last)) = (border.first().copied(), border.last().copied()) else {
         return;
     };
@@ -262,7 +258,7 @@ fn cycles(picture: &mut Picture, found: &Drawing, variant: &VariantTag, whole: b
     for (cycle, curve) in found.cycles.iter().zip(&found.curves) {
         let plain = cycle_name(cycle.stable);
         let (name, own) = if whole { kind(cycle) } else { (plain, variant.label.as_str()) };
-        let points: Vec<Point> = points(curve);
+        let points = Point::all(curve);
         let line = LineStyle::from(plain);
         picture.name_curve(&points, own.to_owned().into(), own, line.role);
         // Of a machine the caption says of which kind it is.

@@ -115,12 +115,10 @@ impl Ticks {
 
     /// The name of an axis with these ticks, whose labels may count from a base.
     pub fn named(&self, name: &str) -> String {
-        match self.base.as_deref() {
-            None => name.into(),
-            Some(base) => match base.strip_prefix('-') {
-                Some(positive) => format!("{name}+{positive}"),
-                None => format!("{name}-{base}"),
-            },
+        let Some(base) = &self.base else { return name.into() };
+        match base.strip_prefix('-') {
+            Some(positive) => format!("{name}+{positive}"),
+            None => format!("{name}-{base}"),
         }
     }
 

@@ -163,6 +163,11 @@ pub struct Point {
 impl Point {
     /// A gap in a curve: both coordinates are NaN.
     pub const NOWHERE: Self = Point { x: f64::NAN, y: f64::NAN };
+
+    /// Places as points.
+    pub fn all<T: Copy + Into<Point>>(places: &[T]) -> Vec<Point> {
+        places.iter().map(|place| (*place).into()).collect()
+    }
 }
 
 impl From<State> for Point {

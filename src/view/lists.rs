@@ -290,8 +290,10 @@ impl ListContent {
         let wanted = rows.saturating_add(2 + below);
         // No slivers of panes beside the list; the footer stays in sight.
         let width = if area.width < WIDTH + 10 { area.width } else { WIDTH };
-        let height = area.height.saturating_sub(1).min(wanted.max(4));
-        let area = pane::centred(area, width, height);
+        let above_footer = area.height.saturating_sub(1);
+        let height = above_footer.min(wanted.max(4));
+        let (x, y) = (area.x + (area.width - width) / 2, area.y + (above_footer - height) / 2);
+        let area = Rect { x, y, width, height };
         if area.width < 4 || area.height < 4 {
             return;
         }

@@ -6,7 +6,7 @@ use crate::model::Knob;
 use crate::portrait::{Border, Margin, RestMargin};
 use crate::scene::Topic;
 use crate::session::{MachineMargins, Session};
-use crate::words::number::rounded_down;
+use crate::words::number::{rounded_down, too_large};
 use crate::words::{joined, significant, with_unit};
 
 /// Columns of a screen that has room for margins as forces too.
@@ -185,11 +185,7 @@ fn machine(session: &Session, width: usize) -> Option<String> {
     let MachineMargins { whole, cubic } = session.machine_margins().filter(|_| fresh)?;
     session.running()?;
     let error = match (whole.from_rest.displacement, cubic.from_rest.displacement) {
-        (Some(own), Some(other)) if own > 0.0 => {
-            let percent = 100.0 * (other / own - 1.0);
-            let way = if percent > 0.0 { "large" } else { "small" };
-            format!("{} % too {way}", significant(percent.abs(), 2))
-        }
+        (Some(own), Some(other)) if own > 0.0 => too_large(other / own - 1.0),
         (Some(_), None) => EVERY.to_owned(),
         (None, Some(_)) => "not every kick is survived".to_owned(),
         _ => "the same".to_owned(),

@@ -40,10 +40,9 @@ impl Surface<'_> {
         let (x, y) = (area.x, area.y + row);
         let (end, _) = self.buffer.set_line(x, y, &left, area.width);
         let needed = u16::try_from(right.width()).unwrap_or(u16::MAX);
-        if let Some(start) = area.width.checked_sub(needed).filter(|_| needed > 0)
-            && x + start >= end
-        {
-            self.buffer.set_line(x + start, y, &right, needed);
+        let start = area.width.checked_sub(needed).map(|start| x + start);
+        if let Some(x) = start.filter(|x| needed > 0 && *x >= end) {
+            self.buffer.set_line(x, y, &right, needed);
         }
     }
 
@@ -137,13 +136,6 @@ impl Surface<'_> {
             .render(area, self.buffer);
         Rect { x: area.x + 2, y: area.y + 1, width: area.width - 4, height: area.height - 2 }
     }
-}
-
-/// The middle of the screen above the footer, for what stands over the panes.
-pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
-    let x = screen.x + (screen.width - width) / 2;
-    let y = screen.y + (screen.height.saturating_sub(1) - height) / 2;
-    Rect { x, y, width, height }
 }
 
 /// Clears an area for what stands over the panes, and what it would leave of words and numbers beside it.

@@ -99,15 +99,17 @@ pub fn without_numbers(scanned: &ScanOnShow, width: usize) -> String {
 pub fn legend(scanned: &ScanOnShow, width: usize, look: &Look) -> Line<'static> {
     let name = measured(scanned);
     let quiet = |text: String| look.span(text, Role::Quiet);
+    let between = |before: String, shades: &[Span<'static>], after: String| {
+        [&[quiet(before)], shades, &[quiet(after)]].concat()
+    };
     let lines: Vec<Vec<Span>> = if scanned.plots_words() {
         let word = |((symbol, danger), word): (&(char, Option<f64>), &str)| {
             let symbol = Span::styled(symbol.to_string(), of_word(*danger, look));
             [quiet("  ".to_owned()), symbol, quiet(format!(" {word}"))]
         };
         let words: Vec<Span> = OF_WORDS.iter().zip(WORDS).flat_map(word).skip(1).collect();
-        [format!(" {name} "), " ".to_owned()]
-            .map(|before| [vec![quiet(before)], words.clone()].concat())
-            .into()
+        let leads = [format!(" {name} "), " ".to_owned()];
+        leads.map(|lead| between(lead, &words, String::new())).into()
     } else if let Some(scale) = Danger::of(scanned) {
         let begins = [0, 1, 2, 3, 4].map(|step| scale.at(real(step) / real(STEPS)));
         let shade = |(value, shade): (f64, char)| {
@@ -123,9 +125,6 @@ pub fn legend(scanned: &ScanOnShow, width: usize, look: &Look) -> Line<'static> 
         let [low, high] = [scale.low, scale.high].map(|value| significant(value, 4));
         let [lowest, highest] = scale.ends().map(|end| format!(" {end} "));
         let (from, to) = (lowest.trim_start(), highest.trim_end());
-        let between = |before: String, shades: &[Span<'static>], after: String| {
-            [&[quiet(before)], shades, &[quiet(after)]].concat()
-        };
         vec![
             between(format!(" {name} {from}"), &all, format!("{high}{to}")),
             between(format!(" {name} {from}{low} "), &shades, format!(" {high}{to}")),

@@ -78,11 +78,8 @@ fn busy(session: &Session, look: &Look) -> String {
 /// half swings, or how large a cycle is that the parameter pane lists.
 fn shorter(session: &Session, mut text: String, room: usize) -> String {
     let too_long = |text: &String| text.chars().count() > room;
-    if let Some(swings) = session
-        .trajectory()
-        .map(|motion| swings(motion.crossings.len()))
-        .filter(|_| too_long(&text))
-    {
+    let swings = session.trajectory().map(|motion| swings(motion.crossings.len()));
+    if let Some(swings) = swings.filter(|_| too_long(&text)) {
         text = text.replacen(&swings, "", 1);
     }
     let size = [", q_max ", ", x_max "].into_iter().find_map(|size| text.split_once(size));

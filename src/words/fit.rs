@@ -98,13 +98,10 @@ fn inseparable(fitted: &FitResult, combination: &Combination) -> String {
 fn bounds(fitted: &FitResult) -> Vec<String> {
     let estimate = &fitted.estimate;
     let interval = estimate.intervals[R];
+    let is_unseen = estimate.free[R] && interval.lower == Some(0.0);
+    let most = interval.upper.filter(|_| is_unseen).map(|upper| significant(upper, 3));
     let mut said = Vec::new();
-    if let Some(upper) = interval.upper
-        && estimate.free[R]
-        && interval.lower == Some(0.0)
-    {
-        said.push(format!("no friction is shown: r is at most {} (95 %)", significant(upper, 3)));
-    }
+    said.extend(most.map(|most| format!("no friction is shown: r is at most {most} (95 %)")));
     let is_bent = |place: usize| estimate.free[place] && !estimate.intervals[place].quadratic;
     let bent = NAMES.iter().filter(|row| is_bent(row.place));
     let bent = joined(bent.map(|row| row.name), ", ");

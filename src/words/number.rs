@@ -37,10 +37,8 @@ pub fn count(value: u64) -> String {
     let number = amount(value);
     // Up to five columns there is room for all digits.
     let fits = |(_, scale): &&(&str, f64)| *scale > 1.0 && number >= scale.max(1e4);
-    PREFIXES.iter().find(fits).map_or_else(
-        || value.to_string(),
-        |(prefix, scale)| format!("{}{prefix}", significant(number / scale, 3)),
-    )
+    let Some((prefix, scale)) = PREFIXES.iter().find(fits) else { return value.to_string() };
+    format!("{}{prefix}", significant(number / scale, 3))
 }
 
 /// Writes a duration given in seconds: `0.21 ms`, `35 ms`, `2.4 s`.
@@ -50,6 +48,12 @@ pub fn duration(seconds: f64) -> String {
     } else {
         format!("{} s", significant(seconds, 3))
     }
+}
+
+/// Writes by which part of the true value, not 0, another exceeds it: `12 % too large`.
+pub fn too_large(part: f64) -> String {
+    let way = if part > 0.0 { "large" } else { "small" };
+    format!("{} % too {way}", significant(100.0 * part.abs(), 2))
 }
 
 /// Writes the time left if `done` of `wanted` equal parts took `elapsed` seconds: `12 s`, `3 min`, `2.5 h`.

@@ -8,7 +8,7 @@ use crate::portrait::{Cycle, Margin, Portrait, picture_reach};
 use crate::report::Document;
 use crate::report::answer::PLACES;
 use crate::report::cycle_numbers::of_machine;
-use crate::words::{significant, with_unit};
+use crate::words::number::{too_large, with_unit};
 
 /// A mass on a belt by the cubic expansion of its friction.
 pub struct CubicExpansion<'a> {
@@ -94,8 +94,7 @@ impl<'a> CubicExpansion<'a> {
         let margin = self.in_units(&found.margin).displacement.map(|own| {
             let judged = match excess(Some(own), whole.margin.displacement) {
                 Some(error) if error != 0.0 && own != error => {
-                    let percent = significant(100.0 * error.abs() / (own - error).abs(), 2);
-                    format!(", {percent} % too {}", if error > 0.0 { "large" } else { "small" })
+                    format!(", {}", too_large(error / (own - error).abs()))
                 }
                 _ => String::new(),
             };

@@ -28,11 +28,8 @@ pub(super) fn statement(answer: &MachineAnswer) -> (String, bool) {
             format!("an impulse below {}", with_unit(rounded_down(least, 3), 3, "N s"))
         }
     };
-    let varying = answer.varying();
-    let whichever = match varying[..] {
-        [] => String::new(),
-        _ => format!(", with {}", varying.join(", ")),
-    };
+    let varying = joined(answer.varying(), ", ");
+    let whichever = if varying.is_empty() { varying } else { format!(", with {varying}") };
     let whatever = answer.disturbance().map_or_else(
         || "provided that no other force acts".to_owned(),
         |force| format!("whatever a force of at most {force} does"),
