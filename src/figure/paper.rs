@@ -3,9 +3,8 @@
 
 use std::sync::LazyLock;
 
-use crate::numerics::cells;
+use crate::numerics::{cells, named};
 use crate::picture::{Dash, Role};
-use crate::scene::views::named;
 use crate::scene::{Point, Window};
 
 /// Size of the plot of a panel, in pixels of 1/96 inch.

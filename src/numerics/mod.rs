@@ -6,7 +6,7 @@
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
 //!   integrates, [`polynomial`] evaluates and interpolates by cubics, [`spline`] smooths measured points.
 //! - Texts: [`mod@decimal`] writes numbers and steps from one round number to the next, [`similar`] finds the name that was
-//!   meant, [`table`] reads the tables of the program.
+//!   meant, [`table`] reads the tables of the program and the names in them.
 
 pub(crate) mod count;
 pub(crate) mod decimal;
@@ -43,5 +43,5 @@ pub(crate) use scaling::{exponent, rough_exp2, rough_log2, times_power};
 pub(crate) use similar::most_similar;
 pub(crate) use spline::SmoothingSpline;
 pub(crate) use sum::Sum;
-pub(crate) use table::cells;
+pub(crate) use table::{cells, named};
 pub(crate) use twofold::Twofold;

@@ -6,8 +6,7 @@ use std::sync::LazyLock;
 
 use super::{Dash, Mark, Role, Scale, ScanMap, Ticks, units::said};
 use crate::model::{Knob, Parameters};
-use crate::numerics::{hypot, real, sin_cos, truncated};
-use crate::scene::views::named;
+use crate::numerics::{hypot, named, real, sin_cos, truncated};
 use crate::scene::{Point, Window};
 use crate::session::VariantTag;
 

@@ -5,10 +5,9 @@ use std::sync::LazyLock;
 use serde::{Deserialize, Serialize};
 
 use super::units;
-use crate::numerics::{cells, distinct, ln, pow};
+use crate::numerics::{cells, distinct, ln, named, pow};
 use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
-use crate::scene::views::named;
 use crate::session::scan::ScanOnShow;
 
 /// Which values of a measure are the dangerous ones.

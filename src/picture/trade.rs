@@ -15,7 +15,7 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.reading = session.row_under_cursor(index).map(words);
     let Some(found) = session.trade() else { return };
     if session.layers.contains(&Layer::Rows) {
-        for spec in METHODS {
+        for spec in METHODS.iter() {
             method(picture, found, spec);
         }
     }

@@ -10,8 +10,9 @@ use std::ops::RangeBounds;
 use strum::EnumString;
 
 use super::scene::Scene;
-use super::views::{Layer, named};
+use super::views::Layer;
 use crate::model::{Group, Knob};
+use crate::numerics::named;
 
 /// A condition of a part of a text, by its name in scene files.
 #[derive(Clone, Copy, Debug, PartialEq, EnumString)]

@@ -7,12 +7,10 @@
 
 use std::sync::LazyLock;
 
-use serde::de::IntoDeserializer;
-use serde::de::value::StrDeserializer;
 use serde::{Deserialize, Serialize};
 
 use super::window::{Span, Window};
-use crate::numerics::cells;
+use crate::numerics::{cells, named};
 use crate::question::Topic;
 
 /// The content of a plot; [`VIEWS`] describes each view.
@@ -95,12 +93,6 @@ fn described(line: &'static str) -> Option<ViewSpec> {
     let window = Window { x: Span::known(left, right), y: Span::known(low, high) };
     let (view, needs) = (named(name)?, named(needs)?);
     Some(ViewSpec { view, name, title, heading, coordinates, window, meaning, needs, nothing })
-}
-
-/// What has this name in files, or had it in earlier ones.
-pub fn named<'de, T: Deserialize<'de>>(name: &'de str) -> Option<T> {
-    let name: StrDeserializer<'de, serde::de::value::Error> = name.into_deserializer();
-    T::deserialize(name).ok()
 }
 
 impl View {

@@ -6,14 +6,13 @@ use ratatui::layout::Rect;
 use super::pane::{FramedPicture, Heading};
 use super::{Look, Surface, plot::Canvas, screen};
 use crate::accuracy::trade::Trade;
-use crate::flow::METHODS;
 use crate::numerics::elementary::log10;
 use crate::picture::{Picture, Role};
 use crate::scene::{Point, Window};
 use crate::session::settings::{self, Colors, Glyphs};
 
 /// The letter of each of the methods.
-const LETTERS: [char; METHODS.len()] = ['a', 'e', 't', '8', '5', '4', 'i', '~', 's', 'm'];
+const LETTERS: [char; 10] = ['a', 'e', 't', '8', '5', '4', 'i', '~', 's', 'm'];
 
 /// The logarithm of the error over that of the time; later methods lie below, the best choices are capitals.
 ///

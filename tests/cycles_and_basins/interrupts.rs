@@ -68,7 +68,7 @@ fn parameters() -> [Parameters; 6] {
 
 #[test]
 fn motions_stop_by_every_method() {
-    for row in METHODS {
+    for row in METHODS.iter() {
         for (parameters, q) in [(stiff(), 1e6), (parameters()[0], 3.0)] {
             let problem = Problem {
                 parameters,

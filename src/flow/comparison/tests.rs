@@ -75,7 +75,7 @@ fn time_stepping_sticks_and_nears_the_right_place_with_its_step() {
 /// From there the linear oscillator turns beyond the largest number, whether or not a method locates the turn.
 #[test]
 fn no_crossing_lies_beyond_the_largest_number() {
-    for row in METHODS {
+    for row in METHODS.iter() {
         let problem = Problem {
             parameters: Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 },
             initial: State { q: f64::MAX, v: f64::MAX },

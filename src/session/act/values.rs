@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use crate::model::{Knob, unknown};
+use crate::numerics::named;
 use crate::portrait::kicks::RandomKick;
-use crate::scene::{
-    Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find, machine, views,
-};
+use crate::scene::{Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find, machine};
 use crate::session::act::{general, history, parameters, plots, screen_setup};
 use crate::session::read::completion::{properties, rows};
 use crate::session::state::session::MOST_HARMONICS;
@@ -82,7 +81,7 @@ pub fn view(session: &mut Session, name: &str) -> Done {
 pub fn layer(session: &mut Session, rest: &str) -> Done {
     let (name, state) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
     let rows = LAYERS.iter().map(|row| (row.name, row.layer));
-    let layer = views::named(name).map_or_else(|| one_of("layer", name, rows), Ok)?;
+    let layer = named(name).map_or_else(|| one_of("layer", name, rows), Ok)?;
     let was_on = session.layers.contains(&layer);
     let wanted = if state.trim().is_empty() { !was_on } else { is_on(name, state.trim())? };
     if wanted != was_on {
