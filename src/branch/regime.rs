@@ -7,9 +7,6 @@
 
 use serde::Serialize;
 
-use super::escape::escape_point;
-use super::fold::fold;
-use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
 
 /// What becomes of motions.
@@ -100,33 +97,34 @@ impl Regime {
     }
 }
 
-/// The regime at these parameters.
-///
-/// # Errors
-/// The [`Reason`] why the fold or the escape point could not be computed.
-pub fn regime(parameters: &Parameters, limits: &Limits) -> Result<Regime, Reason> {
-    let Parameters { d, d3, r, .. } = *parameters;
-    // Without self-excitation neither is needed: no cycle folds there.
-    let boundary = if d >= 0.0 {
-        None
-    } else if d3 > 0.0 && r > 0.0 {
-        fold(parameters, limits)?.0.map(|fold| fold.d)
-    } else {
-        escape_point(parameters, limits)?.0
-    };
-    Ok(Regime::of(parameters, boundary))
-}
-
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::branch::escape::escape_point;
+    use crate::branch::fold::fold;
+    use crate::flow::Limits;
     use crate::portrait::basin::cycle::cycles;
     use crate::portrait::{Border, Cycles};
 
     fn oscillator(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
         Parameters { d, d2, d3, r }
+    }
+
+    /// The regime at these parameters, from the boundary in D where it matters.
+    pub fn regime(parameters: &Parameters) -> Regime {
+        let Parameters { d, d3, r, .. } = *parameters;
+        let patient = &Limits::PATIENT;
+        // Without self-excitation there is none: no cycle folds there.
+        let boundary = if d >= 0.0 {
+            None
+        } else if d3 > 0.0 && r > 0.0 {
+            fold(parameters, patient).unwrap().0.map(|fold| fold.d)
+        } else {
+            escape_point(parameters, patient).unwrap().0
+        };
+        Regime::of(parameters, boundary)
     }
 
     /// The regime as the search for cycles sees it; with friction.
@@ -152,7 +150,7 @@ mod tests {
 
     #[test]
     fn signs_and_boundaries_decide() {
-        let at = |d, d2, d3, r| regime(&oscillator(d, d2, d3, r), &Limits::PATIENT).unwrap();
+        let at = |d, d2, d3, r| regime(&oscillator(d, d2, d3, r));
         assert_eq!(at(-0.3, 0.0, 0.5, 0.1), Regime::Coexisting);
         assert_eq!(at(-0.1, 0.0, 0.5, 0.1), Regime::Global);
         assert_eq!(at(-0.3, 0.0, 0.0, 0.1), Regime::Finite);
@@ -182,7 +180,7 @@ mod tests {
             let parameters = oscillator(d, d2, d3, r);
             let found = cycles(&parameters, &Limits::PATIENT).unwrap();
             let seen = if found.border == Border::None { Regime::Global } else { by_search(&found) };
-            prop_assert_eq!(regime(&parameters, &Limits::PATIENT).unwrap(), seen);
+            prop_assert_eq!(regime(&parameters), seen);
         }
     }
 }

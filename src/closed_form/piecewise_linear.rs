@@ -13,8 +13,7 @@
 use serde::Serialize;
 
 use super::linear::LinearFlow;
-use crate::model::State;
-use crate::numerics::{atan2, exp, exp_m1, ln, ln_1p, real, sin_cos};
+use crate::numerics::{atan2, exp, exp_m1, ln, ln_1p};
 
 /// The unstable cycle that borders the basin of attraction of the sticking set.
 ///
@@ -85,35 +84,6 @@ impl LinearCycle {
             log_multiplier: 2.0 * x,
         })
     }
-
-    /// The closed curve (equation 31, with (25) corrected), clockwise from the left turning point, with
-    /// `points` points on each half; the first is repeated at the end.
-    ///
-    /// The points are evenly spaced in the direction in which they are seen from the focus of their
-    /// half plane, because near `D = -1` almost all of the time passes next to the turning points.
-    #[must_use]
-    pub fn curve(&self, points: usize) -> Vec<State> {
-        let Self { d, r, q_max, .. } = *self;
-        let linear = LinearFlow::new(d);
-        // There is a cycle only where motions oscillate.
-        let (Some(omega), Some(growth)) = (linear.omega(), linear.log_growth()) else {
-            return Vec::new();
-        };
-        let arrival = 2.0 * r / -exp_m1(-growth.high);
-        let upper = |index: usize| {
-            let (sin, cos) = sin_cos(std::f64::consts::PI * (real(index) / real(points)));
-            // Phase angle left until the end of the half swing.
-            let left = atan2(omega.high * sin, d * sin - cos);
-            let size = arrival * exp(d * (left / omega.high));
-            let (sin, cos) = sin_cos(left);
-            let sine = sin / omega.high;
-            State { q: size * (cos - d * sine) - r, v: size * sine }
-        };
-        let start = State { q: -q_max, v: 0.0 };
-        let half: Vec<State> = std::iter::once(start).chain((1..points).map(upper)).collect();
-        let lower = half.iter().map(|state| state.mirrored());
-        half.iter().copied().chain(lower).chain([start]).collect()
-    }
 }
 
 #[cfg(test)]
@@ -122,7 +92,7 @@ mod tests {
 
     use super::super::reference::rows;
     use super::*;
-    use crate::numerics::elementary::{atan2, exp, exp2, ln, powi};
+    use crate::numerics::elementary::{exp, exp2, ln, powi};
 
     fn close(got: f64, expected: f64, ulps: f64) -> bool {
         (got - expected).abs() <= ulps * f64::EPSILON * expected.abs()
@@ -184,28 +154,6 @@ mod tests {
             prop_assert!(close(2.0 * swing.time, cycle.period, 2.0));
             let growth = swing.x / cycle.clearance;
             prop_assert!(close(growth * growth, cycle.multiplier.unwrap(), 100.0));
-        }
-
-        #[test]
-        fn the_curve_lies_on_the_motion(d in -0.9..-1e-3, points in 2_usize..60) {
-            let cycle = LinearCycle::new(d, 1.0).unwrap();
-            let curve = cycle.curve(points);
-            prop_assert_eq!(curve.len(), 2 * points + 1);
-            prop_assert_eq!(curve[0], curve[2 * points]);
-            prop_assert_eq!(curve[points].q, cycle.q_max);
-            let size = cycle.q_max + cycle.v_max;
-            // Energy of the shifted spiral, x^2 + 2 D x v + v^2 = c^2 e^(-2 D t), at each point's time.
-            let linear = LinearFlow::new(d);
-            let omega = linear.omega().unwrap().high;
-            for state in &curve[1..points] {
-                let x = state.q + 1.0;
-                let phase = atan2(omega * state.v, -(x + d * state.v));
-                let (x_there, v_there) = linear.state(-cycle.clearance, 0.0, phase / omega);
-                let apart = (x - x_there).abs().max((state.v - v_there).abs());
-                prop_assert!(apart <= 1e-13 * size, "{state:?} {x_there} {v_there}");
-            }
-            let highest = curve.iter().map(|state| state.v).fold(0.0, f64::max);
-            prop_assert!(highest <= cycle.v_max * (1.0 + 1e-14));
         }
 
         #[test]
