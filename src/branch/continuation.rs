@@ -183,27 +183,20 @@ impl<'a> CycleCurve<'a> {
     /// Bisection until Newton's method takes over. In D, D3 and r the residual falls everywhere, because
     /// each of them takes energy from every swing: then it is the only cycle of this clearance.
     pub fn bracketed(&mut self, u: f64, range: (f64, f64)) -> Result<Option<CurvePoint>, Reason> {
-        /// Halvings after which the bracket is as fine as the parameter.
-        const HALVINGS: u32 = 60;
-        /// Newton's method is tried after this many of them.
-        const OFTEN: u32 = 4;
-        let (mut halvings, mut found) = (0, None);
-        // What Newton's method finds ends the bisection where an error would.
-        let falls = try_bisect(range.0, range.1, HALVINGS, |p| {
-            halvings += 1;
-            if halvings % OFTEN == 0 {
-                let near = (u, p);
-                found = self.correct(near, Tangent::ACROSS_P, Route::Mixed).map_err(Some)?;
-                if found.is_some() {
-                    return Err(None);
-                }
+        /// Newton's method is tried after this many halvings, so often that the bracket is then as fine as the parameter.
+        const HALVINGS: u32 = 4;
+        const TIMES: usize = 15;
+        let (mut low, mut high) = range;
+        for _ in 0..TIMES {
+            let falls = |p| Ok(self.value(u, p)? <= 0.0);
+            (low, high) = try_bisect(low, high, HALVINGS, falls)?;
+            let near = (u, f64::midpoint(low, high));
+            let found = self.correct(near, Tangent::ACROSS_P, Route::Mixed)?;
+            if found.is_some() {
+                return Ok(found);
             }
-            Ok(self.value(u, p).map_err(Some)? <= 0.0)
-        });
-        match falls {
-            Err(Some(reason)) => Err(reason),
-            Ok(_) | Err(None) => Ok(found),
         }
+        Ok(None)
     }
 
     /// The residual of the mixed route, infinite with its sign where a swing does not end.
