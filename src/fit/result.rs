@@ -17,6 +17,7 @@ use super::{
 };
 use crate::flow::Problem;
 use crate::model::belt::Units;
+use crate::model::unit::dimension_of;
 use crate::model::{Knob, State};
 use crate::numerics::{powi, real};
 
@@ -263,25 +264,24 @@ pub struct EstimatedNumber {
     pub unit: &'static str,
 }
 
-/// A quantity as the mass times a factor, powers of `omega0` and of the unit of length, and one of the unknowns.
+/// A quantity as the mass times a factor, powers of `omega0` and of the unit of length that its unit tells, and one of the
+/// unknowns.
 struct Law {
     name: &'static str,
     unit: &'static str,
     factor: f64,
     unknown: Option<usize>,
-    omega0: i32,
-    length: i32,
 }
 
 /// With `x = offset + q` and `tau = omega0 t`, the model multiplied by the stiffness is
 /// `m x'' + d1 x' + d2 x'^2 + d3 x'^3 + c (x - offset) = friction within -R .. R`.
 const LAWS: [Law; 6] = [
-    Law { name: "m", unit: "kg", factor: 1.0, unknown: None, omega0: 0, length: 0 },
-    Law { name: "c", unit: "N/m", factor: 1.0, unknown: None, omega0: 2, length: 0 },
-    Law { name: "d1", unit: "N s/m", factor: 2.0, unknown: Some(D), omega0: 1, length: 0 },
-    Law { name: "d2", unit: "N s^2/m^2", factor: 1.0, unknown: Some(D2), omega0: 0, length: -1 },
-    Law { name: "d3", unit: "N s^3/m^3", factor: 1.0, unknown: Some(D3), omega0: -1, length: -2 },
-    Law { name: "R", unit: "N", factor: 1.0, unknown: Some(R), omega0: 2, length: 1 },
+    Law { name: "m", unit: "kg", factor: 1.0, unknown: None },
+    Law { name: "c", unit: "N/m", factor: 1.0, unknown: None },
+    Law { name: "d1", unit: "N s/m", factor: 2.0, unknown: Some(D) },
+    Law { name: "d2", unit: "N s^2/m^2", factor: 1.0, unknown: Some(D2) },
+    Law { name: "d3", unit: "N s^3/m^3", factor: 1.0, unknown: Some(D3) },
+    Law { name: "R", unit: "N", factor: 1.0, unknown: Some(R) },
 ];
 
 /// The physical numbers with standard errors from the covariance of the fit; none if neither mass nor stiffness is
@@ -294,10 +294,10 @@ pub fn rows(fitted: &FitResult) -> Vec<EstimatedNumber> {
 fn row(fitted: &FitResult, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNumber {
     let estimate = &fitted.estimate;
     let omega0 = estimate.p[OMEGA0];
-    let scale = law.factor * powi(metres, law.length);
-    let constant = scale * inertia.times(omega0, law.omega0);
+    let [_, length, time] = dimension_of(law.unit).map(i32::from);
+    let constant = law.factor * powi(metres, length) * inertia.times(omega0, -time);
     let number = law.unknown.map_or(1.0, |unknown| estimate.p[unknown]);
-    let power = f64::from(law.omega0 - inertia.power());
+    let power = f64::from(-time - inertia.power());
     let mut gradient = vec![(OMEGA0, constant * number * power / omega0)];
     gradient.extend(law.unknown.map(|unknown| (unknown, constant)));
     let standard_error = estimate.covariance.error_of(&gradient);
