@@ -46,7 +46,7 @@ pub struct SmoothingSpline {
     pieces: Vec<Quintic>,
     /// Root mean square distance from the points.
     #[serde(skip)]
-    missed: f64,
+    pub missed: f64,
 }
 
 impl TryFrom<ScatteredPoints> for SmoothingSpline {
@@ -109,11 +109,6 @@ impl SmoothingSpline {
         let points = self.given.points.iter().flat_map(|(x, y)| [*x, *y]);
         let bytes = points.chain([self.given.scatter]).flat_map(f64::to_le_bytes);
         bytes.fold(0x811c_9dc5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
-    }
-
-    /// Root mean square distance from the points.
-    pub fn missed(&self) -> f64 {
-        self.missed
     }
 
     /// The pieces in order: their two ends, and the coefficients in powers of the distance from the left end.
@@ -373,7 +368,7 @@ mod tests {
             point.1 += 0.01 * 12.0_f64.sqrt() * even;
         }
         let spline = SmoothingSpline::new(&points, 0.01).unwrap();
-        assert!((spline.missed() - 0.01).abs() < 1e-6, "{}", spline.missed());
+        assert!((spline.missed - 0.01).abs() < 1e-6, "{}", spline.missed);
         let rough = SmoothingSpline::new(&points, 0.0).unwrap();
         let slope = (stribeck(0.5) - 0.2) / -0.3;
         let (smooth, rough) = (spline.at(0.5).first, rough.at(0.5).first);

@@ -136,7 +136,7 @@ pub enum MapCell {
 impl ScanMap {
     /// The map of a scan; of more than two parameters the others stay at their first values.
     pub fn of(scanned: &ScanOnShow) -> Option<Self> {
-        let [across, upward, rest @ ..] = scanned.scan.over() else { return None };
+        let [across, upward, rest @ ..] = &scanned.scan.over[..] else { return None };
         let stride: usize = rest.iter().map(|sweep| sweep.count).product();
         let places = |sweep: &Sweep| -> Vec<f64> {
             (0..sweep.count).map(|index| ScanOnShow::coordinate(sweep, index)).collect()

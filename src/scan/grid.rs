@@ -20,8 +20,10 @@ pub const MOST_POINTS: usize = 1_000_000_000;
 pub struct Scan {
     /// What is scanned: the sweeps replace its numbers.
     base: Subject,
-    over: Vec<Sweep>,
-    measures: Vec<Measure>,
+    /// The parameters that are scanned over; the last one varies fastest.
+    pub over: Vec<Sweep>,
+    /// What is measured at each point.
+    pub measures: Vec<Measure>,
     conditions: Conditions,
 }
 
@@ -64,15 +66,6 @@ impl Scan {
             return Err(format!("too many points; allowed: {MOST_POINTS}"));
         }
         Ok(Scan { base, over, measures, conditions })
-    }
-
-    /// The parameters that are scanned over; the last one varies fastest.
-    pub fn over(&self) -> &[Sweep] {
-        &self.over
-    }
-
-    pub fn measures(&self) -> &[Measure] {
-        &self.measures
     }
 
     /// How many points there are.

@@ -45,7 +45,7 @@ fn quantities(expansion: &CubicExpansion) -> Document {
     let Derivatives { value, first, second, third } = reduced.mu;
     // Root mean square distance of a table's points from the law.
     let missed = match &belt.law {
-        FrictionLaw::Table(spline) => Some(spline.missed()),
+        FrictionLaw::Table(spline) => Some(spline.missed),
         _ => None,
     };
     let friction = Document::default()

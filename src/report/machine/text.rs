@@ -115,7 +115,7 @@ pub(super) fn friction(CubicExpansion { belt, reduced, .. }: &CubicExpansion) ->
     let Derivatives { value, first, second, third } = reduced.mu;
     let from = match &belt.law {
         FrictionLaw::Table(spline) => {
-            let (points, away) = (spline.points(), significant(spline.missed(), 3));
+            let (points, away) = (spline.points(), significant(spline.missed, 3));
             format!("the smoothest curve near {points} points, {away} away in the quadratic mean")
         }
         law => law.name().to_owned(),

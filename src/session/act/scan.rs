@@ -28,8 +28,8 @@ pub fn open(session: &mut Session) {
 
 /// A scan as it is typed.
 fn typed(scan: &Scan) -> String {
-    let over = scan.over().iter().map(ToString::to_string);
-    let measures = scan.measures().iter().map(|measure| measure.spec().name);
+    let over = scan.over.iter().map(ToString::to_string);
+    let measures = scan.measures.iter().map(|measure| measure.spec().name);
     over.chain([measures.collect::<Vec<_>>().join(",")]).collect::<Vec<_>>().join(" ")
 }
 
@@ -149,7 +149,7 @@ pub(crate) fn refit(session: &mut Session) {
 pub fn go(session: &mut Session, [right, up]: [isize; 2]) -> Done {
     let scanned = scanned(session)?;
     let last = scanned.scan.points().saturating_sub(1);
-    let over = scanned.scan.over();
+    let over = &scanned.scan.over;
     if scanned.table || !scanned.is_grid() {
         scanned.at = scanned.at.saturating_add_signed(right.saturating_sub(up)).min(last);
         return Ok(());
@@ -168,7 +168,7 @@ pub fn take(session: &mut Session) -> Done {
     let scanned = scanned(session)?;
     let (scan, place) = (scanned.scan.clone(), scanned.scan.place(scanned.at));
     let (mut setup, mut said) = (session.setup(), Vec::new());
-    for (sweep, which) in scan.over().iter().zip(place) {
+    for (sweep, which) in scan.over.iter().zip(place) {
         let (knob, value) = (sweep.symbol, sweep.value(which));
         setup = session.with(&setup, knob, value)?;
         said.push(format!("{knob} = {}", knob.print(value)));
