@@ -7,7 +7,7 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Crossing, Detail, Limits, Method, Motion, Outcome, Problem};
 use crate::model::parameters::energy;
 use crate::model::{Parameters, State};
-use crate::numerics::{amount, times_power};
+use crate::numerics::{amount, cells, times_power};
 
 /// One of them by one method.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -26,25 +26,8 @@ pub struct NamedExtreme {
 const NONLINEAR: [Method; 5] =
     [Method::Auto, Method::Taylor, Method::Dop853, Method::Dopri5, Method::Stiff];
 
-/// A motion that runs to infinity: what it is, its D, D2 and D3, its start, and when it gets there.
-///
-/// The times were computed with 40 digits by Taylor series of order 40; where only D2 acts, they agree
-/// with the integral of `dx/v` from the first integral of the motion.
-type BlowUp = (&'static str, [f64; 3], (f64, f64), f64);
-
-const BLOW_UPS: [BlowUp; 6] = [
-    ("blow-up beyond the parabola of D2", [0.0, -1.0, 0.0], (0.1, 3.0), 0.338_881_285_452_042_3),
-    ("blow-up close to the parabola of D2", [0.0, -0.5, 0.0], (-0.2, 2.5), 0.846_439_335_312_472_2),
-    ("blow-up by D3 < 0", [0.0, 0.0, -1.0], (0.1, 2.0), 0.126_165_782_926_803_04),
-    ("blow-up by D < 0 and D3 < 0", [-0.1, 0.0, -0.5], (0.5, 1.5), 0.489_627_247_499_876_8),
-    (
-        "blow-up by D3 < 0 against D and D2",
-        [0.2, 0.3, -0.1],
-        (0.1, 40.0),
-        0.003_295_064_729_575_763_5,
-    ),
-    ("blow-up by all damping together", [-0.5, -0.2, -2.0], (0.3, 1.2), 0.147_045_254_234_713_24),
-];
+/// Motions that run to infinity, and when they get there.
+const BLOW_UPS: &str = include_str!("../../../assets/blow_ups.txt");
 
 /// Every named extreme by the methods that serve it.
 pub fn named(limits: &Limits) -> Vec<NamedExtreme> {
@@ -52,8 +35,9 @@ pub fn named(limits: &Limits) -> Vec<NamedExtreme> {
         million_swings(Method::Exact, 1e-13, 1e-15, limits),
         million_swings(Method::Taylor, 1e-15, 1e-13, limits),
     ];
-    for case in &BLOW_UPS {
-        all.extend(NONLINEAR.map(|method| blow_up(case, method, limits)));
+    for [what, numbers @ ..] in BLOW_UPS.lines().filter_map(cells::<7>) {
+        let numbers = numbers.map(|number| number.parse().unwrap_or(f64::NAN));
+        all.extend(NONLINEAR.map(|method| blow_up(what, numbers, method, limits)));
     }
     all.extend([Method::Auto, Method::Stiff].map(|method| far_out(method, limits)));
     all.extend(NONLINEAR.map(|method| scaled_and_mirrored(method, limits)));
@@ -91,8 +75,10 @@ fn million_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits)
     })
 }
 
+/// A motion that runs to infinity, whose line has these numbers.
 fn blow_up(
-    &(what, [d, d2, d3], (q, v), time): &BlowUp,
+    what: &'static str,
+    [d, d2, d3, q, v, time]: [f64; 6],
     method: Method,
     limits: &Limits,
 ) -> NamedExtreme {
