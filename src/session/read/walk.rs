@@ -44,25 +44,18 @@ impl BranchPath {
 
     /// Inserts a special point where the detour over it is shortest.
     fn insert(&mut self, special: BranchStop) {
+        let apart = |one: Option<&BranchStop>, other: Option<&BranchStop>| {
+            one.zip(other).map_or(0.0, |(one, other)| self.apart(one, other))
+        };
         let mut best: Option<(f64, Position)> = None;
         let numbered = self.pieces.iter().enumerate();
-        let same =
-            |piece: &[BranchStop]| piece.first().is_some_and(|it| it.variant == special.variant);
-        for (index, piece) in numbered.filter(|(_, piece)| same(piece)) {
+        for (index, piece) in numbered.filter(|(_, piece)| piece[0].variant == special.variant) {
             for gap in 0..=piece.len() {
                 let around = (gap.checked_sub(1).map(|last| &piece[last]), piece.get(gap));
-                if !admits(special.special, around) {
-                    continue;
-                }
-                let detour = match around {
-                    (Some(one), Some(other)) => {
-                        self.apart(one, &special) + self.apart(&special, other)
-                            - self.apart(one, other)
-                    }
-                    (Some(end), None) | (None, Some(end)) => self.apart(end, &special),
-                    (None, None) => continue,
-                };
-                if best.is_none_or(|(least, _)| detour < least) {
+                let detour = apart(around.0, Some(&special)) + apart(Some(&special), around.1)
+                    - apart(around.0, around.1);
+                let is_shorter = best.is_none_or(|(least, _)| detour < least);
+                if is_shorter && admits(special.special, around) {
                     best = Some((detour, (index, gap)));
                 }
             }
