@@ -49,7 +49,9 @@ impl BranchPath {
         };
         let mut best: Option<(f64, Position)> = None;
         let numbered = self.pieces.iter().enumerate();
-        for (index, piece) in numbered.filter(|(_, piece)| piece[0].variant == special.variant) {
+        let same =
+            |piece: &[BranchStop]| piece.first().is_some_and(|it| it.variant == special.variant);
+        for (index, piece) in numbered.filter(|(_, piece)| same(piece)) {
             for gap in 0..=piece.len() {
                 let around = (gap.checked_sub(1).map(|last| &piece[last]), piece.get(gap));
                 let detour = apart(around.0, Some(&special)) + apart(Some(&special), around.1)
