@@ -18,7 +18,7 @@ use crate::scene::{Scene, find, plain};
 use crate::session::config::Config;
 use crate::session::replay::{Instruction, Recorder, Script};
 use crate::session::save::opening;
-use crate::session::{InterruptedSession, Msg, Session, Size, save};
+use crate::session::{KeptSession, Msg, Session, Size, save};
 use crate::terminal::Environment;
 use crate::words::joined;
 
@@ -165,13 +165,13 @@ pub fn go(
 }
 
 /// An interrupted session, with a summary of its content.
-fn kept((ended, path): (SystemTime, PathBuf)) -> InterruptedSession {
+fn kept((ended, path): (SystemTime, PathBuf)) -> KeptSession {
     let what = Files::read(&path).and_then(|text| save::summary(&text));
     let what = what.unwrap_or_else(|why| {
         let why = why.strip_prefix(&format!("{}: ", path.display())).unwrap_or(&why);
         format!("cannot be resumed: {why}")
     });
-    InterruptedSession { when: ago(ended.elapsed().unwrap_or_default().as_secs()), what, path }
+    KeptSession { when: ago(ended.elapsed().unwrap_or_default().as_secs()), what, path }
 }
 
 /// `just now`, `5 min ago`, `yesterday`.

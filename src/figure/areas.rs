@@ -98,7 +98,7 @@ pub(super) fn polygons(at: &Texture, window: Window) -> Vec<(Fill, Vec<Point>)> 
 type FillRun = (f64, Option<Fill>);
 
 /// A polygon that the next strip may continue with.
-struct OpenPolygon {
+struct Polygon {
     fill: Option<Fill>,
     left: Vec<Point>,
     right: Vec<Point>,
@@ -107,7 +107,7 @@ struct OpenPolygon {
 struct Cutter<'a> {
     at: &'a Texture<'a>,
     window: Window,
-    open: Vec<OpenPolygon>,
+    open: Vec<Polygon>,
     done: Vec<(Fill, Vec<Point>)>,
 }
 
@@ -162,14 +162,14 @@ impl Cutter<'_> {
         let apart = 0.1 / f64::from(PLACES) * self.window.x.width();
         let begun = |((_, fill), ends): (&FillRun, &[Point])| {
             let [left, right] = [ends[0], ends[1]].map(|end| vec![end]);
-            OpenPolygon { fill: *fill, left, right }
+            Polygon { fill: *fill, left, right }
         };
         let begun: Vec<_> = lower.1.iter().zip(below.windows(2)).map(begun).collect();
         let meets = |side: &[Point], other: &[Point]| {
             let ends = side.last().zip(other.last());
             ends.is_some_and(|(one, other)| (one.x - other.x).abs() < apart)
         };
-        let goes_on = |(open, next): (&OpenPolygon, &OpenPolygon)| {
+        let goes_on = |(open, next): (&Polygon, &Polygon)| {
             let sides = meets(&open.left, &next.left) && meets(&open.right, &next.right);
             open.fill == next.fill && sides
         };
@@ -186,7 +186,7 @@ impl Cutter<'_> {
 
     /// Ends the polygons that are open.
     fn close(&mut self) {
-        for OpenPolygon { fill, left, right } in self.open.drain(..) {
+        for Polygon { fill, left, right } in self.open.drain(..) {
             let Some(fill) = fill else { continue };
             let mut corners = left;
             corners.extend(right.into_iter().rev());

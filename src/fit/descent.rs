@@ -10,7 +10,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::task::{LinearResiduals, Optimum, Task};
-use super::{Bound, Comparison, R, UNKNOWNS, Unknowns, UnknownsMatrix, direction};
+use super::{Bound, Misfit, R, UNKNOWNS, Unknowns, UnknownsMatrix, direction};
 use crate::numerics::powi;
 
 /// Maximum number of iterations.
@@ -25,7 +25,7 @@ const SETTLED: f64 = 1e-10;
 impl Task<'_> {
     /// What a step must not violate: friction is not negative, and the rims around the region are not crossed. A
     /// step goes only a part of the way to a rim.
-    fn bounds(&self, p: &Unknowns, seen: &Comparison) -> Vec<Bound> {
+    fn bounds(&self, p: &Unknowns, seen: &Misfit) -> Vec<Bound> {
         const PART: f64 = 0.9;
         let mut bounds = Vec::new();
         if self.free[R] {
@@ -63,7 +63,7 @@ impl Task<'_> {
 
     fn solve_within(&self, enough: f64, most: usize, guess: Unknowns) -> Option<Optimum> {
         // A descent may not leave its region.
-        let permits = |seen: &Comparison| self.within.is_none_or(|region| region == seen.region);
+        let permits = |seen: &Misfit| self.within.is_none_or(|region| region == seen.region);
         let mut p = guess;
         let mut seen = self.evaluated(&p, true)?;
         if !permits(&seen) {
@@ -119,7 +119,7 @@ struct LinearModel {
 }
 
 impl LinearModel {
-    fn of(task: &Task, seen: &Comparison) -> Self {
+    fn of(task: &Task, seen: &Misfit) -> Self {
         let (free, norms) = (task.columns().count(), Unknowns::zeros());
         let mut model = LinearModel { free, residuals: LinearResiduals::default(), norms };
         model.renew(task.factor(seen));

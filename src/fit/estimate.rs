@@ -243,7 +243,7 @@ fn intervals(
 
 /// Samples that do not count, with at most one between two of them that does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct OmittedSpan {
+pub struct Omission {
     /// Time of the first, in s.
     pub from: f64,
     /// Time of the last, in s.
@@ -253,7 +253,7 @@ pub struct OmittedSpan {
 }
 
 /// All samples of a record that do not count, in the order of their times; none for a list of peaks.
-pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<OmittedSpan> {
+pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<Omission> {
     if estimate.data.has_peaks() {
         return Vec::new();
     }
@@ -262,8 +262,8 @@ pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<OmittedSpan> {
 }
 
 /// Stretches of the times of samples that do not count.
-fn stretches(samples: impl Iterator<Item = (f64, bool)>) -> Vec<OmittedSpan> {
-    let mut found: Vec<OmittedSpan> = Vec::new();
+fn stretches(samples: impl Iterator<Item = (f64, bool)>) -> Vec<Omission> {
+    let mut found: Vec<Omission> = Vec::new();
     let mut since = 0;
     for (t, counts) in samples {
         if counts {
@@ -272,7 +272,7 @@ fn stretches(samples: impl Iterator<Item = (f64, bool)>) -> Vec<OmittedSpan> {
         }
         match found.last_mut() {
             Some(last) if since <= 1 => (last.to, last.samples) = (t, last.samples + 1),
-            _ => found.push(OmittedSpan { from: t, to: t, samples: 1 }),
+            _ => found.push(Omission { from: t, to: t, samples: 1 }),
         }
         since = 0;
     }
@@ -397,7 +397,7 @@ mod tests {
     fn samples_that_do_not_count_are_found_in_stretches() {
         let of =
             |counted: &[u8]| stretches((0..12_u8).map(|t| (f64::from(t), counted.contains(&t))));
-        let stretch = |from: i32, to: i32, samples| OmittedSpan {
+        let stretch = |from: i32, to: i32, samples| Omission {
             from: f64::from(from),
             to: f64::from(to),
             samples,

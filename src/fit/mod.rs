@@ -81,14 +81,14 @@ pub use {
 pub(crate) use {
     curves::{Curves, Extent, PlotPoint, memory},
     drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
-    estimate::{OmittedSpan, RISES, held, judged, left_out},
+    estimate::{Omission, RISES, held, judged, left_out},
     guess::{Beginning, Guess, guess, period_of},
     margin::MarginSpread,
     motion::{FittedTurn, LostMotion, follow},
     noise::{
         IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,
     },
-    observation::{Bound, Comparison, Region, drift},
+    observation::{Bound, Misfit, Region, drift},
     posterior::{Draws, FEWEST, drawn},
     question::{Loss, UnknownsMatrix, assigned, direction, listed, placed, reach, row_of},
     record::decoded,

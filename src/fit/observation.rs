@@ -69,7 +69,7 @@ pub struct Residual {
 
 /// The model compared with the whole record.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Comparison {
+pub struct Misfit {
     /// One for each measured number.
     pub residuals: Vec<Residual>,
     /// The turning points within the record.
@@ -89,7 +89,7 @@ pub type Region = Option<usize>;
 /// derivatives.
 pub type Bound = (f64, Unknowns);
 
-impl Comparison {
+impl Misfit {
     /// The distances of the last turning points from the rims that bound the region.
     pub fn clearances(&self, p: &Unknowns, data: &Record, start: StartKind) -> Vec<Bound> {
         // What follows the last of a list of peaks is not seen, so that it may lie on either side of the rim.
@@ -114,12 +114,7 @@ impl Record {
     ///
     /// # Errors
     /// [`LostMotion`] if the motion of the model escapes before the record ends.
-    pub fn compare(
-        &self,
-        start: StartKind,
-        p: &Unknowns,
-        way: Way,
-    ) -> Result<Comparison, LostMotion> {
+    pub fn compare(&self, start: StartKind, p: &Unknowns, way: Way) -> Result<Misfit, LostMotion> {
         if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
             return Err(LostMotion);
         }
@@ -130,7 +125,7 @@ impl Record {
         }
     }
 
-    fn samples(&self, begin: StartKind, p: &Unknowns, way: Way) -> Result<Comparison, LostMotion> {
+    fn samples(&self, begin: StartKind, p: &Unknowns, way: Way) -> Result<Misfit, LostMotion> {
         let Record { t, x, .. } = self;
         // Before the motion begins the mass is held.
         let (origin, start) = begin.beginning(p, t);
@@ -161,12 +156,12 @@ impl Record {
             push(held + index, at, by, scale * point.signal);
         })?;
         let region = followed.rests.then_some(followed.turns.len());
-        Ok(Comparison { residuals, turns: followed.turns, rests: followed.rests, region })
+        Ok(Misfit { residuals, turns: followed.turns, rests: followed.rests, region })
     }
 }
 
 /// Compares turning points; residuals of times are divided by `ratio`.
-fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Comparison, LostMotion> {
+fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Misfit, LostMotion> {
     /// Upper bound of the duration of a half swing, in a motion that keeps oscillating.
     const SLOWEST: f64 = 50.0;
     let x = &data.x;
@@ -204,5 +199,5 @@ fn peaks(p: &Unknowns, data: &Record, ratio: f64, way: Way) -> Result<Comparison
     // What follows the last peak is not seen.
     let rests = followed.rests && followed.turns.len() + 1 < x.len();
     let region = rests.then_some(followed.turns.len());
-    Ok(Comparison { residuals, turns: followed.turns, rests: followed.rests, region })
+    Ok(Misfit { residuals, turns: followed.turns, rests: followed.rests, region })
 }

@@ -9,8 +9,7 @@
 use rayon::prelude::*;
 
 use super::{
-    Comparison, D, D2, D3, Estimate, R, Runs, Task, Unknowns, UnknownsMatrix, chi_squared,
-    normal_at,
+    D, D2, D3, Estimate, Misfit, R, Runs, Task, Unknowns, UnknownsMatrix, chi_squared, normal_at,
 };
 use crate::flow::{Limits, Reason};
 use crate::numerics::{amount, exp, ln, pow, real};
@@ -229,7 +228,7 @@ struct LastDraw {
 }
 
 /// The residuals along the directions, and the derivatives of the motion along them.
-fn seen_along(task: &Task, along: &[Unknowns], seen: &Comparison) -> (Unknowns, UnknownsMatrix) {
+fn seen_along(task: &Task, along: &[Unknowns], seen: &Misfit) -> (Unknowns, UnknownsMatrix) {
     let (mut values, mut by) = (Unknowns::zeros(), task.held());
     for (along, residual) in along.iter().zip(task.used_residuals(seen)) {
         values.axpy(residual.value, along, 1.0);

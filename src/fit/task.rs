@@ -5,8 +5,8 @@ use std::cell::{Cell, OnceCell};
 use nalgebra::{DMatrix, SMatrix};
 
 use super::{
-    BEND, Comparison, IMPOSSIBLE, Loss, NoEstimate, OMEGA0, Record, Region, Residual, SLOPE,
-    StartKind, UNKNOWNS, Unknowns, UnknownsMatrix, Way, robust_deviation, whiteness,
+    BEND, IMPOSSIBLE, Loss, Misfit, NoEstimate, OMEGA0, Record, Region, Residual, SLOPE, StartKind,
+    UNKNOWNS, Unknowns, UnknownsMatrix, Way, robust_deviation, whiteness,
 };
 use crate::numerics::real;
 
@@ -69,7 +69,7 @@ pub struct Optimum {
     /// The loss, in squared units of the residuals.
     pub cost: f64,
     /// The model compared with the record, with derivatives.
-    pub seen: Comparison,
+    pub seen: Misfit,
 }
 
 /// Why a sample does not count.
@@ -175,7 +175,7 @@ impl<'a> Task<'a> {
     }
 
     /// The same within the region of a motion.
-    pub fn around(self, seen: &Comparison) -> Self {
+    pub fn around(self, seen: &Misfit) -> Self {
         Task { within: Some(seen.region), ..self }
     }
 
@@ -196,18 +196,18 @@ impl<'a> Task<'a> {
     }
 
     /// The residuals that count.
-    pub fn used_residuals<'s>(&self, seen: &'s Comparison) -> impl Iterator<Item = &'s Residual> {
+    pub fn used_residuals<'s>(&self, seen: &'s Misfit) -> impl Iterator<Item = &'s Residual> {
         let used = seen.residuals.iter().enumerate().filter(|(index, _)| self.counts(*index));
         used.map(|(_, residual)| residual)
     }
 
     /// The values of the residuals that count.
-    pub fn values(&self, seen: &Comparison) -> Vec<f64> {
+    pub fn values(&self, seen: &Misfit) -> Vec<f64> {
         self.used_residuals(seen).map(|residual| residual.value).collect()
     }
 
     /// The loss of a motion.
-    pub fn cost(&self, seen: &Comparison) -> f64 {
+    pub fn cost(&self, seen: &Misfit) -> f64 {
         self.used_residuals(seen).map(|residual| self.loss.of(residual.value)).sum()
     }
 
@@ -218,7 +218,7 @@ impl<'a> Task<'a> {
 
     /// Compares the model with the record, and counts the motion; `None` if the motion of the model escapes, or if the
     /// computation has ended.
-    pub fn evaluated(&self, p: &Unknowns, with_derivatives: bool) -> Option<Comparison> {
+    pub fn evaluated(&self, p: &Unknowns, with_derivatives: bool) -> Option<Misfit> {
         self.runs.count(with_derivatives)?;
         let way = Way { with_derivatives, reach: self.reach, ..Way::default() };
         self.data.compare(self.start, p, way).ok()
@@ -242,7 +242,7 @@ impl<'a> Task<'a> {
 
     /// The triangular factor of the weighted gradients of the free unknowns, and the vector to which the orthogonal factor
     /// turns the residuals, with what is left of them beyond. Each held unknown has a row of its own, a unit vector.
-    pub fn factor(&self, seen: &Comparison) -> LinearResiduals {
+    pub fn factor(&self, seen: &Misfit) -> LinearResiduals {
         /// Number of rows that are factored together, few enough to stay in the cache.
         const BLOCK: usize = 128;
         const WIDTH: usize = UNKNOWNS + 1;
@@ -272,7 +272,7 @@ impl<'a> Task<'a> {
 
     /// The rows of Q if the weighted gradients of the residuals that count are `Q U`, with an orthogonal Q and a
     /// triangular U.
-    pub fn directions(&self, seen: &Comparison) -> Vec<Unknowns> {
+    pub fn directions(&self, seen: &Misfit) -> Vec<Unknowns> {
         let lower = self.factor(seen).upper.transpose();
         let row = |it: &Residual| {
             let row = self.loss.weight(it.value).sqrt() * self.by_free(&it.by);

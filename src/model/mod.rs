@@ -49,7 +49,7 @@ pub use half_plane::{Field, HalfPlane, PlaneField, Side};
 pub use interval::{Interval, ParameterBox};
 pub(crate) use knob::unknown;
 pub use knob::{Group, KNOBS, Knob, KnobSpec, RangeError};
-pub use modal::VibrationMode;
+pub use modal::Mode;
 pub use model::{ContactState, Lines, Model, Phase};
 pub use parameters::{Ledger, Parameters, State, Work};
 pub use reason::Reason;

@@ -2,7 +2,7 @@
 
 /// A vibration mode: what feeds and damps it is a polynomial in its velocity.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct VibrationMode {
+pub struct Mode {
     /// Natural frequency, in cycles a second.
     pub frequency: f64,
     /// Modal mass, in kg.

@@ -12,7 +12,7 @@
 
 use super::force::{ForceBranch, ForcePiece, branch};
 use super::reach::first_below_zero;
-use crate::model::{Belt, Parameters, Reason, VibrationMode};
+use crate::model::{Belt, Mode, Parameters, Reason};
 use crate::numerics::elementary::powi;
 
 /// The last terms of a step are this small against the state where nothing else is asked for.
@@ -302,7 +302,7 @@ impl Model {
     }
 }
 
-impl VibrationMode {
+impl Mode {
     /// Its whole model.
     ///
     /// # Errors

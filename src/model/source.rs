@@ -6,9 +6,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::model::Model;
-use crate::model::{
-    Belt, Group, Interval, KNOBS, Knob, ParameterBox, Parameters, Reason, VibrationMode,
-};
+use crate::model::{Belt, Group, Interval, KNOBS, Knob, Mode, ParameterBox, Parameters, Reason};
 
 /// The oscillator of the paper, a mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +16,7 @@ pub enum Body {
     /// A mass on a belt.
     Belt(Box<Belt>),
     /// A vibration mode.
-    Mode(VibrationMode),
+    Mode(Mode),
 }
 
 /// What yields a model, and how exactly it is computed.

@@ -46,7 +46,7 @@ impl Kick {
 /// The friction that a margin needs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
-pub enum RequiredFriction {
+pub enum FrictionNeed {
     /// Any, however small.
     Any,
     /// This much: the margin is then as wanted.
@@ -63,12 +63,12 @@ pub enum RequiredFriction {
     },
 }
 
-impl RequiredFriction {
+impl FrictionNeed {
     /// The least friction; `None` if any suffices.
     pub fn least(self) -> Option<f64> {
         match self {
-            RequiredFriction::Any => None,
-            RequiredFriction::Friction { r } | RequiredFriction::Fold { r, .. } => Some(r),
+            FrictionNeed::Any => None,
+            FrictionNeed::Friction { r } | FrictionNeed::Fold { r, .. } => Some(r),
         }
     }
 }
@@ -96,7 +96,7 @@ pub fn friction_for(
     kick: Kick,
     wanted: f64,
     limits: &Limits,
-) -> Result<(Option<RequiredFriction>, Cost), Reason> {
+) -> Result<(Option<FrictionNeed>, Cost), Reason> {
     if !(wanted > 0.0 && wanted.is_finite()) {
         return Err(Reason::NotApplicable { needs: "a positive margin" });
     }
@@ -154,14 +154,14 @@ fn least_friction(
     (kick, wanted): (Kick, f64),
     (first, any): (f64, Option<f64>),
     margin: &mut dyn FnMut(f64) -> Result<Margin, Reason>,
-) -> Result<Option<RequiredFriction>, Reason> {
+) -> Result<Option<FrictionNeed>, Reason> {
     // Logarithm of the margin, as a fraction of the one wanted.
     let mut excess =
         |r: f64| -> Result<f64, Reason> { Ok(ln(kick.margin(&margin(r)?) / wanted).max(f64::MIN)) };
     if let Some(r) = any
         && excess(r)? >= 0.0
     {
-        return Ok(Some(RequiredFriction::Any));
+        return Ok(Some(FrictionNeed::Any));
     }
     // A displacement within the sticking set is kept: the first is high enough, or nearly so.
     let mut high = FrictionTrial { r: first, excess: excess(first)? };
@@ -202,12 +202,12 @@ fn least_friction(
         return Err(error);
     }
     if low.excess >= -WIDTH {
-        return Ok(Some(RequiredFriction::Friction { r: low.r }));
+        return Ok(Some(FrictionNeed::Friction { r: low.r }));
     }
     Ok(Some(if high.excess.is_finite() {
-        RequiredFriction::Friction { r: high.r }
+        FrictionNeed::Friction { r: high.r }
     } else {
-        RequiredFriction::Fold { r: high.r, below: wanted * exp(low.excess) }
+        FrictionNeed::Fold { r: high.r, below: wanted * exp(low.excess) }
     }))
 }
 
@@ -223,13 +223,13 @@ mod tests {
         parameters: Parameters,
         kick: Kick,
         wanted: f64,
-    ) -> Result<Option<RequiredFriction>, Reason> {
+    ) -> Result<Option<FrictionNeed>, Reason> {
         let exact = Tolerances::default();
         let paper = Body::Paper(parameters).into();
         Ok(friction_for(&paper, &exact, kick, wanted, &Limits::PATIENT)?.0)
     }
 
-    fn needed(d: f64, d2: f64, d3: f64, kick: Kick, wanted: f64) -> RequiredFriction {
+    fn needed(d: f64, d2: f64, d3: f64, kick: Kick, wanted: f64) -> FrictionNeed {
         let parameters = Parameters { d, d2, d3, r: 7.0 };
         found(parameters, kick, wanted).unwrap().unwrap()
     }
@@ -243,8 +243,7 @@ mod tests {
     fn linear_margins_are_inverted_to_the_closed_form() {
         for d in [-0.9, -0.3, -0.01, -1e-6] {
             let unit = LinearCycle::new(d, 1.0).unwrap();
-            let RequiredFriction::Friction { r } = needed(d, 0.0, 0.0, Kick::Displacement, 0.3)
-            else {
+            let FrictionNeed::Friction { r } = needed(d, 0.0, 0.0, Kick::Displacement, 0.3) else {
                 panic!("D = {d} needs some friction")
             };
             assert!((r * unit.q_max / 0.3 - 1.0).abs() < 1e-9, "D = {d}: {r}");
@@ -258,7 +257,7 @@ mod tests {
         {
             for kick in [Kick::Displacement, Kick::Impulse] {
                 let found = needed(d, d2, d3, kick, 0.25);
-                let RequiredFriction::Friction { r } = found else {
+                let FrictionNeed::Friction { r } = found else {
                     panic!("{d} {d2} {d3}: {found:?}")
                 };
                 let margin = kick.margin(&margin(d, d2, d3, r));
@@ -270,7 +269,7 @@ mod tests {
     #[test]
     fn beyond_the_fold_every_kick_is_survived() {
         let found = needed(-0.1, 0.2, 0.4, Kick::Displacement, 5.0);
-        let RequiredFriction::Fold { r, below } = found else { panic!("{found:?}") };
+        let FrictionNeed::Fold { r, below } = found else { panic!("{found:?}") };
         let parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.4, r };
         let fold = fold(&parameters, &Limits::PATIENT).unwrap().0.unwrap();
         assert!((fold.d + 0.1).abs() < 1e-7, "{}", fold.d);
@@ -288,28 +287,25 @@ mod tests {
             let belt = Body::Belt(Box::new(slow.clone())).into();
             let kick = Kick::Displacement;
             let found = friction_for(&belt, &known, kick, wanted, &Limits::PATIENT).unwrap().0;
-            let Some(RequiredFriction::Fold { r, .. }) = found else {
-                panic!("{wanted} m: {found:?}")
-            };
+            let Some(FrictionNeed::Fold { r, .. }) = found else { panic!("{wanted} m: {found:?}") };
             assert!((r - 3.153_423_17).abs() < 1e-8, "{wanted} m: {r}");
         }
     }
 
     #[test]
     fn a_damped_rest_needs_no_friction_for_what_it_keeps_by_itself() {
-        assert_eq!(needed(0.1, 0.0, 0.0, Kick::Displacement, 1e3), RequiredFriction::Any);
-        assert_eq!(needed(0.1, 0.3, 0.2, Kick::Impulse, 1e3), RequiredFriction::Any);
-        assert_eq!(needed(0.0, 0.0, 0.0, Kick::Impulse, 1.0), RequiredFriction::Any);
+        assert_eq!(needed(0.1, 0.0, 0.0, Kick::Displacement, 1e3), FrictionNeed::Any);
+        assert_eq!(needed(0.1, 0.3, 0.2, Kick::Impulse, 1e3), FrictionNeed::Any);
+        assert_eq!(needed(0.0, 0.0, 0.0, Kick::Impulse, 1.0), FrictionNeed::Any);
         // Undamped with D2 alone: the parabola of escape begins at 1/(2 D2).
-        assert_eq!(needed(0.0, 0.5, 0.0, Kick::Displacement, 0.99), RequiredFriction::Any);
+        assert_eq!(needed(0.0, 0.5, 0.0, Kick::Displacement, 0.99), FrictionNeed::Any);
         assert!(matches!(
             needed(0.0, 0.5, 0.0, Kick::Displacement, 1.01),
-            RequiredFriction::Friction { .. }
+            FrictionNeed::Friction { .. }
         ));
         // With D3 < 0 an unstable cycle borders the basin without friction too, near sqrt(-8 D/(3 D3)).
-        assert_eq!(needed(0.1, 0.0, -0.3, Kick::Displacement, 0.9), RequiredFriction::Any);
-        let RequiredFriction::Friction { r } = needed(0.1, 0.0, -0.3, Kick::Displacement, 1.2)
-        else {
+        assert_eq!(needed(0.1, 0.0, -0.3, Kick::Displacement, 0.9), FrictionNeed::Any);
+        let FrictionNeed::Friction { r } = needed(0.1, 0.0, -0.3, Kick::Displacement, 1.2) else {
             panic!("some friction")
         };
         assert!((margin(0.1, 0.0, -0.3, r).displacement.unwrap() / 1.2 - 1.0).abs() < 1e-9);
@@ -342,8 +338,7 @@ mod tests {
 
     #[test]
     fn far_beyond_critical_damping_rest_itself_is_the_margin() {
-        let RequiredFriction::Friction { r } = needed(-1.5, 0.0, 0.0, Kick::Displacement, 0.3)
-        else {
+        let FrictionNeed::Friction { r } = needed(-1.5, 0.0, 0.0, Kick::Displacement, 0.3) else {
             panic!("some friction")
         };
         assert!((r / 0.3 - 1.0).abs() < 1e-12);

@@ -61,9 +61,9 @@ pub use closing::return_map::{Return, ReturnMap};
 pub(crate) use closing::search::Node;
 pub(crate) use closing::weak::weak_closing;
 pub use cycle::{Cycle, CycleErrors, Ride};
-pub(crate) use design::{Kick, RequiredFriction, friction_for};
+pub(crate) use design::{FrictionNeed, Kick, friction_for};
 pub(crate) use kicks::RandomKick;
-pub(crate) use kicks::repeated::RepeatedKicks;
+pub(crate) use kicks::repeated::Survival;
 pub use portrait::Portrait;
 
 // They stand in the model so that the proofs, which share nothing with this ring, say the same words.

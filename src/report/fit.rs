@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
     Combination, Condition, DropReason, FitResult, LAST, MarginSpread, Margins, NAMES, NameSpec,
-    OMEGA0, OmittedSpan, ProfileInterval, Q0, Record, StartKind, combination, left_out, rows,
+    OMEGA0, Omission, ProfileInterval, Q0, Record, StartKind, combination, left_out, rows,
 };
 use crate::portrait::Kicks;
 use crate::words::fit::{Statement, left_out as counts, sentences, signed, undetermined};
@@ -313,7 +313,7 @@ fn tested(conditions: &[Condition]) -> Table {
 /// Where the samples lie that do not count.
 fn places(fitted: &FitResult) -> String {
     let time = |t| significant(t, 6);
-    let place = |it: &OmittedSpan| match it.samples {
+    let place = |it: &Omission| match it.samples {
         1 => format!("{} s", time(it.from)),
         several => format!("{} .. {} s ({several} samples)", time(it.from), time(it.to)),
     };

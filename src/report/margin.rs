@@ -3,7 +3,7 @@
 use super::proof::kick_columns;
 use super::{About, Answer, Columns, Document, Quantity, cycles};
 use crate::portrait::guarantee::NoGuarantee;
-use crate::portrait::{Counts, Margin, Portrait, RandomKick, RepeatedKicks, StartWindow};
+use crate::portrait::{Counts, Margin, Portrait, RandomKick, StartWindow, Survival};
 use crate::proof::kicks::ProvedKicks;
 use crate::words::number::{rounded_down, significant};
 
@@ -116,13 +116,7 @@ pub fn basin(
 
 /// What becomes of random kicks; `held` is the farthest place of rest on either side. The mean is null in a document if
 /// no kick is ever lost; rows are the density of the places of rest, one for each cell of the sticking set.
-pub fn kicks(
-    about: &About,
-    law: &RandomKick,
-    found: &RepeatedKicks,
-    held: f64,
-    seconds: f64,
-) -> Answer {
+pub fn kicks(about: &About, law: &RandomKick, found: &Survival, held: f64, seconds: f64) -> Answer {
     let density = Columns::default()
         .file("q", |(q, _): &(f64, f64)| *q)
         .file("density", |(_, density)| *density);
@@ -142,7 +136,7 @@ pub fn kicks(
 }
 
 /// What is lost, and the mean number of kicks until one is.
-fn lost(RepeatedKicks { first, later, mean, error, .. }: &RepeatedKicks) -> [String; 4] {
+fn lost(Survival { first, later, mean, error, .. }: &Survival) -> [String; 4] {
     let number = |value: f64| significant(value, 6);
     let mean = if mean.is_finite() { number(*mean) } else { "none is ever lost".to_owned() };
     let (part, about) = (number(first.part), significant(first.error, 2));

@@ -4,7 +4,7 @@
 use super::portrait;
 use hopfscope::flow::{Fate, Flow, Reason};
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Belt, Body, Source, VibrationMode};
+use hopfscope::model::{Belt, Body, Mode, Source};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::portrait::{Border, Cycle, Portrait};
 use hopfscope::scene::Machine;
@@ -201,8 +201,7 @@ fn what_the_belt_releases_is_on_its_cycle_even_where_all_beyond_is_unknown() {
 /// A tool whose cut feeds energy into its mode at small velocities.
 fn tool(friction: f64) -> Portrait {
     let damping_ratio = vec![-0.02, 0.002, 0.3];
-    let mode =
-        VibrationMode { frequency: 250.0, mass: 4.0, damping_ratio, friction, static_guide: None };
+    let mode = Mode { frequency: 250.0, mass: 4.0, damping_ratio, friction, static_guide: None };
     Source::from(Body::Mode(mode)).portrait().unwrap()
 }
 
@@ -290,7 +289,7 @@ fn where_everything_is_carried_off_that_is_the_answer() {
 fn relaxing(ratio: f64) -> Portrait {
     let damping_ratio = vec![ratio, 0.0, 2000.0];
     let (frequency, mass, friction, static_guide) = (120.0, 0.2, 0.03, None);
-    let mode = VibrationMode { frequency, mass, damping_ratio, friction, static_guide };
+    let mode = Mode { frequency, mass, damping_ratio, friction, static_guide };
     Source::from(Body::Mode(mode)).portrait().unwrap()
 }
 
@@ -338,7 +337,7 @@ fn a_mode_that_asymmetric_damping_drives_away_survives_what_the_paper_says() {
     for (d, d2, r) in [(0.2, -1.0, 0.3), (0.2, 1.0, 0.3), (0.6, 6.0, 3.0), (-0.01, -0.5, 0.1)] {
         for held in [r, 1.1 * r] {
             let (omega, mass) = (3.0, 2.0);
-            let mode = VibrationMode {
+            let mode = Mode {
                 frequency: omega / std::f64::consts::TAU,
                 mass,
                 damping_ratio: vec![d, 0.5 * d2 / omega],

@@ -5,7 +5,7 @@
 //! line, the files of scenes, machines and sessions, scans, charts and all that is said about a wrong value read it.
 
 use crate::model::belt::friction::{Belt, FrictionLaw};
-use crate::model::modal::VibrationMode;
+use crate::model::modal::Mode;
 
 /// What a number belongs to. Names are different within a group, and within [`Group::SOURCE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,7 +73,7 @@ pub struct KnobSpec {
     /// First range of a diagram over it: wide enough for what happens at friction and damping of everyday size.
     pub drawn: (f64, f64),
     pub(crate) belt: Option<&'static Access<Belt>>,
-    pub(crate) mode: Option<&'static Access<VibrationMode>>,
+    pub(crate) mode: Option<&'static Access<Mode>>,
 }
 
 impl KnobSpec {
@@ -148,8 +148,8 @@ macro_rules! law {
 macro_rules! ratio {
     ($power:literal) => {
         Some(&Access {
-            get: |mode: &VibrationMode| mode.damping_ratio.get($power).copied(),
-            place: |mode: &mut VibrationMode| mode.damping_ratio.get_mut($power),
+            get: |mode: &Mode| mode.damping_ratio.get($power).copied(),
+            place: |mode: &mut Mode| mode.damping_ratio.get_mut($power),
         })
     };
 }
@@ -186,7 +186,7 @@ const HELD_BY_GUIDE: Option<&Access<Belt>> = Some(&Access {
 });
 
 /// The same of a mode.
-const MODE_HELD: Option<&Access<VibrationMode>> = Some(&Access {
+const MODE_HELD: Option<&Access<Mode>> = Some(&Access {
     get: |mode| Some(mode.static_guide.unwrap_or(mode.friction)),
     place: |mode| Some(mode.static_guide.get_or_insert(0.0)),
 });

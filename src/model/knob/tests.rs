@@ -3,7 +3,7 @@
 use super::*;
 use crate::model::belt::FrictionLaw;
 use crate::model::unit::dimension_of;
-use crate::model::{Body, ParameterBox, Source, VibrationMode};
+use crate::model::{Body, Mode, ParameterBox, Source};
 
 fn belt(law: FrictionLaw) -> Belt {
     Belt {
@@ -84,7 +84,7 @@ fn static_friction_that_is_not_given_is_that_of_the_law_at_rest_and_of_the_movin
     assert_eq!(refused, "no rest here; there are m, c, d1, d3, F, R, v0, mu_s, R_static, mu");
     let (friction, static_guide) = (1.0, None);
     let damping_ratio = vec![-0.1, 0.0];
-    let mode = VibrationMode { frequency: 250.0, mass: 4.0, damping_ratio, friction, static_guide };
+    let mode = Mode { frequency: 250.0, mass: 4.0, damping_ratio, friction, static_guide };
     let mut mode = Source::from(Body::Mode(mode));
     mode.set(Knob::Ratio1, 0.2).unwrap();
     assert_eq!([Knob::Ratio0, Knob::Ratio1].map(|ratio| mode.get(ratio)), [Some(-0.1), Some(0.2)]);

@@ -19,7 +19,7 @@ use crate::portrait::basin::stability::Share;
 
 /// What becomes of repeated kicks.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RepeatedKicks {
+pub struct Survival {
     /// The fraction of the first kicks, from the middle of the sticking set, that is lost.
     pub first: Share,
     /// The fraction of the kicks that is lost after many that were not.
@@ -51,7 +51,7 @@ pub fn repeated(
     portrait: &Portrait,
     kicks: &RandomKick,
     limits: &Limits,
-) -> Result<RepeatedKicks, Reason> {
+) -> Result<Survival, Reason> {
     // Kicks start from all that the guide holds.
     let portrait = &*portrait.followed_to(kicks.reach() + portrait.model.guide_static)?;
     let first = kicks.lost(portrait)?;
@@ -69,14 +69,14 @@ pub fn repeated(
     let relative =
         |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
     let error = relative(before, later).max(relative(coarse.mean(before), mean));
-    Ok(RepeatedKicks { first, later, mean, error, density, cost })
+    Ok(Survival { first, later, mean, error, density, cost })
 }
 
 /// Why there is no chain without friction.
 const WITHOUT: Reason =
     Reason::NotApplicable { needs: "friction, without which nothing comes to rest" };
 
-impl RepeatedKicks {
+impl Survival {
     /// The middles of the cells, and the density there, `r` being the friction.
     pub fn places(&self, r: f64) -> impl Iterator<Item = (f64, f64)> {
         let width = 2.0 * r / real(self.density.len());
@@ -252,7 +252,7 @@ mod tests {
         q
     }
 
-    fn found(parameters: &Parameters, kicks: &RandomKick) -> Result<RepeatedKicks, Reason> {
+    fn found(parameters: &Parameters, kicks: &RandomKick) -> Result<Survival, Reason> {
         let reach = kicks.reach() + parameters.r;
         let portrait = Portrait::of_oscillator(parameters, reach, &Limits::PATIENT)?;
         repeated(&portrait, kicks, &Limits::PATIENT)

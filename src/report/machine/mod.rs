@@ -15,7 +15,7 @@ use super::{About, Answer, Columns, Quantity};
 use crate::flow::{Fate, Motion, Subject};
 use crate::model::{Interval, Knob};
 use crate::portrait::guarantee::NoGuarantee;
-use crate::portrait::{Cycle, Kick, Margin, Portrait, RequiredFriction};
+use crate::portrait::{Cycle, FrictionNeed, Kick, Margin, Portrait};
 use crate::words::stability;
 
 /// A part of a window; `None` if it is not known.
@@ -62,7 +62,7 @@ pub struct DesignAnswer {
     /// Its size: m for a displacement, N s for an impulse.
     pub wanted: f64,
     /// The friction needed, in N.
-    pub needed: RequiredFriction,
+    pub needed: FrictionNeed,
 }
 
 /// The whole answer about a machine.

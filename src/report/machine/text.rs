@@ -4,7 +4,7 @@ use super::{CubicExpansion, DesignAnswer, MachineAnswer};
 use crate::flow::{Motion, Sample};
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::model::{Knob, Source};
-use crate::portrait::{Kick, RequiredFriction};
+use crate::portrait::{FrictionNeed, Kick};
 use crate::report::answer::{PLACES, interval};
 use crate::words::motion::of_machine;
 use crate::words::number::rounded_down;
@@ -95,13 +95,11 @@ impl DesignAnswer {
         let lead = format!("for a margin of {wanted} ({name}){}: ", at.unwrap_or_default());
         let force = self.needed.least().map(|force| with_unit(force, 10, "N")).unwrap_or_default();
         lead + &match self.needed {
-            RequiredFriction::Any => {
-                "any R suffices, however small; damping alone keeps it".to_owned()
-            }
-            RequiredFriction::Friction { .. } => {
+            FrictionNeed::Any => "any R suffices, however small; damping alone keeps it".to_owned(),
+            FrictionNeed::Friction { .. } => {
                 format!("R = {force} is needed (the machine has {has})")
             }
-            RequiredFriction::Fold { below, .. } => format!(
+            FrictionNeed::Fold { below, .. } => format!(
                 "R above {force} is needed (the machine has {has}); every kick is survived then, while just \
                  below the margin is {}",
                 with_unit(below, PLACES, unit)

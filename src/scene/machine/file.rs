@@ -16,7 +16,7 @@ use super::table::table;
 use crate::flow::Subject;
 use crate::model::belt::FrictionLaw;
 use crate::model::unit::quantity;
-use crate::model::{Belt, Body, Group, Knob, KnobSpec, Source, Tolerances, VibrationMode, unknown};
+use crate::model::{Belt, Body, Group, Knob, KnobSpec, Mode, Source, Tolerances, unknown};
 use crate::numerics::{SmoothingSpline, shortest};
 use crate::scene::mistake::{Complaint, FileMistake};
 
@@ -238,7 +238,7 @@ impl MachineReader<'_> {
         let ratio = read.get::<Vec<_>>("damping_ratio")?;
         let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing".to_owned()))?;
         let damping_ratio = self.polynomial("ratio", ratio.get_ref())?;
-        Ok((Body::Mode(VibrationMode { damping_ratio, ..VibrationMode::default() }), ratio.span()))
+        Ok((Body::Mode(Mode { damping_ratio, ..Mode::default() }), ratio.span()))
     }
 
     /// Gives a mass its friction law: the one table beside the coefficient of static friction.

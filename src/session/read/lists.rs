@@ -9,7 +9,7 @@ use crate::scene::library::SceneGroup;
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, LayerSpec, Machine, Scene, VIEWS, View, ViewSpec, library};
 use crate::session::state::keymap::contexts;
-use crate::session::{Code, Command, Context, InterruptedSession, Key, List, ListKind, Session};
+use crate::session::{Code, Command, Context, KeptSession, Key, List, ListKind, Session};
 
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {
@@ -202,7 +202,7 @@ impl Session {
     }
 
     /// The interrupted sessions that their list shows, each with its index among all.
-    pub fn interrupted_rows(&self, list: &List) -> Vec<(usize, &InterruptedSession)> {
+    pub fn interrupted_rows(&self, list: &List) -> Vec<(usize, &KeptSession)> {
         let all = self.interrupted.iter().enumerate();
         all.filter(|(_, kept)| list.matches(&[&kept.when, &kept.what])).collect()
     }

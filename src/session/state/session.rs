@@ -137,7 +137,7 @@ pub struct Session {
     /// The caption above the status lines.
     pub caption: SessionCaption,
     /// Interrupted sessions that can be continued, the most recent first.
-    pub interrupted: Vec<InterruptedSession>,
+    pub interrupted: Vec<KeptSession>,
     /// The file of the figure in progress.
     pub writing: Option<PathBuf>,
     /// Lines typed on the command line, the most recent last.
@@ -326,7 +326,7 @@ impl Default for Playback {
 
 /// A session that was interrupted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct InterruptedSession {
+pub struct KeptSession {
     pub path: PathBuf,
     /// How long ago it ended, in words.
     pub when: String,

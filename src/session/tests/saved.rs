@@ -9,8 +9,7 @@ use super::{Trial, answered};
 use crate::model::Knob;
 use crate::scene::{Request, Topic, library};
 use crate::session::{
-    Content, Effect, InterruptedSession, Msg, Notice, Purpose, Session, Setup, StepSizes, save,
-    update,
+    Content, Effect, KeptSession, Msg, Notice, Purpose, Session, Setup, StepSizes, save, update,
 };
 
 /// Everything of a session that its file holds.
@@ -144,11 +143,8 @@ fn several_interrupted_sessions_are_listed_and_one_is_taken_or_forgotten() {
     trial.press("-0.3<enter>");
     let said = save::summary(&save::text(&trial.session).unwrap());
     assert_eq!(said.as_deref(), Ok("linear D = -0.3 (1 change)"));
-    let kept = |name: &str| InterruptedSession {
-        path: name.into(),
-        when: String::new(),
-        what: name.to_owned(),
-    };
+    let kept =
+        |name: &str| KeptSession { path: name.into(), when: String::new(), what: name.to_owned() };
     trial.session.interrupted = ["a", "b", "c", "d"].map(kept).to_vec();
     trial.press("<f3> <down> x");
     assert_eq!(trial.effects.last(), Some(&Effect::PutAside("b".into())));
