@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::window::{Span, Window};
 use crate::numerics::{cells, named};
-use crate::question::Topic;
+use crate::question::{TOPICS, Topic};
 
 /// The content of a plot; [`VIEWS`] describes each view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -80,12 +80,11 @@ pub struct ViewSpec {
 }
 
 /// Every view, in the order in which they are listed and the keys cycle through them: the lines of `assets/views.txt`.
-pub static VIEWS: LazyLock<Vec<ViewSpec>> = LazyLock::new(|| {
-    include_str!("../../assets/views.txt").lines().filter_map(described).collect()
-});
+pub static VIEWS: LazyLock<Vec<ViewSpec>> =
+    LazyLock::new(|| include_str!("../../assets/views.txt").lines().filter_map(view).collect());
 
 /// The view that a line of the file describes; `None` for a comment. A test reads every line.
-fn described(line: &'static str) -> Option<ViewSpec> {
+fn view(line: &'static str) -> Option<ViewSpec> {
     let [name, title, heading, needs, coordinates, window, meaning, nothing] = cells(line)?;
     let coordinates = coordinates.split_once(' ')?;
     let ends: Vec<f64> = window.split(' ').filter_map(|end| end.parse().ok()).collect();
@@ -118,77 +117,72 @@ pub struct LayerSpec {
     pub usual: bool,
 }
 
-/// Makes [`Layer`] and [`LAYERS`] from one list, in the order in which layers are listed: name, view, question,
-/// whether the layer is usual, meaning.
-macro_rules! layers {
-    ($($(#[$attribute:meta])* $layer:ident: $name:literal, $view:ident, $needs:expr, $usual:literal, $meaning:literal;)*) => {
-        /// A part of a view that can be switched on and off; [`LAYERS`] describes each layer.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-        pub enum Layer {
-            $($(#[$attribute])* #[serde(rename = $name)] $layer,)*
-        }
-
-        /// Every layer, in the order in which they are listed.
-        pub const LAYERS: [LayerSpec; [$($name),*].len()] = [$(LayerSpec {
-            layer: Layer::$layer,
-            name: $name,
-            view: View::$view,
-            meaning: $meaning,
-            needs: $needs,
-            usual: $usual,
-        }),*];
-    };
+/// A part of a view that can be switched on and off; [`LAYERS`] describes each layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Layer {
+    Trajectory,
+    Sticking,
+    Cycles,
+    Basin,
+    Field,
+    Lyapunov,
+    Bands,
+    Balance,
+    Ghost,
+    Belt,
+    Mass,
+    Branch,
+    Harmonic,
+    Asymptotes,
+    Special,
+    Position,
+    Velocity,
+    Friction,
+    Energy,
+    Events,
+    CycleWorks,
+    MotionWorks,
+    Map,
+    Cobweb,
+    FixedPoints,
+    Regimes,
+    #[serde(alias = "borders")]
+    Boundaries,
+    #[serde(alias = "harmonic-border")]
+    HarmonicFold,
+    Rows,
+    Front,
+    Extents,
+    Levels,
+    Spirals,
+    Rate,
+    Locus,
+    BeltPath,
+    Record,
+    Recorded,
+    Whole,
+    Speeds,
+    Safe,
+    Lost,
+    #[serde(rename = "decrements")]
+    Damping,
+    #[serde(rename = "differences")]
+    Residuals,
+    Spread,
+    Kicks,
 }
 
-layers! {
-    Trajectory: "trajectory", Phase, Some(Topic::Trajectory), true, "the motion from (q0, v0)";
-    Sticking: "sticking", Phase, None, true, "the sticking set: every point of it is at rest";
-    Cycles: "cycles", Phase, Some(Topic::Cycles), true, "limit cycles, stable and unstable";
-    Basin: "basin", Phase, Some(Topic::Cycles), true, "starts that come to rest, shaded";
-    Field: "field", Phase, None, false, "directions of the flow";
-    Lyapunov: "lyapunov", Phase, None, false, "the circle of starts whose capture is proved";
-    Bands: "bands", Phase, Some(Topic::Capture), false, "bands of capture: one more half swing in each";
-    Balance: "balance", Phase, Some(Topic::Balance), false, "cycles of N harmonics, and their error";
-    Ghost: "ghost", Phase, None, false, "the point left for a mark, its motion and cycles";
-    Belt: "belt", Phase, None, false, "the speed of the belt, at which the mass sticks";
-    Mass: "mass", Belt, Some(Topic::Trajectory), true, "the mass on its belt, moving with the motion";
-    Branch: "branch", Diagram, Some(Topic::Branch), true, "computed limit cycles, stable and unstable";
-    Harmonic: "harmonic", Diagram, None, false, "amplitudes of the first-order harmonic balance";
-    Asymptotes: "asymptotes", Diagram, None, false, "asymptotes A1 and A2 of the harmonic amplitudes";
-    Special: "special", Diagram, Some(Topic::Branch), true, "special points: fold, crossing, escape, Hopf";
-    Position: "position", TimeSeries, Some(Topic::Trajectory), true, "displacement q";
-    Velocity: "velocity", TimeSeries, Some(Topic::Trajectory), false, "velocity v";
-    Friction: "friction", TimeSeries, Some(Topic::Trajectory), true, "force of dry friction, between -r and r";
-    Energy: "energy", TimeSeries, Some(Topic::Trajectory), false, "energy (q^2 + v^2)/2";
-    Events: "events", TimeSeries, Some(Topic::Trajectory), true, "turning points, capture";
-    CycleWorks: "cycle-works", EnergyLedger, Some(Topic::Cycles), true, "works over one turn of each cycle";
-    MotionWorks: "motion-works", EnergyLedger, Some(Topic::Trajectory), true, "works along the motion";
-    Map: "map", ReturnMap, Some(Topic::ReturnMap), true, "the next turning point on the same side";
-    Cobweb: "cobweb", ReturnMap, Some(Topic::Trajectory), true, "the turning points of the motion, step by step";
-    FixedPoints: "fixed-points", ReturnMap, Some(Topic::Cycles), true, "limit cycles, stable and unstable";
-    Regimes: "regimes", Regimes, Some(Topic::Regimes), true, "what becomes of kicks";
-    #[serde(alias = "borders")]
-    Boundaries: "boundaries", Regimes, Some(Topic::Regimes), true, "computed fold and escape point";
-    #[serde(alias = "harmonic-border")]
-    HarmonicFold: "harmonic-fold", Regimes, Some(Topic::Regimes), false, "the fold by one harmonic (48)";
-    Rows: "rows", Trade, Some(Topic::Trade), true, "every method over its tolerances, steps or widths";
-    Front: "front", Trade, Some(Topic::Trade), true, "the best choices: nothing else is better for less";
-    Extents: "extents", Diagram, Some(Topic::Branch), false, "largest velocity of the cycles, beside the ordinate";
-    Levels: "levels", Phase, None, false, "levels of the energy, and shaded where it falls";
-    Spirals: "spirals", Phase, None, false, "the two shifted spirals that make the cycle";
-    Rate: "rate", EnergyRate, None, true, "V', what damping feeds and what friction takes";
-    Locus: "locus", Eigenvalues, None, true, "the eigenvalues, and their way over D";
-    BeltPath: "belt-path", Regimes, None, true, "the machine over the speed of its belt";
-    Record: "record", TimeSeries, Some(Topic::Fit), false, "measured displacements of the record";
-    Recorded: "recorded", Phase, Some(Topic::Fit), false, "measured displacements over their fitted velocity";
-    Whole: "whole", Phase, None, false, "the whole model in place of its cubic expansion";
-    Speeds: "speeds", Speeds, Some(Topic::Speeds), true, "cycles over a number of the machine, and the jumps";
-    Safe: "safe", Phase, Some(Topic::Zones), false, "surely safe, for all half widths and disturbances";
-    Lost: "lost", Phase, Some(Topic::Zones), false, "surely lost, for the same";
-    Damping: "decrements", Damping, Some(Topic::Fit), true, "measured decrements, exact and averaged damping";
-    Residuals: "differences", Residuals, Some(Topic::Fit), true, "measured less fitted, and two deviations";
-    Spread: "spread", Spread, Some(Topic::Fit), true, "distribution of the margin, by draws";
-    Kicks: "kicks", Phase, Some(Topic::Kicks), false, "density of random kicks, and the part lost";
+/// Every layer, in the order in which they are listed: the lines of `assets/layers.txt`.
+pub static LAYERS: LazyLock<Vec<LayerSpec>> =
+    LazyLock::new(|| include_str!("../../assets/layers.txt").lines().filter_map(layer).collect());
+
+/// The layer that a line of the file describes; `None` for a comment. A test reads every line.
+fn layer(line: &'static str) -> Option<LayerSpec> {
+    let [name, view, topic, switch, meaning] = cells(line)?;
+    let (layer, view) = (named(name)?, named(view)?);
+    let needs = TOPICS.iter().find(|known| known.name() == topic).copied();
+    Some(LayerSpec { layer, name, view, meaning, needs, usual: switch == "on" })
 }
 
 impl Layer {
@@ -240,11 +234,16 @@ mod tests {
 
     #[test]
     fn every_layer_is_found_by_its_name_and_by_the_one_it_once_had() {
-        for row in &LAYERS {
-            assert_eq!(row.layer.spec().layer, row.layer);
+        let lines = include_str!("../../assets/layers.txt").lines().filter_map(cells);
+        for (row, [name, _, topic, switch, _]) in LAYERS.iter().zip(lines) {
+            assert_eq!((row.layer.spec().layer, row.name), (row.layer, name));
+            assert_eq!(row.needs.map_or("-", Topic::name), topic);
+            assert!(["on", "off"].contains(&switch), "{name}");
             assert_eq!(named(row.name), Some(row.layer));
             assert!(row.meaning.len() <= 52, "{} is cut at 80 columns", row.name);
         }
+        assert_eq!(LAYERS.last().map(|row| row.layer), Some(Layer::Kicks));
+        assert_eq!(LAYERS.len(), Layer::Kicks as usize + 1);
         assert_eq!(named("harmonic-border"), Some(Layer::HarmonicFold));
     }
 }

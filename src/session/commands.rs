@@ -17,9 +17,7 @@ use crate::session::read::completion::{self, all, nothing};
 use crate::session::settings::{Colors, Glyphs, Theme, choices, named};
 use crate::session::state::keymap::CommandAction::{self, Act, Line, Move, Toggle, Try};
 use crate::session::state::keymap::{COMMANDS, contexts};
-use crate::session::{
-    Command, Context, Effect, Input, Key, Keymap, Letter as Ask, List, PendingInput, Purpose,
-};
+use crate::session::{Command, Context, Effect, Input, Key, Keymap, List, PendingInput, Purpose};
 
 /// What commands do: by the name that their line ends with, which is that of the command where the line does not say
 /// it; by its name behind a colon if it takes words. What moves something takes the steps to the right and upwards
@@ -97,8 +95,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("count", Act(general::count)),
     ("delete-digit", Act(|s, _| general::delete_digit(s))),
     ("forget-pending", Act(|s, _| s.pending = None)),
-    ("set-mark", Act(|s, _| s.pending = Some(PendingInput::Letter(Ask::Mark)))),
-    ("go-to-mark", Act(|s, _| s.pending = Some(PendingInput::Letter(Ask::GoTo)))),
+    ("set-mark", Act(|s, _| s.pending = Some(PendingInput::Mark))),
+    ("go-to-mark", Act(|s, _| s.pending = Some(PendingInput::GoTo))),
 
     ("explain", Act(|s, _| s.caption.explain())),
     ("tour", Try(files::tour)),

@@ -44,7 +44,7 @@ pub use state::keymap::{Candidates, Command, CommandAction, Context, Keymap};
 pub use state::overlay::{Completion, Input, List, ListKind, Overlay, Prompt, SessionCaption};
 pub use state::scan::{ScanOnShow, ScanProgress};
 pub use state::session::{
-    BranchStop, Framing, KeptSession, Letter, Pace, Pane, PendingInput, Playback, Plot, Price,
+    BranchStop, Framing, KeptSession, Pace, Pane, PendingInput, Playback, Plot, Price,
     Recomputation, Session, Size, WaitingPress,
 };
 pub use state::setup::{MOST_MOTIONS, Row, Setup, StepSizes, Uncertainty};

@@ -12,7 +12,7 @@ use crate::session::act::{answers, files, history, plots, prompt, walk};
 use crate::session::read::contexts::{self, elsewhere};
 use crate::session::replay::script::parse;
 use crate::session::{
-    Context, Effect, Key, Letter, Msg, Overlay, Pane, PendingInput, Price, Prompt, Row, Session,
+    Context, Effect, Key, Msg, Overlay, Pane, PendingInput, Price, Prompt, Row, Session,
     SessionCaption, Size, WaitingPress,
 };
 
@@ -198,9 +198,20 @@ fn resolve(session: &mut Session, pending: PendingInput, key: Key) {
         return run(session, command, key);
     }
     session.pending = None;
-    match pending {
-        PendingInput::Count(count) => repeat(session, key, count.max(1)),
-        PendingInput::Letter(what) => letter(session, what, key),
+    let again = session.keymap.command(session.contexts(), key);
+    let letter = key.typed().filter(char::is_ascii_lowercase);
+    match (pending, letter) {
+        (PendingInput::Count(count), _) => repeat(session, key, count.max(1)),
+        (PendingInput::Mark, Some(name)) => history::set_mark(session, name),
+        (PendingInput::GoTo, Some(name)) => {
+            session.attempt(|session| history::go_to_mark(session, name));
+        }
+        // The key that asked for the letter, pressed again, means the last point.
+        (PendingInput::GoTo, None) if again.is_some_and(|it| it.name == "go-to-mark") => {
+            session.attempt(history::go_back);
+        }
+        (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),
+        (_, None) => session.refuse(format!("{} is not a letter from a to z", key.said())),
     }
 }
 
@@ -223,20 +234,4 @@ fn repeat(session: &mut Session, key: Key, count: u32) {
         }
     }
     session.history.merge(depth);
-}
-
-/// Uses a letter for its purpose. The key that asked for the letter, pressed again, means the last point.
-fn letter(session: &mut Session, what: Letter, key: Key) {
-    let asks =
-        |name| session.keymap.command(session.contexts(), key).is_some_and(|c| c.name == name);
-    let name = key.typed().filter(char::is_ascii_lowercase);
-    match (what, name) {
-        (Letter::Mark, Some(name)) => history::set_mark(session, name),
-        (Letter::GoTo, Some(name)) => {
-            session.attempt(|session| history::go_to_mark(session, name));
-        }
-        (Letter::GoTo, None) if asks("go-to-mark") => session.attempt(history::go_back),
-        (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),
-        (_, None) => session.refuse(format!("{} is not a letter from a to z", key.said())),
-    }
 }

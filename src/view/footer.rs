@@ -81,7 +81,10 @@ fn pending(pending: PendingInput, look: &Look) -> Span<'static> {
     let text = match pending {
         PendingInput::Count(0) => " how many times? a number, then a key".to_owned(),
         PendingInput::Count(count) => format!(" {count} times: which key?"),
-        PendingInput::Letter(what) => format!(" {}", what.question()),
+        PendingInput::Mark => " mark this point by which letter? a to z".to_owned(),
+        PendingInput::GoTo => {
+            " go to which mark? a to z; the same key: the point left last".to_owned()
+        }
     };
     look.span(text, Role::Title)
 }

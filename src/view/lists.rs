@@ -54,7 +54,9 @@ fn palette(content: &mut ListContent, session: &Session, list: &List, look: &Loo
     }
     if let Some(row) = found.get(list.selected) {
         let name = match row {
-            PaletteRow::Line(line) => format!(":{} {}", line.name, line.arguments),
+            PaletteRow::Command(line) if line.words().is_some() => {
+                format!(":{} {}", line.name, line.arguments)
+            }
             row => row.name().to_owned(),
         };
         let name = look.span(format!("{name}   "), Role::Title);
@@ -66,17 +68,15 @@ fn palette(content: &mut ListContent, session: &Session, list: &List, look: &Loo
 
 /// The keys of a row where it is run; the colon of a command that takes words.
 fn keys_of(session: &Session, row: PaletteRow, look: &Look) -> Vec<String> {
-    match row {
-        PaletteRow::Command(command) => {
-            let place = session.place_of(command);
-            let places = session.keymap.places(command);
-            let here = places.into_iter().find(|(context, _)| Some(*context) == place);
-            let keys = here.map(|(_, keys)| keys).unwrap_or_default();
-            keys.into_iter().map(|key| look.key(key)).collect()
-        }
-        PaletteRow::Line(line) => vec![format!(":{}", line.name)],
-        _ => Vec::new(),
+    let PaletteRow::Command(command) = row else { return Vec::new() };
+    if command.words().is_some() {
+        return vec![format!(":{}", command.name)];
     }
+    let place = session.place_of(row);
+    let places = session.keymap.places(command);
+    let here = places.into_iter().find(|(context, _)| Some(*context) == place);
+    let keys = here.map(|(_, keys)| keys).unwrap_or_default();
+    keys.into_iter().map(|key| look.key(key)).collect()
 }
 
 /// The scenes in their groups, and what there is to see and to do in the selected one.

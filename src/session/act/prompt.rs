@@ -151,8 +151,10 @@ pub fn choose(session: &mut Session) -> Done {
         session.overlay = None;
     }
     match row {
+        Some(PaletteRow::Command(line)) if line.words().is_some() => {
+            open(session, format!("{} ", line.name));
+        }
         Some(PaletteRow::Command(command)) => run_where_it_belongs(session, command, ENTER),
-        Some(PaletteRow::Line(line)) => open(session, format!("{} ", line.name)),
         Some(PaletteRow::Scene(scene)) => open_scene(session, Arc::clone(scene)),
         Some(PaletteRow::View(row)) => show_from_list(session, row.view)?,
         Some(PaletteRow::Layer(layer)) => toggle(session, layer.layer),

@@ -16,7 +16,7 @@ pub fn all<Name: ToString>(names: impl IntoIterator<Item = Name>) -> Vec<String>
 /// A layer, then on or off.
 pub fn layers(session: &Session, given: &[&str]) -> Vec<String> {
     match given {
-        [_] => all(LAYERS.map(|row| row.name)),
+        [_] => all(LAYERS.iter().map(|row| row.name)),
         [_, rest @ ..] => switch(session, rest),
         [] => Vec::new(),
     }

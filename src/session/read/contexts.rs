@@ -13,7 +13,7 @@ use crate::session::read::wants::COMPARED;
 use crate::session::read::windows;
 use crate::session::state::keymap::{called, chain};
 use crate::session::{
-    Code, Command, Context, Key, Letter, ListKind, MouseAction, Msg, Overlay, PaletteRow, Pane,
+    Code, Command, Context, Key, ListKind, MouseAction, Msg, Overlay, PaletteRow, Pane,
     PendingInput, PointerTarget, Prompt, Session, SessionCaption,
 };
 
@@ -35,8 +35,8 @@ impl Session {
             Some(pending) if self.keymap.command(&[pending.context()], key).is_some() => {
                 return None;
             }
-            Some(PendingInput::Letter(Letter::GoTo)) => return self.awaited_by_line("goto"),
-            Some(PendingInput::Letter(Letter::Mark)) => return None,
+            Some(PendingInput::GoTo) => return self.awaited_by_line("goto"),
+            Some(PendingInput::Mark) => return None,
             Some(PendingInput::Count(_)) | None => {}
         }
         let Some(command) = self.keymap.command(self.contexts_at_rest(), key) else {
@@ -48,7 +48,10 @@ impl Session {
             }
             (Some(Overlay::List(ListKind::Palette, list)), "run-command") => {
                 match self.palette_rows(list).get(list.selected)? {
-                    PaletteRow::Command(command) => self.awaited_by_command(command),
+                    // One that takes words only opens the line for them.
+                    PaletteRow::Command(command) if command.words().is_none() => {
+                        self.awaited_by_command(command)
+                    }
                     _ => None,
                 }
             }

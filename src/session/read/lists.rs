@@ -13,10 +13,8 @@ use crate::session::{Code, Command, Context, KeptSession, Key, List, ListKind, S
 
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {
-    /// A command of a key.
+    /// A command of a key, or one that takes words.
     Command(&'static Command),
-    /// A command that takes words.
-    Line(&'static Command),
     /// A scene, to open.
     Scene(&'static Arc<Scene>),
     /// A view, to show in the plot in use.
@@ -31,11 +29,10 @@ pub enum PaletteRow {
 
 impl PaletteRow {
     /// Its name, its other name if it has one, its explanation in one line, and the heading under which it stands,
-    /// unless that depends on the pane in focus.
+    /// unless keys run it: then that depends on the pane in focus.
     fn texts(self) -> [&'static str; 4] {
         match self {
-            PaletteRow::Command(command) => [command.name, "", command.doc, ""],
-            PaletteRow::Line(line) => [line.name, "", line.doc, "Typed after a colon"],
+            PaletteRow::Command(command) => [command.name, "", command.doc, "Typed after a colon"],
             PaletteRow::Scene(scene) => {
                 let other = scene.also.as_deref().unwrap_or_default();
                 [&scene.name, other, &scene.title, "Scenes"]
@@ -71,14 +68,14 @@ impl Session {
     /// first. Commands that work only inside a list or a line, or with a digit, are left out.
     pub fn palette_rows(&self, list: &List) -> Vec<PaletteRow> {
         let outside = |command: &&Command| home(command).is_some() && !takes_digit(command);
-        let commands = self.keymap.commands().filter(outside).map(PaletteRow::Command);
-        let lines = self.keymap.lines().map(PaletteRow::Line);
+        let keys = self.keymap.commands().filter(outside);
+        let commands = keys.chain(self.keymap.lines()).map(PaletteRow::Command);
         let scenes = library().iter().map(PaletteRow::Scene);
         let views = VIEWS.iter().map(PaletteRow::View);
         let layers = LAYERS.iter().map(PaletteRow::Layer);
         let claims = claims().map(PaletteRow::Claim);
         let machines = machines().iter().map(PaletteRow::Machine);
-        let all = commands.chain(lines).chain(scenes).chain(views).chain(layers);
+        let all = commands.chain(scenes).chain(views).chain(layers);
         let all = all.chain(machines).chain(claims);
         let searches = !list.search.trim().is_empty();
         self.matching(list, all, |row| row, |row| if searches { 0 } else { self.distance(row) })
@@ -142,21 +139,20 @@ impl Session {
 
     /// The heading under which a row stands.
     pub fn heading(&self, row: PaletteRow) -> &'static str {
-        let PaletteRow::Command(command) = row else { return row.texts()[3] };
-        self.place_of(command).map_or("", |place| place.spec().title)
+        self.place_of(row).map_or(row.texts()[3], |place| place.spec().title)
     }
 
     /// The distance of a row's context from the pane in focus.
     fn distance(&self, row: PaletteRow) -> usize {
-        let PaletteRow::Command(command) = row else { return usize::MAX };
-        let Some(place) = self.place_of(command) else { return usize::MAX };
+        let Some(place) = self.place_of(row) else { return usize::MAX };
         let near = self.contexts_below().iter().position(|context| *context == place);
         let far = || contexts().position(|row| row.context == place).unwrap_or(0);
         near.unwrap_or_else(|| self.contexts_below().len() + far())
     }
 
-    /// The context in which a command is run: that of the pane in focus if it has keys there.
-    pub fn place_of(&self, command: &Command) -> Option<Context> {
+    /// The context in which keys run a row: that of the pane in focus if it has keys there.
+    pub fn place_of(&self, row: PaletteRow) -> Option<Context> {
+        let PaletteRow::Command(command) = row else { return None };
         let mut here = self.contexts_below().iter();
         let has_keys = |context: &&Context| command.keys.iter().any(|(at, _)| at == *context);
         here.find(has_keys).copied().or(home(command))

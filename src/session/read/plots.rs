@@ -24,11 +24,6 @@ impl Session {
         if self.enlarged { self.plot..self.plot + 1 } else { 0..self.plots.len() }
     }
 
-    /// The panes on show, in the order in which they get the focus.
-    pub fn panes(&self) -> Vec<Pane> {
-        std::iter::once(Pane::Parameters).chain(self.on_show().map(Pane::Plot)).collect()
-    }
-
     pub fn focused(&self) -> Option<&Plot> {
         let Pane::Plot(index) = self.focus else { return None };
         self.plots.get(index)

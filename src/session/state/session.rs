@@ -263,8 +263,10 @@ pub const LARGEST_COUNT: u32 = 9999;
 pub enum PendingInput {
     /// The next key is another digit, or the key to press this many times. Zero means no digit yet.
     Count(u32),
-    /// The letter of a mark.
-    Letter(Letter),
+    /// The next key is the letter of the mark to set.
+    Mark,
+    /// The next key is the letter of the mark to go to.
+    GoTo,
 }
 
 impl PendingInput {
@@ -272,26 +274,7 @@ impl PendingInput {
     pub fn context(self) -> Context {
         match self {
             PendingInput::Count(_) => Context::Count,
-            PendingInput::Letter(_) => Context::Letter,
-        }
-    }
-}
-
-/// The purpose of a letter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Letter {
-    /// The mark to set.
-    Mark,
-    /// The mark to go to.
-    GoTo,
-}
-
-impl Letter {
-    /// The question for the footer.
-    pub fn question(self) -> &'static str {
-        match self {
-            Letter::Mark => "mark this point by which letter? a to z",
-            Letter::GoTo => "go to which mark? a to z; the same key: the point left last",
+            PendingInput::Mark | PendingInput::GoTo => Context::Letter,
         }
     }
 }

@@ -22,7 +22,10 @@ pub(super) fn any_key() -> impl Strategy<Value = Key> {
 /// Checks what must hold after any keys.
 pub(super) fn check(session: &Session) {
     assert!(session.rows().contains(&session.selected));
-    assert!(session.panes().contains(&session.focus));
+
+    if let Pane::Plot(plot) = session.focus {
+        assert!(session.on_show().contains(&plot));
+    }
     for Plot { window, .. } in &session.plots {
         for span in [window.x, window.y] {
             assert!(span.width() > 0.0 && span.width().is_finite());
