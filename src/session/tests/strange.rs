@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::Trial;
 use crate::scene::{Request, library};
 use crate::session::commands;
-use crate::session::{Effect, Key, Msg, Plot, Session, update};
+use crate::session::{Effect, Key, Msg, Pane, Plot, Session, update};
 
 /// Keys that have a meaning in some context, and some that are only typed.
 pub(super) fn any_key() -> impl Strategy<Value = Key> {
