@@ -8,9 +8,7 @@ use crate::question::record::{RecordOptions, apart};
 use crate::scene::machine::file;
 use crate::scene::{Machine, Recording, ScaledMachine};
 use crate::session::act::{history, lists, prompt};
-use crate::session::{
-    Content, Done, Effect, ListKind, Overlay, Purpose, Script, Session, replay, save,
-};
+use crate::session::{Content, Done, Effect, ListKind, Overlay, Purpose, Session, replay, save};
 
 /// The built-in tour.
 const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
@@ -199,13 +197,10 @@ pub fn forget(session: &mut Session) -> Done {
     Ok(())
 }
 
-/// The built-in tour as a keystroke file. Fails with one line; a test plays the tour.
-pub fn tour_script() -> Result<Script, String> {
-    replay::parse(TOUR).map_err(|error| format!("the tour: {error}"))
-}
-
+/// Plays the built-in tour, as a test does.
 pub fn tour(session: &mut Session) -> Done {
-    session.effects.push(Effect::Play(tour_script()?));
+    let script = replay::parse(TOUR).map_err(|error| format!("the tour: {error}"))?;
+    session.effects.push(Effect::Play(script));
     Ok(())
 }
 

@@ -45,7 +45,8 @@ fn missing(session: &Session, place: Context) -> String {
 /// Runs a command.
 pub(crate) fn run(session: &mut Session, command: &Command, key: Key) {
     match command.run {
-        CommandAction::Act(act) => act(session, key),
+        CommandAction::Act(act) => act(session),
+        CommandAction::Press(act) => act(session, key),
         CommandAction::Move(act) => act(session, command.by),
         CommandAction::Try(act) => session.attempt(act),
         CommandAction::Toggle(layer) => toggle(session, layer),

@@ -50,8 +50,10 @@ impl Command {
 /// How a command is run.
 #[derive(Clone, Copy, Debug)]
 pub enum CommandAction {
-    /// It changes the session; the key is the one that was pressed.
-    Act(fn(&mut Session, Key)),
+    /// It changes the session.
+    Act(fn(&mut Session)),
+    /// It changes the session by the key that was pressed.
+    Press(fn(&mut Session, Key)),
     /// It moves something by some steps, to the right or onwards, and upwards.
     Move(fn(&mut Session, [i32; 2])),
     /// It changes the session, unless it fails with one line that says why not.
