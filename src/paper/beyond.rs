@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::measure::{BoundedCycle, ClaimCase, at_rest, missing};
-use super::{Check, Conclusion, Datum, Evidence, always, model, tends, worst};
+use super::{Approximation, Check, Conclusion, Evidence, always, model, tends, worst};
 use crate::branch::escape::escape_point;
 use crate::flow::{Outcome, Reason};
 use crate::model::{Parameters, State};
@@ -38,13 +38,13 @@ pub(super) const CHECKS: &[Check] = &[
         let after = first_integral(it.d2, State { q: q.value, v: v.value });
         let error = 4.0 * (q.error + v.error) + 64.0 * f64::EPSILON;
         let bounds = q.bounds.zip(v.bounds).map(|(q, v)| enclosed_integral(it.d2, q, v));
-        Ok(Evidence::equal(before, Datum::new(after, error).within(bounds)))
+        Ok(Evidence::equal(before, Approximation::new(after, error).within(bounds)))
     }),
     always("no return", |it| Ok(returns_to(it, it.more)?.is(false))),
     tends("parabola of escape", |it| {
         let impulse = Portrait::of_oscillator(it, 10.0, &it.limits)?.margin.impulse;
         let impulse = impulse.ok_or(missing("the separatrix"))?;
-        Ok(((0.5 / (it.d2 * it.d2)).sqrt(), Datum::relative(impulse, 1e-12)))
+        Ok(((0.5 / (it.d2 * it.d2)).sqrt(), Approximation::relative(impulse, 1e-12)))
     }),
     always("escape beyond the cycle", |it| {
         let start = at_rest(it.more * it.smallest()?.q_max);
@@ -81,7 +81,7 @@ fn returns_to(it: &ClaimCase, q: f64) -> Result<Conclusion<bool>, Reason> {
 }
 
 /// The slope of the return map of `v = 0, q > r` at a cycle: central differences of integrated motions.
-fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Datum, Reason> {
+fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Approximation, Reason> {
     let q = cycle.q_max;
     let turn = |q: f64| {
         let [left, _] = it.half_swing(at_rest(q))?;
@@ -93,9 +93,9 @@ fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Datum, Reason> {
         Ok(narrow + (narrow - wide) / 3.0)
     };
     let step = 1e-3 * (q - it.r);
-    let known = Datum::twice(slope(step)?, slope(2.0 * step)?);
+    let known = Approximation::twice(slope(step)?, slope(2.0 * step)?);
     // The integrated turns themselves are known to some 1e-14.
-    let known = Datum::new(known.value, known.error + 1e-13 * q / step);
+    let known = Approximation::new(known.value, known.error + 1e-13 * q / step);
     Ok(known.within(cycle.bounds.map(|it| it.multiplier)))
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::harmonic::{approached, found_fold};
 use super::measure::{ClaimCase, at_rest};
-use super::{Check, Conclusion, Datum, Evidence, always, tends, worst};
+use super::{Approximation, Check, Conclusion, Evidence, always, tends, worst};
 use crate::closed_form::harmonic::mean as harmonic_mean;
 use crate::flow::Reason;
 use crate::model::Parameters;
@@ -22,22 +22,22 @@ pub(super) const CHECKS: &[Check] = &[
         let ((small, size), (large, double)) = (at(-0.1)?, at(-0.05)?);
         let exponent = ln(large.value / small.value) / ln(double.value / size.value);
         let error = large.error / large.value.abs() + small.error / small.value.abs();
-        Ok(Evidence::near(2.0, Datum::new(exponent, 2.0 * error)))
+        Ok(Evidence::near(2.0, Approximation::new(exponent, 2.0 * error)))
     }),
     worst("A_01", |it| {
         let Parameters { d, d2, r, .. } = **it;
-        let computed = Datum::relative(harmonic_mean(d2, -2.0 * r / (PI * d)), 1e-15);
+        let computed = Approximation::relative(harmonic_mean(d2, -2.0 * r / (PI * d)), 1e-15);
         let evidence = Evidence::equal(2.0 * r * r / PI * d2 / d, computed);
         Ok(evidence.corrected(asymptotes(it)[0]))
     }),
     worst("A_02", |it| {
         let amplitude = (-8.0 * it.d / (3.0 * it.d3)).sqrt();
-        let computed = Datum::relative(harmonic_mean(it.d2, amplitude), 1e-15);
+        let computed = Approximation::relative(harmonic_mean(it.d2, amplitude), 1e-15);
         Ok(Evidence::equal(asymptotes(it)[1], computed))
     }),
     tends("asymptotes of the mean", |it| {
         let (formula, root) = approached(it, asymptotes(it))?;
-        Ok((formula, Datum::relative(harmonic_mean(it.d2, root), 1e-14)))
+        Ok((formula, Approximation::relative(harmonic_mean(it.d2, root), 1e-14)))
     }),
     // Of the dampings, those of Fig. 13 are -0.7 and -0.2; its friction with the D2 of Fig. 14, the only one that the paper
     // names.
@@ -63,12 +63,12 @@ pub(super) const CHECKS: &[Check] = &[
     worst("exponent of the fold", |it| {
         let place = |r: f64| found_fold(&it.of(Parameters { r, ..**it }));
         let exponent = ln(place(1e-3)?.d / place(1e-6)?.d) / ln(1e3);
-        Ok(Evidence::near(2.0 / 3.0, Datum::new(exponent, 1e-11)))
+        Ok(Evidence::near(2.0 / 3.0, Approximation::new(exponent, 1e-11)))
     }),
     worst("exponent of A_Z", |it| {
         let crossing = |r: f64| it.of(Parameters { r, ..**it }).smallest();
         let exponent = ln(crossing(1e-3)?.q_max / crossing(1e-6)?.q_max) / ln(1e3);
-        Ok(Evidence::near(1.0 / 3.0, Datum::new(exponent, 1e-12)))
+        Ok(Evidence::near(1.0 / 3.0, Approximation::new(exponent, 1e-12)))
     }),
     worst("work of damping", |it| Ok(Evidence::near(2.0, exponents(it)?[1]))),
     worst("work of friction", |it| Ok(Evidence::near(1.0, exponents(it)?[2]))),
@@ -94,12 +94,12 @@ fn smooth(it: &ClaimCase) -> Result<f64, Reason> {
 }
 
 /// Exponents with which the energy change and its parts grow when the amplitude is doubled.
-fn exponents(it: &ClaimCase) -> Result<[Datum; 3], Reason> {
+fn exponents(it: &ClaimCase) -> Result<[Approximation; 3], Reason> {
     let works = |q: f64| it.energy_change(at_rest(q), 2.0 * PI);
     let (one, two) = (works(1.0)?, works(2.0)?);
     Ok(std::array::from_fn(|index| {
-        let relative = |known: Datum| known.error / known.value.abs();
+        let relative = |known: Approximation| known.error / known.value.abs();
         let error = relative(one[index]) + relative(two[index]);
-        Datum::new(log2(two[index].value / one[index].value), error)
+        Approximation::new(log2(two[index].value / one[index].value), error)
     }))
 }

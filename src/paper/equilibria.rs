@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::measure::{ClaimCase, at_rest, missing};
-use super::{Check, Conclusion, Datum, Evidence, always, tends, worst};
+use super::{Approximation, Check, Conclusion, Evidence, always, tends, worst};
 use crate::closed_form::lyapunov;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Outcome, Reason};
@@ -43,7 +43,7 @@ pub(super) const CHECKS: &[Check] = &[
     worst("energy", |it| energy(it, 1.0)),
     tends("energy of slow motions", |it| {
         let rate = |of: &Parameters| lyapunov::energy_rate(of, State { q: 0.0, v: it.more });
-        Ok((rate(&linear(it)), Datum::relative(rate(it), 1e-15)))
+        Ok((rate(&linear(it)), Approximation::relative(rate(it), 1e-15)))
     }),
     always("sign of V'", |it| {
         let v = -it.more * it.r / (2.0 * it.d);
@@ -54,7 +54,7 @@ pub(super) const CHECKS: &[Check] = &[
     worst("size of the circle", |it| {
         let least = least_kick(it)?;
         let part = circle(it) / least.value;
-        Ok(Evidence::near(0.5 / 0.6, Datum::relative(part, least.error / least.value)))
+        Ok(Evidence::near(0.5 / 0.6, Approximation::relative(part, least.error / least.value)))
     }),
     worst("circle with D2", |it| {
         let evidence = Evidence::at_most(circle(it), least_kick(it)?);
@@ -67,7 +67,7 @@ pub(super) const CHECKS: &[Check] = &[
         // A basin without a border would need none.
         let needed = f64::from(u8::from(found.value != Border::None));
         let bounds = found.certain.then_some(Interval::point(cycles));
-        Ok(Evidence::equal(needed, Datum::exact(cycles).within(bounds)))
+        Ok(Evidence::equal(needed, Approximation::exact(cycles).within(bounds)))
     }),
     always("one cycle", |it| {
         Ok(it.cycles()?.map(|found| found.len() == 1 && found[0].clearance > 0.0))
@@ -98,7 +98,7 @@ pub(super) const CHECKS: &[Check] = &[
         let exponent = 1.0 + 0.5 * formula.log_multiplier;
         let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
         let bounds = cycle.bounds.map(|it| it.clearance);
-        let computed = Datum::relative(cycle.clearance, error).within(bounds);
+        let computed = Approximation::relative(cycle.clearance, error).within(bounds);
         Ok(Evidence::equal(formula.clearance, computed))
     }),
     worst("border over the angle", on_the_curve),
@@ -148,7 +148,8 @@ fn crossings(
         certain &= above.certain && below.certain;
         computed += f64::from(u8::from((above.value && below.value) != crosses));
     }
-    let computed = Datum::exact(computed).within(certain.then_some(Interval::point(computed)));
+    let computed =
+        Approximation::exact(computed).within(certain.then_some(Interval::point(computed)));
     Ok(Evidence::equal(printed, computed).corrected(corrected))
 }
 
@@ -166,7 +167,7 @@ fn energy(it: &ClaimCase, sign: f64) -> Result<Evidence, Reason> {
     let [change, linear, friction] = it.energy_change(at_rest(it.more), 20.0)?;
     let by_rate = |sign: f64| linear.value + sign * friction.value;
     let error = change.error + linear.error + friction.error;
-    let evidence = Evidence::equal(by_rate(sign), Datum { error, ..change });
+    let evidence = Evidence::equal(by_rate(sign), Approximation { error, ..change });
     Ok(if sign > 0.0 { evidence } else { evidence.corrected(by_rate(1.0)) })
 }
 
@@ -176,7 +177,7 @@ fn circle(parameters: &Parameters) -> f64 {
 }
 
 /// Distance of the border of the basin from the origin.
-fn least_kick(it: &ClaimCase) -> Result<Datum, Reason> {
+fn least_kick(it: &ClaimCase) -> Result<Approximation, Reason> {
     /// Points on each step of the border, and the relative error of a distance between them.
     const POINTS: (u16, f64) = (200, 1e-5);
     let basin = Portrait::of_oscillator(it, 10.0, &it.limits)?;
@@ -187,7 +188,7 @@ fn least_kick(it: &ClaimCase) -> Result<Datum, Reason> {
     let nearest = kicks.sizes.displacement.zip(kicks.sizes.impulse);
     let bounds = nearest
         .map(|(one, other)| Interval::new(f64::NEG_INFINITY, one.upper().min(other.upper())));
-    Ok(Datum::relative(least, POINTS.1).within(bounds))
+    Ok(Approximation::relative(least, POINTS.1).within(bounds))
 }
 
 /// The cycle by (30), (32) and (33) as it should read.
@@ -227,7 +228,7 @@ fn on_the_curve(it: &ClaimCase) -> Result<Evidence, Reason> {
     let rounded = 4.0 * f64::EPSILON * growth(&formula) * formula.clearance.max(1.0);
     let State { q, v } = curve(&formula, ANGLE);
     Evidence::worst([("q", q, state[0]), ("v", v, state[1])].map(|(name, formula, known)| {
-        let known = Datum { error: known.error + rounded, ..known };
+        let known = Approximation { error: known.error + rounded, ..known };
         Ok(Evidence::equal(formula, known).at(format!("{name} at {}", it.place)))
     }))
 }

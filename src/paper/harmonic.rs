@@ -4,7 +4,7 @@
 use std::f64::consts::{E, PI, TAU};
 
 use super::measure::{ClaimCase, at_rest, missing};
-use super::{Check, Conclusion, Datum, Evidence, always, tends, worst};
+use super::{Approximation, Check, Conclusion, Evidence, always, tends, worst};
 use crate::accuracy::harmonic_error::harmonic_balance;
 use crate::branch::fold::fold;
 use crate::branch::special::FoldPoint;
@@ -30,7 +30,7 @@ pub(super) const CHECKS: &[Check] = &[
             (8.0 * (velocity(h) - velocity(-h)) - velocity(2.0 * h) + velocity(-2.0 * h))
                 / (12.0 * h)
         };
-        let computed = Datum::twice(slope(1e-3), slope(2e-3));
+        let computed = Approximation::twice(slope(1e-3), slope(2e-3));
         Ok(Evidence::equal(0.0, computed).corrected(-size * eta * eta))
     }),
     worst("frequency of cycles", |it| {
@@ -52,7 +52,8 @@ pub(super) const CHECKS: &[Check] = &[
         let [right, _] = it.half_swing(at_rest(left.value))?;
         let turns = it.enclosed(at_rest(size), 10.0).turns;
         let bounds = turns.get(1).and_then(|turn| Some(turn.q? - Interval::point(size)));
-        let computed = Datum::new(right.value - size, right.error + left.error).within(bounds);
+        let computed =
+            Approximation::new(right.value - size, right.error + left.error).within(bounds);
         let Parameters { d, d3, r, .. } = **it;
         let printed = -4.0 * r / PI - 2.0 * d * size - 0.75 * d3 * powi(size, 3);
         Ok(Evidence::near(TAU * printed, computed).corrected(PI * printed))
@@ -83,7 +84,7 @@ pub(super) const CHECKS: &[Check] = &[
         let (cube, square) = (-4.0 * a * a * a, 27.0 * b * b);
         // What is left of the difference of two terms is uncertain by their rounding.
         let error = 32.0 * f64::EPSILON * (cube.abs() + square);
-        let computed = Datum::new(cube - square, error);
+        let computed = Approximation::new(cube - square, error);
         let scale = powi(16.0 / (3.0 * d3), 2) / 3.0;
         let formula = scale * (-8.0 * d * d * (d / d3) - powi(9.0 / PI, 2) * r * r);
         Ok(Evidence::equal(formula, computed))
@@ -110,7 +111,7 @@ pub(super) const CHECKS: &[Check] = &[
     worst("amplitude at the fold", |it| {
         let formula = cbrt(8.0 * it.r / (3.0 * PI * it.d3));
         // Next to a fold an amplitude is known to the root of what D is.
-        Ok(Evidence::near(formula, Datum::relative(found_fold(it)?.q_max, 1e-7)))
+        Ok(Evidence::near(formula, Approximation::relative(found_fold(it)?.q_max, 1e-7)))
     }),
     worst("amplitude at D = 0", |it| {
         let formula = cbrt(-16.0 * it.r / (3.0 * PI * it.d3));
@@ -119,19 +120,19 @@ pub(super) const CHECKS: &[Check] = &[
     worst("A_1 as a root", |it| {
         let (d, root) = (it.d, largest_amplitude(it)?);
         let left = 4.0 * it.r / PI + 2.0 * d * root;
-        let computed = Datum::new(root - left / (2.0 * d), f64::EPSILON * root);
+        let computed = Approximation::new(root - left / (2.0 * d), f64::EPSILON * root);
         Ok(Evidence::equal(small(it), computed))
     }),
     worst("A_1 as an amplitude", |it| Ok(Evidence::equal(small(it), it.smallest()?.extent()))),
     worst("A_1 with D3", |it| Ok(Evidence::near(small(it), it.smallest()?.amplitude()))),
     worst("A_1 in short", |_| {
         let root = largest_amplitude(&[-1.0, 0.0, 0.0, 1.0].into())?;
-        Ok(Evidence::near(0.6, Datum::relative(root, 1e-15)))
+        Ok(Evidence::near(0.6, Approximation::relative(root, 1e-15)))
     }),
     worst("divided equation", |it| {
         let Parameters { d, d3, r, .. } = **it;
         let root = largest_amplitude(it)?;
-        let computed = Datum::relative(-2.0 * r / (PI * d), 1e-14);
+        let computed = Approximation::relative(-2.0 * r / (PI * d), 1e-14);
         let terms = |factor: f64| root + factor * d3 / d * powi(root, 3);
         Ok(Evidence::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0)))
     }),
@@ -232,9 +233,9 @@ fn large(parameters: &Parameters) -> f64 {
 }
 
 /// `A_n`, and the solution of (42) that approaches it as abs(D) grows to 1.
-fn asymptote(it: &ClaimCase) -> Result<(f64, Datum), Reason> {
+fn asymptote(it: &ClaimCase) -> Result<(f64, Approximation), Reason> {
     let (formula, root) = approached(it, [small(it), large(it)])?;
-    Ok((formula, Datum::relative(root, 1e-14)))
+    Ok((formula, Approximation::relative(root, 1e-14)))
 }
 
 /// The formula for `A_n`, of those for n = 1 and n = 2, and the solution of (42) that approaches it as abs(D) grows to 1:

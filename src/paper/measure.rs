@@ -5,7 +5,7 @@
 
 use std::ops::Deref;
 
-use super::verdict::{Conclusion, Datum};
+use super::verdict::{Approximation, Conclusion};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem, Reason};
 use crate::model::{Knob, Parameters, Side, State};
@@ -38,23 +38,23 @@ impl Deref for BoundedCycle {
 
 impl BoundedCycle {
     /// A number made from those of the cycle, and the same from their bounds.
-    pub fn known(&self, value: f64, bounds: impl Fn(&Enclosure) -> Interval) -> Datum {
-        Datum::relative(value, self.error.unwrap_or(f64::INFINITY) + ROUNDED)
+    pub fn known(&self, value: f64, bounds: impl Fn(&Enclosure) -> Interval) -> Approximation {
+        Approximation::relative(value, self.error.unwrap_or(f64::INFINITY) + ROUNDED)
             .within(self.bounds.as_ref().map(bounds))
     }
 
     /// The extent `q_max`.
-    pub fn extent(&self) -> Datum {
+    pub fn extent(&self) -> Approximation {
         self.known(self.q_max, |it| it.q_max)
     }
 
     /// The largest velocity.
-    pub fn speed(&self) -> Datum {
+    pub fn speed(&self) -> Approximation {
         self.known(self.v_max, |it| it.v_max)
     }
 
     /// Half of what lies between the turning points.
-    pub fn amplitude(&self) -> Datum {
+    pub fn amplitude(&self) -> Approximation {
         self.known(0.5 * (self.q_max - self.q_min), |it| (it.q_max - it.q_min) * 0.5)
     }
 }
@@ -161,15 +161,15 @@ impl<'a> ClaimCase<'a> {
         course: (State, f64),
         sought: &'static str,
         read: impl Fn(&Motion) -> Option<[f64; N]>,
-    ) -> Result<[Datum; N], Reason> {
+    ) -> Result<[Approximation; N], Reason> {
         let [first, second] =
             METHODS.map(|method| Ok::<_, Reason>(read(&self.run(course, method, true)?)));
         let (Some(first), Some(second)) = (first?, second?) else { return Err(missing(sought)) };
-        Ok(std::array::from_fn(|index| Datum::twice(first[index], second[index])))
+        Ok(std::array::from_fn(|index| Approximation::twice(first[index], second[index])))
     }
 
     /// Place and time of the first arrival at `v = 0`.
-    pub fn half_swing(&self, initial: State) -> Result<[Datum; 2], Reason> {
+    pub fn half_swing(&self, initial: State) -> Result<[Approximation; 2], Reason> {
         // Stopping at the arrival needs its time; a first run over one half swing finds it.
         let until = self.omega().map_or(LONG, |omega| 2.0 * std::f64::consts::PI / omega);
         let [q, tau] = self.motions((initial, until), "an arrival at v = 0", |motion| {
@@ -180,7 +180,7 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// State at a time before the motion comes to rest.
-    pub fn state_at(&self, initial: State, tau: f64) -> Result<[Datum; 2], Reason> {
+    pub fn state_at(&self, initial: State, tau: f64) -> Result<[Approximation; 2], Reason> {
         let read = |motion: &Motion| match motion.outcome {
             Outcome::Moving { q, v, .. } => Some([q, v]),
             _ => None,
@@ -191,7 +191,7 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// Change of the energy over a motion, and the works of linear damping and of friction.
-    pub fn energy_change(&self, initial: State, until: f64) -> Result<[Datum; 3], Reason> {
+    pub fn energy_change(&self, initial: State, until: f64) -> Result<[Approximation; 3], Reason> {
         let read = |motion: &Motion| {
             let ledger = motion.ledger.as_ref()?;
             Some([ledger.end - ledger.start, ledger.work("linear"), ledger.work("friction")])
@@ -273,17 +273,17 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// The value of D at which cycles vanish, `found` being where the search says so: enclosed to a thousandth.
-    pub fn last_cycle(&self, found: f64, error: f64) -> Datum {
+    pub fn last_cycle(&self, found: f64, error: f64) -> Approximation {
         /// Next to that value proofs take long.
         const AWAY: f64 = 1e-3;
         let known = ParameterBox::from(&self.parameters);
         let between = change_within(&known, Knob::D, found, AWAY);
-        Datum::relative(found, error).within(between.map(|change| change.between))
+        Approximation::relative(found, error).within(between.map(|change| change.between))
     }
 
     /// Mean displacement of a cycle over its period: over one turn all forces cancel, those that depend on the velocity
     /// and the spring's.
-    pub fn mean(&self, cycle: &Cycle) -> Result<Datum, Reason> {
+    pub fn mean(&self, cycle: &Cycle) -> Result<Approximation, Reason> {
         /// Relative error of the integrals by arcs to 1e-14.
         const INTEGRAL: f64 = 1e-11;
         let [rise, fall] = self.arcs(cycle)?;
@@ -292,7 +292,7 @@ impl<'a> ClaimCase<'a> {
         let [second_down, third_down, _] = fall.powers().into();
         let even = d2 * (second_up + second_down);
         let odd = d3 * (third_up - third_down) + r * (rise.swing.duration - fall.swing.duration);
-        Ok(Datum::new(-(even + odd) / cycle.period, INTEGRAL * cycle.q_max))
+        Ok(Approximation::new(-(even + odd) / cycle.period, INTEGRAL * cycle.q_max))
     }
 
     /// The arcs of a cycle above and below `v = 0`.

@@ -14,7 +14,7 @@ mod measure;
 pub(crate) mod model;
 mod verdict;
 
-pub use verdict::{Certainty, Conclusion, Datum, Evidence, POOR, Sense, Verdict};
+pub use verdict::{Approximation, Certainty, Conclusion, Evidence, POOR, Sense, Verdict};
 
 use std::sync::LazyLock;
 
@@ -52,7 +52,7 @@ enum Test {
     /// By whether it holds in each case.
     Always(Ask<Conclusion<bool>>),
     /// By a formula and what it approaches, in one case and in the next one, which is nearer to the limit.
-    Tends(Ask<(f64, Datum)>),
+    Tends(Ask<(f64, Approximation)>),
 }
 
 impl Test {
@@ -85,7 +85,7 @@ const fn always(name: &'static str, holds: Ask<Conclusion<bool>>) -> Check {
     (name, Test::Always(holds))
 }
 
-const fn tends(name: &'static str, compare: Ask<(f64, Datum)>) -> Check {
+const fn tends(name: &'static str, compare: Ask<(f64, Approximation)>) -> Check {
     (name, Test::Tends(compare))
 }
 

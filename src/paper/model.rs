@@ -5,7 +5,7 @@
 //! that comes with the program: friction that falls exponentially with the relative velocity.
 
 use super::measure::{ClaimCase, at_rest};
-use super::{Check, Conclusion, Datum, Evidence, always, worst};
+use super::{Approximation, Check, Conclusion, Evidence, always, worst};
 use crate::closed_form::harmonic::amplitudes;
 use crate::closed_form::linear::LinearFlow;
 use crate::flow::trajectory::trajectory;
@@ -21,7 +21,7 @@ pub(super) const CHECKS: &[Check] = &[
     worst("undamped frequency", |_| {
         let stiffness = derivatives(|x| -acceleration(x, 0.0, 0.0))[0];
         let value = stiffness.value.sqrt();
-        let computed = Datum::new(value, 0.5 * stiffness.error / value);
+        let computed = Approximation::new(value, 0.5 * stiffness.error / value);
         Ok(Evidence::equal(C / M, computed).corrected(omega()))
     }),
     worst("linear damping", |_| {
@@ -43,7 +43,7 @@ pub(super) const CHECKS: &[Check] = &[
     worst("friction", |_| {
         let jump = dimensionless(0.0, JOINT) - dimensionless(0.0, -JOINT);
         let printed = JOINT / (M * powi(omega(), 2));
-        let computed = Datum::relative(0.5 * jump, 1e-14);
+        let computed = Approximation::relative(0.5 * jump, 1e-14);
         Ok(Evidence::equal(printed, computed).corrected(printed / shift()))
     }),
     always("oscillation", |it| {
@@ -67,13 +67,13 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 /// Rate and frequency of small motions.
-fn growth(it: &ClaimCase) -> Result<[Datum; 2], Reason> {
+fn growth(it: &ClaimCase) -> Result<[Approximation; 2], Reason> {
     let [end, duration] = it.half_swing(at_rest(-1.0))?;
     let relative = end.error / end.value + duration.error / duration.value;
     let growth = ln(end.value) / duration.value;
-    let frequency = Datum::relative(std::f64::consts::PI / duration.value, relative)
+    let frequency = Approximation::relative(std::f64::consts::PI / duration.value, relative)
         .within(duration.bounds.map(|it| PI / it));
-    Ok([Datum::new(growth, relative * (1.0 + growth.abs())), frequency])
+    Ok([Approximation::new(growth, relative * (1.0 + growth.abs())), frequency])
 }
 
 // A mass on a belt, in SI units, whose friction falls exponentially with the relative velocity; the table of claims names
@@ -123,14 +123,14 @@ fn dimensionless(v: f64, joint: f64) -> f64 {
 }
 
 /// A factor times a derivative of the dimensionless acceleration by the velocity, without the joint.
-fn coefficient(order: usize, factor: f64) -> Datum {
+fn coefficient(order: usize, factor: f64) -> Approximation {
     derivatives(|v| dimensionless(v, 0.0))[order].times(factor)
 }
 
 /// First, second and third derivative at 0: central differences, extrapolated to step 0.
 ///
 /// The error is what the last extrapolation changed, and the rounding of the differences.
-fn derivatives(function: impl Fn(f64) -> f64) -> [Datum; 3] {
+fn derivatives(function: impl Fn(f64) -> f64) -> [Approximation; 3] {
     /// Steps, each half of the one before.
     const LEVELS: i32 = 6;
     /// The first.
@@ -154,7 +154,7 @@ fn derivatives(function: impl Fn(f64) -> f64) -> [Datum; 3] {
         }
         let size = f(STEP).abs() + f(-STEP).abs() + f(0.0).abs();
         let rounding = 8.0 * f64::EPSILON * size / powi(step(LEVELS - 1), order);
-        Datum::new(row[0], last + rounding)
+        Approximation::new(row[0], last + rounding)
     })
 }
 
@@ -218,7 +218,7 @@ pub fn contact(case: &ClaimCase) -> Result<Evidence, Reason> {
     })?;
     let computed = reached(|parameters| Ok(case.of(*parameters).largest()?.v_max))?;
     // The cycle's velocity is known to more digits than the speeds between which its sign changes.
-    Ok(Evidence::near(harmonic, Datum::relative(computed, 1e-10)))
+    Ok(Evidence::near(harmonic, Approximation::relative(computed, 1e-10)))
 }
 
 /// The speed of the belt that is just reached by cycles with this largest velocity, by bisection.

@@ -32,7 +32,7 @@ pub enum Sense {
 
 /// A number and how far it may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Datum {
+pub struct Approximation {
     /// The number.
     pub value: f64,
     /// Bound on its error.
@@ -41,27 +41,27 @@ pub struct Datum {
     pub bounds: Option<Interval>,
 }
 
-impl Datum {
+impl Approximation {
     /// A number and how far it may be off.
     pub fn new(value: f64, error: f64) -> Self {
-        Datum { value, error, bounds: None }
+        Approximation { value, error, bounds: None }
     }
 
     /// With an interval that certainly holds it.
     pub fn within(self, bounds: impl Into<Option<Interval>>) -> Self {
-        Datum { bounds: bounds.into(), ..self }
+        Approximation { bounds: bounds.into(), ..self }
     }
 
     /// With another number added.
     pub fn plus(self, shift: f64) -> Self {
         let bounds = self.bounds.map(|it| it + Interval::point(shift));
-        Datum { value: self.value + shift, bounds, ..self }
+        Approximation { value: self.value + shift, bounds, ..self }
     }
 
     /// A multiple of it.
     pub fn times(self, factor: f64) -> Self {
         let bounds = self.bounds.map(|it| it * factor);
-        Datum { value: factor * self.value, error: (factor * self.error).abs(), bounds }
+        Approximation { value: factor * self.value, error: (factor * self.error).abs(), bounds }
     }
 
     /// Whether it is larger than a number.
@@ -75,17 +75,17 @@ impl Datum {
 
     /// A number that is what it is, such as a count.
     pub fn exact(value: f64) -> Self {
-        Datum::new(value, 0.0)
+        Approximation::new(value, 0.0)
     }
 
     /// A number with a relative error.
     pub fn relative(value: f64, part: f64) -> Self {
-        Datum::new(value, part * value.abs())
+        Approximation::new(value, part * value.abs())
     }
 
     /// Two answers to one question: the first, with their difference as its error.
     pub fn twice(value: f64, again: f64) -> Self {
-        Datum::new(value, (value - again).abs() + 4.0 * f64::EPSILON * value.abs())
+        Approximation::new(value, (value - again).abs() + 4.0 * f64::EPSILON * value.abs())
     }
 }
 
@@ -155,7 +155,7 @@ impl Certainty {
     }
 
     /// The mark of a formula beside what it is compared with.
-    pub(crate) fn of(sense: Sense, formula: f64, computed: &Datum) -> Option<Certainty> {
+    pub(crate) fn of(sense: Sense, formula: f64, computed: &Approximation) -> Option<Certainty> {
         let bounds = computed.bounds?;
         let formula = with_rounding(formula, computed.error);
         let [holds, fails] = match sense {
@@ -172,8 +172,11 @@ impl Certainty {
     }
 
     /// The mark of a limit, from the formula and what it is compared with far from it and nearer.
-    pub(crate) fn of_limit(far: (f64, &Datum), near: (f64, &Datum)) -> Option<Certainty> {
-        let miss = |(formula, computed): (f64, &Datum)| {
+    pub(crate) fn of_limit(
+        far: (f64, &Approximation),
+        near: (f64, &Approximation),
+    ) -> Option<Certainty> {
+        let miss = |(formula, computed): (f64, &Approximation)| {
             Some(miss(with_rounding(formula, computed.error), computed.bounds?))
         };
         let (far, near) = (miss(far)?, miss(near)?);
@@ -213,7 +216,7 @@ pub struct Evidence {
     /// The corrected formula evaluated, or the formula for what the paper is silent about.
     pub corrected: Option<f64>,
     /// The same thing computed without the formula.
-    pub computed: Datum,
+    pub computed: Approximation,
     /// Of a limit, the relative difference further from it.
     before: f64,
     /// How many cases this one, the worst, was chosen from.
@@ -247,11 +250,11 @@ pub enum Verdict {
 
 impl Evidence {
     /// A formula and what it should be equal to.
-    pub fn equal(paper: f64, computed: Datum) -> Self {
+    pub fn equal(paper: f64, computed: Approximation) -> Self {
         Self::new(Sense::Equal, paper, computed)
     }
 
-    fn new(sense: Sense, paper: f64, computed: Datum) -> Self {
+    fn new(sense: Sense, paper: f64, computed: Approximation) -> Self {
         let mut evidence = Evidence {
             sense,
             place: String::new(),
@@ -268,17 +271,20 @@ impl Evidence {
     }
 
     /// A formula and what it should approximate.
-    pub fn near(paper: f64, computed: Datum) -> Self {
+    pub fn near(paper: f64, computed: Approximation) -> Self {
         Self::new(Sense::Near, paper, computed)
     }
 
     /// A formula and what it should be a lower bound of.
-    pub fn at_most(paper: f64, computed: Datum) -> Self {
+    pub fn at_most(paper: f64, computed: Approximation) -> Self {
         Self::new(Sense::AtMost, paper, computed)
     }
 
     /// A formula and what it should approach, at two places, the second nearer to the limit.
-    pub fn tends((far, far_computed): (f64, Datum), (near, near_computed): (f64, Datum)) -> Self {
+    pub fn tends(
+        (far, far_computed): (f64, Approximation),
+        (near, near_computed): (f64, Approximation),
+    ) -> Self {
         let mark = Certainty::of_limit((far, &far_computed), (near, &near_computed));
         let before = Self::near(far, far_computed).miss();
         let evidence = Evidence { before, mark, ..Self::new(Sense::Tends, near, near_computed) };
@@ -298,7 +304,7 @@ impl Evidence {
         let is_refuted = answers.iter().any(|(_, answer)| answer.certain && !answer.value);
         let is_proved = answers.iter().all(|(_, answer)| answer.certain);
         let mark = Certainty::decided(is_proved && cases > 0, is_refuted);
-        let numbers = Self::new(Sense::Always, real(cases), Datum::exact(real(held)));
+        let numbers = Self::new(Sense::Always, real(cases), Approximation::exact(real(held)));
         Ok(Evidence { place: place.unwrap_or_default(), cases, held, mark, ..numbers })
     }
 
@@ -326,7 +332,7 @@ impl Evidence {
         let mark = all.iter().map(|it| it.mark).fold(Some(Certainty::Proved), Certainty::and);
         let order = |it: &Self| (it.corrected.is_some_and(|value| !it.holds(value)), it.strain());
         let worse = |one: Self, next: Self| if order(&next) > order(&one) { next } else { one };
-        let none = || Self::new(Sense::Always, 0.0, Datum::exact(0.0));
+        let none = || Self::new(Sense::Always, 0.0, Approximation::exact(0.0));
         let worst = all.into_iter().reduce(worse).unwrap_or_else(none);
         Ok(Evidence { cases, held, mark, ..worst })
     }
@@ -434,8 +440,8 @@ impl Verdict {
 mod tests {
     use super::*;
 
-    fn known(value: f64) -> Datum {
-        Datum::new(value, 1e-9)
+    fn known(value: f64) -> Approximation {
+        Approximation::new(value, 1e-9)
     }
 
     #[test]
