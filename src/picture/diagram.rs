@@ -299,9 +299,11 @@ fn rest_in(
     abscissa: Knob,
     height: Height,
 ) {
-    let Some(size) = height.ordinate.spec().harmonic else { return };
-    // A rest has a mean, anywhere in the sticking set, and no amplitude.
-    let has_band = size(1.0, 0.0) != 0.0;
+    let has_band = match height.ordinate {
+        Ordinate::QMax | Ordinate::QMin | Ordinate::Mean => true,
+        Ordinate::VMax | Ordinate::Amplitude => false,
+        Ordinate::Period | Ordinate::Multiplier => return,
+    };
     if shown.problem.parameters.r == 0.0 && abscissa != Knob::R {
         // There is no height in units of a friction that is zero.
         if !height.is_ratio() {

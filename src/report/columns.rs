@@ -10,6 +10,7 @@ use serde_json::Value;
 use super::json::{self, Document};
 use super::table::Table;
 use crate::numerics::{Interval, cells, log10, pow};
+use crate::words::number::rounded_down;
 use crate::words::{joined, significant, with_unit};
 
 /// What columns are called in text, where that is not their name in files, a line each.
@@ -43,6 +44,11 @@ impl Quantity {
     /// The word of text for a number that does not exist, in place of `-`.
     pub const fn or(self, absent: &'static str) -> Self {
         Quantity { absent, ..self }
+    }
+
+    /// The number with the digits that text shows, and not above it.
+    pub fn down(self, value: f64) -> f64 {
+        rounded_down(value, self.digits)
     }
 
     /// The number as text shows it.

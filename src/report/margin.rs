@@ -5,7 +5,7 @@ use super::{About, Answer, Columns, Document, Quantity, cycles};
 use crate::portrait::guarantee::NoGuarantee;
 use crate::portrait::{Counts, Margin, Portrait, RandomKick, StartWindow, Survival};
 use crate::proof::kicks::ProvedKicks;
-use crate::words::number::{rounded_down, significant};
+use crate::words::number::significant;
 
 /// What a margin is called, and how large it is.
 pub(super) type MarginRow = (&'static str, Margin);
@@ -15,7 +15,7 @@ pub(super) const GUARANTEED: &str = "guaranteed";
 
 /// The columns of margins.
 pub(super) fn margin_columns<'a>(about: &About, digits: usize) -> Columns<'a, MarginRow> {
-    let [length, impulse] = ["m", "N s"].map(|unit| about.quantity(unit, digits).or("none"));
+    let [length, impulse] = sizes(about, digits);
     Columns::default()
         .number("displacement", length, |(_, margin): &MarginRow| margin.displacement)
         .number("impulse", impulse, |(_, margin)| margin.impulse)
@@ -23,10 +23,15 @@ pub(super) fn margin_columns<'a>(about: &About, digits: usize) -> Columns<'a, Ma
         .number("from_rest_impulse", impulse, |(_, margin)| margin.from_rest.impulse)
 }
 
-/// A margin that holds for certain, with so many digits: text must not round it up.
-pub(super) fn guaranteed(margin: Margin, digits: usize) -> MarginRow {
-    let down = |size| rounded_down(size, digits);
-    (GUARANTEED, margin.map(down, down))
+/// Displacements and impulses.
+fn sizes(about: &About, digits: usize) -> [Quantity; 2] {
+    ["m", "N s"].map(|unit| about.quantity(unit, digits).or("none"))
+}
+
+/// A margin that holds for certain, which text must not round up.
+pub(super) fn guaranteed(about: &About, margin: Margin, digits: usize) -> MarginRow {
+    let [length, impulse] = sizes(about, digits);
+    (GUARANTEED, margin.map(|size| length.down(size), |size| impulse.down(size)))
 }
 
 /// The margins, nominal and those for certain whatever a force of at most `disturbance` does: a row for each, or why
@@ -40,7 +45,7 @@ pub fn margins(
     let reason = certain.err().map(|why| why.to_string());
     let margin = certain.unwrap_or(Margin::ENDLESS);
     let rows = [("nominal", nominal), (GUARANTEED, margin)];
-    let shown = certain.map(|margin| guaranteed(margin, 12));
+    let shown = certain.map(|margin| guaranteed(about, margin, 12));
     let shown = [rows[0]].into_iter().chain(shown);
     let name = |(name, _): &MarginRow| *name;
     let why = reason.clone();

@@ -153,6 +153,12 @@ fn margins_for_certain_are_those_of_the_overview() {
             assert_eq!(margin[one][kick], overview[other][kick], "{one} {kick}");
         }
     }
+    // Text is not above what holds.
+    let text = run(&[&["margin", "--machine", "textbook"], &words[..]].concat()).out;
+    let row = text.lines().find(|line| line.trim_start().starts_with("displacement")).unwrap();
+    let told: f64 = row.split_whitespace().rev().nth(1).unwrap().parse().unwrap();
+    let holds = 1e3 * margin["guaranteed"]["displacement"].as_f64().unwrap();
+    assert!(told <= holds && told > holds - 1e-4, "{text} {holds}");
     let known = &margin["parameters"];
     assert_eq!(known["R"], overview["guaranteed"]["tolerances"]["R"]);
     assert_eq!((&known["m"][0], &known["m"][1]), (&2.0.into(), &2.0.into()));

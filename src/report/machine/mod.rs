@@ -70,7 +70,7 @@ pub fn machine(found: &MachineAnswer) -> Answer {
     let MachineAnswer { about, portrait, expansion, .. } = found;
     let certain = found.certain.and_then(Result::ok);
     let margins = [("nominal", portrait.margin)].into_iter();
-    let margins = margins.chain(certain.map(|margin| guaranteed(margin, PLACES)));
+    let margins = margins.chain(certain.map(|margin| guaranteed(about, margin, PLACES)));
     let kicks = Columns::default()
         .text("smallest kick that is not survived", |(name, _): &MarginRow| *name)
         .and(margin_columns(about, PLACES));

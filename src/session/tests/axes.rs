@@ -2,6 +2,7 @@
 
 use super::Trial;
 use crate::model::Knob;
+use crate::picture::{self, Item};
 use crate::scene::{Layer, ORDINATES, Ordinate, Topic};
 use crate::session::Framing;
 
@@ -96,4 +97,20 @@ fn ratios_to_r_are_another_look_at_the_same_branch() {
         ("<esc>", ""),
         (": axes D size", "refused ..no property \"size\"; there are q_max.."),
     ]);
+}
+
+#[test]
+fn rest_has_no_period_and_no_multiplier() {
+    let mut trial = Trial::alone("supercritical");
+    for (property, has_rest) in [("mean", true), ("period", false), ("multiplier", false)] {
+        trial.press(&format!("<run \"axes D {property}\">"));
+        let drawn = picture::of(&trial.session, 1);
+        let rests = drawn.items.iter().filter(|item| match item {
+            Item::Curve(line, _) | Item::Graph(line, _) | Item::Rows(line, ..) => {
+                line.name.starts_with("rest")
+            }
+            _ => false,
+        });
+        assert_eq!(rests.count() > 0, has_rest, "{property}");
+    }
 }
