@@ -183,11 +183,12 @@ impl<'a> CycleCurve<'a> {
     /// Bisection until Newton's method takes over. In D, D3 and r the residual falls everywhere, because
     /// each of them takes energy from every swing: then it is the only cycle of this clearance.
     pub fn bracketed(&mut self, u: f64, range: (f64, f64)) -> Result<Option<CurvePoint>, Reason> {
-        /// Newton's method is tried after this many halvings, so often that the bracket is then as fine as the parameter.
+        /// Newton's method is tried after this many halvings.
         const HALVINGS: u32 = 4;
-        const TIMES: usize = 15;
+        /// After so many rounds the bracket is as fine as the parameter.
+        const ROUNDS: usize = 15;
         let (mut low, mut high) = range;
-        for _ in 0..TIMES {
+        for _ in 0..ROUNDS {
             let falls = |p| Ok(self.value(u, p)? <= 0.0);
             (low, high) = try_bisect(low, high, HALVINGS, falls)?;
             let near = (u, f64::midpoint(low, high));

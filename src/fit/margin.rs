@@ -181,7 +181,7 @@ pub fn margins(
     let (smallest, largest) = estimate.amplitudes();
     let ask = |p: &Unknowns| answer(&parameters(p), largest, limits);
     let draws = question.draws.max(question.needed());
-    let Draws { draws: drawn, effective, motions } = drawn(estimate, draws, limits)?;
+    let Draws { sample: drawn, effective, motions } = drawn(estimate, draws, limits)?;
     let compute = |p: &Unknowns| {
         let found = ask(p).ok()?;
         let sure = question.guaranteed(p, &found.margin, limits).ok()?;

@@ -16,8 +16,8 @@ use crate::numerics::{amount, exp, ln, pow, real};
 
 /// Unknowns drawn, all of equal weight.
 pub struct Draws {
-    /// The unknowns.
-    pub draws: Vec<Unknowns>,
+    /// The unknowns of each.
+    pub sample: Vec<Unknowns>,
     /// The number of independent draws that would carry as much information.
     pub effective: f64,
     /// Number of motions computed for the weights.
@@ -46,7 +46,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Draws
             p
         };
         let effective = real(draws);
-        return Ok(Draws { draws: (0..draws).map(draw).collect(), effective, motions: 0 });
+        return Ok(Draws { sample: (0..draws).map(draw).collect(), effective, motions: 0 });
     }
     let mut points: Vec<(Unknowns, f64)> = Vec::new();
     let mut motions = 0;
@@ -69,7 +69,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Draws
     }
     let weights = weights(&points);
     let draws = resampled(&points, &weights, draws);
-    Ok(Draws { draws, effective: effective(&weights), motions })
+    Ok(Draws { sample: draws, effective: effective(&weights), motions })
 }
 
 /// Weights from their logarithms.

@@ -101,6 +101,11 @@ mod tests {
     fn every_method_stands_at_its_own_row() {
         let lines = include_str!("../../assets/methods.txt").lines();
         assert_eq!(METHODS.len(), lines.filter(|line| line.contains(" | ")).count());
+        for [name, _, events, _] in
+            include_str!("../../assets/methods.txt").lines().filter_map(cells)
+        {
+            assert!(["events", "-"].contains(&events), "{name}: {events}");
+        }
         for row in METHODS.iter() {
             assert_eq!(row.method.spec().name, row.name);
             assert_eq!(row.dial.is_none(), row.method == Method::Exact);

@@ -18,7 +18,7 @@ pub enum DangerousValues {
     Large,
 }
 
-/// The lines of `assets/columns.txt`: a column, its unit, that of a machine's, which of its values are dangerous, and what it
+/// The lines of `assets/columns.txt`: a column, its unit, its SI unit of a machine, which of its values are dangerous, and what it
 /// means that there is none.
 static COLUMNS: LazyLock<Vec<[&str; 5]>> =
     LazyLock::new(|| include_str!("../../assets/columns.txt").lines().filter_map(cells).collect());
@@ -42,7 +42,7 @@ pub fn measured(scanned: &ScanOnShow) -> &'static str {
 pub fn with_unit(scanned: &ScanOnShow) -> String {
     let [column, own, si, ..] = plotted(scanned);
     let unit = if scanned.scan.problem(0).is_some() { own } else { si };
-    units::with_unit(column, unit.trim_matches('-'))
+    units::with_unit(column, Some(unit).filter(|unit| *unit != "-").unwrap_or_default())
 }
 
 /// What it means that there is no number at a point; `None` where there is one.

@@ -179,7 +179,7 @@ pub struct Axes {
     /// The parameter upwards, in a chart over two parameters.
     pub against: Knob,
     /// The number of a machine to the right, in a diagram of its cycles.
-    #[serde(default = "belt_speed", skip_serializing_if = "is_belt_speed")]
+    #[serde(default = "belt_speed", skip_serializing_if = "is_usual")]
     #[serde(deserialize_with = "number_of_machine")]
     pub machine: Knob,
 }
@@ -188,8 +188,9 @@ fn belt_speed() -> Knob {
     Knob::BeltSpeed
 }
 
-fn is_belt_speed(knob: &Knob) -> bool {
-    *knob == Knob::BeltSpeed
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
+fn is_usual(machine: &Knob) -> bool {
+    *machine == belt_speed()
 }
 
 fn number_of_machine<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Knob, D::Error> {

@@ -53,3 +53,11 @@ pub fn in_letters(trade: &Trade) -> String {
     plot.finish(screen);
     format!("{}      {}\n", screen::text(&buffer), key.join("  "))
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_method_has_a_letter() {
+        assert_eq!(super::LETTERS.len(), crate::flow::METHODS.len());
+    }
+}

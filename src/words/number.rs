@@ -50,7 +50,7 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// Writes by which part of the true value, not 0, another exceeds it: `12 % too large`.
+/// Writes by which part of the true value (which is not 0) another exceeds it: `12 % too large`.
 pub fn too_large(part: f64) -> String {
     let way = if part > 0.0 { "large" } else { "small" };
     format!("{} % too {way}", significant(100.0 * part.abs(), 2))

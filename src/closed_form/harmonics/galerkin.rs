@@ -283,7 +283,7 @@ fn newton_step(
     if !values.amax().is_finite() {
         return Err(Reason::OutOfRange);
     }
-    Ok(jacobian.solve(&values).filter(|step| step.iter().all(|change| change.is_finite())))
+    Ok(jacobian.solve(&values).filter(|step| step.iter().all(ComplexField::is_finite)))
 }
 
 /// Whether the determinant is positive; its size may well overflow.

@@ -7,7 +7,7 @@
 //! attained: the disturbance `w sign(v)` at the worst parameters keeps to the border. In the same way no motion
 //! enters the basin of the *best* system from outside.
 //!
-//! An extreme system has a D2 of its own on each side, so it is a [`TwoSidedOscillator`] one; half maps and arcs are
+//! An extreme system has a D2 of its own on each side, so it is a [`TwoSidedOscillator`]; half maps and arcs are
 //! computed side by side anyway.
 
 use super::NoGuarantee;

@@ -225,8 +225,8 @@ impl From<Setting> for SavedSetting {
 impl TryFrom<SavedSetting> for Setting {
     type Error = String;
 
-    fn try_from(written: SavedSetting) -> Result<Self, String> {
-        let numbers = match written {
+    fn try_from(saved: SavedSetting) -> Result<Self, String> {
+        let numbers = match saved {
             SavedSetting::Speed(speed) => return Ok(Setting::of_speed(speed)),
             SavedSetting::Numbers(numbers) => numbers,
         };
