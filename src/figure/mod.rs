@@ -84,6 +84,10 @@ pub fn file(figure: &Figure, form: FigureForm) -> Result<Vec<u8>, String> {
 const UNITS: &str =
     "dimensionless, as in equation (4): time tau in 1/omega_0, q in x0, v in omega_0 x0";
 
+/// The same where there is a machine.
+const WITH_MACHINE: &str = "dimensionless, as in equation (4): time tau in 1/omega_0, q in x0, v in omega_0 x0; what goes over \
+    numbers of the machine in SI units";
+
 fn panel(session: &Session, plot: usize) -> Panel {
     let mut picture = picture::of(session, plot);
     if session.has_equal_units(plot) {
@@ -108,7 +112,7 @@ impl Figure {
             title: session.scene.title.clone(),
             program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
             provenance: None,
-            units: UNITS,
+            units: if session.running().is_some() { WITH_MACHINE } else { UNITS },
             parameters,
             initial,
             until,

@@ -76,7 +76,7 @@ fn rest(picture: &mut Picture, points: &[(f64, &Portrait)]) {
 /// A change, by its letter, and the jumps from the stable states that end there.
 fn changes(picture: &mut Picture, special: &Special, unit: &str) {
     let at = special.value;
-    let ways = ["jump as it grows", "jump as it falls"];
+    let ways = ["jump as numbers grow", "jump as numbers fall"];
     let jumps = special.jumps.unwrap_or_default();
     for (jump, name) in [jumps.up, jumps.down].into_iter().zip(ways) {
         let Some(jump) = jump else { continue };

@@ -153,7 +153,8 @@ fn keep_selection(session: &mut Session) {
     let rows = session.rows();
     if !rows.contains(&session.selected) {
         let mut after = Row::all().skip_while(|row| *row != session.selected);
-        session.selected = after.find(|row| rows.contains(row)).unwrap_or(Row::Tolerance);
+        let next = after.find(|row| rows.contains(row));
+        session.selected = next.or(rows.last().copied()).unwrap_or_default();
     }
 }
 

@@ -75,8 +75,8 @@ pub fn shown(session: &Session, height: u16) -> Range<usize> {
     first..rows.len().min(first + most)
 }
 
-/// What to look at in this scene and what to press. Where there is no room for both texts, the key that shows
-/// the second stands in its place.
+/// What to look at in this scene and what to press. Where there is no room for a text, the key that shows both stands in
+/// its place.
 fn guide(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let quiet = |text: &str| look.span(text.to_owned(), Role::Quiet);
@@ -97,8 +97,10 @@ fn guide(area: Rect, session: &Session, screen: &mut Surface) {
     let full = [apart, together].into_iter();
     let mut full = full.filter(|lines| pane::rows(lines, inner.width) <= area.height);
     let lines = full.next().unwrap_or_else(|| {
-        let blank = (pane::rows(&watch, inner.width) + 1 < area.height).then(Line::default);
-        watch.into_iter().chain(blank).chain([short]).collect()
+        let rows = pane::rows(&watch, inner.width) + 1;
+        let blank = (rows < area.height).then(Line::default);
+        let watch = watch.into_iter().filter(|_| rows <= area.height);
+        watch.chain(blank).chain([short]).collect()
     });
     screen.prose(inner, lines);
 }
@@ -119,7 +121,7 @@ fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'stati
     // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
     let off = row.is_of_machine() && session.is_on_the_belt() == Some(false);
     let value = if off { format!("({value})") } else { value };
-    let unit_alone = row.is_of_machine() && !is_wide(width);
+    let unit_alone = row.is_of_machine() && !selected && !is_wide(width);
     let gap = end.saturating_sub(name.len() + value.chars().count() + 1).max(1);
     let style = look.style(role);
     let value_style = if off && !selected {
@@ -151,12 +153,13 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
         told.iter().find(|text| fits(text)).or(told.last()).cloned()
     });
     if width >= WITH_MEANINGS {
-        let meaning = meaning(&session.problem, row);
-        return match physical {
-            Some(unit) if row.is_of_machine() => format!("  {step:<STEP$}  {meaning} [{unit}]"),
-            Some(physical) => format!("  {step:<STEP$}  {physical}"),
-            None => format!("  {step:<STEP$}  {meaning}"),
+        let meaning = meaning(&session.problem, row).to_owned();
+        let on_the_belt = row.is_of_machine() && session.is_on_the_belt() == Some(true);
+        let texts = match physical {
+            Some(unit) if on_the_belt => vec![format!("{unit}, {meaning}"), unit],
+            physical => vec![physical.unwrap_or(meaning)],
         };
+        return format!("  {step:<STEP$}  {}", pane::fitting(texts, room - STEP - 4));
     }
     // On a narrow pane what the number means on the machine stands in place of the step, of which the
     // selected row alone needs to speak; the unit of a number of the machine stands right behind it.

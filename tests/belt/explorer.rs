@@ -5,6 +5,7 @@ use super::*;
 use hopfscope::model::belt::ReducedBelt;
 use hopfscope::model::{Belt, Group, Knob};
 use hopfscope::portrait::Portrait;
+use hopfscope::portrait::kicks::RandomKick;
 use hopfscope::scene::View;
 use hopfscope::session::{Effect, Msg, Purpose, Row, run_line, save};
 
@@ -440,6 +441,19 @@ fn a_machine_is_scanned_over_its_own_numbers_by_the_whole_model() {
     let (taken, _) = screen(scene.clone(), &format!("{line} <right> <up> <enter>"));
     let machine = taken.machine().unwrap();
     assert_eq!((machine.belt_speed, machine.normal_force), (0.2, 100.0));
+    // What was changed by hand stays, and kicks are those that were typed.
+    let by_hand = screen(scene.clone(), ":set<space>r=0.06<enter>").0.machine().unwrap();
+    let keys = ":set<space>r=0.06<enter> :scan<space>F=50:100:2<enter> <right> <enter>";
+    let taken = screen(scene.clone(), keys).0.machine().unwrap();
+    let ratio = taken.friction / by_hand.friction;
+    assert!(taken.normal_force == 100.0 && (ratio - 1.0).abs() < 1e-12, "{ratio}");
+    let keys =
+        ":kicks<space>q=0+-0.3<space>mm,v=0<enter> :scan<space>v0=0.2:0.3:2<space>lost<enter>";
+    let (session, _) = screen(scene.clone(), keys);
+    let kicks = RandomKick::read("q=0+-3e-4,v=0", ["m", "m/s"]).unwrap();
+    let lost = kicks.lost(&Portrait::of_belt(belt).unwrap()).unwrap().part;
+    let told = session.scanned.unwrap().rows[0].values[0].number().unwrap();
+    assert!(lost > 1e-3 && (told / lost - 1.0).abs() < 1e-6, "{told} {lost}");
     let (_, refused) = screen(scene.clone(), ":scan<space>D=-0.3:0:3<enter>");
     assert!(refused.contains("no number \"D\""), "{refused}");
     let (expansion, _) = screen(scene, "| :scan<space>D=-0.3:-0.1:3<enter>");

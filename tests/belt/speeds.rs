@@ -109,12 +109,12 @@ fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
     for (scene, jumps, kinds) in [
         (
             "slow-belt",
-            ["jump as it grows"].as_slice(),
+            ["jump as numbers grow"].as_slice(),
             ["branch of stick-slip cycles", "unstable slip cycle"],
         ),
         (
             "benchmark",
-            &["jump as it falls", "jump as it grows"],
+            &["jump as numbers fall", "jump as numbers grow"],
             ["branch of stick-slip cycles", "unstable slip cycle"],
         ),
     ] {

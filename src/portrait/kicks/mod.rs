@@ -78,10 +78,16 @@ impl RandomKick {
             }
             *place = (mean, spread);
         }
-        if kicks.reach() > FARTHEST {
-            return Err(format!("{text:?} reaches too far; kicks stay within {FARTHEST:e}"));
+        kicks.checked()
+    }
+
+    /// These kicks, if they are numbers and not too far away. Fails with one line that says what is allowed.
+    pub fn checked(self) -> Result<Self, String> {
+        let (mean, spread) = self.v;
+        if self.reach() <= FARTHEST && mean.is_finite() && spread.is_finite() {
+            return Ok(self);
         }
-        Ok(kicks)
+        Err(format!("kicks {self} reach too far; they stay within {FARTHEST:e}"))
     }
 }
 
@@ -146,7 +152,7 @@ impl Distribution {
 }
 
 impl RandomKick {
-    /// The same kick in other units, given in its own.
+    /// The same kick in these units, which are given in its present ones.
     #[must_use]
     pub fn in_units(mut self, displacement: f64, velocity: f64) -> Self {
         for (part, unit) in [(&mut self.q, displacement), (&mut self.v, velocity)] {

@@ -101,6 +101,11 @@ fn belonging(session: &Session) -> Vec<NamedNumber> {
         all.extend(
             columns.iter().zip(values).map(|(name, value)| (name.to_string(), measured(value))),
         );
+        if scanned.scan.problem(scanned.at).is_none() {
+            let inputs = scanned.scan.inputs(scanned.at).into_iter();
+            all.extend(inputs.map(|(name, value)| (name, measured(&value))));
+            return all;
+        }
     }
     all.extend(Knob::MOTION.map(|knob| named(knob.spec().name, problem.get(knob))));
     all

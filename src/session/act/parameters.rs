@@ -201,12 +201,14 @@ impl Session {
             let scaled = scaled.clone()?;
             Some((Setting::of_speed(scaled.machine.belt.belt_speed), scaled))
         };
-        let before = self.units();
+        let units = |it: &Session| it.running().map(|running| running.reduced.units);
+        let before = units(self);
         (self.setting, self.scaled) = set.or_else(own).unzip();
-        // Kicks keep their metres.
-        if let Some((from, to)) = before.zip(self.units()) {
+        // Kicks keep their metres, unless these are too many.
+        if let Some((from, to)) = before.zip(units(self)) {
             let ratios = [to.displacement / from.displacement, to.velocity / from.velocity];
-            self.kicks = self.kicks.in_units(ratios[0], ratios[1]);
+            let kicks = self.kicks.in_units(ratios[0], ratios[1]).checked();
+            self.kicks = kicks.unwrap_or(self.kicks);
         }
         // The energy ledger has lines for each motion.
         if self.others.len() != others.len() {

@@ -4,12 +4,13 @@ use crate::flow::{Problem, Subject};
 use crate::model::{Knob, KnobSpec, State};
 use crate::portrait::basin;
 use crate::scan::grid::Scan;
-use crate::scan::measure::Measure;
+use crate::scan::measure::{Conditions, Measure};
 use crate::scan::sweep::Sweep;
 use crate::scene::{Request, Span, View};
 use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::{add, focus_on, show};
 use crate::session::scan::SCANNING;
+use crate::session::state::setup::ON_A_MACHINE;
 use crate::session::{
     Content, Done, Effect, Overlay, Pane, Plot, Prompt, ScanOnShow, ScanProgress, Session,
 };
@@ -21,7 +22,10 @@ pub const FILE: &str = "scan.csv";
 /// Opens the command line with the last scan; before the first one, with one over the parameter of a diagram on show,
 /// otherwise over the selected parameter around its value.
 pub fn open(session: &mut Session) {
-    let last = session.scanned.as_ref().map(|scanned| typed(&scanned.scan));
+    let groups = session.scanned_groups();
+    let has = |scan: &Scan| scan.over.iter().all(|it| groups.contains(&it.symbol.spec().group));
+    let last = session.scanned.as_ref().filter(|it| has(&it.scan));
+    let last = last.map(|scanned| typed(&scanned.scan));
     let line = format!("scan {}", last.unwrap_or_else(|| usual(session)));
     session.overlay = Some(Overlay::Prompt(Prompt::new(line)));
 }
@@ -168,6 +172,17 @@ pub fn take(session: &mut Session) -> Done {
     let scanned = scanned(session)?;
     let (scan, place) = (scanned.scan.clone(), scanned.scan.place(scanned.at));
     let (mut setup, mut said) = (session.setup(), Vec::new());
+    if scan.problem(0).is_none()
+        && let Some(belt) = session.machine()
+    {
+        // A number of the machine leads back onto its path: what was changed by hand is set there before.
+        for (symbol, knob) in ON_A_MACHINE {
+            let follows = session.running().map(|it| it.reduced.parameters.value(symbol));
+            if follows != Some(session.value(symbol)) {
+                setup = session.with(&setup, knob, knob.of_belt(&belt).unwrap_or(0.0))?;
+            }
+        }
+    }
     for (sweep, which) in scan.over.iter().zip(place) {
         let (knob, value) = (sweep.symbol, sweep.value(which));
         setup = session.with(&setup, knob, value)?;
@@ -213,15 +228,18 @@ fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, 
         q: ends(window.x, units.displacement),
         v: ends(window.y, units.velocity),
     };
-    let Some(belt) = source.of_belt() else {
-        return Scan::new(session.problem, over, measures, window);
+    let kicks = session.kicks.in_units(1.0 / units.displacement, 1.0 / units.velocity);
+    let conditions = Conditions { window, kicks, ..Conditions::default() };
+    let (Some(belt), Some(running)) = (source.of_belt(), session.running()) else {
+        return Scan::new(session.problem, over, measures, conditions);
     };
-    let running = session.running().ok_or("there is no machine")?;
-    let tolerances = session.doubt.on_machine(running, belt)?;
+    let asks = measures.iter().any(|it| matches!(it, Measure::Guaranteed | Measure::Design));
+    let tolerances = asks.then(|| session.doubt.on_machine(running, belt)).transpose()?;
     let Problem { initial: State { q, v }, until, .. } = session.problem;
     let start = (q * units.displacement, v * units.velocity);
-    let subject = Subject::moving(source, tolerances, start, until * units.time);
-    Scan::new(subject, over, measures, window)
+    let subject =
+        Subject::moving(source, tolerances.unwrap_or_default(), start, until * units.time);
+    Scan::new(subject, over, measures, conditions)
 }
 
 impl Session {

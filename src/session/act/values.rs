@@ -140,7 +140,10 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
 pub fn kicks(session: &mut Session, rest: &str) -> Done {
     let units = session.running().map(|running| running.reduced.units);
     let kicks = RandomKick::read(rest, if units.is_some() { ["m", "m/s"] } else { ["", ""] })?;
-    session.kicks = units.map_or(kicks, |units| kicks.in_units(units.displacement, units.velocity));
+    session.kicks = match units {
+        Some(units) => kicks.in_units(units.displacement, units.velocity).checked()?,
+        None => kicks,
+    };
     session.layers.insert(Layer::Kicks);
     let of = if units.is_some() { "in m and m/s" } else { "in q and v" };
     session.inform(format!("{} kicks {kicks}, {of}", kicks.law.name()));

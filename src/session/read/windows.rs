@@ -47,7 +47,7 @@ pub(crate) fn fitted(session: &Session, index: usize) -> Option<Window> {
         View::TimeSeries => time_series(session, index),
         View::EnergyLedger => energy_ledger(session),
         View::ReturnMap => return_map(session),
-        View::Regimes => regimes(session, index),
+        View::Regimes => Some(regimes(session, index)),
         View::Trade => trade(session),
         View::Belt => belt(session),
         View::EnergyRate => energy_rate(session),
@@ -251,9 +251,9 @@ fn eigenvalues(session: &Session) -> Option<Window> {
 }
 
 /// The first ranges of both parameters, and the present point.
-fn regimes(session: &Session, plot: usize) -> Option<Window> {
+fn regimes(session: &Session, plot: usize) -> Window {
     let Axes { abscissa, against, .. } = session.plots[plot].axes;
-    Some(Window { x: session.values_around(abscissa), y: session.values_around(against) })
+    Window { x: session.values_around(abscissa), y: session.values_around(against) }
 }
 
 impl Session {
@@ -288,7 +288,9 @@ impl Session {
             Some(size) if value == 0.0 => [(-size).max(knob.spec().min), size, 0.0],
             Some(_) => [0.1 * value, 3.0 * value, value],
         };
-        Span::covering(ends).unwrap_or(usual)
+        let spec = knob.spec();
+        let span = Span::covering(ends).and_then(|span| span.within(spec.min, spec.max));
+        span.unwrap_or(usual)
     }
 }
 

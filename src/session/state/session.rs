@@ -224,7 +224,8 @@ impl Session {
                 let opened = &self.scene.problem;
                 let asked = |it: &Problem| (it.until, it.method, it.setting());
                 let as_opened = asked(&self.problem) == asked(opened);
-                self.unfolded || self.scene.machine.is_none() || !as_opened
+                let in_use = self.selected == row || !as_opened;
+                self.unfolded || self.scene.machine.is_none() || in_use
             }
             Row::Number(knob) if row.is_of_machine() => {
                 let is_set = self.setting.as_ref().is_some_and(|it| it.get(knob).is_some());

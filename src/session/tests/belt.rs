@@ -5,6 +5,7 @@ use super::saved::reopened;
 use crate::model::Knob;
 use crate::model::belt::ReducedBelt;
 use crate::scene::Layer;
+use crate::session::Row;
 use crate::session::{Msg, save};
 
 /// The textbook machine at a speed of its belt, reduced without a session.
@@ -72,4 +73,14 @@ fn the_path_over_the_speed_asks_nothing() {
     assert_eq!(trial.session.not_drawn(Layer::BeltPath), None);
     let plain = Trial::open("regimes").session;
     assert!(plain.not_drawn(Layer::BeltPath).is_some_and(|why| why.contains("no machine")));
+}
+
+#[test]
+fn the_selected_row_of_a_machine_is_on_show() {
+    let mut trial = Trial::open("slow-belt");
+    for keys in ["x <down*30>", "x", "<right>", "<left>", "<up>", "x <up>", "x"] {
+        trial.press(keys);
+        assert!(trial.session.rows().contains(&trial.session.selected), "{keys}");
+    }
+    assert!(!trial.session.rows().contains(&Row::Tolerance));
 }

@@ -91,4 +91,11 @@ fn a_machine_is_kicked_in_metres_by_the_whole_model() {
     trial.press("<run \"set F=150 N\">");
     let second = asked(&trial);
     assert!(second != first && close(&second), "{second:?}");
+    // What they are saved as can be read again, however small the unit becomes.
+    reopened(&trial.session);
+    trial.press("<run \"kicks q=0+-0.5,v=0+-1\"><run \"set F=1e-9 N\">");
+    reopened(&trial.session);
+    let before = trial.session.kicks;
+    trial.give(Msg::Run("kicks q=0+-1e6".to_owned()));
+    assert_eq!(trial.session.kicks, before);
 }
