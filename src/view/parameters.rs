@@ -157,6 +157,7 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
         let on_the_belt = row.is_of_machine() && session.is_on_the_belt() == Some(true);
         let texts = match physical {
             Some(unit) if on_the_belt => vec![format!("{unit}, {meaning}"), unit],
+            None if on_the_belt => vec![meaning, String::new()],
             physical => vec![physical.unwrap_or(meaning)],
         };
         return format!("  {step:<STEP$}  {}", pane::fitting(texts, room - STEP - 4));
