@@ -27,7 +27,7 @@ pub struct Figure {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub provenance: Option<Provenance>,
     /// What the numbers are measured in.
-    pub units: &'static str,
+    pub units: String,
     /// Parameters of the present motion; curves have their own.
     pub parameters: Parameters,
     /// Where the motion starts.

@@ -71,7 +71,7 @@ pub(super) fn remarks(figure: &Figure) -> Vec<String> {
         format!("D = {:?}, D2 = {:?}, D3 = {:?}, r = {:?}", p.d, p.d2, p.d3, p.r),
         format!("q0 = {:?}, v0 = {:?}, until = {:?}", start.q, start.v, figure.until),
         format!("method {}, tolerance {:?}, {}", figure.method, figure.tolerance, figure.program),
-        figure.units.to_owned(),
+        figure.units.clone(),
     ];
     if let Some(provenance) = &figure.provenance {
         remarks.push(format!("{}: {}", provenance.build(), provenance.command));

@@ -84,10 +84,6 @@ pub fn file(figure: &Figure, form: FigureForm) -> Result<Vec<u8>, String> {
 const UNITS: &str =
     "dimensionless, as in equation (4): time tau in 1/omega_0, q in x0, v in omega_0 x0";
 
-/// The same where there is a machine.
-const WITH_MACHINE: &str = "dimensionless, as in equation (4): time tau in 1/omega_0, q in x0, v in omega_0 x0; what goes over \
-    numbers of the machine in SI units";
-
 fn panel(session: &Session, plot: usize) -> Panel {
     let mut picture = picture::of(session, plot);
     if session.has_equal_units(plot) {
@@ -112,7 +108,10 @@ impl Figure {
             title: session.scene.title.clone(),
             program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
             provenance: None,
-            units: if session.running().is_some() { WITH_MACHINE } else { UNITS },
+            units: match session.running() {
+                Some(_) => format!("{UNITS}; what goes over numbers of the machine in SI units"),
+                None => UNITS.to_owned(),
+            },
             parameters,
             initial,
             until,
@@ -131,7 +130,9 @@ impl Figure {
             title: format!("{}: fitted motion", fitted.name),
             program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
             provenance: None,
-            units: "lengths in the unit of the record, times in s, velocities and impulses over omega0",
+            units:
+                "lengths in the unit of the record, times in s, velocities and impulses over omega0"
+                    .into(),
             parameters: parameters(p),
             initial: estimate.start.beginning(p, &[]).1,
             until: p[OMEGA0] * estimate.data.duration(),

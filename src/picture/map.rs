@@ -18,8 +18,8 @@ pub enum DangerousValues {
     Large,
 }
 
-/// The lines of `assets/columns.txt`: a column, its unit, its SI unit of a machine, which of its values are dangerous, and what it
-/// means that there is none.
+/// The lines of `assets/columns.txt`: a column, its unit, its SI unit of a machine, which of its values are dangerous, and
+/// what it means that there is none.
 static COLUMNS: LazyLock<Vec<[&str; 5]>> =
     LazyLock::new(|| include_str!("../../assets/columns.txt").lines().filter_map(cells).collect());
 
@@ -136,7 +136,7 @@ pub enum MapCell {
 impl ScanMap {
     /// The map of a scan; of more than two parameters the others stay at their first values.
     pub fn of(scanned: &ScanOnShow) -> Option<Self> {
-        let [across, upward, rest @ ..] = &scanned.scan.over[..] else { return None };
+        let [across, upward, rest @ ..] = scanned.scan.over() else { return None };
         let stride: usize = rest.iter().map(|sweep| sweep.count).product();
         let places = |sweep: &Sweep| -> Vec<f64> {
             (0..sweep.count).map(|index| ScanOnShow::coordinate(sweep, index)).collect()

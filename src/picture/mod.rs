@@ -5,6 +5,7 @@
 //! ([`crate::view`]) and files ([`crate::figure`]) draw the same one.
 
 mod belt;
+mod belt_diagram;
 mod construction;
 mod diagram;
 mod eigenvalues;
@@ -19,7 +20,6 @@ mod regimes;
 mod return_map;
 pub mod role;
 pub mod scan;
-mod speeds;
 pub mod ticks;
 mod time_series;
 pub mod trade;
@@ -71,7 +71,7 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         View::EnergyRate => energy_rate::draw(&mut picture, session),
         View::Eigenvalues => eigenvalues::draw(&mut picture, session, index),
         View::Scan => scan::draw(&mut picture, session),
-        View::Speeds => speeds::draw(&mut picture, session, index),
+        View::BeltDiagram => belt_diagram::draw(&mut picture, session, index),
         View::Belt => belt::draw(&mut picture, session),
         View::Damping => picture = fitted(fit::damping).unwrap_or(picture),
         View::Residuals => picture = fitted(fit::residuals).unwrap_or(picture),

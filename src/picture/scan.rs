@@ -9,7 +9,7 @@ use crate::session::{Session, scan::ScanOnShow};
 
 /// What the numbers along both axes stand for.
 pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {
-    let over = &scanned.scan.over;
+    let over = scanned.scan.over();
     [0, 1].map(|axis| match over.get(axis) {
         Some(Sweep { spacing: Spacing::Logarithmic, from, .. }) if *from < 0.0 => {
             Scale::NegativeLogarithmic
@@ -22,7 +22,7 @@ pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {
 /// The curve over one parameter, or the map over two.
 pub fn draw(picture: &mut Picture, session: &Session) {
     let Some(scanned) = &session.scanned else { return };
-    picture.varied = scanned.scan.over.iter().map(|sweep| sweep.symbol).collect();
+    picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
     let labels: Vec<String> = picture.varied.iter().map(|knob| units::label(*knob)).collect();
     let upward = labels.get(1).cloned().unwrap_or_else(|| with_unit(scanned));
     picture.axes(labels[0].clone(), upward.clone());

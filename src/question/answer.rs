@@ -42,7 +42,7 @@ pub enum Finding {
     Balance(HarmonicBalance),
     ReturnMap(ReturnMap),
     Regimes(Chart),
-    Speeds(MachineBranch),
+    MachineBranch(MachineBranch),
     Trade(Box<Trade>),
     Scan(Rows),
     Claims(Vec<ClaimResult>),
@@ -63,7 +63,7 @@ impl Finding {
             Finding::Balance(found) => found.cost,
             Finding::ReturnMap(found) => found.cost,
             Finding::Regimes(found) => found.cost,
-            Finding::Speeds(found) => found.cost,
+            Finding::MachineBranch(found) => found.cost,
             Finding::Trade(found) => found.cost(),
             Finding::Scan(found) => found.cost(),
             Finding::Reference(Ok(found)) => found.cost,
@@ -212,8 +212,8 @@ pub fn answer_for(
         Request::Regimes { parameters, plane, rough } => {
             Finding::Regimes(regimes(parameters, *plane, *rough, fineness, limits)?)
         }
-        Request::Speeds { belt, varied, range, rough } => {
-            Finding::Speeds(along_number(belt, *varied, *range, *rough, limits)?)
+        Request::MachineBranch { belt, varied, range, rough } => {
+            Finding::MachineBranch(along_number(belt, *varied, *range, *rough, limits)?)
         }
         Request::Trade(problem) => {
             Finding::Trade(Box::new(Trade::of(None, problem, &limits.up_to(ROW))?))

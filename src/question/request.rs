@@ -127,7 +127,8 @@ pub enum Request {
         rough: bool,
     },
     /// The cycles of a machine over one of its numbers.
-    Speeds {
+    #[strum_discriminants(strum(serialize = "speeds"))]
+    MachineBranch {
         /// The machine; the number that varies is set to 1, so that stepping it leaves the request unchanged.
         belt: Arc<Belt>,
         /// The number that varies.
@@ -184,7 +185,7 @@ impl Request {
             Request::Branch { tolerance, .. } if *tolerance < DRAFT.tolerance => {
                 *tolerance = DRAFT.tolerance;
             }
-            Request::Regimes { rough, .. } | Request::Speeds { rough, .. } if !*rough => {
+            Request::Regimes { rough, .. } | Request::MachineBranch { rough, .. } if !*rough => {
                 *rough = true;
             }
             _ => return None,
@@ -205,9 +206,10 @@ impl Request {
             (Request::Branch { parameter, .. }, Request::Branch { parameter: wanted, .. }) => {
                 parameter == wanted
             }
-            (Request::Speeds { varied, .. }, Request::Speeds { varied: wanted, .. }) => {
-                varied == wanted
-            }
+            (
+                Request::MachineBranch { varied, .. },
+                Request::MachineBranch { varied: wanted, .. },
+            ) => varied == wanted,
             (Request::Regimes { plane, .. }, Request::Regimes { plane: wanted, .. }) => {
                 (plane.right, plane.up) == (wanted.right, wanted.up)
             }
@@ -248,7 +250,7 @@ impl Request {
                 with(*parameters, &[left, right, low, high])
             }
             Request::Refit { held, .. } => held.map(Option::unwrap_or_default).to_vec(),
-            Request::Speeds { range, .. } => vec![range.0, range.1],
+            Request::MachineBranch { range, .. } => vec![range.0, range.1],
             Request::Fit { .. } | Request::Scan { .. } | Request::Claims => Vec::new(),
         }
     }

@@ -85,7 +85,7 @@ impl ScanPart {
 
     /// The inputs at a point, of which the table shows those that vary.
     fn inputs(&self, index: usize) -> Vec<(String, Value)> {
-        let varies = |name: &str| self.scan.over.iter().any(|it| it.symbol.spec().name == name);
+        let varies = |name: &str| self.scan.over().iter().any(|it| it.symbol.spec().name == name);
         let mut inputs = self.scan.inputs(index);
         inputs.retain(|(name, _)| self.form != Format::Table || varies(name));
         inputs

@@ -20,10 +20,8 @@ pub const MOST_POINTS: usize = 1_000_000_000;
 pub struct Scan {
     /// What is scanned: the sweeps replace its numbers.
     base: Subject,
-    /// The parameters that are scanned over; the last one varies fastest.
-    pub over: Vec<Sweep>,
-    /// What is measured at each point.
-    pub measures: Vec<Measure>,
+    over: Vec<Sweep>,
+    measures: Vec<Measure>,
     conditions: Conditions,
 }
 
@@ -66,6 +64,16 @@ impl Scan {
             return Err(format!("too many points; allowed: {MOST_POINTS}"));
         }
         Ok(Scan { base, over, measures, conditions })
+    }
+
+    /// The numbers that are scanned over; the last one varies fastest.
+    pub fn over(&self) -> &[Sweep] {
+        &self.over
+    }
+
+    /// What is measured at each point.
+    pub fn measures(&self) -> &[Measure] {
+        &self.measures
     }
 
     /// How many points there are.

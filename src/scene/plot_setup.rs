@@ -214,13 +214,13 @@ impl Default for Axes {
 impl Axes {
     /// The number to the right in a view.
     pub fn right(&self, view: View) -> Knob {
-        if view == View::Speeds { self.machine } else { self.abscissa }
+        if view == View::BeltDiagram { self.machine } else { self.abscissa }
     }
 
     /// The same with another number to the right in a view.
     pub fn with_right(self, view: View, knob: Knob) -> Self {
         match view {
-            View::Speeds => Axes { machine: knob, ..self },
+            View::BeltDiagram => Axes { machine: knob, ..self },
             _ => Axes { abscissa: knob, ..self },
         }
     }

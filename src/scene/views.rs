@@ -27,7 +27,8 @@ pub enum View {
     Belt,
     EnergyRate,
     Eigenvalues,
-    Speeds,
+    #[serde(rename = "speeds")]
+    BeltDiagram,
     Damping,
     Residuals,
     #[serde(rename = "margin")]
@@ -162,7 +163,8 @@ pub enum Layer {
     Record,
     Recorded,
     Whole,
-    Speeds,
+    #[serde(rename = "speeds")]
+    MachineBranch,
     Safe,
     Lost,
     #[serde(rename = "decrements")]

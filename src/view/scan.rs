@@ -87,7 +87,7 @@ fn reading(scanned: &ScanOnShow, width: usize) -> String {
         (None, None) => String::new(),
     };
     let text = |digits: &usize| {
-        let at = scanned.scan.over.iter().zip(&place).map(|(sweep, which)| {
+        let at = scanned.scan.over().iter().zip(&place).map(|(sweep, which)| {
             format!("{} {}", sweep.symbol, significant(sweep.value(*which), *digits))
         });
         format!(" {name} {} at {}", found(*digits), joined(at, " "))
@@ -157,7 +157,7 @@ fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
 
 /// The names of the columns.
 fn names(scanned: &ScanOnShow) -> Vec<String> {
-    let over = scanned.scan.over.iter().map(|sweep| sweep.symbol.spec().name);
+    let over = scanned.scan.over().iter().map(|sweep| sweep.symbol.spec().name);
     let mut measured = scanned.scan.measured();
     let first = scanned.column % measured.len();
     measured.rotate_left(first);
@@ -168,7 +168,7 @@ fn names(scanned: &ScanOnShow) -> Vec<String> {
 fn cells(scanned: &ScanOnShow, index: usize) -> Vec<String> {
     let (values, count) = (&scanned.rows[index].values, scanned.scan.measured().len());
     let place = scanned.scan.place(index);
-    let over = scanned.scan.over.iter().zip(&place);
+    let over = scanned.scan.over().iter().zip(&place);
     let over = over.map(|(sweep, which)| significant(sweep.value(*which), DIGITS[0]));
     let columns = (0..count).map(|offset| (scanned.column + offset) % count);
     let value = |column: usize| values.get(column).unwrap_or(&Value::Nothing);

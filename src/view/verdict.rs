@@ -167,3 +167,22 @@ pub fn multiplier(cycle: &Cycle) -> String {
         _ => format!("e^{}", significant(cycle.log_multiplier, 4)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::Reason;
+
+    #[test]
+    fn motions_that_end_in_any_way_are_counted() {
+        let ends: [Outcome; 4] = [
+            Outcome::Captured { tau: 0.0, q: 0.0 },
+            Outcome::Moving { tau: 0.0, q: 0.0, v: 0.0 },
+            Outcome::Escaped { tau: 0.0 },
+            Outcome::GaveUp { tau: 0.0, reason: Reason::Interrupted },
+        ];
+        for end in ends {
+            assert!(ENDS.iter().any(|(word, _)| *word == end.word()), "{end:?}");
+        }
+    }
+}

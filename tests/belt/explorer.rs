@@ -96,6 +96,8 @@ fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
     }
     let (_, unfolded) = screen(scene.clone(), "x");
     assert!(unfolded.contains("d3           600") && !text.contains("d3 "), "{unfolded}");
+    let (_, below) = screen(scene.clone(), "x <down*30>");
+    assert!(below.contains("until        100  t 2 s"), "{below}");
     for words in ["x 1 mm", "margin from rest: 1.249 mm, 0.1448 N s"] {
         assert!(text.contains(words), "{words} in {text}");
     }
@@ -400,7 +402,7 @@ fn a_machine_s_diagram_is_over_any_of_its_numbers() {
     let scene = (*hopfscope::scene::find("slow-belt").unwrap()).clone();
     let (session, text) = screen(scene.clone(), ":axes<space>F<enter>");
     assert!(text.contains("x_max [m] over F [N]"), "{text}");
-    let found = session.speeds(session.plot).unwrap();
+    let found = session.machine_branch(session.plot).unwrap();
     let belt = &scene.machine.as_ref().unwrap().machine.belt;
     assert!(found.points.len() > 30 && found.points.iter().any(|point| point.value == 300.0));
     for point in &found.points {
@@ -411,9 +413,9 @@ fn a_machine_s_diagram_is_over_any_of_its_numbers() {
     // Stepping its own number asks nothing again, and the number under the cursor can be taken.
     let (taken, _) = screen(scene.clone(), ":axes<space>F<enter> <right> <enter>");
     assert_eq!(taken.machine().unwrap().normal_force, 105.0);
-    assert_eq!(taken.speeds(taken.plot), session.speeds(session.plot));
+    assert_eq!(taken.machine_branch(taken.plot), session.machine_branch(session.plot));
     // The key visits every number of the machine, and comes back to the speed of its belt in the scene's window.
-    let count = session.abscissae(View::Speeds).len();
+    let count = session.abscissae(View::BeltDiagram).len();
     let (back, _) = screen(scene.clone(), &format!(":axes<space>v0<enter> <X*{count}>"));
     let opened = Session::new(Arc::new(scene.clone()), back.size);
     assert_eq!(back.plots[back.plot].axes, opened.plots[back.plot].axes);

@@ -119,7 +119,7 @@ fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
         ),
     ] {
         let session = shown(scene);
-        let index = session.plots.iter().position(|plot| plot.view == View::Speeds).unwrap();
+        let index = session.plots.iter().position(|plot| plot.view == View::BeltDiagram).unwrap();
         let picture = hopfscope::picture::of(&session, index);
         let mut looks = Vec::new();
         let mut jumping = Vec::new();
@@ -157,10 +157,10 @@ fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
     for scene in ["slow-belt", "benchmark"] {
         let session = Session::new(find(scene).unwrap(), Size { width: 160, height: 50 });
         let mut asked = session.wants().into_iter();
-        let asked = asked.find(|request| request.topic() == Topic::Speeds).unwrap();
+        let asked = asked.find(|request| request.topic() == Topic::MachineBranch).unwrap();
         let found = [asked.draft().unwrap(), asked].map(|request| {
             match answer(&request, &Limits::PATIENT).unwrap() {
-                Finding::Speeds(found) => found,
+                Finding::MachineBranch(found) => found,
                 other => panic!("{other:?}"),
             }
         });

@@ -42,7 +42,7 @@ impl Stage {
 
     fn settle(&mut self) {
         settle(&mut self.0, |_, request| {
-            let diagram = matches!(request.topic(), Topic::Branch | Topic::Speeds);
+            let diagram = matches!(request.topic(), Topic::Branch | Topic::MachineBranch);
             (!diagram).then(|| computed(request))
         });
     }

@@ -146,8 +146,8 @@ pub fn by_hand(request: &Request) -> Finding {
             unknown: None,
             cost: CHEAP,
         }),
-        Request::Speeds { .. } => {
-            Finding::Speeds(MachineBranch { cost: CHEAP, ..MachineBranch::default() })
+        Request::MachineBranch { .. } => {
+            Finding::MachineBranch(MachineBranch { cost: CHEAP, ..MachineBranch::default() })
         }
         Request::Claims => Finding::Claims(Vec::new()),
         // There is no reference for made-up answers.

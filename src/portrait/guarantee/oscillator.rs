@@ -161,12 +161,12 @@ pub fn guaranteed(
     // How far out the mass may rest before the kick: at the smallest friction, because the gap to the border only grows
     // with it, and on the side to which the disturbance pushes.
     let pushed = if disturbance > 0.0 { (friction + disturbance).next_up() } else { friction };
-    let margin = rounded_down(&worst, pushed, error);
+    let margin = surely_within(&worst, pushed, error);
     Ok(Ok((worst, margin)))
 }
 
 /// The margin within a border whose clearances have this relative error, rounded down.
-fn rounded_down(worst: &Portrait, farthest: f64, error: f64) -> Margin {
+fn surely_within(worst: &Portrait, farthest: f64, error: f64) -> Margin {
     let r = worst.model.guide;
     let Margin { displacement, impulse, from_rest } = worst.margin_within(farthest, 1.0);
     // Of a displacement only the clearance is in error; an impulse comes of an arc from that clearance.

@@ -76,7 +76,7 @@ fn point(session: &Session) -> Vec<NamedNumber> {
     let (x, y) = match plot.view {
         View::Diagram => (abscissa.spec().name, ordinate.spec().name),
         View::Regimes => (abscissa.spec().name, against.spec().name),
-        View::Speeds => (machine.spec().name, "x_max"),
+        View::BeltDiagram => (machine.spec().name, "x_max"),
         view => view.spec().coordinates,
     };
     vec![named(x, at.x), named(y, at.y)]

@@ -32,7 +32,9 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
     let (x, y) = match plot.view {
         View::Phase => (q, v),
         View::Belt => (q, center.y),
-        view @ (View::Diagram | View::Speeds) => (session.value(plot.axes.right(view)), center.y),
+        view @ (View::Diagram | View::BeltDiagram) => {
+            (session.value(plot.axes.right(view)), center.y)
+        }
         View::TimeSeries => (0.0, q),
         View::EnergyLedger => (0.0, 0.0),
         View::EnergyRate => (v, 0.0),

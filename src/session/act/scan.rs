@@ -10,7 +10,6 @@ use crate::scene::{Request, Span, View};
 use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::{add, focus_on, show};
 use crate::session::scan::SCANNING;
-use crate::session::state::setup::ON_A_MACHINE;
 use crate::session::{
     Content, Done, Effect, Overlay, Pane, Plot, Prompt, ScanOnShow, ScanProgress, Session,
 };
@@ -23,7 +22,7 @@ pub const FILE: &str = "scan.csv";
 /// otherwise over the selected parameter around its value.
 pub fn open(session: &mut Session) {
     let groups = session.scanned_groups();
-    let has = |scan: &Scan| scan.over.iter().all(|it| groups.contains(&it.symbol.spec().group));
+    let has = |scan: &Scan| scan.over().iter().all(|it| groups.contains(&it.symbol.spec().group));
     let last = session.scanned.as_ref().filter(|it| has(&it.scan));
     let last = last.map(|scanned| typed(&scanned.scan));
     let line = format!("scan {}", last.unwrap_or_else(|| usual(session)));
@@ -32,8 +31,8 @@ pub fn open(session: &mut Session) {
 
 /// A scan as it is typed.
 fn typed(scan: &Scan) -> String {
-    let over = scan.over.iter().map(ToString::to_string);
-    let measures = scan.measures.iter().map(|measure| measure.spec().name);
+    let over = scan.over().iter().map(ToString::to_string);
+    let measures = scan.measures().iter().map(|measure| measure.spec().name);
     over.chain([measures.collect::<Vec<_>>().join(",")]).collect::<Vec<_>>().join(" ")
 }
 
@@ -44,7 +43,7 @@ fn usual(session: &Session) -> String {
         let [from, to] = [from, to].map(|end| resolved(end, ROUND * (to - from)));
         format!("{knob}={from}:{to}:100 from-rest")
     };
-    let view = if session.draws_whole() { View::Speeds } else { View::Diagram };
+    let view = if session.draws_whole() { View::BeltDiagram } else { View::Diagram };
     if let Some(diagram) = session.plots.iter().find(|plot| plot.view == view) {
         let symbol = diagram.axes.right(view);
         let KnobSpec { min, max, .. } = *symbol.spec();
@@ -153,7 +152,7 @@ pub(crate) fn refit(session: &mut Session) {
 pub fn go(session: &mut Session, [right, up]: [isize; 2]) -> Done {
     let scanned = scanned(session)?;
     let last = scanned.scan.points().saturating_sub(1);
-    let over = &scanned.scan.over;
+    let over = scanned.scan.over();
     if scanned.table || !scanned.is_grid() {
         scanned.at = scanned.at.saturating_add_signed(right.saturating_sub(up)).min(last);
         return Ok(());
@@ -172,18 +171,11 @@ pub fn take(session: &mut Session) -> Done {
     let scanned = scanned(session)?;
     let (scan, place) = (scanned.scan.clone(), scanned.scan.place(scanned.at));
     let (mut setup, mut said) = (session.setup(), Vec::new());
-    if scan.problem(0).is_none()
-        && let Some(belt) = session.machine()
-    {
-        // A number of the machine leads back onto its path: what was changed by hand is set there before.
-        for (symbol, knob) in ON_A_MACHINE {
-            let follows = session.running().map(|it| it.reduced.parameters.value(symbol));
-            if follows != Some(session.value(symbol)) {
-                setup = session.with(&setup, knob, knob.of_belt(&belt).unwrap_or(0.0))?;
-            }
-        }
+    // A number of the machine leads back onto its path: what was changed by hand is set there before.
+    for (knob, value) in session.changed_by_hand() {
+        setup = session.with(&setup, knob, value)?;
     }
-    for (sweep, which) in scan.over.iter().zip(place) {
+    for (sweep, which) in scan.over().iter().zip(place) {
         let (knob, value) = (sweep.symbol, sweep.value(which));
         setup = session.with(&setup, knob, value)?;
         said.push(format!("{knob} = {}", knob.print(value)));

@@ -112,7 +112,7 @@ pub fn axes(session: &mut Session, rest: &str) -> Done {
     let Plot { view, axes, .. } = session.plots[index];
     let rows = session.abscissae(view).into_iter().map(|knob| (knob.spec().name, knob));
     let right = one_of("diagram over", over, rows)?;
-    if view == View::Speeds && !property.trim().is_empty() {
+    if view == View::BeltDiagram && !property.trim().is_empty() {
         return Err(format!("a machine's diagram shows x_max; allowed: {over} alone"));
     }
     let (ordinate, unit) = match property.trim() {

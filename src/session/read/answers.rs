@@ -60,8 +60,8 @@ impl Session {
         self.answer(Topic::ReturnMap, plot)?.try_as_return_map_ref()
     }
 
-    pub fn speeds(&self, plot: usize) -> Option<&MachineBranch> {
-        self.answer(Topic::Speeds, plot)?.try_as_speeds_ref()
+    pub fn machine_branch(&self, plot: usize) -> Option<&MachineBranch> {
+        self.answer(Topic::MachineBranch, plot)?.try_as_machine_branch_ref()
     }
 
     /// The chart over the two parameters of a plot.

@@ -67,6 +67,18 @@ impl Session {
         Some(belt)
     }
 
+    /// What D, D3 and r that were changed by hand make of the dampers and the guide of the machine on show.
+    pub(crate) fn changed_by_hand(&self) -> Vec<(Knob, f64)> {
+        let (Some(running), Some(now)) = (self.running(), self.machine()) else {
+            return Vec::new();
+        };
+        let values = ON_A_MACHINE.into_iter().filter_map(|(_, knob)| {
+            let value = knob.of_belt(&now)?;
+            (knob.of_belt(&running.machine.belt) != Some(value)).then_some((knob, value))
+        });
+        values.collect()
+    }
+
     /// Whether the whole model is drawn: the layer is on, and the model can answer for the machine of the
     /// scene.
     pub fn draws_whole(&self) -> bool {

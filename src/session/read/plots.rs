@@ -6,12 +6,12 @@ use std::collections::BTreeMap;
 use crate::accuracy::trade::TradePoint;
 use crate::branch::Branch;
 use crate::flow::Problem;
-use crate::model::Knob;
+use crate::model::{Group, Knob};
 use crate::numerics::elementary::hypot;
 use crate::scene::{
     Finding, Height, Layer, Needs, PlotSetup, Point, Request, Topic, Variant, View, Window,
 };
-use crate::session::{AnswerState, Framing, Pane, Plot, ScreenSetup, Session};
+use crate::session::{AnswerState, Framing, Pane, Plot, Row, ScreenSetup, Session};
 
 impl Session {
     /// Whether a plot draws circles round.
@@ -96,6 +96,27 @@ impl Session {
         };
         (harmonic && self.shows(layer) && !self.on_show().any(drawn))
             .then_some("not drawn: the harmonic answer has no multiplier")
+    }
+
+    /// The plot in use if it is a diagram, otherwise the first diagram on show.
+    pub fn diagram(&self) -> Option<usize> {
+        let diagrams = [View::Diagram, View::BeltDiagram];
+        let is_one = |index: &usize| diagrams.contains(&self.plots[*index].view);
+        Some(self.plot).filter(is_one).or_else(|| self.on_show().find(is_one))
+    }
+
+    /// The numbers over which the model that is drawn is scanned.
+    pub(crate) fn scanned_groups(&self) -> &'static [Group] {
+        if self.draws_whole() { &[Group::Machine, Group::Law] } else { &[Group::Motion] }
+    }
+
+    /// The numbers over which a view can be drawn.
+    pub fn abscissae(&self, view: View) -> Vec<Knob> {
+        if view != View::BeltDiagram {
+            return Knob::PARAMETERS.to_vec();
+        }
+        let own = Row::all().filter(|row| row.is_of_machine() && self.has(*row));
+        own.filter_map(Row::stepped).collect()
     }
 
     /// The scene's setup of a plot with this view: the one at the same place, otherwise the first one with that

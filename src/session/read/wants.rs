@@ -181,13 +181,13 @@ impl Session {
                     tolerance,
                 }
             }
-            Topic::Speeds => {
-                let plot = own(View::Speeds)?;
+            Topic::MachineBranch => {
+                let plot = own(View::BeltDiagram)?;
                 let varied = plot.axes.machine;
                 let range = within(varied, plot.window.x)?;
                 let mut belt = self.machine()?;
                 varied.set_in_belt(&mut belt, 1.0).ok()?;
-                Request::Speeds { belt: Arc::new(belt), varied, range, rough: false }
+                Request::MachineBranch { belt: Arc::new(belt), varied, range, rough: false }
             }
             Topic::ReturnMap => {
                 // Until the window is known, there is nothing to ask.

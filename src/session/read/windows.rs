@@ -5,11 +5,11 @@ use crate::closed_form::lyapunov;
 use crate::fit::{DropReason, RecordPoint, Signal};
 use crate::flow::{Motion, Outcome};
 use crate::model::parameters::energy;
-use crate::model::{Group, Knob, State};
+use crate::model::{Knob, State};
 use crate::numerics::{hypot, real, truncated};
 use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window, usual_values};
 use crate::session::state::setup::size;
-use crate::session::{Framing, Row, ScanOnShow, Session};
+use crate::session::{Framing, ScanOnShow, Session};
 
 /// Width of a fitted window, relative to its content.
 const ROOM: f64 = 1.1;
@@ -52,7 +52,7 @@ pub(crate) fn fitted(session: &Session, index: usize) -> Option<Window> {
         View::Belt => belt(session),
         View::EnergyRate => energy_rate(session),
         View::Eigenvalues => eigenvalues(session),
-        View::Speeds => speeds(session, index),
+        View::BeltDiagram => belt_diagram(session, index),
         View::Damping => Window::of(session.fitted()?.curves.damping.extent),
         View::Residuals => Window::of(session.fitted()?.residual_extent()?),
         View::Spread => Window::of(session.fitted()?.curves.spread_extent),
@@ -73,10 +73,10 @@ pub(crate) fn awaited(session: &Session, plot: usize) -> Option<Request> {
     open.filter(|_| fitting && session.on_show().contains(&plot))
 }
 
-/// The window of the speeds: the same speeds, and all cycles at these.
-fn speeds(session: &Session, plot: usize) -> Option<Window> {
+/// The same values of the machine's number, and all cycles at these.
+fn belt_diagram(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
-    let points = session.speeds(plot)?.points.iter().filter(|it| x.contains(it.value));
+    let points = session.machine_branch(plot)?.points.iter().filter(|it| x.contains(it.value));
     let cycles = points.flat_map(|it| it.found.iter().flat_map(|found| &found.cycles));
     let sizes = cycles.map(|cycle| cycle.q_max);
     let y = Span::covering(sizes.chain([0.0]))?;
@@ -257,27 +257,6 @@ fn regimes(session: &Session, plot: usize) -> Window {
 }
 
 impl Session {
-    /// The plot in use if it is a diagram, otherwise the first diagram on show.
-    pub fn diagram(&self) -> Option<usize> {
-        let diagrams = [View::Diagram, View::Speeds];
-        let is_one = |index: &usize| diagrams.contains(&self.plots[*index].view);
-        Some(self.plot).filter(is_one).or_else(|| self.on_show().find(is_one))
-    }
-
-    /// The numbers over which the model that is drawn is scanned.
-    pub(crate) fn scanned_groups(&self) -> &'static [Group] {
-        if self.draws_whole() { &[Group::Machine, Group::Law] } else { &[Group::Motion] }
-    }
-
-    /// The numbers over which a view can be drawn.
-    pub fn abscissae(&self, view: View) -> Vec<Knob> {
-        if view != View::Speeds {
-            return Knob::PARAMETERS.to_vec();
-        }
-        let own = Row::all().filter(|row| row.is_of_machine() && self.has(*row));
-        own.filter_map(Row::stepped).collect()
-    }
-
     /// The first range of a diagram over a number, with room for the present value: of a machine from a tenth to three times
     /// that, and around 0 as wide as a number of its kind is large.
     pub(crate) fn values_around(&self, knob: Knob) -> Span {

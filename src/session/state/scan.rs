@@ -72,7 +72,7 @@ impl ScanOnShow {
 
     /// Whether it has two sweeps, so that its points form a grid.
     pub fn is_grid(&self) -> bool {
-        self.scan.over.len() > 1
+        self.scan.over().len() > 1
     }
 
     /// What was measured at a point, of the column that is plotted; `None` while it is not known.
@@ -119,7 +119,7 @@ impl ScanOnShow {
         /// Factor on the height of a curve, for a margin above and below.
         const ROOM: f64 = 1.1;
         let usual = View::Scan.spec().window;
-        let [across, rest @ ..] = &self.scan.over[..] else { return usual };
+        let [across, rest @ ..] = self.scan.over() else { return usual };
         let along = |sweep: &Sweep, room: f64| {
             let ends = [0, sweep.count - 1].map(|index| Self::coordinate(sweep, index));
             let span = Span::covering(ends);
@@ -137,7 +137,7 @@ impl ScanOnShow {
 
     /// The position of a point in the plot; `None` where the height of its curve is not known.
     pub fn place(&self, index: usize) -> Option<Point> {
-        let over = &self.scan.over;
+        let over = self.scan.over();
         let place = self.scan.place(index);
         let coordinate =
             |which: usize| Some(Self::coordinate(over.get(which)?, *place.get(which)?));

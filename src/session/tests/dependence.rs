@@ -25,7 +25,7 @@ const DEPENDS: [(Topic, &str); 12] = [
     (Topic::ReturnMap, "   xxxx  .     ..    .     .       ."),
     (Topic::Regimes, "     xxxx  .     ..    .     .       ."),
     (Topic::Trade, "       xxxx  .     xx    x     .       ."),
-    (Topic::Speeds, "      xxxx  .     ..    .     .       ."),
+    (Topic::MachineBranch, "      xxxx  .     ..    .     .       ."),
     (Topic::Claims, "      ....  .     ..    .     .       ."),
 ];
 
@@ -49,7 +49,7 @@ fn is_free(session: &Session, topic: Topic, plot: usize, row: Row) -> bool {
     let along = match topic {
         Topic::Branch => symbol == abscissa,
         Topic::Regimes => symbol == abscissa || symbol == against,
-        Topic::Speeds => symbol == Knob::BeltSpeed,
+        Topic::MachineBranch => symbol == Knob::BeltSpeed,
         _ => false,
     };
     !along

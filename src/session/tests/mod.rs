@@ -299,8 +299,8 @@ pub fn by_hand(request: &Request) -> Finding {
         Request::Refit { fit, held, drawn } => {
             Finding::Refit(fit.held(*held, *drawn, &Limits::PATIENT).expect("nobody interrupts"))
         }
-        Request::Speeds { .. } => {
-            Finding::Speeds(MachineBranch { cost, ..MachineBranch::default() })
+        Request::MachineBranch { .. } => {
+            Finding::MachineBranch(MachineBranch { cost, ..MachineBranch::default() })
         }
         Request::Regimes { plane, .. } => {
             Finding::Regimes(Chart { plane: *plane, lines: Vec::new(), cost })

@@ -28,8 +28,8 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.axes(units::label(varied), "x_max [m]");
     picture.add_to_title("whole model");
     picture.upright("present value", session.value(varied));
-    if session.layers.contains(&Layer::Speeds)
-        && let Some(found) = session.speeds(index)
+    if session.layers.contains(&Layer::MachineBranch)
+        && let Some(found) = session.machine_branch(index)
     {
         // A value without an answer is left out.
         let known = found.points.iter();
