@@ -8,6 +8,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::numerics::similar::most_similar;
+use crate::words::printable::is_printable;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Code {
@@ -162,7 +163,8 @@ impl fmt::Display for Code {
         }
         match *self {
             Code::F(number) => write!(out, "f{number}"),
-            Code::Char(char) if char.is_control() || char.is_whitespace() => {
+            // Nobody sees it in a file, and at its beginning a byte order mark is not read as a key.
+            Code::Char(char) if !is_printable(char) || char.is_whitespace() => {
                 write!(out, "u+{:x}", u32::from(char))
             }
             Code::Char(char) => write!(out, "{char}"),

@@ -164,6 +164,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::session::key::{Code, Key};
     use crate::session::replay::{Action, Player, parse};
 
     /// The messages that a script gives to a session that is always idle.
@@ -174,6 +175,14 @@ mod tests {
             given.push(format!("{message:?}"));
         }
         given
+    }
+
+    #[test]
+    fn a_key_that_begins_a_file_unseen_is_played() {
+        let mark = Msg::Key(Key::plain(Code::Char('\u{feff}')));
+        let steps: Vec<Instruction> = Instruction::of(&mark).into_iter().collect();
+        assert_eq!(lines(&steps)[0].1, "<u+feff>\n");
+        assert_eq!(played(&lines(&steps)[0].1), [format!("{mark:?}")]);
     }
 
     proptest! {
