@@ -49,6 +49,9 @@ const OUTSIDE: [(&str, &str); 13] = [
     ("termina", "the terminal"),
 ];
 
+/// What stands before the name in a definition.
+const ITEMS: [&str; 7] = ["const", "enum", "fn", "static", "struct", "trait", "type"];
+
 /// A source file: its path, the path of its module, and its text without tests and comments.
 struct Source {
     path: PathBuf,
@@ -60,6 +63,15 @@ impl Source {
     /// Its top module.
     fn top(&self) -> &str {
         self.module.first().map_or("", String::as_str)
+    }
+
+    /// Whether it defines something of this name.
+    fn defines(&self, name: &str) -> bool {
+        let is_word = |char: char| char.is_alphanumeric() || char == '_';
+        self.text.lines().filter(|line| line.starts_with("pub")).any(|line| {
+            let words: Vec<&str> = line.split(|char| !is_word(char)).collect();
+            words.windows(2).any(|pair| ITEMS.contains(&pair[0]) && pair[1] == name)
+        })
     }
 }
 
@@ -228,14 +240,26 @@ impl Files {
                 file = *child;
                 continue;
             }
-            let offered = self.used[file].iter().filter(|it| it.offered.is_some());
-            let name = Some(&path[at]);
-            let mut from = offered.filter(|it| it.offered.as_ref() == name && it.path != path);
+            let mut from = self.origins(file, &path[at]).filter(|from| *from != path[..=at]);
             let Some(from) = from.next().filter(|_| depth < 9) else { break };
-            let path: Vec<String> = from.path.iter().chain(&path[at + 1..]).cloned().collect();
+            let path: Vec<String> = from.iter().chain(&path[at + 1..]).cloned().collect();
             return self.home(&path, depth + 1).or(Some(file));
         }
         Some(file)
+    }
+
+    /// Where a name may come from that a file offers: by itself, or with all of a module that defines it or offers it on.
+    fn origins<'a>(&'a self, file: usize, name: &'a str) -> impl Iterator<Item = Vec<String>> + 'a {
+        let by_name = |it: &&Used| it.offered.as_deref() == Some(name);
+        let from_all = move |it: &Used| {
+            let (last, module) = it.path.split_last().filter(|_| it.offered.is_some())?;
+            let within = *self.by_module.get(module).filter(|_| last == "*")?;
+            let has =
+                self.sources[within].defines(name) || self.origins(within, name).next().is_some();
+            has.then(|| module.iter().cloned().chain([name.to_owned()]).collect())
+        };
+        let named = self.used[file].iter().filter(by_name).map(|it| it.path.clone());
+        named.chain(self.used[file].iter().filter_map(from_all))
     }
 
     /// Which files each file uses. A re-export of definitions of a child module makes no cycle.
@@ -389,6 +413,10 @@ fn a_circle_is_seen_through_whatever_a_module_offers_again() {
     let back = [("b", "mod other;\npub use self::other::Other;"), ("b::other", other)];
     let files = house(&[&through[..], &back[..]].concat());
     assert_eq!(circles(&files.uses()), [BTreeSet::from([1, 3])]);
+    let all = [("b", "mod more;\nmod other;\npub use self::{more::*, other::*};")];
+    let defined = [("b::more", ""), ("b::other", "use crate::a::One;\npub const fn Other() {}")];
+    let files = house(&[&through[..], &all[..], &defined[..]].concat());
+    assert_eq!(circles(&files.uses()), [BTreeSet::from([1, 4])]);
     let files = house(&[&through[..], &[back[0], ("b::other", "")][..]].concat());
     assert_eq!(circles(&files.uses()), Vec::<BTreeSet<usize>>::new());
     let parent = [

@@ -5,11 +5,10 @@
 
 use serde::Serialize;
 
-use crate::closed_form::harmonic::{Harmonic, amplitudes};
-use crate::closed_form::harmonics::{HarmonicCycle, harmonic_cycle};
+use crate::closed_form::{Harmonic, HarmonicCycle, amplitudes, harmonic_cycle};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Parameters, State};
-use crate::numerics::elementary::ln;
+use crate::numerics::ln;
 use crate::portrait::{Cycle, cycles};
 
 /// How far a cycle of N harmonics is from the true one; relative, positive where it is too large.

@@ -4,3 +4,5 @@ pub mod extremes;
 pub mod harmonic_error;
 pub(crate) mod reference;
 pub mod trade;
+
+pub(crate) use self::{harmonic_error::*, reference::*};

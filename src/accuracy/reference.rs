@@ -8,11 +8,12 @@
 
 use thiserror::Error;
 
-use crate::flow::precise::{COARSE, FINE, precise};
+use crate::flow::precise::precise;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Crossing, Detail, Limits, Method, Motion, Outcome, Problem, Reason};
-use crate::model::Model;
-use crate::model::model::FINEST;
+use crate::flow::{
+    COARSE, Cost, Crossing, Detail, FINE, Limits, Method, Motion, Outcome, Problem, Reason,
+};
+use crate::model::{FINEST, Model};
 use crate::numerics::{Scalar, Twofold};
 
 /// Maximum number of evaluations in twice the working precision: about a second.

@@ -3,10 +3,9 @@
 //! Each row is a motion with its measured error ([`super::reference`]) and its counted cost; seconds are
 //! added by the caller that has a clock. The front are the rows that no other row beats in both.
 
-use super::reference::{Deviation, NoComparison, Reference};
+use super::{Deviation, NoComparison, Reference};
 use crate::flow::{Cost, Detail, Limits, METHODS, Method, Motion, Outcome, Problem, Reason};
-use crate::model::model::FINEST;
-use crate::model::{Knob, Model};
+use crate::model::{FINEST, Knob, Model};
 use crate::numerics::{amount, ln, log10};
 
 /// Tolerances, one for each digit.

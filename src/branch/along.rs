@@ -24,10 +24,11 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::continuation::{CurvePlace, CurvePoint, CycleCurve, Tangent, covers, is_beside, passes};
-use super::escape::{escape_point, escape_product};
-use super::special::{Special, SpecialKind, vanishing};
-use crate::closed_form::piecewise_linear::LinearCycle;
+use super::{
+    CurvePlace, CurvePoint, CycleCurve, Special, SpecialKind, Tangent, covers, escape_point,
+    escape_product, is_beside, passes, vanishing,
+};
+use crate::closed_form::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{cbrt, ln, pow, powi, real};

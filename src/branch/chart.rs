@@ -11,7 +11,7 @@ mod trace;
 pub use trace::{Band, ChartLine, Plane, Resolution};
 use trace::{HALVINGS, Tracer, values};
 
-use super::regime::Regime;
+use super::Regime;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters};
 

@@ -14,7 +14,7 @@ use nalgebra::{Matrix2, Vector2};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
-use crate::numerics::elementary::{cbrt, exp, ln, powi};
+use crate::numerics::{cbrt, exp, ln, powi};
 use crate::portrait::{Equation, Route, SwingPair, first_side};
 
 /// A fold: the cycle at which two meet.

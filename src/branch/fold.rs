@@ -22,16 +22,12 @@
 
 use serde::Serialize;
 
-use super::escape::escape_point;
-use super::extended::{FoldCycle, FoldPlace, fold_near};
-use super::fold_graph::highest_cycle;
-use super::special::FoldPoint;
+use super::{FoldCycle, FoldPlace, FoldPoint, escape_point, fold_near, highest_cycle};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters};
-use crate::numerics::root::{PlaceTolerance, illinois};
-use crate::portrait::basin::between;
-use crate::portrait::{Equation, STEP, WayFromRim, all_closings};
+use crate::numerics::{PlaceTolerance, illinois};
+use crate::portrait::{Equation, STEP, WayFromRim, all_closings, between};
 
 /// Maximum number of evaluations of one swing: a cycle that takes more is not followed.
 const BUDGET: u64 = 200_000;

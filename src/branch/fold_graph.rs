@@ -3,13 +3,12 @@
 //! The slow and sure way to a fold, for where Newton's method on both of its equations fails: where D3 is
 //! much weaker than D2, so that the graph is flat, and beyond critical negative damping.
 
-use super::continuation::{CurvePoint, CycleCurve, Tangent};
-use super::special::FoldPoint;
+use super::{CurvePoint, CycleCurve, FoldPoint, Tangent};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{exp, ln, try_maximum};
-use crate::portrait::closing::equation::{Route, first_side};
+use crate::portrait::{Route, first_side};
 
 /// Finds the cycle of the largest D, to a relative error `tolerance` of its clearance; that of D is the square, to
 /// rounding. Beside it stands the logarithm of its multiplier, which is far from 0 where it is no fold.

@@ -6,13 +6,11 @@
 
 use rayon::prelude::*;
 
-use super::special::{Jump, JumpEnd, Jumps, Special, SpecialKind};
+use super::{Jump, JumpEnd, Jumps, Special, SpecialKind};
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
 use crate::model::{ContactState, Knob, Model, Phase, Source};
 use crate::numerics::{PlaceTolerance, exp, illinois, ln, real, try_bisect};
-use crate::portrait::basin::between;
-use crate::portrait::return_map::machine_return::Landmarks;
-use crate::portrait::{Border, Cycle, Node, Portrait};
+use crate::portrait::{Border, Cycle, Landmarks, Node, Portrait, between};
 
 /// A value of a number, in SI units, and what a machine does there, or why there is no answer.
 #[derive(Clone, Debug, PartialEq)]

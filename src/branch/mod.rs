@@ -15,5 +15,8 @@ pub mod machine;
 pub mod regime;
 pub(crate) mod special;
 
+pub(crate) use self::{
+    continuation::*, escape::*, extended::*, fold::*, fold_graph::*, regime::*, special::*,
+};
 pub use along::{Branch, BranchPoint};
 pub use special::{Jump, JumpEnd, Special, SpecialKind};

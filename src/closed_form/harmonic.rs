@@ -23,8 +23,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 use serde::Serialize;
 
 use crate::model::Parameters;
-use crate::numerics::elementary::{atan2, cbrt, cos, sin};
 use crate::numerics::twofold::{self, Twofold};
+use crate::numerics::{atan2, cbrt, cos, sin};
 
 /// A stationary amplitude of the first-order harmonic approximation `q = A0 + A cos(tau)`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

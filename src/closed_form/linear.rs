@@ -14,8 +14,8 @@
 //! carried in twice the working precision. All operations are linear in the state: a state scaled by
 //! a power of two, or mirrored, gives the scaled or mirrored result to the last bit.
 
-use crate::numerics::elementary::{atan, cosh, ln, ln_1p, sinh};
-use crate::numerics::twofold::{PI, Twofold};
+use crate::numerics::twofold::PI;
+use crate::numerics::{Twofold, atan, cosh, ln, ln_1p, sinh};
 
 /// The flow of `x'' + 2 D x' + x = 0` with what depends on D alone worked out once.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,7 +7,7 @@
 //! promises too much where `D2` or negative `D3` feed energy in.
 
 use crate::model::{Parameters, State};
-use crate::numerics::root::{TO_ROUNDING, bisect};
+use crate::numerics::{TO_ROUNDING, bisect};
 
 /// The rate of change `V'` of the energy (equations 17 to 19, with the terms of higher order).
 pub fn energy_rate(parameters: &Parameters, state: State) -> f64 {

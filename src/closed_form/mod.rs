@@ -22,6 +22,8 @@ pub(crate) mod linear;
 pub(crate) mod lyapunov;
 pub mod piecewise_linear;
 
+pub(crate) use self::{harmonic::*, harmonics::*, linear::*, piecewise_linear::*};
+
 #[cfg(test)]
 mod reference {
     //! Tables of reference values in `tests/data`, computed with 60 digits (mpmath) and rounded.

@@ -12,7 +12,7 @@
 
 use serde::Serialize;
 
-use super::linear::LinearFlow;
+use super::LinearFlow;
 use crate::numerics::{atan2, exp, exp_m1, ln, ln_1p};
 
 /// The unstable cycle that borders the basin of attraction of the sticking set.

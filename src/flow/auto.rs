@@ -10,13 +10,9 @@
 
 use std::sync::Arc;
 
-use super::exact::ExactStepper;
-use super::motion::Cost;
-use super::step::{Powers, Step, StepPoint, Stepper};
-use super::stiff::StiffStepper;
-use super::taylor::Taylor;
+use super::{Cost, ExactStepper, Powers, Step, StepPoint, Stepper, StiffStepper, Taylor};
 use crate::model::{Field, HalfPlane, Reason};
-use crate::numerics::root::{Bracket, PlaceTolerance, newton};
+use crate::numerics::{Bracket, PlaceTolerance, newton};
 
 /// Length of a series step, in damping times and as a fraction of the order, beyond which stability limits it.
 const LIMITED: f64 = 1.0 / 3.0;

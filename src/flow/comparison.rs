@@ -16,8 +16,7 @@
 //! freedom dynamics*, 1988; M. Jean, *The non-smooth contact dynamics method*, Computer Methods in Applied
 //! Mechanics and Engineering 177, 1999).
 
-use super::motion::Cost;
-use super::step::{Powers, Step, StepPoint, Stepper, check_stability, powers_of_stages};
+use super::{Cost, Powers, Step, StepPoint, Stepper, check_stability, powers_of_stages};
 use crate::model::{Field, HalfPlane, Parameters, PlaneField, Reason, Side};
 use crate::numerics::{tanh, times_power};
 

@@ -1,10 +1,9 @@
 //! The closed form of the piecewise linear oscillator as a stepper: one step is a whole half swing.
 
-use super::motion::Cost;
-use super::step::{Powers, Step, StepPoint, Stepper, powers_over};
-use crate::closed_form::linear::LinearFlow;
+use super::{Cost, Powers, Step, StepPoint, Stepper, powers_over};
+use crate::closed_form::LinearFlow;
 use crate::model::{HalfPlane, Reason};
-use crate::numerics::count::truncated;
+use crate::numerics::truncated;
 
 /// Maximum number of pieces into which a step is cut for drawing and for quadrature. A piece is one unit of
 /// time long.

@@ -6,12 +6,10 @@
 
 use std::cell::Cell;
 
-use super::motion::Cost;
-use super::step::{
-    LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, check_stability, first_length,
-    powers_of_stages, stopping_time,
+use super::{
+    Cost, ErrorEstimate, LONGEST, Powers, Scheme, Step, StepPoint, Stepper, allowed_error,
+    check_stability, first_length, powers_of_stages, stopping_time,
 };
-use super::tableau::{ErrorEstimate, Scheme};
 use crate::model::{Field, HalfPlane, Reason};
 use crate::numerics::{Bracket, PlaceTolerance, newton, rough_exp2, rough_log2};
 

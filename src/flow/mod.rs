@@ -41,6 +41,10 @@ pub(crate) mod tableau;
 pub(crate) mod taylor;
 pub mod trajectory;
 
+pub(crate) use self::{
+    auto::*, comparison::*, exact::*, explicit::*, machine::*, precise::*, step::*, stiff::*,
+    stop::*, swing::*, tableau::*, taylor::*, trajectory::*,
+};
 pub use crate::model::Reason;
 pub use limits::{Fate, Limits};
 pub use machine::arc::Flow;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::method::Method;
+use super::Method;
 use crate::model::{ContactState, Knob, Ledger, Parameters, Reason, State};
 use crate::numerics::{Hermite, Scalar};
 

@@ -5,15 +5,10 @@
 
 use std::ops::ControlFlow;
 
-use super::limits::Limits;
-use super::method::Method;
-use super::motion::{Cost, Detail, Motion, Problem};
-use super::step::{StepPoint, Stepper};
 use super::swing::swing;
-use super::taylor::Taylor;
-use super::trajectory::MotionRun;
+use super::{Cost, Detail, Limits, Method, Motion, MotionRun, Problem, StepPoint, Stepper, Taylor};
 use crate::model::{HalfPlane, Reason};
-use crate::numerics::twofold::Twofold;
+use crate::numerics::Twofold;
 
 /// How finely a motion is computed: order and tolerance of the series.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 //! Which number it is depends on the method: the error of a step, its length, or the velocity over which
 //! friction is smoothed. [`Problem::setting`] returns it for any method.
 
-use super::motion::Problem;
+use super::Problem;
 
 /// A named setting of the dial.
 #[derive(Clone, Copy, Debug, PartialEq)]

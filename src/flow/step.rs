@@ -4,10 +4,9 @@ use std::fmt::Debug;
 
 use nalgebra::Vector3;
 
-use super::motion::Cost;
+use super::Cost;
 use crate::model::{Field, HalfPlane, Reason};
-use crate::numerics::quadrature::GAUSS;
-use crate::numerics::{Scalar, real};
+use crate::numerics::{GAUSS, Scalar, real};
 
 /// A point `(x, v)` in the frame of a half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

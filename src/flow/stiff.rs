@@ -15,12 +15,10 @@
 
 mod arrival;
 
-use super::motion::Cost;
-use super::step::{
-    LONGEST, Powers, Step, StepPoint, Stepper, allowed_error, first_length, powers_of_stages,
-    stopping_time,
+use super::{
+    Collocation, Cost, Differences, LONGEST, MOST, Powers, SCHEMES, StageMatrix, Stages, Step,
+    StepPoint, Stepper, allowed_error, first_length, powers_of_stages, stopping_time,
 };
-use super::tableau::radau::{Collocation, Differences, MOST, SCHEMES, StageMatrix, Stages};
 use crate::model::{Field, HalfPlane, Reason};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
 

@@ -5,10 +5,9 @@
 //! swing, and where the rim repels (`D <= -1`) it grows forever. It is therefore computed separately and with
 //! its own exponent, because it is quadratic in the velocity.
 
-use super::step::StepPoint;
+use super::StepPoint;
 use crate::model::{HalfPlane, PlaneField};
-use crate::numerics::quadrature::GAUSS;
-use crate::numerics::scaling::{exponent, times_power};
+use crate::numerics::{GAUSS, exponent, times_power};
 
 /// How far a motion still moves, and for how long.
 #[derive(Clone, Copy, Debug, PartialEq)]

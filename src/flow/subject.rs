@@ -1,9 +1,8 @@
 //! What a question is about: the oscillator of the paper, a mass on a belt or a vibration mode, how exactly its numbers
 //! are known, and one motion of it.
 
-use super::machine::motion::{MotionUnits, follow};
 use super::trajectory::trajectory;
-use super::{Detail, Limits, Method, Motion, Problem, Reason};
+use super::{Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, follow};
 use crate::model::{Body, Group, Knob, Model, Source, State, Tolerances};
 
 /// What a question is about; of the paper's oscillator without units, of all else in SI units.

@@ -5,8 +5,7 @@
 
 use std::ops::ControlFlow;
 
-use super::limits::Limits;
-use super::step::{Step, StepPoint, Stepper};
+use super::{Limits, Step, StepPoint, Stepper};
 use crate::model::{HalfPlane, PlaneField, Reason};
 use crate::numerics::{Scalar, Sum, exponent, ln_1p};
 

@@ -8,8 +8,7 @@
 //! terms of the series have reached its asymptotic behaviour. Then the truncation error of a step is about
 //! `e h/(rho - h)` of the state.
 
-use super::motion::Cost;
-use super::step::{LONGEST, Powers, Step, StepPoint, Stepper, powers_over};
+use super::{Cost, LONGEST, Powers, Step, StepPoint, Stepper, powers_over};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::polynomial::{
     value_and_slope_in_two as value_and_slope, value_in_two as value,

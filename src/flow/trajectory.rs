@@ -4,21 +4,13 @@ use std::ops::ControlFlow;
 
 use nalgebra::Vector3;
 
-use super::auto::AutoStepper;
-use super::comparison::{SmoothField, TimeStepping};
-use super::exact::ExactStepper;
-use super::explicit::ExplicitStepper;
-use super::limits::Limits;
-use super::method::Method;
 pub use super::motion::{Cost, Crossing, Detail, Motion, Outcome, Problem, Sample};
-use super::step::{Powers, Step, StepPoint, Stepper};
-use super::stiff::StiffStepper;
-use super::stop::ApproachToRest;
 use super::swing::swing;
-use super::tableau::{CLASSICAL, DOP853, DOPRI5};
-use super::taylor::Taylor;
-use crate::model::parameters::{energy, rests};
-use crate::model::{HalfPlane, Ledger, PlaneField, Reason, Side, State};
+use super::{
+    ApproachToRest, AutoStepper, CLASSICAL, DOP853, DOPRI5, ExactStepper, ExplicitStepper, Limits,
+    Method, Powers, SmoothField, Step, StepPoint, Stepper, StiffStepper, Taylor, TimeStepping,
+};
+use crate::model::{HalfPlane, Ledger, PlaneField, Reason, Side, State, energy, rests};
 use crate::numerics::{Scalar, Sum, real, times_power};
 
 /// Computes a motion.

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::reason::Reason;
+use super::Reason;
 
 /// What borders the basin of rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

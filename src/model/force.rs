@@ -5,9 +5,8 @@
 //! force vanishes exactly: near rest it keeps all its digits however small the velocity is. Forces are
 //! divided by the stiffness, so that they are lengths, and velocities by the natural frequency.
 
-use crate::model::belt::friction::{LawParts, LawPiece};
-use crate::numerics::elementary::{exp, exp_m1, ln_1p, pow, powi};
-use crate::numerics::polynomial::value_and_slope;
+use super::{LawParts, LawPiece};
+use crate::numerics::{exp, exp_m1, ln_1p, pow, powi, value_and_slope};
 
 /// A polynomial `sum c_k (y - center)^k` for velocities in `low ..= high`.
 #[derive(Clone, Debug, PartialEq)]

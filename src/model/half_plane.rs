@@ -11,7 +11,7 @@
 
 use std::fmt::Debug;
 
-use super::parameters::{Parameters, State};
+use super::{Parameters, State};
 use crate::numerics::{Scalar, times_power};
 
 /// A side of the switching line `v = 0`.

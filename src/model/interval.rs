@@ -1,7 +1,7 @@
 //! Parameters that are known to lie between two numbers.
 
-use super::knob::{Knob, KnobSpec};
-use super::parameters::Parameters;
+use super::knob::Knob;
+use super::{KnobSpec, Parameters};
 pub use crate::numerics::Interval;
 
 /// The parameters of equation (4), each in an interval of its own.

@@ -43,11 +43,13 @@ pub(crate) mod parameters;
 #[doc(hidden)]
 pub mod unit;
 
+pub(crate) use self::{
+    belt::*, force::*, knob::*, model::*, parameters::*, reach::*, source::*, unit::*,
+};
 pub use basin::{Border, Kicks, Margin, Reach, RestKicks, RestMargin};
 pub use belt::Belt;
 pub use half_plane::{Field, HalfPlane, PlaneField, Side};
 pub use interval::{Interval, ParameterBox};
-pub(crate) use knob::unknown;
 pub use knob::{Group, KNOBS, Knob, KnobSpec, RangeError};
 pub use modal::Mode;
 pub use model::{ContactState, Lines, Model, Phase};

@@ -10,10 +10,8 @@
 //! No length is singled out: a machine with all its lengths scaled by a power of two moves alike to the last
 //! bit.
 
-use super::force::{ForceBranch, ForcePiece, branch};
-use super::reach::first_below_zero;
-use crate::model::{Belt, Mode, Parameters, Reason};
-use crate::numerics::elementary::powi;
+use super::{Belt, ForceBranch, ForcePiece, Mode, Parameters, Reason, branch, first_below_zero};
+use crate::numerics::powi;
 
 /// The last terms of a step are this small against the state where nothing else is asked for.
 pub const FINEST: f64 = 1e-17;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::scaling::times_power;
+use crate::numerics::times_power;
 
 /// The parameters of equation (4): damping, asymmetry, cubic damping, friction. All dimensionless, and each 0 or
 /// within 1e-150 .. 1e150 in magnitude ([`KNOBS`](super::KNOBS)): beyond that, nothing is promised. They are numbers, or

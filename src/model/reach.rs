@@ -1,6 +1,6 @@
 //! How far a friction law may be believed: up to the slip at which its coefficient falls below zero.
 
-use crate::model::belt::friction::{LawParts, LawPiece};
+use super::{LawParts, LawPiece};
 use crate::numerics::{TO_ROUNDING, bisect, exp, exp2, polynomial, pow};
 
 /// The smallest slip, in m/s, beyond which the coefficient of friction is negative; infinite where there is

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::knob::RangeError;
+use super::RangeError;
 
 /// Why a computation has no answer, with the numbers that explain it.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::model::Model;
-use crate::model::{Belt, Group, Interval, KNOBS, Knob, Mode, ParameterBox, Parameters, Reason};
+use super::{Belt, Group, Interval, KNOBS, Knob, Mode, Model, ParameterBox, Parameters, Reason};
 
 /// The oscillator of the paper, a mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,8 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::count::truncated;
-use super::elementary::{ln, log10, powi};
+use super::{ln, log10, powi, truncated};
 
 /// The shortest text that parses back to this number, without a redundant `.0`.
 pub fn shortest(value: f64) -> String {

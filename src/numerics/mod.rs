@@ -24,24 +24,8 @@ pub(crate) mod sum;
 pub(crate) mod table;
 pub mod twofold;
 
-pub(crate) use count::{amount, distinct, real, reciprocals, truncated};
-pub(crate) use decimal::{StepSize, brief, decade, decimal, shortest};
-pub(crate) use elementary::{
-    asin, atan, atan2, cbrt, cos, erfc, exp, exp_m1, exp2, hypot, ln, ln_1p, log2, log10, pow,
-    powi, sin, sin_cos, tanh,
+pub(crate) use self::{
+    count::*, decimal::*, elementary::*, polynomial::*, quadrature::*, random::*, root::*,
+    scalar::*, scaling::*, similar::*, spline::*, sum::*, table::*, twofold::*,
 };
 pub use interval::Interval;
-pub(crate) use polynomial::Hermite;
-pub(crate) use quadrature::{Integral, integrate};
-pub(crate) use random::Random;
-pub(crate) use root::{
-    Bracket, PlaceTolerance, TO_ROUNDING, bisect, illinois, maximum, newton, try_bisect,
-    try_maximum, try_newton,
-};
-pub(crate) use scalar::Scalar;
-pub(crate) use scaling::{exponent, rough_exp2, rough_log2, times_power};
-pub(crate) use similar::most_similar;
-pub(crate) use spline::SmoothingSpline;
-pub(crate) use sum::Sum;
-pub(crate) use table::{cells, named};
-pub(crate) use twofold::Twofold;

@@ -1,8 +1,7 @@
 //! Polynomials and power series, lowest power first, and the cubic with given values and slopes at both ends of
 //! an interval.
 
-use super::count::real;
-use super::scalar::Scalar;
+use super::{Scalar, real};
 
 /// The coefficients of the derivative, with a zero at the end.
 pub fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::count::amount;
-use super::elementary::{cos, ln};
+use super::{amount, cos, ln};
 
 /// A stream of numbers (splitmix64).
 #[derive(Clone, Debug)]

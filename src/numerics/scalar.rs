@@ -3,9 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::count::{real, reciprocals};
-use super::scaling::times_power;
-use super::twofold::Twofold;
+use super::{Twofold, real, reciprocals, times_power};
 
 /// Counts by which one divides without a division.
 const COUNTS: usize = 64;

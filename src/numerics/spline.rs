@@ -15,11 +15,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::polynomial::{Derivatives, derivatives, value};
-use super::quadrature::gauss;
-use super::root::bisect;
-use crate::numerics::count::real;
-use crate::numerics::elementary::{exp, ln, powi};
+use super::{Derivatives, bisect, derivatives, exp, gauss, ln, powi, real, value};
 
 /// Smallest number of points with a third derivative.
 pub const FEWEST: usize = 4;

@@ -1,6 +1,6 @@
 //! A compensated sum.
 
-use super::scalar::Scalar;
+use super::Scalar;
 
 /// A compensated sum (Neumaier's): terms below its last digit are not lost, however many there are.
 #[derive(Clone, Copy, Debug, Default)]

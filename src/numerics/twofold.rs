@@ -7,7 +7,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::numerics::elementary::{exp, exp_m1, sin_cos};
+use super::{exp, exp_m1, sin_cos};
 
 /// The sum `high + low`, where `low` is at most half a unit in the last place of `high`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]

@@ -2,14 +2,16 @@
 
 use std::f64::consts::PI;
 
-use super::measure::{BoundedCycle, ClaimCase, at_rest, missing};
-use super::{Approximation, Check, Conclusion, Evidence, always, model, tends, worst};
-use crate::branch::escape::escape_point;
+use super::{
+    Approximation, BoundedCycle, Check, ClaimCase, Conclusion, Evidence, always, at_rest, missing,
+    model, tends, worst,
+};
+use crate::branch::escape_point;
 use crate::flow::{Outcome, Reason};
 use crate::model::{Parameters, State};
 use crate::numerics::{Interval, exp};
 use crate::portrait::Portrait;
-use crate::proof::motion::ProvedFate;
+use crate::proof::ProvedFate;
 
 pub(super) const CHECKS: &[Check] = &[
     worst("contact with the belt", model::contact),

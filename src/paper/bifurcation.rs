@@ -4,12 +4,11 @@
 use std::f64::consts::PI;
 
 use super::harmonic::{approached, found_fold};
-use super::measure::{ClaimCase, at_rest};
-use super::{Approximation, Check, Conclusion, Evidence, always, tends, worst};
+use super::{Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, tends, worst};
 use crate::closed_form::harmonic::mean as harmonic_mean;
 use crate::flow::Reason;
 use crate::model::Parameters;
-use crate::numerics::elementary::{ln, log2};
+use crate::numerics::{ln, log2};
 use crate::portrait::{Border, cycles};
 
 pub(super) const CHECKS: &[Check] = &[

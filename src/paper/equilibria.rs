@@ -3,16 +3,15 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::measure::{ClaimCase, at_rest, missing};
-use super::{Approximation, Check, Conclusion, Evidence, always, tends, worst};
-use crate::closed_form::lyapunov;
-use crate::closed_form::piecewise_linear::LinearCycle;
+use super::{
+    Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, missing, tends, worst,
+};
+use crate::closed_form::{LinearCycle, lyapunov};
 use crate::flow::{Outcome, Reason};
 use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::{Interval, atan, exp, hypot, sin, sin_cos};
-use crate::portrait::proved::proved_kicks;
-use crate::portrait::{Border, Portrait};
-use crate::proof::motion::ProvedFate;
+use crate::portrait::{Border, Portrait, proved_kicks};
+use crate::proof::ProvedFate;
 
 pub(super) const CHECKS: &[Check] = &[
     always("rest", |it| Ok(it.captured(at_rest(it.more), 1e-3)?.is(it.more.abs() <= it.r))),

@@ -3,18 +3,19 @@
 
 use std::f64::consts::{E, PI, TAU};
 
-use super::measure::{ClaimCase, at_rest, missing};
-use super::{Approximation, Check, Conclusion, Evidence, always, tends, worst};
-use crate::accuracy::harmonic_error::harmonic_balance;
+use super::{
+    Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, missing, tends, worst,
+};
+use crate::accuracy::harmonic_balance;
+use crate::branch::FoldPoint;
 use crate::branch::fold::fold;
-use crate::branch::special::FoldPoint;
+use crate::closed_form::HarmonicCycle;
 use crate::closed_form::harmonic::{self, amplitudes, mean as harmonic_mean};
-use crate::closed_form::harmonics::HarmonicCycle;
 use crate::flow::Reason;
 use crate::model::Parameters;
 use crate::numerics::interval::PI as PI_BOUNDS;
 use crate::numerics::{Interval, cbrt, powi, sin};
-use crate::portrait::basin::cycle::cycles;
+use crate::portrait::cycles;
 
 pub(super) const CHECKS: &[Check] = &[
     worst("Fourier series", |it| {

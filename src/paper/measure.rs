@@ -5,17 +5,17 @@
 
 use std::ops::Deref;
 
-use super::verdict::{Approximation, Conclusion};
+use super::{Approximation, Conclusion};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem, Reason};
 use crate::model::{Knob, Parameters, Side, State};
 use crate::numerics::Interval;
-use crate::portrait::basin::arc::Arc;
-use crate::portrait::proved::matching;
-use crate::portrait::{Border, Cycle, Direction, Equation, Length, Portrait, closings};
-use crate::proof::motion::{ProvedFate, ProvedMotion, follow};
-use crate::proof::range::change_within;
-use crate::proof::{Enclosure, ParameterBox, kicks, prove};
+use crate::portrait::{
+    Arc, Border, Cycle, Direction, Equation, Length, Portrait, closings, matching,
+};
+use crate::proof::{
+    Enclosure, ParameterBox, ProvedFate, ProvedMotion, change_within, follow, kicks, prove,
+};
 
 /// Rounding of a number that several operations made from a computed one.
 const ROUNDED: f64 = 1e-14;

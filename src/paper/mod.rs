@@ -14,6 +14,8 @@ mod measure;
 pub(crate) mod model;
 mod verdict;
 
+pub(crate) use measure::*;
+
 pub use verdict::{Approximation, Certainty, Conclusion, Evidence, POOR, Sense, Verdict};
 
 use std::sync::LazyLock;

@@ -4,17 +4,14 @@
 //! That the mass stays slower, the paper assumes; nothing in the equation keeps a motion to it. It is tested on the belt
 //! that comes with the program: friction that falls exponentially with the relative velocity.
 
-use super::measure::{ClaimCase, at_rest};
-use super::{Approximation, Check, Conclusion, Evidence, always, worst};
-use crate::closed_form::harmonic::amplitudes;
-use crate::closed_form::linear::LinearFlow;
+use super::{Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, worst};
+use crate::closed_form::{LinearFlow, amplitudes};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Problem, Reason};
-use crate::model::belt::{FrictionLaw, ReducedBelt};
-use crate::model::{Belt, Parameters};
+use crate::model::{Belt, FrictionLaw, Parameters, ReducedBelt};
 use crate::numerics::interval::PI;
 use crate::numerics::{exp, ln, powi, try_bisect};
-use crate::portrait::on_belt::first_at;
+use crate::portrait::first_at;
 
 pub(super) const CHECKS: &[Check] = &[
     always("slower than the belt", stays_slower),

@@ -1,8 +1,7 @@
 //! What borders the basin of rest: how cycles tell its kind, and the curve that it was traced as.
 
-use super::basin::orbit::Orbit;
-use super::cycle::Cycle;
-use crate::flow::machine::curve::MachineCurve;
+use super::{Cycle, Orbit};
+use crate::flow::MachineCurve;
 use crate::model::{Border, Parameters, State};
 use crate::numerics::{hypot, maximum};
 

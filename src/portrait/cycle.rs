@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::numerics::elementary::{exp_m1, ln};
+use crate::numerics::{exp_m1, ln};
 
 /// A limit cycle: of the paper's oscillator without units, of a machine in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

@@ -8,11 +8,11 @@
 
 use serde::Serialize;
 
+use super::{Margin, Portrait};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Body, Parameters, Source, Tolerances};
 use crate::numerics::{PlaceTolerance, exp, illinois, ln};
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::{Margin, Portrait};
 
 /// A kick out of rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -46,25 +46,17 @@ mod portrait;
 mod without_belt;
 
 pub use basin::capture::bands;
-pub(crate) use basin::cycle::picture_reach;
 pub use basin::cycle::{Cycles, Drawing, cycles};
 pub use basin::stability::Share;
 pub use basin::{Counts, StartWindow};
 pub use border::Edge;
-pub(crate) use closing::all::{STEP, all_closings, closings};
-pub(crate) use closing::balance::weighed_closing;
-pub(crate) use closing::equation::{Equation, Route, WayFromRim, first_side};
-pub(crate) use closing::half_map::{Direction, Length};
-pub(crate) use closing::pair::SwingPair;
-pub(crate) use closing::polish::polish_near;
 pub use closing::return_map::{Return, ReturnMap};
-pub(crate) use closing::search::Node;
-pub(crate) use closing::weak::weak_closing;
 pub use cycle::{Cycle, CycleErrors, Ride};
-pub(crate) use design::{FrictionNeed, Kick, friction_for};
-pub(crate) use kicks::RandomKick;
-pub(crate) use kicks::repeated::Survival;
 pub use portrait::Portrait;
 
+pub(crate) use self::{
+    basin::*, closing::*, design::*, guarantee::*, kicks::*, on_belt::*, portrait::*, proved::*,
+    return_map::*, without_belt::*,
+};
 // They stand in the model so that the proofs, which share nothing with this ring, say the same words.
 pub use crate::model::{Border, Kicks, Margin, Reach, RestMargin};

@@ -8,15 +8,14 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::{Border, Cycle, Edge, Kicks, Margin, Reach};
+use super::{
+    Border, Counts, Cycle, Edge, Kicks, Landmarks, Margin, Orbit, Reach, Share, StartWindow,
+    between, part_within,
+};
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
 use crate::model::{ContactState, Model, Phase, RestKicks};
-use crate::numerics::root::bisect;
-use crate::portrait::basin::orbit::Orbit;
-use crate::portrait::basin::stability::{Share, part_within};
-use crate::portrait::basin::{Counts, StartWindow, between};
-use crate::portrait::return_map::machine_return::Landmarks;
+use crate::numerics::bisect;
 
 /// A gap between right turning points.
 #[derive(Clone, Copy, Debug)]

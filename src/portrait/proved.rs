@@ -5,13 +5,11 @@
 
 use thiserror::Error;
 
-use super::basin::cycle::Cycles;
+use super::{Cycle, Cycles, Portrait};
 use crate::model::Parameters;
 use crate::numerics::Interval;
-use crate::portrait::{Cycle, Portrait};
-use crate::proof::cycles::ProvedCycle;
-use crate::proof::kicks::{ProvedKicks, kicks};
-use crate::proof::{ParameterBox, Proof, prove};
+use crate::proof::kicks::kicks;
+use crate::proof::{ParameterBox, Proof, ProvedCycle, ProvedKicks, prove};
 
 /// The search and the proof say different things: an error of this program.
 #[derive(Clone, Debug, PartialEq, Error)]

@@ -4,15 +4,11 @@
 //! Half swings are computed by their clearance from where the mass rests, which the return map loses among the digits
 //! of the turning point where damping is nearly critical.
 
-use super::basin::arc::Arc;
-use super::basin::cycle::{described, picture_reach};
-use super::basin::orbit::Orbit;
-use super::closing::all::{STEP, first_closings};
-use super::closing::equation::{Equation, first_side};
-use super::closing::pair::SwingPair;
-use super::portrait::Portrait;
-use super::{Border, Cycle, Edge, Reach};
-use crate::closed_form::harmonic::is_centre;
+use super::{
+    Arc, Border, Cycle, Edge, Equation, Orbit, Portrait, Reach, STEP, SwingPair, described,
+    first_closings, first_side, picture_reach,
+};
+use crate::closed_form::is_centre;
 use crate::flow::{Fate, Limits, Reason};
 use crate::model::{Belt, Model, Parameters, Source};
 

@@ -1,8 +1,6 @@
 //! A ball of motions that is carried through a half plane, step by step.
 
-use super::field::{FieldBox, scaled};
-use super::series::MotionSeries;
-use super::step::{INFLATE, Norm, StepEnd, StepField, UNIT};
+use super::{FieldBox, INFLATE, MotionSeries, Norm, StepEnd, StepField, UNIT, scaled};
 use crate::numerics::{Interval, exponent};
 
 /// Steps after which a swing is abandoned: a smooth one takes ten, a stiff one any number.

@@ -12,10 +12,9 @@
 //! below `z_c` and below it near the sticking set, so there is a cycle between. It reaches infinity where
 //! `B = z_c` (lemma 20).
 
-use super::count::{Count, Sign, SignedGap, sign_at};
 use super::field::ParameterBox;
-use super::map::{MapDirection, ProvedMap};
 use super::range::bracket;
+use super::{Count, MapDirection, ProvedMap, Sign, SignedGap, sign_at};
 use crate::model::Knob;
 use crate::numerics::{Interval, powi};
 

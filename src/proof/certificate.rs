@@ -3,9 +3,7 @@
 //! A proof gives the number of cycles and their approximate places. From this the steps are computed again with
 //! the map of the checker: a walk from the sticking set outwards, each step up to the image of its start.
 
-use super::cycles::{Proof, ProvedCycle, Theorem};
-use super::funnel::fences;
-use super::map::{ProvedHalf, ProvedMap};
+use super::{Proof, ProvedCycle, ProvedHalf, ProvedMap, Theorem, fences};
 use crate::check::map::Map;
 use crate::check::{Bounds, Certificate, CertificateStep, StepKind};
 use crate::numerics::Interval;

@@ -7,12 +7,7 @@
 //! differs from 1 throughout (one cycle if the signs differ, none otherwise), or by the distance from the
 //! diagonal in the middle. Otherwise the gap is halved.
 
-use super::ball::StartBox;
-use super::enclose::Enclosure;
-use super::field::FieldBox;
-use super::funnel::Funnel;
-use super::map::{Bound, MapDirection, ProvedMap};
-use super::swing::swing_below;
+use super::{Bound, Enclosure, FieldBox, Funnel, MapDirection, ProvedMap, StartBox, swing_below};
 use crate::numerics::{Interval, pow, times_power};
 
 /// Relative width below which a gap is not halved any more.

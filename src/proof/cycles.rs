@@ -1,10 +1,9 @@
 //! All limit cycles for given parameters, proved: their number, and bounds of their characteristics.
 
-use super::count::Count;
 pub use super::count::ProvedCycle;
-use super::enclose::{affine_cycle, enclose};
-use super::field::{ParameterBox, scaled};
-use super::map::ProvedMap;
+use super::enclose::enclose;
+use super::field::ParameterBox;
+use super::{Count, ProvedMap, affine_cycle, scaled};
 use crate::numerics::{Interval, exponent};
 
 /// Why there are no cycles, or only one.

@@ -1,9 +1,8 @@
 //! Enclosure of a limit cycle: existence and uniqueness near a guess by the interval Newton method, then all
 //! its characteristics; or all of them from a closed form.
 
-use super::field::{ParameterBox, scaled};
-use super::map::{MapDirection, ProvedMap};
-use super::swing::ProvedSwing;
+use super::field::ParameterBox;
+use super::{MapDirection, ProvedMap, ProvedSwing, scaled};
 use crate::numerics::Interval;
 use crate::numerics::interval::PI;
 use serde::Serialize;

@@ -6,9 +6,8 @@
 //! piece of the line `v = speed` (lemma 11), and the motions from the two ends of this piece, which are no
 //! longer stiff, arrive almost together.
 
-use super::ball::StartBox;
-use super::field::{FieldBox, scaled};
-use super::swing::{Passage, ProvedSwing, swing};
+use super::swing::swing;
+use super::{FieldBox, Passage, ProvedSwing, StartBox, scaled};
 use crate::numerics::{Interval, cbrt, exponent};
 
 /// The beginning of motions, until all of them are faster than the speed of the funnel.

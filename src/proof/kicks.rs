@@ -6,12 +6,10 @@
 //! impulse is captured if the half swing that it starts ends nearer than this. A push is weakest where the edge is
 //! lowest, which over the rest positions is at an end of the sticking set.
 
-use super::ball::StartBox;
-use super::cycles::{Proof, ProvedCycle, Theorem};
 use super::field::ParameterBox;
-use super::map::{Effort, ProvedHalf, ProvedMap};
 use super::range::narrowed;
-use super::swing::{Passage, swing};
+use super::swing::swing;
+use super::{Effort, Passage, Proof, ProvedCycle, ProvedHalf, ProvedMap, StartBox, Theorem};
 use crate::model::{Border, Kicks, Margin, RestKicks};
 use crate::numerics::{Interval, powi};
 

@@ -7,10 +7,10 @@
 
 use std::cell::OnceCell;
 
-use super::ball::{MOST_STEPS, StartBox};
-use super::field::{FieldBox, ParameterBox, scaled};
-use super::funnel::Funnel;
-use super::swing::{Passage, ProvedSwing, swing, swing_below};
+use super::ball::MOST_STEPS;
+use super::field::ParameterBox;
+use super::swing::swing;
+use super::{FieldBox, Funnel, Passage, ProvedSwing, StartBox, scaled, swing_below};
 use crate::model::Side;
 use crate::numerics::Interval;
 

@@ -55,6 +55,10 @@ pub(crate) mod step;
 #[doc(hidden)]
 pub mod swing;
 
+pub(crate) use self::{
+    ball::*, count::*, cycles::*, enclose::*, field::*, funnel::*, kicks::*, map::*, motion::*,
+    range::*, series::*, step::*, swing::*,
+};
 #[doc(hidden)]
 pub use ball::StartBox;
 pub use cycles::{Proof, prove};

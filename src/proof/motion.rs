@@ -2,10 +2,12 @@
 
 use serde::Serialize;
 
-use super::ball::{Ball, MOST_STEPS, StartBox, never_returns};
-use super::field::{FieldBox, ParameterBox, scaled};
-use super::map::{Effort, ProvedMap};
-use super::swing::{Passage, ProvedSwing, swing};
+use super::ball::MOST_STEPS;
+use super::field::ParameterBox;
+use super::swing::swing;
+use super::{
+    Ball, Effort, FieldBox, Passage, ProvedMap, ProvedSwing, StartBox, never_returns, scaled,
+};
 use crate::numerics::{Interval, cbrt};
 
 /// A point of a motion, as far as it is enclosed.

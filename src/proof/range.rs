@@ -1,8 +1,8 @@
 //! A range of a parameter, piece by piece: the number of cycles for every value in a piece, and the values
 //! between which this number changes.
 
-use super::cycles::stabilities;
 use super::field::ParameterBox;
+use super::stabilities;
 use crate::model::Knob;
 use crate::numerics::{Interval, powi};
 

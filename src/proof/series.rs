@@ -5,8 +5,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::numerics::polynomial::value_and_slope_in_two;
-use crate::numerics::{reciprocals, rough_exp2, rough_log2};
+use crate::numerics::{reciprocals, rough_exp2, rough_log2, value_and_slope_in_two};
 
 /// Degree of the polynomials.
 pub const ORDER: usize = 28;

@@ -13,8 +13,8 @@
 //!
 //! `docs/proofs.md` has the lemmas and the count of every rounding.
 
-use super::field::FieldBox;
-use super::series::{INVERSE, LANES, LENGTH, MotionSeries, ORDER};
+use super::series::{INVERSE, LANES, LENGTH};
+use super::{FieldBox, MotionSeries, ORDER};
 use crate::numerics::{Interval, ln, real};
 
 /// The unit roundoff of doubles, `2^-53`.

@@ -3,9 +3,8 @@
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use super::ball::{Ahead, Ball, MOST_STEPS, StartBox, never_returns};
-use super::field::{FieldBox, scaled};
-use super::step::{INFLATE, StepEnd, UNIT};
+use super::ball::MOST_STEPS;
+use super::{Ahead, Ball, FieldBox, INFLATE, StartBox, StepEnd, UNIT, never_returns, scaled};
 use crate::numerics::{Bracket, Interval, PlaceTolerance, illinois, newton, powi};
 
 /// A half swing that arrives at `v = 0`; each interval holds the values of all starts and fields.

@@ -11,6 +11,7 @@ pub mod named;
 pub mod sets;
 pub mod verdict;
 
+pub(crate) use lattice::*;
 pub use lattice::{Case, cases};
 pub use named::{NamedExtreme, named};
 pub use sets::{SetVerdict, judge_set, sets};

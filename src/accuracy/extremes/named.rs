@@ -2,11 +2,10 @@
 
 use serde::Serialize;
 
-use super::lattice::UNTIL;
+use super::UNTIL;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Crossing, Detail, Limits, Method, Motion, Outcome, Problem};
-use crate::model::parameters::energy;
-use crate::model::{Parameters, State};
+use crate::model::{Parameters, State, energy};
 use crate::numerics::{amount, cells, times_power};
 
 /// One of them by one method.

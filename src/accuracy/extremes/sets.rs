@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::lattice::all_parameters;
+use super::all_parameters;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::Parameters;
 use crate::portrait::{Cycle, Equation, Route, STEP, SwingPair, all_closings};

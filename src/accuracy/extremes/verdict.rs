@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
-use super::lattice::{Case, UNTIL};
+use super::{Case, UNTIL};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Method, Motion, Outcome, Problem};
 use crate::model::{Parameters, State};
-use crate::numerics::elementary::log10;
+use crate::numerics::log10;
 
 /// Tolerance of the motions where none is given.
 pub const TOLERANCE: f64 = 1e-10;

@@ -1,15 +1,12 @@
 //! Drawing the lines of a chart: the boundaries on each, the bands between them, and further lines where a
 //! boundary is bent.
 
-use crate::branch::escape::{escape_point, escape_product};
-use crate::branch::extended::{FoldPlace, fold_near};
-use crate::branch::fold::fold_within;
-use crate::branch::regime::Regime;
+use crate::branch::{FoldPlace, Regime, escape_point, escape_product, fold_near, fold_within};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{PlaceTolerance, exp, hypot, illinois, ln, powi, real};
-use crate::portrait::basin::cycle::cycles;
+use crate::portrait::cycles;
 
 /// Maximum number of halvings between two lines, to come close to a boundary.
 pub(crate) const HALVINGS: u32 = 8;

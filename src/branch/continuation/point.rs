@@ -1,7 +1,7 @@
 //! Points of a curve of cycles, and directions along it.
 
 use crate::model::Parameters;
-use crate::numerics::elementary::hypot;
+use crate::numerics::hypot;
 use crate::portrait::{Route, SwingPair};
 
 /// Length of u that counts as much as the whole range of the parameter.

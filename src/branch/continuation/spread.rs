@@ -6,10 +6,11 @@
 
 use nalgebra::Vector3;
 
-use super::{CurvePoint, CycleCurve, Tangent, is_beside};
+use super::{CurvePoint, Tangent, is_beside};
+use crate::branch::CycleCurve;
 use crate::flow::Reason;
-use crate::numerics::count::real;
-use crate::portrait::closing::equation::Route;
+use crate::numerics::real;
+use crate::portrait::Route;
 
 /// Where a cycle of the curve is to be found.
 #[derive(Clone, Copy, Debug)]

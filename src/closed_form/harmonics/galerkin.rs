@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU};
 
-use super::fourier::{Fourier, SignChange, sign_changes};
+use super::{Fourier, SignChange, sign_changes};
 use crate::model::{Parameters, Reason};
 use crate::numerics::{real, sin_cos};
 

@@ -18,14 +18,14 @@
 pub mod fourier;
 pub mod galerkin;
 
+pub(crate) use self::{fourier::*, galerkin::*};
+
 use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 use serde::Serialize;
 
-use self::fourier::{Fourier, sign_changes};
-use self::galerkin::{Ansatz, BalanceResidual, solve};
-use super::harmonic::Harmonic;
+use super::Harmonic;
 use crate::model::{Parameters, Reason, State};
 use crate::numerics::{exponent, real, times_power};
 

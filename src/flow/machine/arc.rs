@@ -1,16 +1,11 @@
 //! A motion within one phase, up to the switching line at which it ends.
 
-use super::curve::{MachineStep, ORDER};
 use super::levels::{PhaseStep, crossing};
-use super::series::PhaseSeries;
 use super::stepped::{self, PhaseField, PhaseStepper, pair_step};
-use crate::flow::Cost;
-use crate::flow::step::StepPoint;
-use crate::model::force::ForceBranch;
-use crate::model::model::FINEST;
-use crate::model::{ContactState, Model, Phase, Reason};
-use crate::numerics::ln;
-use crate::numerics::polynomial::{derivative, value, value_and_slope};
+use super::{MachineStep, ORDER, PhaseSeries};
+use crate::flow::{Cost, StepPoint};
+use crate::model::{ContactState, FINEST, ForceBranch, Model, Phase, Reason};
+use crate::numerics::{derivative, ln, value, value_and_slope};
 
 /// The end of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,9 +4,9 @@
 use nalgebra::{Vector2, Vector3};
 
 use crate::model::{ContactState, Ledger, Model, Phase, State, Work};
-use crate::numerics::polynomial::{value, value_and_slope};
-use crate::numerics::quadrature::{GAUSS, gauss};
-use crate::numerics::{Bracket, PlaceTolerance, newton, powi, reciprocals};
+use crate::numerics::{
+    Bracket, GAUSS, PlaceTolerance, gauss, newton, powi, reciprocals, value, value_and_slope,
+};
 
 /// Order of the series; near the one that costs least at full precision.
 pub const ORDER: usize = 20;

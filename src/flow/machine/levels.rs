@@ -5,8 +5,8 @@
 //! exactly once. So the values at the ends of a step and at that maximum decide whether a line was reached,
 //! however shallow the contact; nothing is sampled.
 
-use super::curve::MachineStep;
-use crate::flow::step::StepPoint;
+use super::MachineStep;
+use crate::flow::StepPoint;
 use crate::model::Phase;
 use crate::numerics::{Bracket, PlaceTolerance, newton};
 

@@ -8,3 +8,5 @@ pub mod motion;
 pub(crate) mod series;
 pub mod stepped;
 pub mod turn;
+
+pub(crate) use self::{arc::*, curve::*, series::*, turn::*};

@@ -2,12 +2,9 @@
 
 use nalgebra::Vector3;
 
-use super::arc::Flow;
-use super::curve::{MachineStep, ORDER, ledger};
-use super::series::PhaseSeries;
-use super::stepped;
-use crate::flow::motion::Leg;
-use crate::flow::{Crossing, Detail, Limits, Method, Motion, Outcome, Problem, Sample};
+use super::curve::ledger;
+use super::{Flow, MachineStep, ORDER, PhaseSeries, stepped};
+use crate::flow::{Crossing, Detail, Leg, Limits, Method, Motion, Outcome, Problem, Sample};
 use crate::model::{ContactState, Model, Phase, Reason, State};
 
 /// The units in which a motion of a machine is told. The model itself computes in m and `1/omega_0`.

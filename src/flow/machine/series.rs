@@ -4,12 +4,10 @@
 //! series by Horner's scheme, plus an exponential with a recurrence of its own. The step is the one that
 //! keeps the last terms below rounding (Jorba and Zou, Experimental Mathematics 14, 2005).
 
-use super::curve::{INVERSE, MachineCurve, MachineStep, ORDER, TERMS, Terms};
-use crate::model::ContactState;
-use crate::model::force::{Fall, ForceBranch, ForcePiece, shift};
-use crate::numerics::polynomial::{integral, value, value_and_slope};
-use crate::numerics::quadrature::gauss;
-use crate::numerics::{exp2, log2, pow, real};
+use super::curve::INVERSE;
+use super::{MachineCurve, MachineStep, ORDER, TERMS, Terms};
+use crate::model::{ContactState, Fall, ForceBranch, ForcePiece, shift};
+use crate::numerics::{exp2, gauss, integral, log2, pow, real, value, value_and_slope};
 
 /// The series of one step, and what it takes to compute them.
 #[derive(Clone, Debug)]

@@ -1,12 +1,9 @@
 //! An arc by an explicit Runge-Kutta method in place of Taylor series: a second opinion that shares with the first
 //! the model, what happens at its lines and how they are found, but not the steps.
 
-use super::curve::MachineStep;
+use super::MachineStep;
 use super::levels::{PhaseStep, crossing};
-use crate::flow::Method;
-use crate::flow::explicit::ExplicitStepper;
-use crate::flow::step::{StepPoint, Stepper};
-use crate::flow::tableau::{DOP853, DOPRI5};
+use crate::flow::{DOP853, DOPRI5, ExplicitStepper, Method, StepPoint, Stepper};
 use crate::model::{ContactState, Field, Model, Phase, Reason};
 
 /// The methods that can follow a machine.

@@ -3,9 +3,7 @@
 //! Where the inclusion leaves a choice, the mass is held: by the belt wherever static friction suffices, and
 //! likewise by the guide. An orbit that touches the belt's line tangentially sticks.
 
-use super::arc::{ArcEnd, Flow};
-use super::curve::MachineStep;
-use super::series::PhaseSeries;
+use super::{ArcEnd, Flow, MachineStep, PhaseSeries};
 use crate::model::{ContactState, Phase, Reason};
 
 /// A turning point, and the motion that led there.

@@ -1,9 +1,8 @@
 //! The last step of a half swing: shortened until it ends at `v = 0`.
 
-use super::StiffStepper;
-use crate::flow::step::{Step, StepPoint};
+use crate::flow::{Step, StepPoint, StiffStepper};
 use crate::model::Field;
-use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
+use crate::numerics::{Bracket, PlaceTolerance, bisect, try_newton};
 
 /// Relative change of the length of the last step below which it counts as settled; this takes about four attempts.
 const SETTLED: f64 = 1e-9;

@@ -4,6 +4,8 @@
 
 pub mod radau;
 
+pub(crate) use radau::*;
+
 use std::sync::LazyLock;
 
 use crate::numerics::cells;

@@ -6,8 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::polynomial::derivatives;
-use crate::numerics::{SmoothingSpline, exp, pow, powi};
+use crate::numerics::{SmoothingSpline, derivatives, exp, pow, powi};
 
 pub use crate::numerics::polynomial::Derivatives;
 

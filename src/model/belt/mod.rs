@@ -13,6 +13,7 @@
 pub mod friction;
 pub mod reduce;
 
+pub(crate) use friction::*;
 pub use friction::{Belt, Derivatives, FrictionLaw};
 pub use reduce::{ReducedBelt, TaylorError, Units};
 

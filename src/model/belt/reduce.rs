@@ -3,11 +3,11 @@
 
 use serde::Serialize;
 
-use super::friction::{Belt, Derivatives};
-use crate::model::Reason;
+use super::Belt;
+use super::friction::Derivatives;
 use crate::model::knob::Knob;
-use crate::model::parameters::Parameters;
-use crate::numerics::root::maximum;
+use crate::model::{Parameters, Reason};
+use crate::numerics::maximum;
 
 /// The units of the dimensionless oscillator: what 1 of each stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -7,9 +7,7 @@ use std::fmt;
 use serde::de::{Deserialize, Deserializer, Error};
 use serde::{Serialize, Serializer};
 
-use super::belt::friction::Belt;
-use super::parameters::{Parameters, State};
-use super::unit::{DimensionalNumber, TolerancedNumber, measured, toleranced};
+use super::{Belt, DimensionalNumber, Parameters, State, TolerancedNumber, measured, toleranced};
 use crate::numerics::{Interval, brief, most_similar, shortest};
 use table::Access;
 pub use table::{Group, KNOBS, Knob, KnobSpec};

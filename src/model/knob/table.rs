@@ -4,8 +4,7 @@
 //! machine or a mode, where it stands; of a motion see `Problem::own` and `Parameters::part`. The pane, the command
 //! line, the files of scenes, machines and sessions, scans, charts and all that is said about a wrong value read it.
 
-use crate::model::belt::friction::{Belt, FrictionLaw};
-use crate::model::modal::Mode;
+use crate::model::{Belt, FrictionLaw, Mode};
 
 /// What a number belongs to. Names are different within a group, and within [`Group::SOURCE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,13 +7,10 @@
 
 use std::sync::Arc as Shared;
 
-use crate::flow::auto::KeptStep;
-use crate::flow::exact::ExactStepper;
-use crate::flow::step::{Powers, Stepper};
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, ExactStepper, KeptStep, Limits, Powers, Reason, Stepper};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::{Bracket, PlaceTolerance, newton, times_power};
-use crate::portrait::closing::half_map::{Direction, HalfMap, HalfSwing, Length};
+use crate::portrait::{Direction, HalfMap, HalfSwing, Length};
 
 /// Integration tolerance of an arc.
 const TOLERANCE: f64 = 1e-14;

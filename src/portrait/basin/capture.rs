@@ -5,10 +5,10 @@
 //! points of the sticking set, that is, the motions that end exactly there, followed backward. In each
 //! half plane they are graphs over the displacement, like the borders of the basin ([`crate::portrait::basin`]).
 
-use super::arc::Arc;
+use super::Arc;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Parameters, Side, State};
-use crate::portrait::closing::half_map::{Direction, Length};
+use crate::portrait::{Direction, Length};
 
 /// The borders between one arrival more and one less.
 #[derive(Clone, Debug, Default)]

@@ -18,12 +18,11 @@
 use super::orbit::works as works_over;
 use crate::flow::{Cost, Flow, Limits, Reason};
 use crate::model::{Ledger, Model, Parameters, Side, State};
-use crate::numerics::elementary::exp;
-use crate::portrait::closing::all::{STEP, all_closings};
-use crate::portrait::closing::equation::{Equation, first_side};
-use crate::portrait::closing::pair::{SwingPair, share};
-use crate::portrait::portrait::Portrait;
-use crate::portrait::{Border, Cycle, CycleErrors, Edge, Margin};
+use crate::numerics::exp;
+use crate::portrait::{
+    Border, Cycle, CycleErrors, Edge, Equation, Margin, Portrait, STEP, SwingPair, all_closings,
+    first_side, share,
+};
 
 /// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
 pub(crate) fn picture_reach(d2: f64) -> f64 {

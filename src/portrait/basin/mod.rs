@@ -12,6 +12,8 @@ pub(crate) mod orbit;
 #[doc(hidden)]
 pub mod stability;
 
+pub(crate) use self::{arc::*, cycle::*, orbit::*, stability::*};
+
 use serde::Serialize;
 
 use crate::flow::Fate;

@@ -12,15 +12,11 @@
 //! the captured clearances are `c0 = B0(2 r + c1)` and `c1 = B1(2 r + c0)`: a cycle where both are positive
 //! and finite, a separatrix where not.
 
-use super::arc::Arc;
-use crate::flow::step::{Powers, powers};
-use crate::flow::{Limits, Motion, Reason};
-use crate::model::parameters::energy;
-use crate::model::{Ledger, Parameters, Side, State};
-use crate::numerics::quadrature::GAUSS;
-use crate::portrait::closing::equation::first_side;
-use crate::portrait::closing::half_map::{Direction, HalfSwing, Length};
-use crate::portrait::closing::pair::SwingPair;
+use super::Arc;
+use crate::flow::{Limits, Motion, Powers, Reason, powers};
+use crate::model::{Ledger, Parameters, Side, State, energy};
+use crate::numerics::GAUSS;
+use crate::portrait::{Direction, HalfSwing, Length, SwingPair, first_side};
 
 /// An orbit that parts the plane: an upper and a lower arc over the displacement.
 #[derive(Clone, Debug)]

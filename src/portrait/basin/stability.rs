@@ -8,9 +8,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::Serialize;
 
-use super::StartWindow;
 use crate::numerics::{Integral, TO_ROUNDING, asin, bisect, cos, integrate, powi, sin};
-use crate::portrait::border::Edge;
+use crate::portrait::{Edge, StartWindow};
 
 /// A fraction, and a bound on its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -4,18 +4,15 @@
 //! clearance that a swing past the sticking set can have and the edge of escape ([`super::search`]), then polished
 //! ([`super::polish`]).
 
-use super::balance::weighed_closing;
-use super::equation::{Equation, Route};
-use super::half_map::Length;
-use super::pair::SwingPair;
-use super::polish::{VAGUE, is_exact, polish};
-use super::precise::FINER;
-use super::search::{Bracket, Node, RootSearch};
-use super::weak::{has_cycle, is_one_way, weak_closing};
-use crate::closed_form::piecewise_linear::LinearCycle;
+use super::{
+    Bracket, Equation, FINER, Length, Node, RootSearch, Route, SwingPair, VAGUE, has_cycle,
+    is_exact, is_one_way, weak_closing, weighed_closing,
+};
+use crate::closed_form::LinearCycle;
 use crate::flow::Reason;
 use crate::model::Parameters;
 use crate::numerics::{Twofold, ln};
+use crate::portrait::polish;
 
 /// Tolerance of the integration steps of the search and the polish: rounding.
 pub const STEP: f64 = 1e-16;

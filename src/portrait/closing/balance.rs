@@ -9,15 +9,10 @@
 //!
 //! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
 
-use super::equation::Equation;
-use super::half_map::{Direction, HalfMap, HalfSwing, Length};
-use super::pair::SwingPair;
-use super::roundoff::UNIT;
-use crate::flow::step::Stepper;
-use crate::flow::{Limits, Reason};
+use super::{Direction, Equation, HalfMap, HalfSwing, Length, SwingPair, UNIT};
+use crate::flow::{Limits, Reason, Stepper};
 use crate::model::{HalfPlane, PlaneField};
-use crate::numerics::quadrature::{GAUSS, gauss};
-use crate::numerics::{exp, exponent, ln_1p, times_power};
+use crate::numerics::{GAUSS, exp, exponent, gauss, ln_1p, times_power};
 
 /// A residual weighed as energy, and a bound on its error.
 pub type Weighed = (f64, f64);

@@ -12,10 +12,7 @@
 //! The first swing is the one in whose frame `D2 >= 0`, so that with `D3 = 0` neither it nor the
 //! second swing run backward can escape.
 
-use super::half_map::{Direction, HalfMap, HalfSwing, Length};
-use super::pair::{SwingPair, rounding, share};
-use super::roundoff::Errors;
-use super::search::Node;
+use super::{Direction, Errors, HalfMap, HalfSwing, Length, Node, SwingPair, rounding, share};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{HalfPlane, Parameters, Side};
 use crate::numerics::{exp, ln, log10, pow};

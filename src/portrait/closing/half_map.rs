@@ -11,12 +11,11 @@
 
 use std::ops::ControlFlow;
 
-use super::roundoff::{Errors, Roundoff};
-use crate::closed_form::linear::LinearFlow;
-use crate::flow::auto::AutoStepper;
-use crate::flow::step::{Step, StepPoint, Stepper};
-use crate::flow::swing::{blow_up, swing};
-use crate::flow::{Cost, Limits, Reason};
+use super::Errors;
+use super::roundoff::Roundoff;
+use crate::closed_form::LinearFlow;
+use crate::flow::swing::swing;
+use crate::flow::{AutoStepper, Cost, Limits, Reason, Step, StepPoint, Stepper, blow_up};
 use crate::model::{HalfPlane, PlaneField};
 use crate::numerics::{atan2, exp, hypot, ln, ln_1p, sin_cos, times_power};
 

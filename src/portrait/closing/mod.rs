@@ -15,3 +15,8 @@ pub(crate) mod return_map;
 mod roundoff;
 pub(crate) mod search;
 pub(crate) mod weak;
+
+pub(crate) use self::{
+    all::*, balance::*, equation::*, half_map::*, pair::*, polish::*, precise::*, roundoff::*,
+    search::*, weak::*,
+};

@@ -1,10 +1,8 @@
 //! A pair of half swings, whether it closes or not, and the errors of its numbers.
 
-use super::half_map::{HalfSwing, Length};
-use super::roundoff::{Errors, UNIT};
-use super::search::Node;
+use super::{Errors, HalfSwing, Length, Node, UNIT};
 use crate::model::Parameters;
-use crate::numerics::elementary::{ln, ln_1p};
+use crate::numerics::{ln, ln_1p};
 
 /// The two swings at one value of the unknown, and how far they are from closing.
 #[derive(Clone, Copy, Debug, PartialEq)]

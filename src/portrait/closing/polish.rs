@@ -4,12 +4,9 @@
 //! ([`super::balance`]) where the multiplier is close to 1, and in twice the working precision
 //! ([`Equation::precisely_at`]) where doubles leave too few digits.
 
-use super::balance::{Weighed, weighed_closing};
-use super::equation::{Equation, Route};
-use super::half_map::Length;
-use super::pair::SwingPair;
-use super::precise::FINER;
-use super::search::{Bracket, Node, places};
+use super::{
+    Bracket, Equation, FINER, Length, Node, Route, SwingPair, Weighed, places, weighed_closing,
+};
 use crate::flow::Reason;
 use crate::numerics::{Twofold, exp_m1};
 

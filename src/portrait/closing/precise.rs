@@ -5,10 +5,8 @@
 //! may graze the sticking set. There the residual is smaller than the rounding of a double. Thirty digits tell
 //! on which side of each such place a double lies, and fix the cycle itself to all digits of a double.
 
-use super::equation::{Equation, Route};
-use super::half_map::Direction;
-use crate::flow::precise::{Grain, half_swing};
-use crate::flow::{Cost, Limits, Reason};
+use super::{Direction, Equation, Route};
+use crate::flow::{Cost, Grain, Limits, Reason, half_swing};
 use crate::numerics::{Twofold, ln_1p};
 
 /// Rounding and truncation here, as a fraction of those of a double, with a few digits to spare.

@@ -7,11 +7,10 @@
 //!
 //! With D2 = D3 = 0 every half swing is the closed form (29), and nothing is integrated.
 
-use super::equation::Equation;
-use super::half_map::{Direction, Length};
+use super::{Direction, Equation, Length};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Parameters, Side};
-use crate::portrait::basin::between;
+use crate::portrait::between;
 
 /// Tolerance of the integration steps.
 const STEP: f64 = 1e-13;

@@ -9,7 +9,7 @@
 //!
 //! Assumption: errors are small beside what they are errors of, and a step rounds by [`UNIT`] at most.
 
-use crate::flow::step::{Step, StepPoint};
+use crate::flow::{Step, StepPoint};
 use crate::model::{Field, HalfPlane, PlaneField};
 use crate::numerics::{exp, exponent, ln, times_power};
 

@@ -14,11 +14,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::half_map::Length;
-use super::pair::SwingPair;
-use crate::closed_form::harmonic::amplitudes;
+use super::{Length, SwingPair};
+use crate::closed_form::amplitudes;
 use crate::model::Parameters;
-use crate::numerics::elementary::cbrt;
+use crate::numerics::cbrt;
 
 /// Largest e: its square is far below rounding.
 const WEAK: f64 = 1e-9;

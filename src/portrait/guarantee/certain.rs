@@ -1,10 +1,9 @@
 //! What is certain of the oscillator of the paper, of a machine or of a mode, whose numbers are known to tolerances.
 
-use super::oscillator::TwoSidedOscillator;
-use super::{NoGuarantee, machine, oscillator};
+use super::{TwoSidedOscillator, machine, oscillator};
 use crate::flow::{Limits, Reason};
 use crate::model::{Body, Source, Tolerances};
-use crate::portrait::{Margin, Portrait};
+use crate::portrait::{Margin, NoGuarantee, Portrait};
 
 /// That whose basin lies within all others, and the margin that holds for certain, or why there is none; a border that
 /// is not closed is followed as far as `reach`. A mode is known exactly.

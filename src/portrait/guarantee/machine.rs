@@ -11,12 +11,10 @@
 
 use nalgebra::{DMatrix, DVectorView};
 
-use super::NoGuarantee;
 use crate::flow::Reason;
-use crate::model::source::{MONOTONE, set};
-use crate::model::{Belt, Knob, Model, Phase, Tolerances};
+use crate::model::{Belt, Knob, MONOTONE, Model, Phase, Tolerances, set};
 use crate::numerics::{real, try_bisect};
-use crate::portrait::{Margin, Portrait};
+use crate::portrait::{Margin, NoGuarantee, Portrait};
 
 /// The portrait of a machine whose basin lies within those of all others, and the kicks, in m and N s, that every one
 /// survives for certain; or why there is none. Fails with [`Reason`] where a machine within the tolerances has no model,

@@ -6,6 +6,8 @@ pub mod certain;
 pub mod machine;
 pub mod oscillator;
 
+pub(crate) use self::oscillator::*;
+
 /// Why no kick is survived for certain.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum NoGuarantee {

@@ -10,20 +10,14 @@
 //! An extreme system has a D2 of its own on each side, so it is a [`TwoSidedOscillator`]; half maps and arcs are
 //! computed side by side anyway.
 
-use super::NoGuarantee;
-use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::closed_form::LinearCycle;
 use crate::flow::{Fate, Limits, Reason};
 use crate::model::{HalfPlane, Model, ParameterBox, Parameters, Side};
-use crate::numerics::interval::Interval;
-use crate::portrait::basin::orbit::Orbit;
-use crate::portrait::closing::all::{STEP, innermost_bracket};
-use crate::portrait::closing::equation::Equation;
-use crate::portrait::closing::half_map::HalfMap;
-use crate::portrait::closing::pair::SwingPair;
-use crate::portrait::closing::polish::polish;
-use crate::portrait::closing::weak::has_cycle;
-use crate::portrait::without_belt::centre_fate;
-use crate::portrait::{Border, Margin, Portrait, RestMargin};
+use crate::numerics::Interval;
+use crate::portrait::{
+    Border, Equation, HalfMap, Margin, NoGuarantee, Orbit, Portrait, RestMargin, STEP, SwingPair,
+    centre_fate, has_cycle, innermost_bracket, polish,
+};
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,17 +6,16 @@
 
 pub(crate) mod repeated;
 
+pub(crate) use self::repeated::*;
+
 use std::f64::consts::{PI, SQRT_2};
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::basin::stability::{Share, over_scales, support};
-use super::border::Edge;
-use super::portrait::Portrait;
+use super::{Edge, Portrait, Share, over_scales, support};
 use crate::flow::Reason;
-use crate::model::Border;
-use crate::model::unit::quantity;
+use crate::model::{Border, quantity};
 use crate::numerics::{Integral, erfc, exp};
 
 /// How a random number is spread.

@@ -11,11 +11,9 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::RandomKick;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason};
-use crate::numerics::count::{real, truncated};
-use crate::portrait::Portrait;
-use crate::portrait::basin::stability::Share;
+use crate::numerics::{real, truncated};
+use crate::portrait::{Portrait, RandomKick, Share};
 
 /// What becomes of repeated kicks.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,12 +1,10 @@
 //! The limit cycles of a machine: the fixed points of the return map, each found and described.
 
-use super::machine_return::{Image, Landmarks};
-use crate::flow::machine::curve::MachineCurve;
-use crate::flow::{Flow, Reason};
+use super::{Image, Landmarks};
+use crate::flow::{Flow, MachineCurve, Reason};
 use crate::model::{ContactState, Model, Phase};
 use crate::numerics::{PlaceTolerance, bisect, exp, exponent, ln, pow, times_power, try_newton};
-use crate::portrait::closing::search::{Bracket, Node, RootSearch, places};
-use crate::portrait::{Cycle, Portrait, Ride};
+use crate::portrait::{Bracket, Cycle, Node, Portrait, Ride, RootSearch, places};
 
 /// A right turning point at which the return map changes.
 #[derive(Clone, Copy, Debug)]

@@ -4,13 +4,9 @@
 //! motions that come to ride on the belt leave it at the same place. So at most one cycle sticks to the belt, and its
 //! multiplier is exactly 0; the fixed points order everything else.
 
-use crate::flow::machine::arc::ArcEnd;
-use crate::flow::machine::curve::{MachineCurve, MachineStep};
-use crate::flow::machine::series::PhaseSeries;
-use crate::flow::machine::turn::Turn;
-use crate::flow::{Flow, Reason};
+use crate::flow::{ArcEnd, Flow, MachineCurve, MachineStep, PhaseSeries, Reason, Turn};
 use crate::model::{ContactState, Lines, Phase};
-use crate::numerics::elementary::ln;
+use crate::numerics::ln;
 
 /// The image of a right turning point.
 #[derive(Clone, Copy, Debug, PartialEq)]

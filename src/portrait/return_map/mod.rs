@@ -4,3 +4,5 @@
 pub(crate) mod fixed_points;
 pub mod machine_return;
 pub(crate) mod portrait;
+
+pub(crate) use self::{fixed_points::*, machine_return::*};

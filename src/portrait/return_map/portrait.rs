@@ -3,11 +3,10 @@
 
 use std::cmp::Ordering;
 
-use super::fixed_points::{Divide, NOTHING, fixed_points};
+use super::{Divide, NOTHING};
 use crate::flow::{Fate, Flow, Reason};
 use crate::model::{ContactState, Model};
-use crate::portrait::portrait::Gap;
-use crate::portrait::{Border, Edge, Portrait, Reach};
+use crate::portrait::{Border, Edge, Gap, Portrait, Reach, fixed_points};
 
 impl Portrait {
     /// The portrait of any machine by its return map.
