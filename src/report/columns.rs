@@ -63,13 +63,16 @@ pub trait RowsOf<R>: IntoIterator<Item: Borrow<R>> {}
 
 impl<R, I: IntoIterator<Item: Borrow<R>>> RowsOf<R> for I {}
 
-/// Columns of rows `R`, in their order.
+/// Columns of rows `R`, in their order. What differs from column to column is boxed at once: each of them is compiled,
+/// and there are some two hundred.
 pub struct Columns<'a, R> {
     files: Vec<FileColumn>,
-    /// Fields of the object of a row.
-    fields: Vec<Part<'a, R, Document>>,
+    fields: Vec<Field<'a, R>>,
     texts: Vec<TextColumn<'a, R>>,
 }
+
+/// Adds a field, or several, to the object of a row.
+type Field<'a, R> = Box<dyn Fn(Document, &R) -> Document + 'a>;
 
 /// What a row tells.
 type Part<'a, R, T> = Box<dyn Fn(&R) -> T + 'a>;
@@ -99,9 +102,13 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// A field of documents alone.
-    pub fn field<V: Serialize>(mut self, name: &str, value: impl Fn(&R) -> V + 'a) -> Self {
+    pub fn field<V: Serialize>(self, name: &str, value: impl Fn(&R) -> V + 'a) -> Self {
+        self.told(name, Box::new(move |row| json::value(&value(row))))
+    }
+
+    fn told(mut self, name: &str, value: Part<'a, R, Value>) -> Self {
         let name = name.to_owned();
-        self.fields.push(Box::new(move |row| Document::default().with(&name, value(row))));
+        self.fields.push(Box::new(move |object, row| object.with_value(&name, value(row))));
         self
     }
 
@@ -113,13 +120,12 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// A column of text alone: words, counts or marks, and `-` for what does not exist.
-    pub fn text<V: Serialize>(mut self, title: &str, value: impl Fn(&R) -> V + 'a) -> Self {
-        let title = title.to_owned();
-        let cell = move |row: &R| match json::value(&value(row)) {
-            Value::Null => "-".to_owned(),
-            value => cell(&value),
-        };
-        self.texts.push(TextColumn { title, cell: Box::new(cell) });
+    pub fn text<V: Serialize>(self, title: &str, value: impl Fn(&R) -> V + 'a) -> Self {
+        self.shown(title, Box::new(move |row| shown(&json::value(&value(row)))))
+    }
+
+    fn shown(mut self, title: &str, cell: Part<'a, R, String>) -> Self {
+        self.texts.push(TextColumn { title: title.to_owned(), cell });
         self
     }
 
@@ -130,8 +136,9 @@ impl<'a, R: 'a> Columns<'a, R> {
         quantity: Quantity,
         value: impl Fn(&R) -> V + Copy + 'a,
     ) -> Self {
-        self.file(name, move |row| value(row).into())
-            .text(title(name), move |row| quantity.text(value(row)))
+        self.column(name.to_owned(), [name])
+            .told(name, Box::new(move |row| json::value(&value(row).into())))
+            .shown(title(name), Box::new(move |row| quantity.text(value(row).into())))
     }
 
     /// Words, counts or marks, in files and in text.
@@ -156,8 +163,8 @@ impl<'a, R: 'a> Columns<'a, R> {
         for name in Document::default().and(example).singles() {
             self = self.column(name.to_owned(), [name]);
         }
-        let told = move |row: &R| record(row).iter().fold(Document::default(), Document::and);
-        self.fields.push(Box::new(told));
+        self.fields
+            .push(Box::new(move |object, row| record(row).iter().fold(object, Document::and)));
         self
     }
 
@@ -176,8 +183,8 @@ impl<'a, R: 'a> Columns<'a, R> {
             let place = std::iter::once(name).chain(column.place.iter().map(String::as_str));
             self = self.column(column.name, place);
         }
-        self.fields.push(Box::new(move |row| {
-            Document::default().with_any(name, part(row).map(|part| columns.object(&part)))
+        self.fields.push(Box::new(move |object, row| {
+            object.with_any(name, part(row).map(|part| columns.object(&part)))
         }));
         self
     }
@@ -211,7 +218,7 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// A row as an object.
     pub fn object(&self, row: &R) -> Document {
-        self.fields.iter().fold(Document::default(), |object, field| object.and(&field(row)))
+        self.fields.iter().fold(Document::default(), |object, field| field(object, row))
     }
 
     /// An object for each row.
@@ -240,6 +247,11 @@ fn cell(value: &Value) -> String {
         Value::Array(words) => joined(words.iter().map(cell), " "),
         Value::Null | Value::Object(_) => String::new(),
     }
+}
+
+/// A cell of text.
+fn shown(value: &Value) -> String {
+    if value.is_null() { "-".to_owned() } else { cell(value) }
 }
 
 /// Comma-separated values: a line for each row of cells; a cell that contains a separator or a quote is quoted.

@@ -48,8 +48,10 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, FileMistake> {
 
 /// The scene of a file. A machine sets its numbers itself.
 fn scene(mut read: Spanned<DeTable>) -> Result<Scene, Complaint> {
-    static USUAL: LazyLock<String> =
-        LazyLock::new(|| toml::to_string(&UsualScene::default()).expect("it is made of tables"));
+    static USUAL: LazyLock<String> = LazyLock::new(|| {
+        let usual: &dyn erased_serde::Serialize = &UsualScene::default();
+        toml::to_string(usual).expect("it is made of tables")
+    });
     let misplaced = |error: toml::de::Error| Complaint::new(&error, 0..0);
     let own = read.get_mut();
     let numbers = ["problem", "terms"].iter().find_map(|name| Some(own.get(*name)?.span()));

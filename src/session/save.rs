@@ -117,7 +117,8 @@ pub fn text(session: &Session) -> Result<String, String> {
         past: session.history.past.clone(),
         future: session.history.future.clone(),
     };
-    let body = toml::to_string(&file).map_err(|error| format!("not saved: {error}"))?;
+    let body = toml::to_string(&file as &dyn erased_serde::Serialize)
+        .map_err(|error| format!("not saved: {error}"))?;
     Ok(format!("# A session of hopfscope; `hopfscope --open FILE` resumes it.\n{body}"))
 }
 
