@@ -169,7 +169,7 @@ impl System<'_> {
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             slopes[(0, 0)] = here.slope;
-            let solved = slopes.try_inverse().map(|inverse| -(inverse * here.both));
+            let solved = slopes.lu().solve(&-here.both);
             let Some(change) = solved.filter(|it| is_finite(*it)) else { return Ok(None) };
             let [du, dz] = change.abs().into();
             let small = du <= SMALL[0].max(tolerance) && dz <= SMALL[1].max(tolerance * tolerance);

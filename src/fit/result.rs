@@ -354,7 +354,7 @@ fn best_known(estimate: &Estimate, unknown: &[(&'static NameSpec, f64)]) -> Opti
         let ((one, by), (other, and)) = (unknown[i], unknown[j]);
         estimate.covariance.of(one.place, other.place) * by * and
     });
-    let information = covariance.try_inverse()?;
+    let information = covariance.lu().try_inverse()?;
     let eigen = information.symmetric_eigen();
     let strongest = eigen.eigenvalues.imax();
     let direction: DVector<f64> = eigen.eigenvectors.column(strongest).into_owned();
