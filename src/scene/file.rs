@@ -6,12 +6,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Deserializer};
+use toml::de::{DeTable, DeValue};
 
 use super::machine::ScaledMachine;
 use super::mistake::{Complaint, FileMistake, built_in};
+use super::placed::Placed;
 use super::plot_setup::{Arrangement, Axes};
 use super::scene::Scene;
 use super::views::Layer;
@@ -40,7 +41,7 @@ struct UsualPlot {
 /// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages. Fails with [`FileMistake`],
 /// which names the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, FileMistake> {
-    let read = DeTable::parse(text).map_err(|error| Complaint::new(&error, 0..0));
+    let read = DeTable::parse(text).map_err(Complaint::from);
     let mut scene = read.and_then(scene).map_err(|complaint| complaint.in_file(file, text))?;
     name.clone_into(&mut scene.name);
     Ok(scene)
@@ -52,11 +53,10 @@ fn scene(mut read: Spanned<DeTable>) -> Result<Scene, Complaint> {
         let usual: &dyn erased_serde::Serialize = &UsualScene::default();
         toml::to_string(usual).expect("it is made of tables")
     });
-    let misplaced = |error: toml::de::Error| Complaint::new(&error, 0..0);
     let own = read.get_mut();
     let numbers = ["problem", "terms"].iter().find_map(|name| Some(own.get(*name)?.span()));
-    complete(own, DeTable::parse(&USUAL).map_err(misplaced)?.get_ref());
-    let mut scene = Scene::deserialize(Deserializer::from(read)).map_err(misplaced)?;
+    complete(own, DeTable::parse(&USUAL)?.get_ref());
+    let mut scene: Scene = Placed::from(read).read()?;
     if let Some(scaled) = scene.machine.as_deref() {
         if let Some(at) = numbers {
             return Err(Complaint { at, message: "a machine sets its numbers itself".to_owned() });
@@ -198,7 +198,7 @@ plots = [
         for (from, to, place, words) in [
             ("title", "titel", "1:1", "`also`, `title`, `look`"),
             ("A test\"", "A test", "1:", ""),
-            ("\"D\", \"r\"", "\"D4\"", "4:9", "no number \"D4\"; did you mean D"),
+            ("\"D\", \"r\"", "\"D4\"", "4:10", "no number \"D4\"; did you mean D"),
             ("D = -0.4", "D = \"a\"", "5:28", "expected f64"),
             ("[-3, 3]", "[3, -3]", "9:36", "the second larger"),
             (

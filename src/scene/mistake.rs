@@ -1,11 +1,13 @@
 //! Mistakes in files that people write: one line, `file:line:column: message`.
 
+use std::fmt::Display;
 use std::ops::Range;
 
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, Error as _};
 use thiserror::Error;
 
-use crate::words::printable;
+use super::placed::Placed;
+use crate::words::{joined, printable};
 
 /// A mistake in a file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -20,20 +22,33 @@ pub struct FileMistake {
     pub message: String,
 }
 
-/// A complaint about a part of a text, given as a range of bytes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A complaint about a part of a text, given as a range of bytes: an empty one at its beginning until the place is known.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{message}")]
 pub struct Complaint {
     pub at: Range<usize>,
     /// What is wrong and what is allowed, in one line.
     pub message: String,
 }
 
+impl serde::de::Error for Complaint {
+    fn custom<T: Display>(message: T) -> Self {
+        let message = message.to_string();
+        let lines = message.lines().map(str::trim).filter(|line| !line.is_empty());
+        Complaint { at: 0..0, message: joined(lines, "; ") }
+    }
+}
+
+impl From<toml::de::Error> for Complaint {
+    fn from(error: toml::de::Error) -> Self {
+        Complaint::custom(error.message()).or_at(error.span().unwrap_or_default())
+    }
+}
+
 impl Complaint {
-    /// The complaint of the library, joined into one line; it is about `at` unless it has a place itself.
-    pub fn new(error: &toml::de::Error, at: Range<usize>) -> Self {
-        let lines = error.message().lines().map(str::trim).filter(|line| !line.is_empty());
-        let message = lines.collect::<Vec<_>>().join("; ");
-        Complaint { at: error.span().unwrap_or(at), message }
+    /// The complaint, about this place unless it has one.
+    pub fn or_at(self, at: Range<usize>) -> Self {
+        if self.at == (0..0) { Complaint { at, ..self } } else { self }
     }
 
     /// The complaint as a [`FileMistake`] at the line and column where its range begins.
@@ -51,7 +66,8 @@ impl Complaint {
 
 /// Reads a TOML file. Fails with the first mistake as a [`FileMistake`].
 pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, FileMistake> {
-    toml::from_str(text).map_err(|error| Complaint::new(&error, 0..0).in_file(file, text))
+    let read = Placed::parse(text).and_then(Placed::read);
+    read.map_err(|complaint| complaint.in_file(file, text))
 }
 
 /// Names and texts of TOML files of the program in one folder.

@@ -4,6 +4,7 @@ pub mod file;
 pub mod library;
 pub mod machine;
 pub mod mistake;
+pub mod placed;
 pub mod plot_setup;
 pub mod said;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]

@@ -16,6 +16,7 @@ use strum::VariantArray;
 
 use crate::numerics::count::truncated;
 use crate::picture::{Mark, Role};
+use crate::scene::mistake;
 use crate::session::settings::{self, Colors, Glyphs, Theme};
 use crate::session::{Code, Key, Keymap};
 
@@ -60,8 +61,9 @@ struct GlyphSets {
 }
 
 /// A test reads the file, so the empty sets never serve.
-static SETS: LazyLock<GlyphSets> =
-    LazyLock::new(|| toml::from_str(include_str!("../../assets/glyphs.toml")).unwrap_or_default());
+static SETS: LazyLock<GlyphSets> = LazyLock::new(|| {
+    mistake::toml("", include_str!("../../assets/glyphs.toml")).unwrap_or_default()
+});
 
 impl Symbols {
     pub fn mark(&self, mark: Mark) -> char {
@@ -109,7 +111,7 @@ impl Look {
             _ => colors,
         };
         let lines: BTreeMap<String, String> =
-            toml::from_str(text).map_err(|error| error.to_string())?;
+            mistake::toml("theme", text).map_err(|mistake| mistake.to_string())?;
         let mut styles = [Style::new(); ROLES];
         let mut rgb = [None; ROLES];
         let mut letters = [' '; ROLES];
@@ -432,7 +434,7 @@ mod tests {
     fn a_wrong_theme_says_what_is_wrong() {
         let refused =
             |text: &str| Look::from_text(text, Glyphs::Braille, [Colors::Sixteen; 2]).unwrap_err();
-        assert!(refused("text = 3").contains("line 1"), "{}", refused("text = 3"));
+        assert!(refused("text = 3").starts_with("theme:1:8: "), "{}", refused("text = 3"));
         assert_eq!(refused("text = 'default'"), "quiet");
         let full = text_of(Theme::Dark).replace("stable = \"", "stable = \"mauve ");
         assert_eq!(refused(&full), "mauve");

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use serde::Deserialize;
-use serde::de::{DeserializeOwned, IntoDeserializer};
+use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::DeTable;
 
@@ -19,6 +19,7 @@ use crate::model::unit::quantity;
 use crate::model::{Belt, Body, Group, Knob, KnobSpec, Mode, Source, Tolerances, unknown};
 use crate::numerics::{SmoothingSpline, shortest};
 use crate::scene::mistake::{Complaint, FileMistake};
+use crate::scene::placed::Placed;
 
 /// Maximum number of points of a table.
 const MOST_POINTS: usize = 10_000;
@@ -36,9 +37,7 @@ impl<'a> Section<'a> {
     /// What stands under a name.
     fn get<T: DeserializeOwned>(&self, name: &str) -> Result<Option<Spanned<T>>, Complaint> {
         let Some(given) = self.entries.get(name) else { return Ok(None) };
-        let read = T::deserialize(given.clone().into_deserializer());
-        let refused = |error| Complaint::new(&error, given.span());
-        Ok(Some(Spanned::new(given.span(), read.map_err(refused)?)))
+        Ok(Some(Spanned::new(given.span(), Placed(given.clone()).read()?)))
     }
 
     /// The text under a name, or an empty one.
@@ -116,7 +115,7 @@ pub fn parse(
         let reader = MachineReader { is_mode, half_widths, fetch: &mut fetch };
         reader.described(name, &Section { entries: read.get_ref(), at: 0..0 })
     };
-    let read = DeTable::parse(text).map_err(|error| Complaint::new(&error, 0..0));
+    let read = DeTable::parse(text).map_err(Complaint::from);
     read.and_then(described).map_err(|complaint| complaint.in_file(file, text))
 }
 

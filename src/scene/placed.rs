@@ -1,0 +1,161 @@
+//! Values of TOML files, each with its place, as serde reads them: in one way wherever they stand, so that every type is
+//! compiled for one reader. The library has several, for a file, a table, a value, a date, and their names.
+
+use std::marker::PhantomData;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{DeserializeSeed, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
+use serde_spanned::de::{SpannedDeserializer, is_spanned};
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use super::mistake::Complaint;
+
+/// A value and its place.
+pub struct Placed<'de>(pub Spanned<DeValue<'de>>);
+
+impl<'de> From<Spanned<DeTable<'de>>> for Placed<'de> {
+    fn from(table: Spanned<DeTable<'de>>) -> Self {
+        Placed(Spanned::new(table.span(), DeValue::Table(table.into_inner())))
+    }
+}
+
+impl<'de> Placed<'de> {
+    /// The table of a whole file. Fails where the text is not TOML.
+    pub fn parse(text: &'de str) -> Result<Self, Complaint> {
+        Ok(Placed::from(DeTable::parse(text)?))
+    }
+
+    /// What the value says. Fails with the first mistake, which is about this value where it has no narrower place.
+    pub fn read<T: Deserialize<'de>>(self) -> Result<T, Complaint> {
+        self.seeded(PhantomData)
+    }
+
+    fn seeded<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Complaint> {
+        let at = self.0.span();
+        seed.deserialize(self).map_err(|complaint| complaint.or_at(at))
+    }
+}
+
+/// The entries of a table that are not yet read, and the value whose name was read last.
+struct Entries<'de, I>(I, Option<Placed<'de>>);
+
+/// The entries of a table, none of them read.
+fn entries(table: DeTable<'_>) -> impl MapAccess<'_, Error = Complaint> {
+    let entries = table.into_iter().map(|(name, value)| {
+        let (at, name) = (name.span(), name.into_inner());
+        (Placed(Spanned::new(at, DeValue::String(name))), Placed(value))
+    });
+    Entries(entries, None)
+}
+
+impl<'de, I: Iterator<Item = (Placed<'de>, Placed<'de>)>> MapAccess<'de> for Entries<'de, I> {
+    type Error = Complaint;
+
+    fn next_key_seed<S: DeserializeSeed<'de>>(
+        &mut self,
+        seed: S,
+    ) -> Result<Option<S::Value>, Complaint> {
+        let Some((name, value)) = self.0.next() else { return Ok(None) };
+        self.1 = Some(value);
+        name.seeded(seed).map(Some)
+    }
+
+    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Complaint> {
+        let value = self.1.take().ok_or_else(|| Complaint::custom("a value without a name"));
+        value.and_then(|value| value.seeded(seed))
+    }
+}
+
+/// The elements of a list that are not yet read.
+struct Elements<'de>(<DeArray<'de> as IntoIterator>::IntoIter);
+
+impl<'de> SeqAccess<'de> for Elements<'de> {
+    type Error = Complaint;
+
+    fn next_element_seed<S: DeserializeSeed<'de>>(
+        &mut self,
+        seed: S,
+    ) -> Result<Option<S::Value>, Complaint> {
+        self.0.next().map(|value| Placed(value).seeded(seed)).transpose()
+    }
+}
+
+impl<'de> Deserializer<'de> for Placed<'de> {
+    type Error = Complaint;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Complaint> {
+        match self.0.into_inner() {
+            DeValue::String(text) => visitor.visit_str(&text),
+            DeValue::Integer(digits) => i64::from_str_radix(digits.as_str(), digits.radix())
+                .map_err(Complaint::custom)
+                .and_then(|value| visitor.visit_i64(value)),
+            DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
+                // Infinity that is not written as `inf` is an overflow.
+                Ok(value) if value.is_infinite() && !digits.as_str().ends_with("inf") => {
+                    Err(Complaint::custom("floating-point number overflowed"))
+                }
+                read => read.map_err(Complaint::custom).and_then(|value| visitor.visit_f64(value)),
+            },
+            DeValue::Boolean(value) => visitor.visit_bool(value),
+            DeValue::Datetime(moment) => visitor.visit_str(&moment.to_string()),
+            DeValue::Array(values) => visitor.visit_seq(Elements(values.into_iter())),
+            DeValue::Table(table) => visitor.visit_map(entries(table)),
+        }
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Complaint> {
+        visitor.visit_some(self)
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Complaint> {
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Complaint> {
+        let at = self.0.span();
+        if is_spanned(name) {
+            return visitor.visit_map(SpannedDeserializer::new(self, at));
+        }
+        self.deserialize_any(visitor)
+    }
+
+    /// A variant is its name, or a table that has its content under its name.
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Complaint> {
+        match self.0.into_inner() {
+            DeValue::String(name) => visitor.visit_enum(name.into_deserializer()),
+            DeValue::Table(table) if table.len() == 1 => {
+                visitor.visit_enum(MapAccessDeserializer::new(entries(table)))
+            }
+            _ => Err(Complaint::custom("wanted a text, or a table with one entry")),
+        }
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct seq tuple
+        tuple_struct map identifier ignored_any
+    }
+}
+
+impl<'de> IntoDeserializer<'de, Complaint> for Placed<'de> {
+    type Deserializer = Self;
+
+    fn into_deserializer(self) -> Self {
+        self
+    }
+}
