@@ -8,7 +8,7 @@ use serde::de::{DeserializeSeed, Error, IntoDeserializer, MapAccess, SeqAccess, 
 use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
 use serde_spanned::de::{SpannedDeserializer, is_spanned};
 use toml::Spanned;
-use toml::de::{DeArray, DeTable, DeValue};
+use toml::de::{DeArray, DeFloat, DeInteger, DeTable, DeValue};
 
 use super::mistake::Complaint;
 
@@ -82,22 +82,27 @@ impl<'de> SeqAccess<'de> for Elements<'de> {
     }
 }
 
+fn integer(digits: &DeInteger) -> Result<i64, Complaint> {
+    i64::from_str_radix(digits.as_str(), digits.radix()).map_err(Complaint::custom)
+}
+
+fn float(digits: &DeFloat) -> Result<f64, Complaint> {
+    let value = digits.as_str().parse().map_err(Complaint::custom)?;
+    // Infinity that is not written as `inf` is an overflow.
+    if f64::is_infinite(value) && !digits.as_str().ends_with("inf") {
+        return Err(Complaint::custom("floating-point number overflowed"));
+    }
+    Ok(value)
+}
+
 impl<'de> Deserializer<'de> for Placed<'de> {
     type Error = Complaint;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Complaint> {
         match self.0.into_inner() {
             DeValue::String(text) => visitor.visit_str(&text),
-            DeValue::Integer(digits) => i64::from_str_radix(digits.as_str(), digits.radix())
-                .map_err(Complaint::custom)
-                .and_then(|value| visitor.visit_i64(value)),
-            DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
-                // Infinity that is not written as `inf` is an overflow.
-                Ok(value) if value.is_infinite() && !digits.as_str().ends_with("inf") => {
-                    Err(Complaint::custom("floating-point number overflowed"))
-                }
-                read => read.map_err(Complaint::custom).and_then(|value| visitor.visit_f64(value)),
-            },
+            DeValue::Integer(digits) => visitor.visit_i64(integer(&digits)?),
+            DeValue::Float(digits) => visitor.visit_f64(float(&digits)?),
             DeValue::Boolean(value) => visitor.visit_bool(value),
             DeValue::Datetime(moment) => visitor.visit_str(&moment.to_string()),
             DeValue::Array(values) => visitor.visit_seq(Elements(values.into_iter())),
