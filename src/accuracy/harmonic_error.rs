@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use crate::closed_form::{Harmonic, HarmonicCycle, amplitudes, harmonic_cycle};
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Parameters, State};
 use crate::numerics::ln;
 use crate::portrait::{Cycle, cycles};
@@ -26,7 +26,7 @@ pub struct BalanceResult {
     /// The first-order answer.
     pub first: Harmonic,
     /// The cycle of N harmonics that begins there, or why there is none.
-    pub cycle: Result<HarmonicCycle, Reason>,
+    pub cycle: Result<HarmonicCycle>,
     /// Its error; `None` where the oscillator has no such cycle, so that the answer is none.
     pub error: Option<HarmonicError>,
     /// Its curve in the phase plane, if asked for.
@@ -59,7 +59,7 @@ pub fn harmonic_balance(
     harmonics: usize,
     points: usize,
     limits: &Limits,
-) -> Result<HarmonicBalance, Reason> {
+) -> Result<HarmonicBalance> {
     let (exact, cost, unknown) = match Reason::tolerated(cycles(parameters, limits))? {
         Ok(found) => (found.cycles, found.cost, None),
         Err(reason) => (Vec::new(), Cost::default(), Some(reason)),
@@ -79,7 +79,7 @@ pub fn compare(
     harmonics: usize,
     points: usize,
     limits: &Limits,
-) -> Result<HarmonicBalance, Reason> {
+) -> Result<HarmonicBalance> {
     let balance = |first: Harmonic| {
         let cycle = harmonic_cycle(parameters, &first, harmonics, limits.interrupted);
         let cycle = Reason::tolerated(cycle)?;

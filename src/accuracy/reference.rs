@@ -11,7 +11,7 @@ use thiserror::Error;
 use crate::flow::precise::precise;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{
-    COARSE, Cost, Crossing, Detail, FINE, Limits, Method, Motion, Outcome, Problem, Reason,
+    COARSE, Cost, Crossing, Detail, FINE, Limits, Method, Motion, Outcome, Problem, Reason, Result,
 };
 use crate::model::{FINEST, Model};
 use crate::numerics::{Scalar, Twofold};
@@ -87,7 +87,7 @@ pub enum NoComparison {
 impl Reference {
     /// The reference for a motion, that of a `machine` in SI units; method and tolerance of the problem are not looked at.
     /// Fails with [`Reason`] where no two ways of computing it come to an end, or where the machine cannot be followed.
-    pub fn of(machine: Option<&Model>, problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
+    pub fn of(machine: Option<&Model>, problem: &Problem, limits: &Limits) -> Result<Self> {
         if machine.is_some() {
             let best = Problem { method: Method::Taylor, tolerance: FINEST, ..*problem };
             let found = best.followed(machine, Detail::default(), limits);
@@ -103,7 +103,7 @@ impl Reference {
         }
     }
 
-    fn by_two_methods(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
+    fn by_two_methods(problem: &Problem, limits: &Limits) -> Result<Self> {
         let (source, first, second) = if problem.parameters.is_piecewise_linear() {
             (ReferenceSource::ClosedForm, Method::Exact, Method::Taylor)
         } else {
@@ -117,7 +117,7 @@ impl Reference {
     }
 
     /// What a method found, as a reference with an error unknown yet; or why it gave up.
-    fn new<N>(found: &Motion<N>, source: ReferenceSource) -> Result<Self, Reason>
+    fn new<N>(found: &Motion<N>, source: ReferenceSource) -> Result<Self>
     where
         N: Scalar + Into<Twofold>,
     {

@@ -4,7 +4,9 @@
 //! added by the caller that has a clock. The front are the rows that no other row beats in both.
 
 use super::{Deviation, NoComparison, Reference};
-use crate::flow::{Cost, Detail, Limits, METHODS, Method, Motion, Outcome, Problem, Reason};
+use crate::flow::{
+    Cost, Detail, Limits, METHODS, Method, Motion, Outcome, Problem, Reason, Result,
+};
 use crate::model::{FINEST, Knob, Model};
 use crate::numerics::{amount, ln, log10};
 
@@ -118,7 +120,7 @@ impl Trade {
     ///
     /// A method that gives up for want of budget is not asked for more digits. Fails with [`Reason`] where there is
     /// no reference, or when interrupted.
-    pub fn of(machine: Option<&Model>, problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
+    pub fn of(machine: Option<&Model>, problem: &Problem, limits: &Limits) -> Result<Self> {
         let reference = Reference::of(machine, problem, limits)?;
         let mut rows = Vec::new();
         let bounded = limits.up_to(MOST);

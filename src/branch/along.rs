@@ -29,7 +29,7 @@ use super::{
     escape_product, is_beside, passes, vanishing,
 };
 use crate::closed_form::LinearCycle;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{cbrt, ln, pow, powi, real};
 use crate::portrait::{
@@ -84,7 +84,7 @@ pub fn branch(
     points: Points,
     tolerance: f64,
     limits: &Limits,
-) -> Result<Branch, Reason> {
+) -> Result<Branch> {
     if !parameter.is_parameter() {
         return Err(Reason::NotApplicable { needs: "one of D, D2, D3, r to vary" });
     }
@@ -172,7 +172,7 @@ const LOG_FAR: f64 = 25.0;
 
 impl CurveTracer<'_> {
     /// Follows every curve that passes one of the probing values.
-    fn trace(&mut self) -> Result<(), Reason> {
+    fn trace(&mut self) -> Result<()> {
         /// Fractions of the range at which cycles are sought: both ends, and between for curves that
         /// reach neither.
         const PROBES: [f64; 5] = [0.0, 1.0, 0.5, 0.25, 0.75];
@@ -223,7 +223,7 @@ impl CurveTracer<'_> {
     }
 
     /// All cycles at one value outside of known intervals of u, as points of curves.
-    fn seeds(&mut self, p: f64, known: &[(f64, f64)]) -> Result<Vec<CurvePoint>, Reason> {
+    fn seeds(&mut self, p: f64, known: &[(f64, f64)]) -> Result<Vec<CurvePoint>> {
         let parameters = self.curve.parameters_at(p);
         let rough = self.points == Points::Followed;
         let limits = self.curve.limits.up_to(if rough { SEED_BUDGET } else { u64::MAX });
@@ -239,7 +239,7 @@ impl CurveTracer<'_> {
     }
 
     /// Follows one curve and ends it exactly at the border that it crosses.
-    fn follow(&mut self, seed: CurvePoint, direction: f64) -> Result<Vec<CurvePoint>, Reason> {
+    fn follow(&mut self, seed: CurvePoint, direction: f64) -> Result<Vec<CurvePoint>> {
         let ((from, to), bounds) = (self.range, self.bounds_of_u());
         // With D3 = 0 a cycle only ever fades by going to infinity.
         let fades = matches!(self.points, Points::Even(_))
@@ -265,7 +265,7 @@ impl CurveTracer<'_> {
         &mut self,
         inside: &CurvePoint,
         outside: &CurvePoint,
-    ) -> Result<Option<CurvePoint>, Reason> {
+    ) -> Result<Option<CurvePoint>> {
         let (from, to) = self.range;
         let border = if outside.p > to { to } else { from };
         let fraction = (border - inside.p) / (outside.p - inside.p);
@@ -312,7 +312,7 @@ impl CurveTracer<'_> {
     }
 
     /// Notes the cycles at `D = 0`: where the curves pass it, and what else there may be.
-    fn zero_crossings(&mut self, curves: &[Vec<CurvePoint>]) -> Result<(), Reason> {
+    fn zero_crossings(&mut self, curves: &[Vec<CurvePoint>]) -> Result<()> {
         let friction = self.curve.parameters_at(0.0).r > 0.0;
         if self.found.parameter != Knob::D || !friction || !self.reaches(0.0) {
             return Ok(());
@@ -333,7 +333,7 @@ impl CurveTracer<'_> {
     }
 
     /// Spreads points over the parts of a curve within the range and describes each; notes the folds.
-    fn keep(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
+    fn keep(&mut self, points: &[CurvePoint]) -> Result<()> {
         let mut part: Vec<CurvePoint> = points.first().copied().into_iter().collect();
         for pair in points.windows(2) {
             let [one, other] = pair else { continue };
@@ -365,7 +365,7 @@ impl CurveTracer<'_> {
     }
 
     /// Spreads points over a part of a curve and describes each.
-    fn keep_part(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
+    fn keep_part(&mut self, points: &[CurvePoint]) -> Result<()> {
         let mut piece = Vec::new();
         if let Points::Even(count) = self.points {
             let (places, curve) = (self.curve.spread(points, count.max(2))?, &self.curve);
@@ -404,7 +404,7 @@ impl CurveTracer<'_> {
     }
 
     /// The special points that are not folds.
-    fn special_points(&mut self) -> Result<(), Reason> {
+    fn special_points(&mut self) -> Result<()> {
         let parameters = self.curve.parameters_at(0.0);
         self.hopf(parameters.r);
         let values = match self.found.parameter {
@@ -433,7 +433,7 @@ impl CurveTracer<'_> {
 
 /// The cycle at a place as the search for cycles finds it, to rounding, and what it cost; no cycle where it cannot be
 /// told.
-fn polished(curve: &CycleCurve, place: &CurvePlace) -> Result<(Option<Cycle>, Cost), Reason> {
+fn polished(curve: &CycleCurve, place: &CurvePlace) -> Result<(Option<Cycle>, Cost)> {
     let (parameters, side) = (curve.parameters_at(place.p), curve.side);
     if let Some(closing) = weak_closing(&parameters) {
         return Ok((Some(closing.describe(&parameters, side)), Cost::default()));

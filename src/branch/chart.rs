@@ -12,7 +12,7 @@ pub use trace::{Band, ChartLine, Plane, Resolution};
 use trace::{HALVINGS, Tracer, values};
 
 use super::Regime;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
 
 /// A chart of regimes.
@@ -34,7 +34,7 @@ pub fn chart(
     plane: Plane,
     resolution: Resolution,
     limits: &Limits,
-) -> Result<Chart, Reason> {
+) -> Result<Chart> {
     let charted = |symbol| matches!(symbol, Knob::D | Knob::D2 | Knob::D3 | Knob::R);
     if plane.right == plane.up || !charted(plane.right) || !charted(plane.up) {
         return Err(Reason::NotApplicable { needs: "two different ones of D, D2, D3, r" });

@@ -13,7 +13,7 @@ use point::UNIT_OF_U;
 pub use point::{CurvePoint, Tangent, covers, is_beside, passes};
 pub use spread::CurvePlace;
 
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{hypot, ln, try_bisect};
 use crate::portrait::{Equation, Route, SwingPair};
@@ -99,7 +99,7 @@ impl<'a> CycleCurve<'a> {
 
     /// The pair of swings at a point that need not close; `None` where they are too costly or too large to
     /// be computed, which ends a curve.
-    fn closing(&mut self, route: Route, u: f64, p: f64) -> Result<Option<SwingPair>, Reason> {
+    fn closing(&mut self, route: Route, u: f64, p: f64) -> Result<Option<SwingPair>> {
         let step = STEP * self.tolerance;
         let limits = Limits { evaluations: SWING_BUDGET, ..*self.limits };
         let mut equation = Equation::on_side(&self.parameters_at(p), self.side, step, &limits);
@@ -122,7 +122,7 @@ impl<'a> CycleCurve<'a> {
     }
 
     /// Renews the difference quotient in p.
-    fn renew_slope(&mut self, route: Route, u: f64, p: f64, value: f64) -> Result<f64, Reason> {
+    fn renew_slope(&mut self, route: Route, u: f64, p: f64, value: f64) -> Result<f64> {
         let stride = self.probe * self.scale;
         let beside = self.closing(route, u, p + stride)?;
         let slope = beside.map_or(f64::NAN, |beside| (beside.node.value - value) / stride);
@@ -136,7 +136,7 @@ impl<'a> CycleCurve<'a> {
         near: (f64, f64),
         tangent: Tangent,
         route: Route,
-    ) -> Result<Option<CurvePoint>, Reason> {
+    ) -> Result<Option<CurvePoint>> {
         // Along the line: u = near.0 + UNIT_OF_U tangent.p s, p = near.1 - scale tangent.u s.
         let scale = self.scale;
         let place = |s: f64| (near.0 + UNIT_OF_U * tangent.p * s, near.1 - scale * tangent.u * s);
@@ -182,7 +182,7 @@ impl<'a> CycleCurve<'a> {
     ///
     /// Bisection until Newton's method takes over. In D, D3 and r the residual falls everywhere, because
     /// each of them takes energy from every swing: then it is the only cycle of this clearance.
-    pub fn bracketed(&mut self, u: f64, range: (f64, f64)) -> Result<Option<CurvePoint>, Reason> {
+    pub fn bracketed(&mut self, u: f64, range: (f64, f64)) -> Result<Option<CurvePoint>> {
         /// Newton's method is tried after this many halvings.
         const HALVINGS: u32 = 4;
         /// After so many rounds the bracket is as fine as the parameter.
@@ -201,7 +201,7 @@ impl<'a> CycleCurve<'a> {
     }
 
     /// The residual of the mixed route, infinite with its sign where a swing does not end.
-    fn value(&mut self, u: f64, p: f64) -> Result<f64, Reason> {
+    fn value(&mut self, u: f64, p: f64) -> Result<f64> {
         let mut equation =
             Equation::on_side(&self.parameters_at(p), self.side, self.tolerance, self.limits);
         let closing = equation.at(Route::Mixed, u);
@@ -223,7 +223,7 @@ impl<'a> CycleCurve<'a> {
         start: CurvePoint,
         direction: f64,
         leaves: &dyn Fn(&CurvePoint) -> bool,
-    ) -> Result<Vec<CurvePoint>, Reason> {
+    ) -> Result<Vec<CurvePoint>> {
         /// First and smallest stride, as fractions of the range.
         const STRIDES: (f64, f64) = (2e-3, 1e-9);
         /// Maximum number of points of a curve; a closed or endless one stops here.
@@ -295,11 +295,7 @@ impl<'a> CycleCurve<'a> {
         (turned.dot(along) > 0.9).then_some(turned)
     }
 
-    fn first_tangent(
-        &mut self,
-        start: &CurvePoint,
-        direction: f64,
-    ) -> Result<Option<Tangent>, Reason> {
+    fn first_tangent(&mut self, start: &CurvePoint, direction: f64) -> Result<Option<Tangent>> {
         let route = start.route();
         let Some(closing) = self.closing(route, start.u, start.p)? else { return Ok(None) };
         let in_p = self.renew_slope(route, start.u, start.p, closing.node.value)?;
@@ -323,7 +319,7 @@ impl<'a> CycleCurve<'a> {
         &mut self,
         one: &CurvePoint,
         other: &CurvePoint,
-    ) -> Result<Option<CurvePoint>, Reason> {
+    ) -> Result<Option<CurvePoint>> {
         let tangent = Tangent::between(one, other, self.scale);
         let chord = hypot((other.u - one.u) / UNIT_OF_U, (other.p - one.p) / self.scale);
         let (tolerance, zero) =

@@ -18,7 +18,7 @@
 
 use std::f64::consts::PI;
 
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Result};
 use crate::model::Parameters;
 use crate::numerics::{PlaceTolerance, illinois, ln};
 use crate::portrait::{Equation, Route, weighed_closing};
@@ -30,11 +30,8 @@ use crate::portrait::{Equation, Route, weighed_closing};
 /// rounding. To leading order `D_c = -sqrt(2/pi) r abs(D2)`.
 ///
 /// # Errors
-/// The [`Reason`] why a swing failed.
-pub fn escape_point(
-    parameters: &Parameters,
-    limits: &Limits,
-) -> Result<(Option<f64>, Cost), Reason> {
+/// The `Reason` why a swing failed.
+pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<(Option<f64>, Cost)> {
     let Parameters { d2, d3, r, .. } = *parameters;
     let leading = -(2.0 / PI).sqrt() * r * d2.abs();
     let mut cost = Cost::default();
@@ -56,8 +53,8 @@ pub fn escape_point(
 /// inverse of [`escape_point`] at `r = 1`.
 ///
 /// # Errors
-/// The [`Reason`] why a swing failed.
-pub fn escape_product(d: f64, limits: &Limits) -> Result<(Option<f64>, Cost), Reason> {
+/// The `Reason` why a swing failed.
+pub fn escape_product(d: f64, limits: &Limits) -> Result<(Option<f64>, Cost)> {
     let mut cost = Cost::default();
     if !(d < 0.0 && d > -1.0) {
         return Ok((None, cost));
@@ -73,8 +70,8 @@ pub fn escape_product(d: f64, limits: &Limits) -> Result<(Option<f64>, Cost), Re
 /// Where an excess falls through 0, to rounding; `None` unless it is positive at the first end and negative at the other.
 fn where_it_falls(
     ends: [f64; 2],
-    mut excess: impl FnMut(f64) -> Result<f64, Reason>,
-) -> Result<Option<f64>, Reason> {
+    mut excess: impl FnMut(f64) -> Result<f64>,
+) -> Result<Option<f64>> {
     let ends = [(ends[0], excess(ends[0])?), (ends[1], excess(ends[1])?)];
     if !(ends[0].1 > 0.0 && ends[1].1 < 0.0) {
         return Ok(None);
@@ -86,12 +83,8 @@ fn where_it_falls(
 /// By how much, as a logarithm, the swing from infinity passes the one to infinity; adds what it cost.
 ///
 /// # Errors
-/// The [`Reason`] why a swing failed.
-fn excess_at_infinity(
-    parameters: &Parameters,
-    limits: &Limits,
-    cost: &mut Cost,
-) -> Result<f64, Reason> {
+/// The `Reason` why a swing failed.
+fn excess_at_infinity(parameters: &Parameters, limits: &Limits, cost: &mut Cost) -> Result<f64> {
     /// Clearance, in units of `1/abs(D2)`, from which a swing has forgotten its start to rounding: what
     /// is left of it decays as `exp(-2 D2 c)`.
     const FAR: f64 = 40.0;

@@ -12,7 +12,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use crate::closed_form::harmonic;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{cbrt, exp, ln, powi};
 use crate::portrait::{Equation, Route, SwingPair, first_side};
@@ -95,7 +95,7 @@ pub fn fold_near(
     symbol: Knob,
     tolerance: f64,
     limits: &Limits,
-) -> Result<(Option<FoldCycle>, Cost), Reason> {
+) -> Result<(Option<FoldCycle>, Cost)> {
     let side = first_side(&guess.parameters);
     let mut system = System { guess, symbol, side, limits, cost: Cost::default() };
     let found = system.solve(tolerance)?;
@@ -128,7 +128,7 @@ impl System<'_> {
     }
 
     /// `None` where a swing does not end, or takes too long.
-    fn at(&mut self, place: Vector2<f64>, step: f64) -> Result<Option<Values>, Reason> {
+    fn at(&mut self, place: Vector2<f64>, step: f64) -> Result<Option<Values>> {
         /// Evaluations of one swing, some dozens of times the usual.
         const BUDGET: u64 = 5_000;
         let [u, z] = place.into();
@@ -144,7 +144,7 @@ impl System<'_> {
         Ok(finite.then_some(Values { step, both, slope, closing }))
     }
 
-    fn solve(&mut self, tolerance: f64) -> Result<Option<FoldCycle>, Reason> {
+    fn solve(&mut self, tolerance: f64) -> Result<Option<FoldCycle>> {
         /// Steps before giving up.
         const STEPS: usize = 16;
         /// Tolerance of coarse integration steps, and the change for which they are too coarse.
@@ -199,7 +199,7 @@ impl System<'_> {
     }
 
     /// The derivatives as difference quotients.
-    fn quotients(&mut self, place: Vector2<f64>, here: &Values) -> Result<Option<Slopes>, Reason> {
+    fn quotients(&mut self, place: Vector2<f64>, here: &Values) -> Result<Option<Slopes>> {
         /// Large beside the noise of coarse steps, small beside the bend of the functions.
         const STRIDE: f64 = 1e-3;
         let [aside, above] = [Vector2::x(), Vector2::y()].map(|axis| place + STRIDE * axis);

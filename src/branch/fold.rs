@@ -24,7 +24,7 @@ use serde::Serialize;
 
 use super::{FoldCycle, FoldPlace, FoldPoint, escape_point, fold_near, highest_cycle};
 use crate::closed_form::harmonic;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{PlaceTolerance, illinois};
 use crate::portrait::{Equation, STEP, WayFromRim, all_closings, between};
@@ -39,7 +39,7 @@ const TOLERANCE: f64 = 1e-13;
 ///
 /// # Errors
 /// The [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
-pub fn fold(parameters: &Parameters, limits: &Limits) -> Result<(Option<FoldPoint>, Cost), Reason> {
+pub fn fold(parameters: &Parameters, limits: &Limits) -> Result<(Option<FoldPoint>, Cost)> {
     fold_within(parameters, TOLERANCE, limits)
 }
 
@@ -51,7 +51,7 @@ pub fn fold_within(
     parameters: &Parameters,
     tolerance: f64,
     limits: &Limits,
-) -> Result<(Option<FoldPoint>, Cost), Reason> {
+) -> Result<(Option<FoldPoint>, Cost)> {
     /// Estimates below which the stable cycle may graze the sticking set.
     const STRONG: f64 = -0.9;
     let Some(harmonic) = harmonic::fold(parameters.d3, parameters.r) else {
@@ -67,7 +67,7 @@ pub fn fold_within(
     }
     // A rough fold, one of many on a map, need not be found at any cost.
     let thorough = tolerance <= TOLERANCE;
-    let grazing = |cost: &mut Cost| -> Result<Option<FoldPoint>, Reason> {
+    let grazing = |cost: &mut Cost| -> Result<Option<FoldPoint>> {
         if !thorough {
             return Ok(None);
         }
@@ -132,7 +132,7 @@ pub fn border(
     range: (f64, f64),
     count: usize,
     limits: &Limits,
-) -> Result<Boundary, Reason> {
+) -> Result<Boundary> {
     if !matches!(second, Knob::D2 | Knob::D3 | Knob::R) {
         return Err(Reason::NotApplicable { needs: "one of D2, D3, r to vary" });
     }
@@ -172,7 +172,7 @@ fn grazing_cycle(
     parameters: &Parameters,
     limits: &Limits,
     cost: &mut Cost,
-) -> Result<Option<FoldPoint>, Reason> {
+) -> Result<Option<FoldPoint>> {
     /// How far above it cycles are looked for, as a fraction of the damping.
     const BESIDE: f64 = 1e-9;
     let Some((d, way)) = damping(parameters, limits, cost)? else { return Ok(None) };
@@ -193,7 +193,7 @@ fn damping(
     parameters: &Parameters,
     limits: &Limits,
     cost: &mut Cost,
-) -> Result<Option<(f64, WayFromRim)>, Reason> {
+) -> Result<Option<(f64, WayFromRim)>> {
     const ROUNDING: f64 = 2.0 * f64::EPSILON;
     let mut way = |d: f64| {
         let mut equation = Equation::new(&Parameters { d, ..*parameters }, STEP, limits);

@@ -5,7 +5,7 @@
 
 use super::{CurvePoint, CycleCurve, FoldPoint, Tangent};
 use crate::closed_form::harmonic;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{exp, ln, try_maximum};
 use crate::portrait::{Route, first_side};
@@ -18,7 +18,7 @@ pub fn highest_cycle(
     parameters: &Parameters,
     tolerance: f64,
     limits: &Limits,
-) -> (Result<(FoldPoint, f64), Reason>, Cost) {
+) -> (Result<(FoldPoint, f64)>, Cost) {
     let Some((u, d, stride)) = start(parameters) else { return (Err(LOST), Cost::default()) };
     let side = first_side(parameters);
     let curve = CycleCurve::new(parameters, Knob::D, side, 1.0, tolerance, limits);
@@ -59,7 +59,7 @@ struct Graph<'a> {
 
 impl Graph<'_> {
     /// The cycle at which two meet.
-    fn meeting(&mut self, u: f64, stride: f64) -> Result<CurvePoint, Reason> {
+    fn meeting(&mut self, u: f64, stride: f64) -> Result<CurvePoint> {
         let [low, high] = self.around_fold(u, stride)?;
         if low.u == high.u {
             return Ok(high);
@@ -69,7 +69,7 @@ impl Graph<'_> {
     }
 
     /// The cycle at `u`; `None` where it cannot be followed that far out.
-    fn at(&mut self, u: f64) -> Result<Option<CurvePoint>, Reason> {
+    fn at(&mut self, u: f64) -> Result<Option<CurvePoint>> {
         let near = self.curve.correct((u, self.d), Tangent::ACROSS_P, Route::Mixed)?;
         let found = match near {
             Some(found) => Some(found),
@@ -97,7 +97,7 @@ impl Graph<'_> {
     ///
     /// Both are one where cycles grow and grow while D stays the same to rounding: the fold is where they begin to
     /// shrink, and its D is this one. So it is where D3 is much weaker than D2.
-    fn around_fold(&mut self, u: f64, mut stride: f64) -> Result<[CurvePoint; 2], Reason> {
+    fn around_fold(&mut self, u: f64, mut stride: f64) -> Result<[CurvePoint; 2]> {
         /// Shortest and longest stride, and strides before giving up.
         const LENGTHS: (f64, f64) = (0.01, 1.0);
         const STRIDES: usize = 60;
@@ -143,7 +143,7 @@ impl Graph<'_> {
     /// For where the multiplier does not tell: beyond critical negative damping the second swing of a
     /// cycle may begin at the very end of the sticking set. D comes out to rounding, the amplitude to
     /// about half of the digits.
-    fn highest(&mut self, low: CurvePoint, high: CurvePoint) -> Result<CurvePoint, Reason> {
+    fn highest(&mut self, low: CurvePoint, high: CurvePoint) -> Result<CurvePoint> {
         /// Width in u at which D is flat to rounding.
         const FLAT: f64 = 1e-7;
         let mut best = None::<CurvePoint>;

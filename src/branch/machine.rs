@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use super::{Jump, JumpEnd, Jumps, Special, SpecialKind};
-use crate::flow::{Cost, Fate, Flow, Limits, Reason};
+use crate::flow::{Cost, Fate, Flow, Limits, Result};
 use crate::model::{ContactState, Knob, Model, Phase, Source};
 use crate::numerics::{PlaceTolerance, exp, illinois, ln, real, try_bisect};
 use crate::portrait::{Border, Cycle, Landmarks, Node, Portrait, between};
@@ -16,7 +16,7 @@ use crate::portrait::{Border, Cycle, Landmarks, Node, Portrait, between};
 #[derive(Clone, Debug, PartialEq)]
 pub struct PortraitPoint {
     pub value: f64,
-    pub found: Result<Portrait, Reason>,
+    pub found: Result<Portrait>,
 }
 
 /// What a machine does along a number.

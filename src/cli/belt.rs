@@ -8,7 +8,7 @@ use super::figure::completed;
 use super::input::{self, MACHINE, page_file, tolerance};
 use super::{CommandCase, Failure, Output, second, timed, troubled, write};
 use crate::figure::panels;
-use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Reason, Subject};
+use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Result, Subject};
 use crate::model::Knob;
 use crate::model::unit::TolerancedNumber;
 use crate::portrait::guarantee::machine::guaranteed;
@@ -110,7 +110,7 @@ impl BeltCommand {
         subject: &'a Subject,
         about: &'a About,
         second: Option<Method>,
-    ) -> Result<MachineAnswer<'a>, Reason> {
+    ) -> Result<MachineAnswer<'a>> {
         let Subject { source, tolerances, .. } = subject;
         let (limits, belt, (x, v)) = (&Limits::PATIENT, source.of_belt(), subject.start());
         let expansion = belt.map(|belt| CubicExpansion::new(belt, limits)).transpose()?;
@@ -131,7 +131,7 @@ impl BeltCommand {
             let tolerance = self.tol.unwrap_or(Knob::Tolerance.usual());
             follow(Problem { method, tolerance, ..problem }, false)
         });
-        let designed = |(kick, wanted)| -> Result<_, Reason> {
+        let designed = |(kick, wanted)| -> Result<_> {
             let (needed, _) = friction_for(source, tolerances, kick, wanted, limits)?;
             Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed }))
         };

@@ -8,7 +8,7 @@ use std::time::Instant;
 use clap::Args;
 
 use super::Failure;
-use crate::flow::Reason;
+use crate::flow::Result;
 use crate::report::{Answer, Format};
 use crate::runtime::new_file::{self, Readers};
 use crate::runtime::{provenance_file, standard};
@@ -37,7 +37,7 @@ impl Output {
     pub fn timed<T>(
         &self,
         failed: &str,
-        compute: impl FnMut() -> Result<T, Reason>,
+        compute: impl FnMut() -> Result<T>,
     ) -> Result<(T, f64), Failure> {
         let (found, seconds) = timed(self.repeat, compute);
         let found = found.map_err(|reason| Failure::Unanswered(format!("{failed}: {reason}")))?;

@@ -14,7 +14,7 @@ use super::{
     D2, D3, Draws, Estimate, Inertia, NAMES, OMEGA0, Unknowns, drawn, following, parameters,
 };
 use crate::branch::fold::fold;
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Reason, Result};
 use crate::model::{Knob, ParameterBox, Parameters};
 use crate::numerics::{real, truncated};
 use crate::portrait::guarantee::oscillator::guaranteed;
@@ -56,7 +56,7 @@ impl MarginQuestion {
     }
 
     /// The margin that holds whatever the disturbance and the tolerances do.
-    fn guaranteed(&self, p: &Unknowns, plain: &Margin, limits: &Limits) -> Result<Margin, Reason> {
+    fn guaranteed(&self, p: &Unknowns, plain: &Margin, limits: &Limits) -> Result<Margin> {
         if !self.is_disturbed() {
             return Ok(*plain);
         }
@@ -173,11 +173,7 @@ impl Margins {
 ///
 /// # Errors
 /// [`Reason::Interrupted`].
-pub fn margins(
-    estimate: &Estimate,
-    question: &MarginQuestion,
-    limits: &Limits,
-) -> Result<Margins, Reason> {
+pub fn margins(estimate: &Estimate, question: &MarginQuestion, limits: &Limits) -> Result<Margins> {
     let (smallest, largest) = estimate.amplitudes();
     let ask = |p: &Unknowns| answer(&parameters(p), largest, limits);
     let draws = question.draws.max(question.needed());
@@ -216,7 +212,7 @@ pub fn margins(
 /// What D2 and D3 that the record does not exclude would allow.
 fn allowed(
     estimate: &Estimate,
-    ask: impl Fn(&Unknowns) -> Result<MarginOfDraw, Reason>,
+    ask: impl Fn(&Unknowns) -> Result<MarginOfDraw>,
 ) -> Option<AllowedLoss> {
     let rows = NAMES.iter().filter(|row| [D2, D3].contains(&row.place));
     let ends = rows.flat_map(|row| {
@@ -240,7 +236,7 @@ struct MarginOfDraw {
     fold: Option<f64>,
 }
 
-fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<MarginOfDraw, Reason> {
+fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<MarginOfDraw> {
     let Portrait { margin, cycles, .. } = Portrait::of_oscillator(parameters, reach, limits)?;
     let cycle = cycles.iter().find(|cycle| cycle.stable).map(|cycle| cycle.q_max);
     let fold = fold(parameters, limits)?.0.map(|fold| fold.d);

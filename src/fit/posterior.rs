@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::{
     D, D2, D3, Estimate, Misfit, R, Runs, Task, Unknowns, UnknownsMatrix, chi_squared, normal_at,
 };
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Reason, Result};
 use crate::numerics::{amount, exp, ln, pow, real};
 
 /// Unknowns drawn, all of equal weight.
@@ -28,7 +28,7 @@ pub struct Draws {
 pub const FEWEST: f64 = 400.0;
 
 /// Draws from the distribution of an estimate. Fails with [`Reason::Interrupted`].
-pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Draws, Reason> {
+pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Draws> {
     /// Draws of each round, the maximum number of rounds, and that of residuals computed, after which the effective
     /// number is left as it is.
     const ROUND: usize = 150;

@@ -11,7 +11,7 @@
 use std::sync::Arc;
 
 use super::{Cost, ExactStepper, Powers, Step, StepPoint, Stepper, StiffStepper, Taylor};
-use crate::model::{Field, HalfPlane, Reason};
+use crate::model::{Field, HalfPlane, Result};
 use crate::numerics::{Bracket, PlaceTolerance, newton};
 
 /// Length of a series step, in damping times and as a fraction of the order, beyond which stability limits it.
@@ -164,7 +164,7 @@ impl Stepper for AutoStepper {
     }
 
     /// Takes a step by the current method, then chooses the method of the next one.
-    fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step> {
         self.was_implicit = false;
         if self.is_closed() {
             return self.exact.advance(from, longest.min(CLOSED), arrives);

@@ -17,7 +17,7 @@
 //! Mechanics and Engineering 177, 1999).
 
 use super::{Cost, Powers, Step, StepPoint, Stepper, check_stability, powers_of_stages};
-use crate::model::{Field, HalfPlane, Parameters, PlaneField, Reason, Side};
+use crate::model::{Field, HalfPlane, Parameters, PlaneField, Reason, Result, Side};
 use crate::numerics::{tanh, times_power};
 
 /// The field of the whole phase plane with friction as a function of the velocity.
@@ -108,7 +108,7 @@ impl TimeStepping {
     }
 
     /// Velocity at the end of a step under constant `friction`, by Newton's method.
-    fn solve(&mut self, h: f64, friction: f64) -> Result<f64, Reason> {
+    fn solve(&mut self, h: f64, friction: f64) -> Result<f64> {
         let mut v = self.start.v;
         let mut change = f64::INFINITY;
         for _ in 0..ITERATIONS {
@@ -135,7 +135,7 @@ impl Stepper<SmoothField> for TimeStepping {
     }
 
     /// It looks for no arrival.
-    fn advance(&mut self, from: StepPoint, longest: f64, _: bool) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64, _: bool) -> Result<Step> {
         let h = self.length.min(longest);
         self.start = from;
         check_stability(h, self.field.smooth.divergence(from.v).abs())?;

@@ -2,7 +2,7 @@
 
 use super::{Cost, Powers, Step, StepPoint, Stepper, powers_over};
 use crate::closed_form::LinearFlow;
-use crate::model::{HalfPlane, Reason};
+use crate::model::{HalfPlane, Reason, Result};
 use crate::numerics::truncated;
 
 /// Maximum number of pieces into which a step is cut for drawing and for quadrature. A piece is one unit of
@@ -35,7 +35,7 @@ impl Stepper for ExactStepper {
         self.linear = LinearFlow::new(field.d);
     }
 
-    fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step> {
         self.cost.evaluations += 1;
         self.start = from;
         let arrival = arrives.then(|| self.linear.first_standstill(from.x, from.v)).flatten();

@@ -10,7 +10,7 @@ use super::{
     Cost, ErrorEstimate, LONGEST, Powers, Scheme, Step, StepPoint, Stepper, allowed_error,
     check_stability, first_length, powers_of_stages, stopping_time,
 };
-use crate::model::{Field, HalfPlane, Reason};
+use crate::model::{Field, HalfPlane, Reason, Result};
 use crate::numerics::{Bracket, PlaceTolerance, newton, rough_exp2, rough_log2};
 
 /// Relative change of the length of the last step below which it counts as settled. This takes about four
@@ -126,7 +126,7 @@ impl<const S: usize, const R: usize, F: Field> ExplicitStepper<S, R, F> {
         &mut self,
         longest: f64,
         accept: impl Fn(StepPoint) -> bool,
-    ) -> Result<(f64, StepPoint), Reason> {
+    ) -> Result<(f64, StepPoint)> {
         if self.next == 0.0 {
             self.next = first_length(self.start, self.acceleration[0]);
         }
@@ -190,12 +190,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for ExplicitStepper<S,
         self.end = StepPoint { x: f64::NAN, v: f64::NAN };
     }
 
-    fn advance(
-        &mut self,
-        from: StepPoint,
-        mut longest: f64,
-        arrives: bool,
-    ) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, mut longest: f64, arrives: bool) -> Result<Step> {
         let continues = from == self.end;
         self.start_at(from);
         if arrives && !continues {

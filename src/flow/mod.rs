@@ -45,7 +45,7 @@ pub(crate) use self::{
     auto::*, comparison::*, exact::*, explicit::*, machine::*, precise::*, step::*, stiff::*,
     stop::*, swing::*, tableau::*, taylor::*, trajectory::*,
 };
-pub use crate::model::Reason;
+pub use crate::model::{Reason, Result};
 pub use limits::{Fate, Limits};
 pub use machine::arc::Flow;
 pub use machine::motion::{MotionUnits, follow};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Method;
-use crate::model::{ContactState, Knob, Ledger, Parameters, Reason, State};
+use crate::model::{ContactState, Knob, Ledger, Parameters, Reason, Result, State};
 use crate::numerics::{Hermite, Scalar};
 
 /// An initial value problem.
@@ -127,7 +127,7 @@ impl<N> Outcome<N> {
     ///
     /// # Errors
     /// Why it was.
-    pub fn answered(&self) -> Result<(), Reason> {
+    pub fn answered(&self) -> Result<()> {
         if let Outcome::GaveUp { reason, .. } = self { Err(*reason) } else { Ok(()) }
     }
 
@@ -178,7 +178,7 @@ impl<N: Scalar> Outcome<N> {
     ///
     /// # Errors
     /// Why it was given up.
-    pub fn rest(self) -> Result<Option<N>, Reason> {
+    pub fn rest(self) -> Result<Option<N>> {
         self.answered()?;
         Ok(if let Outcome::Captured { tau, .. } = self { Some(tau) } else { None })
     }
@@ -321,7 +321,7 @@ impl Motion {
     ///
     /// # Errors
     /// Why it is not: the motion escapes, or was given up.
-    pub fn known_end(&self) -> Result<Sample, Reason> {
+    pub fn known_end(&self) -> Result<Sample> {
         self.outcome.answered()?;
         self.outcome.state().map(|_| self.end()).ok_or(Reason::Escapes)
     }

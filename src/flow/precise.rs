@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use super::swing::swing;
 use super::{Cost, Detail, Limits, Method, Motion, MotionRun, Problem, StepPoint, Stepper, Taylor};
-use crate::model::{HalfPlane, Reason};
+use crate::model::{HalfPlane, Reason, Result};
 use crate::numerics::Twofold;
 
 /// How finely a motion is computed: order and tolerance of the series.
@@ -38,11 +38,7 @@ impl Grain {
 ///
 /// # Errors
 /// [`Reason`] where the budget does not suffice (stiff motions) or a number leaves the range of doubles.
-pub fn precise(
-    problem: &Problem,
-    grain: Grain,
-    limits: &Limits,
-) -> Result<Motion<Twofold>, Reason> {
+pub fn precise(problem: &Problem, grain: Grain, limits: &Limits) -> Result<Motion<Twofold>> {
     let run = MotionRun::new(problem, Method::Taylor, Detail::default(), limits);
     let found = run.go(&mut grain.stepper());
     found.outcome.answered().map(|()| found)
@@ -58,7 +54,7 @@ pub fn half_swing(
     grain: Grain,
     cost: &mut Cost,
     limits: &Limits,
-) -> Result<Option<(Twofold, Twofold)>, Reason> {
+) -> Result<Option<(Twofold, Twofold)>> {
     /// Upper bound on the duration of any half swing that arrives.
     const PATIENCE: f64 = 1e100;
     let mut stepper = grain.stepper();

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use nalgebra::Vector3;
 
 use super::Cost;
-use crate::model::{Field, HalfPlane, Reason};
+use crate::model::{Field, HalfPlane, Reason, Result};
 use crate::numerics::{GAUSS, Scalar, real};
 
 /// A point `(x, v)` in the frame of a half plane.
@@ -50,7 +50,7 @@ pub fn allowed_error(tolerance: f64, start: StepPoint, end: StepPoint) -> StepPo
 pub const LONGEST: f64 = 2.0;
 
 /// Refuses a step of fixed length in which damping at this rate is too fast.
-pub fn check_stability(step: f64, rate: f64) -> Result<(), Reason> {
+pub fn check_stability(step: f64, rate: f64) -> Result<()> {
     /// A step counts as stable below this many damping times. The bound of the classical method is 2.785 for real
     /// eigenvalues, but the eigenvalue may grow within the step; the equation of a time step is a contraction below
     /// this number, and can be solved.
@@ -125,8 +125,7 @@ pub trait Stepper<F: Field = HalfPlane, N: Scalar = f64>: Debug {
     /// Takes one step of at most `longest`. If it `arrives`, it begins at a point with `v >= 0` (on `v = 0`: with
     /// `x < 0`) and leads not beyond the first arrival at `v = 0`; otherwise wherever it leads. Fails with
     /// [`Reason::StepTooSmall`] or [`Reason::OutOfRange`] where no step meets the tolerance.
-    fn advance(&mut self, from: StepPoint<N>, longest: N, arrives: bool)
-    -> Result<Step<N>, Reason>;
+    fn advance(&mut self, from: StepPoint<N>, longest: N, arrives: bool) -> Result<Step<N>>;
 
     /// The point at `time` after the start of the last step.
     fn at(&self, time: f64) -> StepPoint;

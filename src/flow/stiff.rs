@@ -19,7 +19,7 @@ use super::{
     Collocation, Cost, Differences, LONGEST, MOST, Powers, SCHEMES, StageMatrix, Stages, Step,
     StepPoint, Stepper, allowed_error, first_length, powers_of_stages, stopping_time,
 };
-use crate::model::{Field, HalfPlane, Reason};
+use crate::model::{Field, HalfPlane, Reason, Result};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
 
 /// The tolerance down to which three stages are enough.
@@ -235,7 +235,7 @@ impl<F: Field> StiffStepper<F> {
     /// Repeats the step, at most `longest` long, until its error is within the tolerance.
     ///
     /// With `above`, a step that ends above `v = 0` is also repeated if its position does not grow.
-    fn accepted(&mut self, longest: f64, above: bool) -> Result<(f64, StepPoint), Reason> {
+    fn accepted(&mut self, longest: f64, above: bool) -> Result<(f64, StepPoint)> {
         let stages = self.scheme.nodes.len();
         let power = -1.0 / (real(stages) + 1.0);
         let mut grow = 8.0;
@@ -307,7 +307,7 @@ impl<F: Field> Stepper<F> for StiffStepper<F> {
         self.end = StepPoint { x: f64::NAN, v: f64::NAN };
     }
 
-    fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step> {
         let continues = self.is_continued(from);
         self.start_at(from);
         let mut longest = longest.min(self.longest());

@@ -2,7 +2,7 @@
 //! are known, and one motion of it.
 
 use super::trajectory::trajectory;
-use super::{Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, follow};
+use super::{Detail, Limits, Method, Motion, MotionUnits, Problem, Result, follow};
 use crate::model::{Body, Group, Knob, Model, Source, State, Tolerances};
 
 /// What a question is about; of the paper's oscillator without units, of all else in SI units.
@@ -66,8 +66,8 @@ impl Subject {
     /// The motion as a problem, and the model that moves, unless that is the oscillator of the paper.
     ///
     /// # Errors
-    /// [`Reason`] where a machine has no model.
-    pub fn problem(&self) -> Result<(Problem, Option<Model>), Reason> {
+    /// `Reason` where a machine has no model.
+    pub fn problem(&self) -> Result<(Problem, Option<Model>)> {
         if let Some(problem) = self.paper() {
             return Ok((problem, None));
         }

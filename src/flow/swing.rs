@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 
 use super::{Limits, Step, StepPoint, Stepper};
-use crate::model::{HalfPlane, PlaneField, Reason};
+use crate::model::{HalfPlane, PlaneField, Reason, Result};
 use crate::numerics::{Scalar, Sum, exponent, ln_1p};
 
 /// Size, as a power of two, at which the unit is chosen anew.
@@ -21,7 +21,7 @@ const BLOW_UP_ERROR: f64 = 1e-2;
 pub struct Swing<N = f64> {
     /// Where it ended: at `v = 0`, at the end time, or where the watcher stopped it; [`Reason::Escapes`] if the
     /// velocity becomes infinite before the end time.
-    pub end: Result<StepPoint<N>, Reason>,
+    pub end: Result<StepPoint<N>>,
     /// Whether it ended at `v = 0`.
     pub crossed: bool,
     /// Duration (until the blow-up where it escaped), or the time reached.

@@ -9,7 +9,7 @@
 //! `e h/(rho - h)` of the state.
 
 use super::{Cost, LONGEST, Powers, Step, StepPoint, Stepper, powers_over};
-use crate::model::{HalfPlane, Reason};
+use crate::model::{HalfPlane, Reason, Result};
 use crate::numerics::polynomial::{
     value_and_slope_in_two as value_and_slope, value_in_two as value,
 };
@@ -256,7 +256,7 @@ impl<N: Scalar> InnerCoefficients<N> {
 impl<N: Scalar> Taylor<N> {
     /// Expands at a point; returns the step length that the tolerance allows, at most `longest`, in units of the
     /// coefficients.
-    fn settle(&mut self, from: StepPoint<N>, longest: N, bound: f64) -> Result<N, Reason> {
+    fn settle(&mut self, from: StepPoint<N>, longest: N, bound: f64) -> Result<N> {
         /// Length of a step, in units of time as a power of two, up to which no coefficient underflows.
         const WIDE: i32 = 32;
         self.time_exponent = self.next_time_exponent;
@@ -289,12 +289,7 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
         self.field = *field;
     }
 
-    fn advance(
-        &mut self,
-        from: StepPoint<N>,
-        longest: N,
-        arrives: bool,
-    ) -> Result<Step<N>, Reason> {
+    fn advance(&mut self, from: StepPoint<N>, longest: N, arrives: bool) -> Result<Step<N>> {
         let bound = if arrives { LONGEST } else { f64::INFINITY };
         let mut scaled = self.settle(from, longest, bound)?;
         let order = self.order;

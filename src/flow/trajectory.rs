@@ -10,7 +10,7 @@ use super::{
     ApproachToRest, AutoStepper, CLASSICAL, DOP853, DOPRI5, ExactStepper, ExplicitStepper, Limits,
     Method, Powers, SmoothField, Step, StepPoint, Stepper, StiffStepper, Taylor, TimeStepping,
 };
-use crate::model::{HalfPlane, Ledger, PlaneField, Reason, Side, State, energy, rests};
+use crate::model::{HalfPlane, Ledger, PlaneField, Reason, Result, Side, State, energy, rests};
 use crate::numerics::{Scalar, Sum, real, times_power};
 
 /// Computes a motion.
@@ -112,7 +112,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     }
 
     /// The motion with its outcome, cost and energy ledger.
-    fn close(mut self, outcome: Result<Outcome<N>, Reason>, cost: Cost) -> Motion<N> {
+    fn close(mut self, outcome: Result<Outcome<N>>, cost: Cost) -> Motion<N> {
         let Problem { parameters, initial, .. } = self.found.problem;
         let outcome =
             outcome.unwrap_or_else(|reason| Outcome::without_end(self.time.value(), reason));
@@ -139,10 +139,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
 
     /// Joins half swings until the motion ends. Without friction nothing happens at `v = 0`: unless crossings are requested,
     /// one smooth motion leads through all half swings.
-    fn half_swings<S: Stepper<HalfPlane, N>>(
-        &mut self,
-        stepper: &mut S,
-    ) -> Result<Outcome<N>, Reason> {
+    fn half_swings<S: Stepper<HalfPlane, N>>(&mut self, stepper: &mut S) -> Result<Outcome<N>> {
         let Problem { parameters, initial, until, .. } = self.found.problem;
         let (r, until, rest) = (parameters.r, N::from(until), N::from(0.0));
         let Some(mut side) = Side::entered_from(initial, r) else { return Ok(self.rests()) };
@@ -205,7 +202,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         from: (StepPoint<N>, i32),
         bound: (N, bool),
         mut see: impl FnMut(f64, i32, &Step<N>) -> bool,
-    ) -> (Result<StepPoint<N>, Reason>, bool) {
+    ) -> (Result<StepPoint<N>>, bool) {
         let (detail, time) = (self.detail, self.time);
         let (samples, sum) = (&mut self.found.samples, &mut self.works);
         let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
@@ -237,7 +234,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     }
 
     /// The motion at its end time.
-    fn stopped(&self, StepPoint { x: q, v }: StepPoint<N>) -> Result<Outcome<N>, Reason> {
+    fn stopped(&self, StepPoint { x: q, v }: StepPoint<N>) -> Result<Outcome<N>> {
         let is_finite = q.value().is_finite() && v.value().is_finite();
         let tau = N::from(self.found.problem.until);
         if is_finite { Ok(Outcome::Moving { tau, q, v }) } else { Err(Reason::OutOfRange) }

@@ -54,5 +54,5 @@ pub use knob::{Group, KNOBS, Knob, KnobSpec, RangeError};
 pub use modal::Mode;
 pub use model::{ContactState, Lines, Model, Phase};
 pub use parameters::{Ledger, Parameters, State, Work};
-pub use reason::Reason;
+pub use reason::{Reason, Result};
 pub use source::{Body, Source, Tolerances};

@@ -10,7 +10,9 @@
 //! No length is singled out: a machine with all its lengths scaled by a power of two moves alike to the last
 //! bit.
 
-use super::{Belt, ForceBranch, ForcePiece, Mode, Parameters, Reason, branch, first_below_zero};
+use super::{
+    Belt, ForceBranch, ForcePiece, Mode, Parameters, Reason, Result, branch, first_below_zero,
+};
 use crate::numerics::powi;
 
 /// The last terms of a step are this small against the state where nothing else is asked for.
@@ -91,7 +93,7 @@ impl Model {
     ///
     /// # Errors
     /// [`Reason`] where the law, the static friction or the numbers allow none.
-    pub fn new(belt: &Belt) -> Result<Self, Reason> {
+    pub fn new(belt: &Belt) -> Result<Self> {
         let v0 = belt.belt_speed;
         let mu = belt.law.mu(v0).ok_or(Reason::OutsideLaw { v0, range: belt.law.range() })?;
         if !(mu.is_finite() && mu > 0.0) {
@@ -152,7 +154,7 @@ impl Model {
     ///
     /// # Errors
     /// [`Reason`] where the numbers allow none.
-    pub fn of_paper(parameters: &Parameters) -> Result<Self, Reason> {
+    pub fn of_paper(parameters: &Parameters) -> Result<Self> {
         let Parameters { d, d2, d3, r } = *parameters;
         Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], r, r)
     }
@@ -169,7 +171,7 @@ impl Model {
         damping_ratio: &[f64],
         guide: f64,
         guide_static: f64,
-    ) -> Result<Self, Reason> {
+    ) -> Result<Self> {
         if guide_static < guide {
             return Err(Reason::GuideStatic { at_rest: guide_static, moving: guide });
         }
@@ -305,7 +307,7 @@ impl Mode {
     ///
     /// # Errors
     /// [`Reason`] where the static friction or the numbers allow none.
-    pub fn model(&self) -> Result<Model, Reason> {
+    pub fn model(&self) -> Result<Model> {
         let omega_0 = std::f64::consts::TAU * self.frequency;
         let at_rest = self.static_guide.unwrap_or(self.friction);
         Model::of_mode(omega_0, self.mass, &self.damping_ratio, self.friction, at_rest)

@@ -130,6 +130,9 @@ pub enum Reason {
     },
 }
 
+/// What was computed, or why there is no answer.
+pub type Result<T, E = Reason> = std::result::Result<T, E>;
+
 impl serde::Serialize for Reason {
     fn serialize<S: serde::Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
         out.collect_str(self)

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Belt, Group, Interval, KNOBS, Knob, Mode, Model, ParameterBox, Parameters, Reason};
+use super::{Belt, Group, Interval, KNOBS, Knob, Mode, Model, ParameterBox, Parameters, Result};
 
 /// The oscillator of the paper, a mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,8 +108,8 @@ impl Source {
     /// Its whole model.
     ///
     /// # Errors
-    /// [`Reason`] where it has none.
-    pub fn model(&self) -> Result<Model, Reason> {
+    /// `Reason` where it has none.
+    pub fn model(&self) -> Result<Model> {
         let mut model = match &self.body {
             Body::Paper(parameters) => Model::of_paper(parameters)?,
             Body::Belt(belt) => Model::new(belt)?,

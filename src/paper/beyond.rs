@@ -7,7 +7,7 @@ use super::{
     model, tends, worst,
 };
 use crate::branch::escape_point;
-use crate::flow::{Outcome, Reason};
+use crate::flow::{Outcome, Result};
 use crate::model::{Parameters, State};
 use crate::numerics::{Interval, exp};
 use crate::portrait::Portrait;
@@ -70,7 +70,7 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 /// Whether a motion from rest at `q` is at rest there, or further out, one turn later.
-fn returns_to(it: &ClaimCase, q: f64) -> Result<Conclusion<bool>, Reason> {
+fn returns_to(it: &ClaimCase, q: f64) -> Result<Conclusion<bool>> {
     let motion = it.motion(at_rest(q), 60.0)?;
     let value = motion.crossings.get(1).is_some_and(|crossing| crossing.q >= q);
     let bounds = it.enclosed(at_rest(q), 60.0);
@@ -83,13 +83,13 @@ fn returns_to(it: &ClaimCase, q: f64) -> Result<Conclusion<bool>, Reason> {
 }
 
 /// The slope of the return map of `v = 0, q > r` at a cycle: central differences of integrated motions.
-fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Approximation, Reason> {
+fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Approximation> {
     let q = cycle.q_max;
     let turn = |q: f64| {
         let [left, _] = it.half_swing(at_rest(q))?;
         it.half_swing(at_rest(left.value)).map(|[right, _]| right.value)
     };
-    let slope = |h: f64| -> Result<f64, Reason> {
+    let slope = |h: f64| -> Result<f64> {
         let wide = (turn(q + 2.0 * h)? - turn(q - 2.0 * h)?) / (4.0 * h);
         let narrow = (turn(q + h)? - turn(q - h)?) / (2.0 * h);
         Ok(narrow + (narrow - wide) / 3.0)
@@ -114,12 +114,12 @@ fn enclosed_integral(d2: f64, q: Interval, v: Interval) -> Interval {
 }
 
 /// `D_c`.
-fn end_of_cycle(it: &ClaimCase) -> Result<f64, Reason> {
+fn end_of_cycle(it: &ClaimCase) -> Result<f64> {
     escape_point(it, &it.limits)?.0.ok_or(missing("the end of the cycle"))
 }
 
 /// The oscillator at a part of `D_c`.
-fn beside_the_end<'a>(it: &ClaimCase<'a>) -> Result<ClaimCase<'a>, Reason> {
+fn beside_the_end<'a>(it: &ClaimCase<'a>) -> Result<ClaimCase<'a>> {
     let d = it.more * end_of_cycle(it)?;
     Ok(it.of(Parameters { d, ..**it }))
 }

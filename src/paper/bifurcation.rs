@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use super::harmonic::{approached, found_fold};
 use super::{Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, tends, worst};
 use crate::closed_form::harmonic::mean as harmonic_mean;
-use crate::flow::Reason;
+use crate::flow::Result;
 use crate::model::Parameters;
 use crate::numerics::{ln, log2};
 use crate::portrait::{Border, cycles};
@@ -88,12 +88,12 @@ fn asymptotes(parameters: &Parameters) -> [f64; 2] {
 }
 
 /// The extent of the largest cycle without friction.
-fn smooth(it: &ClaimCase) -> Result<f64, Reason> {
+fn smooth(it: &ClaimCase) -> Result<f64> {
     Ok(it.of(Parameters { r: 0.0, ..**it }).largest()?.q_max)
 }
 
 /// Exponents with which the energy change and its parts grow when the amplitude is doubled.
-fn exponents(it: &ClaimCase) -> Result<[Approximation; 3], Reason> {
+fn exponents(it: &ClaimCase) -> Result<[Approximation; 3]> {
     let works = |q: f64| it.energy_change(at_rest(q), 2.0 * PI);
     let (one, two) = (works(1.0)?, works(2.0)?);
     Ok(std::array::from_fn(|index| {

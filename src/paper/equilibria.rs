@@ -7,7 +7,7 @@ use super::{
     Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, missing, tends, worst,
 };
 use crate::closed_form::{LinearCycle, lyapunov};
-use crate::flow::{Outcome, Reason};
+use crate::flow::{Outcome, Result};
 use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::{Interval, atan, exp, hypot, sin, sin_cos};
 use crate::portrait::{Border, Portrait, proved_kicks};
@@ -126,7 +126,7 @@ fn crossings(
     it: &ClaimCase,
     condition: fn(f64, f64) -> (bool, bool),
     crosses: bool,
-) -> Result<Evidence, Reason> {
+) -> Result<Evidence> {
     /// Inside and outside of the sticking set. At its ends one of the limits vanishes, and neither condition speaks of them.
     const PARTS: [f64; 11] = [0.0, 0.3, -0.3, 0.9, -0.9, 1.001, -1.001, 1.5, -1.5, 3.0, -3.0];
     let (mut printed, mut corrected, mut computed) = (0.0, 0.0, 0.0);
@@ -153,7 +153,7 @@ fn crossings(
 }
 
 /// Where a half swing above `v = 0` ends, if the motion is linear in `q - shift r`.
-fn shifted(it: &ClaimCase, shift: f64) -> Result<Evidence, Reason> {
+fn shifted(it: &ClaimCase, shift: f64) -> Result<Evidence> {
     let [end, _] = it.half_swing(at_rest(it.more))?;
     let growth = exp(-PI * it.d / (1.0 - it.d * it.d).sqrt());
     let around = |centre: f64| centre - (it.more - centre) * growth;
@@ -162,7 +162,7 @@ fn shifted(it: &ClaimCase, shift: f64) -> Result<Evidence, Reason> {
 }
 
 /// Change of the energy along a motion by (19), with friction's part multiplied by `sign`.
-fn energy(it: &ClaimCase, sign: f64) -> Result<Evidence, Reason> {
+fn energy(it: &ClaimCase, sign: f64) -> Result<Evidence> {
     let [change, linear, friction] = it.energy_change(at_rest(it.more), 20.0)?;
     let by_rate = |sign: f64| linear.value + sign * friction.value;
     let error = change.error + linear.error + friction.error;
@@ -176,7 +176,7 @@ fn circle(parameters: &Parameters) -> f64 {
 }
 
 /// Distance of the border of the basin from the origin.
-fn least_kick(it: &ClaimCase) -> Result<Approximation, Reason> {
+fn least_kick(it: &ClaimCase) -> Result<Approximation> {
     /// Points on each step of the border, and the relative error of a distance between them.
     const POINTS: (u16, f64) = (200, 1e-5);
     let basin = Portrait::of_oscillator(it, 10.0, &it.limits)?;
@@ -191,7 +191,7 @@ fn least_kick(it: &ClaimCase) -> Result<Approximation, Reason> {
 }
 
 /// The cycle by (30), (32) and (33) as it should read.
-fn closed_form(it: &Parameters) -> Result<LinearCycle, Reason> {
+fn closed_form(it: &Parameters) -> Result<LinearCycle> {
     LinearCycle::new(it.d, it.r).ok_or(missing("a limit cycle"))
 }
 
@@ -218,7 +218,7 @@ fn curve(cycle: &LinearCycle, angle: f64) -> State {
 }
 
 /// Both coordinates of (31) against the motion that starts at the turning point of the cycle.
-fn on_the_curve(it: &ClaimCase) -> Result<Evidence, Reason> {
+fn on_the_curve(it: &ClaimCase) -> Result<Evidence> {
     const ANGLE: f64 = 2.0;
     let formula = closed_form(it)?;
     let start = at_rest(-formula.q_max);

@@ -11,7 +11,7 @@ use crate::branch::FoldPoint;
 use crate::branch::fold::fold;
 use crate::closed_form::HarmonicCycle;
 use crate::closed_form::harmonic::{self, amplitudes, mean as harmonic_mean};
-use crate::flow::Reason;
+use crate::flow::Result;
 use crate::model::Parameters;
 use crate::numerics::interval::PI as PI_BOUNDS;
 use crate::numerics::{Interval, cbrt, powi, sin};
@@ -149,23 +149,20 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 /// The amplitude by a number of harmonics.
-fn by_harmonics(it: &ClaimCase, number: usize) -> Result<f64, Reason> {
+fn by_harmonics(it: &ClaimCase, number: usize) -> Result<f64> {
     let found = harmonic_balance(it, number, 0, &it.limits)?;
     let cycle = found.balanced.first().and_then(|balanced| balanced.cycle.as_ref().ok());
     cycle.map(HarmonicCycle::amplitude).ok_or(missing("a cycle of some harmonics"))
 }
 
 /// The largest stationary amplitude of (42).
-fn largest_amplitude(parameters: &Parameters) -> Result<f64, Reason> {
+fn largest_amplitude(parameters: &Parameters) -> Result<f64> {
     let last = amplitudes(parameters).last().map(|harmonic| harmonic.amplitude);
     last.ok_or(missing("a stationary amplitude"))
 }
 
 /// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent, over all dampings.
-fn harmonic_against_extents(
-    it: &ClaimCase,
-    holds: fn(f64, f64, f64) -> bool,
-) -> Result<Evidence, Reason> {
+fn harmonic_against_extents(it: &ClaimCase, holds: fn(f64, f64, f64) -> bool) -> Result<Evidence> {
     Evidence::always((1..20).map(|number| {
         let d = -0.05 * f64::from(number);
         let it = it.of([d, 0.0, 0.0, 0.1].into());
@@ -198,7 +195,7 @@ fn real_roots(parameters: &Parameters) -> usize {
 }
 
 /// Whether there are so many cycles.
-fn count_is(it: &ClaimCase, expected: usize) -> Result<Conclusion<bool>, Reason> {
+fn count_is(it: &ClaimCase, expected: usize) -> Result<Conclusion<bool>> {
     // The search has nothing to go by where the motion is linear and no swing ends.
     let found = if it.omega().is_none() && it.is_piecewise_linear() {
         it.beside_proof(cycles(it, &it.limits)?.cycles)
@@ -213,12 +210,12 @@ fn printed_fold(d3: f64, r: f64) -> f64 {
 }
 
 /// The fold of the cycles.
-pub(super) fn found_fold(it: &ClaimCase) -> Result<FoldPoint, Reason> {
+pub(super) fn found_fold(it: &ClaimCase) -> Result<FoldPoint> {
     fold(it, &it.limits)?.0.ok_or(missing("the fold"))
 }
 
 /// (48) against the fold of the cycles.
-fn fold_against(it: &ClaimCase) -> Result<Evidence, Reason> {
+fn fold_against(it: &ClaimCase) -> Result<Evidence> {
     let found = found_fold(it)?;
     Ok(Evidence::near(printed_fold(it.d3, it.r), it.last_cycle(found.d, 1e-12)))
 }
@@ -234,14 +231,14 @@ fn large(parameters: &Parameters) -> f64 {
 }
 
 /// `A_n`, and the solution of (42) that approaches it as abs(D) grows to 1.
-fn asymptote(it: &ClaimCase) -> Result<(f64, Approximation), Reason> {
+fn asymptote(it: &ClaimCase) -> Result<(f64, Approximation)> {
     let (formula, root) = approached(it, [small(it), large(it)])?;
     Ok((formula, Approximation::relative(root, 1e-14)))
 }
 
 /// The formula for `A_n`, of those for n = 1 and n = 2, and the solution of (42) that approaches it as abs(D) grows to 1:
 /// the smallest for n = 1, the largest for n = 2.
-pub(super) fn approached(it: &ClaimCase, [first, second]: [f64; 2]) -> Result<(f64, f64), Reason> {
+pub(super) fn approached(it: &ClaimCase, [first, second]: [f64; 2]) -> Result<(f64, f64)> {
     let found = amplitudes(it);
     let (formula, root) =
         if it.more == 1.0 { (first, found.first()) } else { (second, found.last()) };

@@ -7,7 +7,7 @@ use std::ops::Deref;
 
 use super::{Approximation, Conclusion};
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem, Reason};
+use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem, Reason, Result};
 use crate::model::{Knob, Parameters, Side, State};
 use crate::numerics::Interval;
 use crate::portrait::{
@@ -148,7 +148,7 @@ impl<'a> ClaimCase<'a> {
         (initial, until): (State, f64),
         (method, tolerance): (Method, f64),
         energy: bool,
-    ) -> Result<Motion, Reason> {
+    ) -> Result<Motion> {
         let problem = Problem::new(self.parameters, initial, until);
         let problem = Problem { method, tolerance, ..problem };
         let motion = trajectory(&problem, Detail { energy, ..Detail::default() }, &self.limits);
@@ -161,7 +161,7 @@ impl<'a> ClaimCase<'a> {
         course: (State, f64),
         sought: &'static str,
         read: impl Fn(&Motion) -> Option<[f64; N]>,
-    ) -> Result<[Approximation; N], Reason> {
+    ) -> Result<[Approximation; N]> {
         let [first, second] =
             METHODS.map(|method| Ok::<_, Reason>(read(&self.run(course, method, true)?)));
         let (Some(first), Some(second)) = (first?, second?) else { return Err(missing(sought)) };
@@ -169,7 +169,7 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// Place and time of the first arrival at `v = 0`.
-    pub fn half_swing(&self, initial: State) -> Result<[Approximation; 2], Reason> {
+    pub fn half_swing(&self, initial: State) -> Result<[Approximation; 2]> {
         // Stopping at the arrival needs its time; a first run over one half swing finds it.
         let until = self.omega().map_or(LONG, |omega| 2.0 * std::f64::consts::PI / omega);
         let [q, tau] = self.motions((initial, until), "an arrival at v = 0", |motion| {
@@ -180,7 +180,7 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// State at a time before the motion comes to rest.
-    pub fn state_at(&self, initial: State, tau: f64) -> Result<[Approximation; 2], Reason> {
+    pub fn state_at(&self, initial: State, tau: f64) -> Result<[Approximation; 2]> {
         let read = |motion: &Motion| match motion.outcome {
             Outcome::Moving { q, v, .. } => Some([q, v]),
             _ => None,
@@ -191,7 +191,7 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// Change of the energy over a motion, and the works of linear damping and of friction.
-    pub fn energy_change(&self, initial: State, until: f64) -> Result<[Approximation; 3], Reason> {
+    pub fn energy_change(&self, initial: State, until: f64) -> Result<[Approximation; 3]> {
         let read = |motion: &Motion| {
             let ledger = motion.ledger.as_ref()?;
             Some([ledger.end - ledger.start, ledger.work("linear"), ledger.work("friction")])
@@ -205,12 +205,12 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// A motion until `until`.
-    pub fn motion(&self, initial: State, until: f64) -> Result<Motion, Reason> {
+    pub fn motion(&self, initial: State, until: f64) -> Result<Motion> {
         self.run((initial, until), (Method::Auto, 1e-12), false)
     }
 
     /// Whether a motion comes to rest before `until`.
-    pub fn captured(&self, initial: State, until: f64) -> Result<Conclusion<bool>, Reason> {
+    pub fn captured(&self, initial: State, until: f64) -> Result<Conclusion<bool>> {
         let end = self.motion(initial, until)?.outcome;
         let value = matches!(end, Outcome::Captured { .. });
         let certain = match self.enclosed(initial, until).fate {
@@ -234,7 +234,7 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// All cycles by the general search, smallest first, whether or not a closed form exists.
-    pub fn cycles(&self) -> Result<AllFound, Reason> {
+    pub fn cycles(&self) -> Result<AllFound> {
         let mut equation = Equation::new(self, 0.5 * f64::EPSILON, &self.limits);
         let found = closings(&mut equation, usize::MAX, &[])?;
         let found = found.iter().map(|closing| closing.describe(self, equation.side)).collect();
@@ -254,17 +254,17 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// The smallest cycle.
-    pub fn smallest(&self) -> Result<BoundedCycle, Reason> {
+    pub fn smallest(&self) -> Result<BoundedCycle> {
         self.cycles()?.value.first().copied().ok_or(missing("a limit cycle"))
     }
 
     /// The largest cycle.
-    pub fn largest(&self) -> Result<BoundedCycle, Reason> {
+    pub fn largest(&self) -> Result<BoundedCycle> {
         self.cycles()?.value.last().copied().ok_or(missing("a limit cycle"))
     }
 
     /// What borders the basin.
-    pub fn edge(&self) -> Result<Conclusion<Border>, Reason> {
+    pub fn edge(&self) -> Result<Conclusion<Border>> {
         let found = Portrait::of_oscillator(self, 10.0, &self.limits)?;
         let proof = prove(&ParameterBox::from(&self.parameters), &[]);
         let proved = kicks::edge(&proof, found.margin.displacement);
@@ -283,7 +283,7 @@ impl<'a> ClaimCase<'a> {
 
     /// Mean displacement of a cycle over its period: over one turn all forces cancel, those that depend on the velocity
     /// and the spring's.
-    pub fn mean(&self, cycle: &Cycle) -> Result<Approximation, Reason> {
+    pub fn mean(&self, cycle: &Cycle) -> Result<Approximation> {
         /// Relative error of the integrals by arcs to 1e-14.
         const INTEGRAL: f64 = 1e-11;
         let [rise, fall] = self.arcs(cycle)?;
@@ -296,7 +296,7 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// The arcs of a cycle above and below `v = 0`.
-    pub fn arcs(&self, cycle: &Cycle) -> Result<[Arc; 2], Reason> {
+    pub fn arcs(&self, cycle: &Cycle) -> Result<[Arc; 2]> {
         let arc = |side, turn: f64| {
             let clearance = Length::new(turn - self.r);
             Arc::new(self, side, Direction::Forward, clearance, &self.limits)

@@ -20,7 +20,7 @@ pub use verdict::{Approximation, Certainty, Conclusion, Evidence, POOR, Sense, V
 
 use std::sync::LazyLock;
 
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Reason, Result};
 use crate::numerics::cells;
 use measure::ClaimCase;
 
@@ -44,7 +44,7 @@ pub struct Claim {
 }
 
 /// What is asked in a case, or why there is no answer.
-type Ask<T> = fn(&ClaimCase) -> Result<T, Reason>;
+type Ask<T> = fn(&ClaimCase) -> Result<T>;
 
 /// How a claim is put to the test: a formula is evaluated, and the same thing computed otherwise.
 #[derive(Debug)]
@@ -58,7 +58,7 @@ enum Test {
 }
 
 impl Test {
-    fn run(&self, cases: &[ClaimCase]) -> Result<Evidence, Reason> {
+    fn run(&self, cases: &[ClaimCase]) -> Result<Evidence> {
         match self {
             Test::Worst(compare) => Evidence::worst(cases.iter().map(|case| {
                 let evidence = compare(case)?;
@@ -99,7 +99,7 @@ pub const UNSAID: &str = "-";
 pub struct ClaimResult {
     pub claim: &'static Claim,
     /// The numbers, or why there are none.
-    pub evidence: Result<Evidence, Reason>,
+    pub evidence: Result<Evidence>,
 }
 
 impl PartialEq for ClaimResult {
@@ -150,13 +150,13 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
 }
 
 /// Puts all claims to the test. Fails with [`Reason::Interrupted`] and no other.
-pub fn examine_all(limits: &Limits) -> Result<Vec<ClaimResult>, Reason> {
+pub fn examine_all(limits: &Limits) -> Result<Vec<ClaimResult>> {
     claims().map(|claim| examine(claim, limits)).collect()
 }
 
 /// Puts one claim to the test. Fails with [`Reason::Interrupted`] and no other: any other reason belongs to the
 /// answer.
-pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult, Reason> {
+pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult> {
     let lines = if claim.cases.is_empty() { &[""] } else { claim.cases.as_slice() };
     let cases: Vec<_> = lines.iter().flat_map(|line| ClaimCase::all(line, limits)).collect();
     let evidence = Reason::tolerated(claim.test.run(&cases))?;

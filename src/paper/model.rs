@@ -7,7 +7,7 @@
 use super::{Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, worst};
 use crate::closed_form::{LinearFlow, amplitudes};
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Problem, Reason};
+use crate::flow::{Detail, Problem, Reason, Result};
 use crate::model::{Belt, FrictionLaw, Parameters, ReducedBelt};
 use crate::numerics::interval::PI;
 use crate::numerics::{exp, ln, powi, try_bisect};
@@ -64,7 +64,7 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 /// Rate and frequency of small motions.
-fn growth(it: &ClaimCase) -> Result<[Approximation; 2], Reason> {
+fn growth(it: &ClaimCase) -> Result<[Approximation; 2]> {
     let [end, duration] = it.half_swing(at_rest(-1.0))?;
     let relative = end.error / end.value + duration.error / duration.value;
     let growth = ln(end.value) / duration.value;
@@ -188,14 +188,14 @@ pub(crate) fn machine() -> Belt {
 }
 
 /// The machine at a speed of its belt.
-fn at(speed: f64) -> Result<ReducedBelt, Reason> {
+fn at(speed: f64) -> Result<ReducedBelt> {
     let lost = |_| Reason::NotApplicable { needs: "a machine at this speed of its belt" };
     machine().reduce_at(speed).map_err(lost)
 }
 
 /// Whether the vibrations at a speed of the belt stay below it: the stable cycle, and a motion that
 /// comes to it from just outside of the unstable one. Fails with the [`Reason`] why a cycle was not found.
-fn stays_slower(case: &ClaimCase) -> Result<Conclusion<bool>, Reason> {
+fn stays_slower(case: &ClaimCase) -> Result<Conclusion<bool>> {
     let ReducedBelt { parameters, sticking_velocity, .. } = at(case.more)?;
     let case = case.of(parameters);
     let below = case.largest()?.v_max < sticking_velocity;
@@ -208,7 +208,7 @@ fn stays_slower(case: &ClaimCase) -> Result<Conclusion<bool>, Reason> {
 
 /// The speed of the belt at which the stable cycle just reaches it, by one harmonic and computed. Fails with the
 /// [`Reason`] why a cycle was not found.
-pub fn contact(case: &ClaimCase) -> Result<Evidence, Reason> {
+pub fn contact(case: &ClaimCase) -> Result<Evidence> {
     let harmonic = reached(|parameters| {
         let found = amplitudes(parameters).into_iter().rfind(|answer| answer.stable);
         Ok(found.map_or(0.0, |answer| answer.amplitude))
@@ -219,7 +219,7 @@ pub fn contact(case: &ClaimCase) -> Result<Evidence, Reason> {
 }
 
 /// The speed of the belt that is just reached by cycles with this largest velocity, by bisection.
-fn reached(velocity: impl Fn(&Parameters) -> Result<f64, Reason>) -> Result<f64, Reason> {
+fn reached(velocity: impl Fn(&Parameters) -> Result<f64>) -> Result<f64> {
     /// Halvings: to the eleventh digit.
     const HALVINGS: u32 = 36;
     let [from, to] = SPEEDS;

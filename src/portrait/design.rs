@@ -9,7 +9,7 @@
 use serde::Serialize;
 
 use super::{Margin, Portrait};
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Body, Parameters, Source, Tolerances};
 use crate::numerics::{PlaceTolerance, exp, illinois, ln};
 use crate::portrait::guarantee::machine::guaranteed;
@@ -96,14 +96,14 @@ pub fn friction_for(
     kick: Kick,
     wanted: f64,
     limits: &Limits,
-) -> Result<(Option<FrictionNeed>, Cost), Reason> {
+) -> Result<(Option<FrictionNeed>, Cost)> {
     if !(wanted > 0.0 && wanted.is_finite()) {
         return Err(Reason::NotApplicable { needs: "a positive margin" });
     }
     let model = source.model()?;
     let uncertain = source.of_belt().is_some() && !known.is_none();
     let mut cost = Cost::default();
-    let mut margin = |friction: f64| -> Result<Margin, Reason> {
+    let mut margin = |friction: f64| -> Result<Margin> {
         let with = source.with_friction(friction);
         Ok(match &with.body {
             Body::Belt(belt) if uncertain => {
@@ -153,11 +153,11 @@ struct FrictionTrial {
 fn least_friction(
     (kick, wanted): (Kick, f64),
     (first, any): (f64, Option<f64>),
-    margin: &mut dyn FnMut(f64) -> Result<Margin, Reason>,
-) -> Result<Option<FrictionNeed>, Reason> {
+    margin: &mut dyn FnMut(f64) -> Result<Margin>,
+) -> Result<Option<FrictionNeed>> {
     // Logarithm of the margin, as a fraction of the one wanted.
     let mut excess =
-        |r: f64| -> Result<f64, Reason> { Ok(ln(kick.margin(&margin(r)?) / wanted).max(f64::MIN)) };
+        |r: f64| -> Result<f64> { Ok(ln(kick.margin(&margin(r)?) / wanted).max(f64::MIN)) };
     if let Some(r) = any
         && excess(r)? >= 0.0
     {

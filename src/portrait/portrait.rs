@@ -13,7 +13,7 @@ use super::{
     between, part_within,
 };
 use crate::closed_form::lyapunov;
-use crate::flow::{Cost, Fate, Flow, Limits, Reason};
+use crate::flow::{Cost, Fate, Flow, Limits, Reason, Result};
 use crate::model::{ContactState, Model, Phase, RestKicks};
 use crate::numerics::bisect;
 
@@ -181,7 +181,7 @@ impl Portrait {
     ///
     /// # Errors
     /// [`Reason`] if it does not reach its next right turning point, or if a border cannot be traced to where it starts.
-    pub fn fate(&self, x: f64, v: f64) -> Result<Fate, Reason> {
+    pub fn fate(&self, x: f64, v: f64) -> Result<Fate> {
         self.fate_within(x, v, usize::MAX)
     }
 
@@ -190,7 +190,7 @@ impl Portrait {
     ///
     /// # Errors
     /// As for [`Self::fate`].
-    pub fn fate_within(&self, x: f64, v: f64, most: usize) -> Result<Fate, Reason> {
+    pub fn fate_within(&self, x: f64, v: f64, most: usize) -> Result<Fate> {
         let y = self.model.scaled_velocity(v);
         if self.model.place(x, y) == ContactState::Rests {
             return Ok(Fate::Rest);
@@ -209,7 +209,7 @@ impl Portrait {
 
     /// The fate of a start by its next right turning point. Fails with the [`Reason`] why it has none, of one that settles
     /// or escapes, too.
-    fn followed_fate(&self, x: f64, y: f64, most: usize) -> Result<Fate, Reason> {
+    fn followed_fate(&self, x: f64, y: f64, most: usize) -> Result<Fate> {
         let mut flow = Flow::new(&self.model);
         let mut half_swings = 0;
         let Some(mut x) = flow.to_the_right(x, y)? else { return Ok(Fate::Rest) };
@@ -331,7 +331,7 @@ impl Portrait {
         window: &StartWindow,
         (columns, rows): (usize, usize),
         limits: &Limits,
-    ) -> Result<Counts, Reason> {
+    ) -> Result<Counts> {
         let portrait = &*self.followed_to(window.reach())?;
         let velocities: Vec<f64> = (0..rows).map(|row| between(window.v, row, rows)).collect();
         let of_column = |column| {
@@ -384,7 +384,7 @@ impl Portrait {
     ///
     /// # Errors
     /// [`Reason`] if it cannot be traced there.
-    pub(super) fn followed_to(&self, reach: f64) -> Result<Cow<'_, Self>, Reason> {
+    pub(super) fn followed_to(&self, reach: f64) -> Result<Cow<'_, Self>> {
         let open = |edge: &Edge| matches!(edge, Edge::Orbit(orbit) if !orbit.closed);
         let index = self.borders.iter().position(open).filter(|_| reach > self.followed);
         let (Some(index), Some(parameters)) = (index, self.model.parameters()) else {
@@ -402,7 +402,7 @@ impl Flow<'_> {
     ///
     /// # Errors
     /// [`Reason`] if it is not reached.
-    pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>, Reason> {
+    pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>> {
         if y == 0.0 && x > self.model.guide_static {
             return Ok(Some(x));
         }

@@ -9,23 +9,23 @@ use super::{
     first_closings, first_side, picture_reach,
 };
 use crate::closed_form::is_centre;
-use crate::flow::{Fate, Limits, Reason};
+use crate::flow::{Fate, Limits, Result};
 use crate::model::{Belt, Model, Parameters, Source};
 
 impl Portrait {
     /// The portrait of a machine: by half swings that close where there is no belt, else by the return map.
     ///
     /// # Errors
-    /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
-    pub fn of(model: &Model) -> Result<Self, Reason> {
+    /// `Reason` if the motions near rest, or those that the belt releases, cannot be followed.
+    pub fn of(model: &Model) -> Result<Self> {
         without_belt(model).map_or_else(|| Portrait::by_return_map(model), Ok)
     }
 
     /// The portrait of a mass on a belt whose friction law reaches as far as its motions do.
     ///
     /// # Errors
-    /// [`Reason`] where it has no model, or where motions leave the law before the border of rest is known.
-    pub fn of_belt(belt: &Belt) -> Result<Self, Reason> {
+    /// `Reason` where it has no model, or where motions leave the law before the border of rest is known.
+    pub fn of_belt(belt: &Belt) -> Result<Self> {
         Portrait::of(&Model::new(belt)?)
     }
 
@@ -53,12 +53,8 @@ impl Portrait {
     /// ```
     ///
     /// # Errors
-    /// [`Reason`] if the search for cycles fails, or a border cannot be traced.
-    pub fn of_oscillator(
-        parameters: &Parameters,
-        reach: f64,
-        limits: &Limits,
-    ) -> Result<Self, Reason> {
+    /// `Reason` if the search for cycles fails, or a border cannot be traced.
+    pub fn of_oscillator(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Self> {
         Self::by_closings(&Model::of_paper(parameters)?, parameters, usize::MAX, reach, limits)
     }
 
@@ -66,7 +62,7 @@ impl Portrait {
     ///
     /// # Errors
     /// As [`Self::of_oscillator`].
-    pub fn innermost(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Self, Reason> {
+    pub fn innermost(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Self> {
         Self::by_closings(&Model::of_paper(parameters)?, parameters, 1, reach, limits)
     }
 
@@ -78,7 +74,7 @@ impl Portrait {
         most: usize,
         reach: f64,
         limits: &Limits,
-    ) -> Result<Self, Reason> {
+    ) -> Result<Self> {
         let mut equation = Equation::new(parameters, STEP, limits);
         let found = first_closings(&mut equation, most)?;
         let mut portrait = Self::around(model, parameters, &found, reach, limits)?;
@@ -90,14 +86,14 @@ impl Portrait {
     /// the outermost.
     ///
     /// # Errors
-    /// [`Reason`] if a border cannot be traced.
+    /// `Reason` if a border cannot be traced.
     pub fn around(
         model: &Model,
         parameters: &Parameters,
         found: &[SwingPair],
         reach: f64,
         limits: &Limits,
-    ) -> Result<Self, Reason> {
+    ) -> Result<Self> {
         let cycles = described(parameters, found);
         let border = Border::around(parameters, &cycles);
         let mut orbits = Vec::new();
@@ -141,8 +137,8 @@ impl Source {
     /// What it does.
     ///
     /// # Errors
-    /// [`Reason`] where it has no model, or where motions leave the law before the border of rest is known.
-    pub fn portrait(&self) -> Result<Portrait, Reason> {
+    /// `Reason` where it has no model, or where motions leave the law before the border of rest is known.
+    pub fn portrait(&self) -> Result<Portrait> {
         Portrait::of(&self.model()?)
     }
 }

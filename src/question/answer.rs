@@ -15,7 +15,9 @@ use crate::branch::chart::{Chart, Plane, Resolution, chart};
 use crate::branch::machine::MachineBranch;
 use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, follow};
+use crate::flow::{
+    Cost, Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, Result, follow,
+};
 use crate::model::{Belt, Body, Knob, Model, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::closing::return_map::return_map;
@@ -48,7 +50,7 @@ pub enum Finding {
     Claims(Vec<ClaimResult>),
     Proof(Proof),
     /// The error says why there is no reference, for example because it would take too long.
-    Reference(Result<Box<Reference>, Reason>),
+    Reference(Result<Box<Reference>>),
 }
 
 impl Finding {
@@ -151,7 +153,7 @@ impl Fineness {
 }
 
 /// Answers a request on this thread, with the fineness of the screen.
-pub fn answer(request: &Request, limits: &Limits) -> Result<Finding, Reason> {
+pub fn answer(request: &Request, limits: &Limits) -> Result<Finding> {
     answer_for(request, Fineness::SCREEN, limits)
 }
 
@@ -162,11 +164,7 @@ const ROW: u64 = 1_000_000;
 const REFERENCE: u64 = 4_000_000;
 
 /// Answers a request on this thread, with curves of this fineness: the only place where a question becomes a computation.
-pub fn answer_for(
-    request: &Request,
-    fineness: Fineness,
-    limits: &Limits,
-) -> Result<Finding, Reason> {
+pub fn answer_for(request: &Request, fineness: Fineness, limits: &Limits) -> Result<Finding> {
     let points = fineness.points_per_step();
     Ok(match request {
         Request::Fit { recording } => Finding::Fit(Fit::of(recording, limits, &|_| ())?),
@@ -240,7 +238,7 @@ fn regimes(
     rough: bool,
     fineness: Fineness,
     limits: &Limits,
-) -> Result<Chart, Reason> {
+) -> Result<Chart> {
     /// Boundaries are interpolated between the evenly spaced lines; the tolerance is the relative error of clearances
     /// at boundaries.
     const DRAFT: Resolution = Resolution { lines: 4, chord: f64::INFINITY, tolerance: 1e-3 };
@@ -256,7 +254,7 @@ fn along_number(
     range: (f64, f64),
     rough: bool,
     limits: &Limits,
-) -> Result<MachineBranch, Reason> {
+) -> Result<MachineBranch> {
     /// Number of evenly spaced values, and of those in a draft.
     const VALUES: usize = 33;
     const FEW: usize = 7;
@@ -283,7 +281,7 @@ fn motion(
     machine: Option<&Belt>,
     between: u16,
     limits: &Limits,
-) -> Result<Motion, Reason> {
+) -> Result<Motion> {
     let Some(belt) = machine else {
         // Without friction, nothing happens at v = 0, so crossings are not located.
         let crossings = problem.parameters.r > 0.0;
@@ -316,7 +314,7 @@ fn cycles(
     whole: bool,
     points: u16,
     limits: &Limits,
-) -> Result<(Drawing, Option<Margin>), Reason> {
+) -> Result<(Drawing, Option<Margin>)> {
     let expansion = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
     let Some(belt) = machine else { return Ok((expansion?.drawn(parameters, points)?, None)) };
     let found = Portrait::of_belt(belt);

@@ -9,7 +9,7 @@ use crate::fit::{
     D, D2, D3, Estimate, FitResult, Inertia, MarginQuestion, Margins, NoEstimate, Question, R,
     Record, Runs, estimate, held, length_in_metres, margins,
 };
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Reason, Result};
 
 /// Draws for the distribution of the margin: fewer than on the command line, so that it appears quickly.
 const DRAWN: usize = 200;
@@ -103,11 +103,7 @@ impl OpenedRecord {
 
 impl Fit {
     /// Fits a record, and reports the number of motions computed so far. Fails with [`Reason::Interrupted`].
-    pub fn of(
-        recording: &Recording,
-        limits: &Limits,
-        report: &dyn Fn(u64),
-    ) -> Result<Self, Reason> {
+    pub fn of(recording: &Recording, limits: &Limits, report: &dyn Fn(u64)) -> Result<Self> {
         let inertia = recording.metric();
         let asked = MarginQuestion { draws: DRAWN, inertia, ..MarginQuestion::default() };
         let (name, record) = (recording.name.clone(), recording.record.clone());
@@ -118,7 +114,7 @@ impl Fit {
     }
 
     /// The answer, unless it was interrupted.
-    fn answered(found: Result<FitResult, NoEstimate>) -> Result<Self, Reason> {
+    fn answered(found: Result<FitResult, NoEstimate>) -> Result<Self> {
         match found {
             Err(NoEstimate::Interrupted) => Err(Reason::Interrupted),
             found => Ok(Fit(Arc::new(found))),
@@ -132,7 +128,7 @@ impl Fit {
         values: [Option<f64>; 4],
         asked: Option<MarginQuestion>,
         limits: &Limits,
-    ) -> Result<Self, Reason> {
+    ) -> Result<Self> {
         let Ok(fit) = self.found() else { return Ok(self.clone()) };
         let named = [D, D2, D3, R].into_iter().zip(values);
         let numbers: Vec<_> = named.filter_map(|(place, value)| Some((place, value?))).collect();

@@ -1,7 +1,7 @@
 //! Starts that are certainly safe or certainly lost, for all parameters within their intervals and all bounded
 //! disturbances, as the phase plane draws them and the pane states them.
 
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Result};
 use crate::model::{Body, Source, State, Tolerances};
 use crate::portrait::guarantee::certain;
 use crate::portrait::{Margin, Portrait, picture_reach};
@@ -31,13 +31,13 @@ pub struct CertainZones {
 }
 
 /// The zones, with `points` on each step of a border; of a machine in the units of its oscillator. Fails with the
-/// [`Reason`] why a border could not be computed.
+/// `Reason` why a border could not be computed.
 pub(super) fn zones(
     source: &Source,
     known: &Tolerances,
     points: u16,
     limits: &Limits,
-) -> Result<CertainZones, Reason> {
+) -> Result<CertainZones> {
     let (reach, nominal) = match &source.body {
         Body::Paper(parameters) => {
             let known = known.around(parameters);

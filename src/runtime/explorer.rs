@@ -19,7 +19,7 @@ use super::workers::{Tell, Work};
 use super::{print, provenance_file, scanning};
 use crate::figure::{self, FigureForm};
 use crate::fit::NoEstimate;
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Result};
 use crate::question::{self, Fit, Recording};
 use crate::scene::{Finding, Request};
 use crate::session::replay::Script;
@@ -85,7 +85,7 @@ impl Application for Explorer {
 }
 
 /// Answers a request: a scan on all cores, everything else on this thread.
-pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Finding, Reason> {
+pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Finding> {
     match request {
         Request::Fit { recording } => fitted(recording, limits, tell).map(Finding::Fit),
         Request::Scan { scan, from } => {
@@ -96,7 +96,7 @@ pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Finding
 }
 
 /// Fits a record, and reports its progress from time to time.
-fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit, Reason> {
+fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit> {
     const EVERY: Duration = Duration::from_millis(200);
     let told = Cell::new(Instant::now());
     Fit::of(recording, limits, &|motions| {

@@ -1,7 +1,7 @@
 //! Sessions computed for print, with as many points on their curves as paper can show.
 
 use crate::figure::{FAINT, Figure};
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Reason, Result};
 use crate::question::{Fineness, answer_for};
 use crate::scene::{Request, Topic};
 use crate::session::{Msg, Session, update};
@@ -79,12 +79,7 @@ fn is_drawn(topic: Topic) -> bool {
     !matches!(topic, Scan | Trade | Reference | Claims | Fit | Proof)
 }
 
-fn ask(
-    session: &mut Session,
-    request: Request,
-    fineness: Fineness,
-    limits: &Limits,
-) -> Result<(), Reason> {
+fn ask(session: &mut Session, request: Request, fineness: Fineness, limits: &Limits) -> Result<()> {
     let found = answer_for(&request, fineness, limits)?;
     update(session, Msg::answered(request, Ok(found), 0.0));
     Ok(())

@@ -12,7 +12,7 @@ use rayon::ThreadPoolBuilder;
 
 use super::panics::caught;
 use super::workers::Tell;
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Reason, Result};
 use crate::question::Rows;
 use crate::scan::grid::{Scan, ScanRow};
 use crate::scene::Finding;
@@ -90,7 +90,7 @@ pub fn rows(
 
 /// Answers a request for the rows from the point `from` on: in pieces as they are ready, the rest at the end.
 /// Fails with [`Reason::Interrupted`]; the pieces told before remain valid.
-pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<Rows, Reason> {
+pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<Rows> {
     /// Interval at which gathered rows are told: some frames.
     const EVERY: Duration = Duration::from_millis(60);
     /// That the threads that react to keys have priority; the maximum is 19.

@@ -18,7 +18,7 @@ use std::time::Instant;
 use super::effects::Files;
 use super::new_file::Readers;
 use super::panics::caught;
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Reason, Result};
 use crate::question::NoAnswer;
 use crate::scene::{Finding, Reply, Request};
 use crate::session::Msg;
@@ -27,7 +27,7 @@ use crate::session::Msg;
 pub type Tell<'a> = dyn Fn(Finding) + 'a;
 
 /// Computes the answer to a request.
-pub type Compute = dyn Fn(&Request, &Limits, &Tell) -> Result<Finding, Reason> + Send + Sync;
+pub type Compute = dyn Fn(&Request, &Limits, &Tell) -> Result<Finding> + Send + Sync;
 
 /// Takes the messages for the session.
 pub type Report = dyn Fn(Msg) + Send + Sync;

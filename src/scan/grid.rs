@@ -7,7 +7,7 @@
 pub use super::measure::ScanRow;
 use super::measure::{Conditions, Measure, OF_THE_PAPER, Value, measure};
 use super::sweep::Sweep;
-use crate::flow::{Cost, Limits, Problem, Reason, Subject};
+use crate::flow::{Cost, Limits, Problem, Result, Subject};
 use crate::model::belt::FrictionLaw;
 use crate::model::{Interval, Knob, State};
 use crate::portrait::{RandomKick, StartWindow};
@@ -107,8 +107,8 @@ impl Scan {
         self.subject(index).paper()
     }
 
-    /// Measures point number `index`. Fails with [`Reason::Interrupted`], and no other.
-    pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow, Reason> {
+    /// Measures point number `index`. Fails with [`Reason::Interrupted`](crate::model::Reason::Interrupted), and no other.
+    pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow> {
         measure(&self.subject(index), &self.measures, &self.conditions, limits)
     }
 

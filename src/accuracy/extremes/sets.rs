@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::all_parameters;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Result};
 use crate::model::Parameters;
 use crate::portrait::{Cycle, Equation, Route, STEP, SwingPair, all_closings};
 
@@ -32,7 +32,7 @@ pub struct LatticeCycle {
 pub struct SetVerdict {
     pub parameters: Parameters,
     /// All cycles, by amplitude, or why the search gave up.
-    pub answer: Result<Vec<LatticeCycle>, Reason>,
+    pub answer: Result<Vec<LatticeCycle>>,
     pub cost: Cost,
 }
 

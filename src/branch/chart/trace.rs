@@ -3,7 +3,7 @@
 
 use crate::branch::{FoldPlace, Regime, escape_point, escape_product, fold_near, fold_within};
 use crate::closed_form::harmonic;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{PlaceTolerance, exp, hypot, illinois, ln, powi, real};
 use crate::portrait::cycles;
@@ -97,12 +97,7 @@ pub(crate) struct Tracer<'a> {
 
 impl Tracer<'_> {
     /// Adds the lines that are needed between two, so that chords lie close to the boundaries.
-    pub fn between(
-        &mut self,
-        before: &ChartLine,
-        after: &ChartLine,
-        halvings: u32,
-    ) -> Result<(), Reason> {
+    pub fn between(&mut self, before: &ChartLine, after: &ChartLine, halvings: u32) -> Result<()> {
         let chord = self.resolution.chord;
         let through_zero = before.at < 0.0 && after.at > 0.0;
         let failed = before.failure.is_some() || after.failure.is_some();
@@ -131,7 +126,7 @@ impl Tracer<'_> {
     }
 
     /// The line at this value of the other parameter.
-    pub fn line(&mut self, at: f64) -> Result<ChartLine, Reason> {
+    pub fn line(&mut self, at: f64) -> Result<ChartLine> {
         let here = self.parameters.with(self.plane.across(), at);
         let harmonic = self.harmonic(&here);
         let boundary = if self.plane.along() == Knob::D {
@@ -156,7 +151,7 @@ impl Tracer<'_> {
     }
 
     /// The fold next to a guess, while `symbol` varies.
-    fn fold_near(&mut self, guess: &FoldPlace, symbol: Knob) -> Result<Option<Parameters>, Reason> {
+    fn fold_near(&mut self, guess: &FoldPlace, symbol: Knob) -> Result<Option<Parameters>> {
         let found = fold_near(guess, symbol, self.resolution.tolerance, self.limits)?;
         let found = self.cost.spend(found);
         let found = found.map(|found| found.place);
@@ -164,7 +159,7 @@ impl Tracer<'_> {
         Ok(found.map(|found| found.parameters))
     }
 
-    fn fold(&mut self, parameters: &Parameters) -> Result<f64, Reason> {
+    fn fold(&mut self, parameters: &Parameters) -> Result<f64> {
         let beside = self.known.and_then(|known| FoldPlace::beside(&known, parameters));
         if let Some(guess) = beside
             && let Some(found) = self.fold_near(&guess, Knob::D)?
@@ -179,7 +174,7 @@ impl Tracer<'_> {
     }
 
     /// `D_F` or `D_c` on a line along D; minus infinity where it lies below everything that is asked for.
-    fn boundary_in_d(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
+    fn boundary_in_d(&mut self, here: &Parameters) -> Result<Option<f64>> {
         /// Beyond critical damping folds take long; whether the range has any can be asked at its end.
         const CRITICAL: f64 = -1.0 + 1e-6;
         const DOUBTFUL: f64 = -0.75;
@@ -205,7 +200,7 @@ impl Tracer<'_> {
     }
 
     /// Where on a line along D3 or r the fold or the escape point comes to the given D.
-    fn boundary_at_d(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
+    fn boundary_at_d(&mut self, here: &Parameters) -> Result<Option<f64>> {
         let Parameters { d, d2, d3, r } = *here;
         if d >= 0.0 {
             return Ok(None);
@@ -233,7 +228,7 @@ impl Tracer<'_> {
     }
 
     /// The value along the line at which the fold is at the line's D; infinite where none is.
-    fn seek(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
+    fn seek(&mut self, here: &Parameters) -> Result<Option<f64>> {
         /// First stride in the logarithm: the guess is better than this on all lines but the first.
         const STRIDE: f64 = 0.1;
         let d = here.d;
@@ -250,7 +245,7 @@ impl Tracer<'_> {
         {
             return Ok(Some(found.value(self.plane.along())));
         }
-        let excess = |tracer: &mut Self, z: f64| -> Result<f64, Reason> {
+        let excess = |tracer: &mut Self, z: f64| -> Result<f64> {
             let found = tracer.fold(&here.with(tracer.plane.along(), exp(z)))?;
             Ok(ln(found / d))
         };
@@ -323,8 +318,8 @@ fn root(
     start: f64,
     stride: f64,
     small: f64,
-    mut function: impl FnMut(f64) -> Result<f64, Reason>,
-) -> Result<f64, Reason> {
+    mut function: impl FnMut(f64) -> Result<f64>,
+) -> Result<f64> {
     const MOST: usize = 60;
     let mut low = (start, function(start)?);
     let mut high = low;

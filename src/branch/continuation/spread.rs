@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::{CurvePoint, Tangent, is_beside};
 use crate::branch::CycleCurve;
-use crate::flow::Reason;
+use crate::flow::Result;
 use crate::numerics::real;
 use crate::portrait::Route;
 
@@ -35,11 +35,7 @@ impl CycleCurve<'_> {
     /// Distance is measured in p, u and amplitude together, each relative to what the curve spans: this
     /// is how far apart points look on a diagram. Between followed points the curve is interpolated by
     /// polynomials through six of them.
-    pub fn spread(
-        &mut self,
-        points: &[CurvePoint],
-        count: usize,
-    ) -> Result<Vec<CurvePlace>, Reason> {
+    pub fn spread(&mut self, points: &[CurvePoint], count: usize) -> Result<Vec<CurvePlace>> {
         let (Some(first), Some(last)) = (points.first(), points.last()) else {
             return Ok(Vec::new());
         };
@@ -79,7 +75,7 @@ impl CycleCurve<'_> {
         &mut self,
         pair: [&CurvePoint; 2],
         near: (f64, f64),
-    ) -> Result<Option<CurvePlace>, Reason> {
+    ) -> Result<Option<CurvePlace>> {
         let [one, other] = pair;
         let tangent = Tangent::between(one, other, self.scale);
         let growth = [0, 1].map(|i| 0.5 * (one.closing.growth[i] + other.closing.growth[i]));

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU};
 
 use super::{Fourier, SignChange, sign_changes};
-use crate::model::{Parameters, Reason};
+use crate::model::{Parameters, Reason, Result};
 use crate::numerics::{real, sin_cos};
 
 /// An approximate cycle: its frequency and its displacement over one turn of the angle.
@@ -236,7 +236,7 @@ pub fn solve(
     count: usize,
     start: &Ansatz,
     interrupted: &dyn Fn() -> bool,
-) -> Result<(BalanceResidual, bool), Reason> {
+) -> Result<(BalanceResidual, bool)> {
     /// Newton steps before giving up; sharp kinks need 20.
     const ITERATIONS: usize = 60;
     /// Smallest fraction of a step that is tried.
@@ -278,7 +278,7 @@ pub fn solve(
 fn newton_step(
     jacobian: &LU<f64, Dyn, Dyn>,
     residual: &BalanceResidual,
-) -> Result<Option<DVector<f64>>, Reason> {
+) -> Result<Option<DVector<f64>>> {
     let values = -residual.values();
     if !values.amax().is_finite() {
         return Err(Reason::OutOfRange);

@@ -26,7 +26,7 @@ use nalgebra::Complex;
 use serde::Serialize;
 
 use super::Harmonic;
-use crate::model::{Parameters, Reason, State};
+use crate::model::{Parameters, Reason, Result, State};
 use crate::numerics::{exponent, real, times_power};
 
 /// Maximum number of harmonics: the linear algebra costs as their cube.
@@ -76,7 +76,7 @@ pub fn harmonic_cycle(
     first: &Harmonic,
     count: usize,
     interrupted: &dyn Fn() -> bool,
-) -> Result<HarmonicCycle, Reason> {
+) -> Result<HarmonicCycle> {
     // Where N is too small for the cycle, rounding decides between branches: only one of the mirror images is computed.
     let mirrored = parameters.d2 < 0.0;
     let (parameters, first) = if mirrored {
@@ -112,7 +112,7 @@ impl<'a> Continuation<'a> {
         Continuation { parameters, first: first_order, stable: first.stable, unit, interrupted }
     }
 
-    fn cycle(&self, count: usize) -> Result<HarmonicCycle, Reason> {
+    fn cycle(&self, count: usize) -> Result<HarmonicCycle> {
         if count == 1 {
             let residual = BalanceResidual::new(&self.parameters, count, &self.first);
             return self.describe(count, &residual);
@@ -133,7 +133,7 @@ impl<'a> Continuation<'a> {
     }
 
     /// Follows the branch from no damping and friction to all of it, with secants as predictors.
-    fn strengthened(&self, count: usize) -> Result<BalanceResidual, Reason> {
+    fn strengthened(&self, count: usize) -> Result<BalanceResidual> {
         /// Smallest step.
         const SMALLEST: f64 = 1.0 / 256.0;
         let Parameters { d, d2, d3, r } = self.parameters;
@@ -169,7 +169,7 @@ impl<'a> Continuation<'a> {
         parameters: &Parameters,
         count: usize,
         start: &Ansatz,
-    ) -> Result<BalanceResidual, Reason> {
+    ) -> Result<BalanceResidual> {
         /// Part of the first-order amplitude below which a solution is the steady state.
         const VANISHED: f64 = 1e-6;
         let (solution, unstable) = solve(parameters, count, start, self.interrupted)?;
@@ -181,7 +181,7 @@ impl<'a> Continuation<'a> {
     }
 
     /// Reads everything out, in the units of the question.
-    fn describe(&self, count: usize, residual: &BalanceResidual) -> Result<HarmonicCycle, Reason> {
+    fn describe(&self, count: usize, residual: &BalanceResidual) -> Result<HarmonicCycle> {
         let sized = |value| times_power(value, self.unit);
         let Ansatz { frequency, q } = &residual.ansatz;
         let (frequency, (q_min, q_max)) = (*frequency, extremes(q));

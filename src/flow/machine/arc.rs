@@ -4,7 +4,7 @@ use super::levels::{PhaseStep, crossing};
 use super::stepped::{self, PhaseField, PhaseStepper, pair_step};
 use super::{MachineStep, ORDER, PhaseSeries};
 use crate::flow::{Cost, StepPoint};
-use crate::model::{ContactState, FINEST, ForceBranch, Model, Phase, Reason};
+use crate::model::{ContactState, FINEST, ForceBranch, Model, Phase, Reason, Result};
 use crate::numerics::{derivative, ln, value, value_and_slope};
 
 /// The end of an arc.
@@ -89,7 +89,7 @@ impl<'a> Flow<'a> {
         (x, y): (f64, f64),
         backward: bool,
         watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<ArcEnd, Reason> {
+    ) -> Result<ArcEnd> {
         let model = self.model;
         let (least, most) = model.range(phase);
         let offset = model.offset(phase);
@@ -144,7 +144,7 @@ impl<'a> Flow<'a> {
         StepPoint { x, v: y }: StepPoint,
         forward: f64,
         (rising, known): (Option<bool>, Option<f64>),
-    ) -> Result<PhaseStep, Reason> {
+    ) -> Result<PhaseStep> {
         let model = self.model;
         let (side, (least, most)) = (model.side(phase), model.range(phase));
         let rising = rising.unwrap_or_else(|| {
@@ -188,12 +188,7 @@ impl<'a> Flow<'a> {
     }
 
     /// Fails where a motion of some size at its start has settled, or turns no more, or has escaped.
-    fn stays(
-        &self,
-        (phase, forward): (Phase, f64),
-        started: f64,
-        end: StepPoint,
-    ) -> Result<(), Reason> {
+    fn stays(&self, (phase, forward): (Phase, f64), started: f64, end: StepPoint) -> Result<()> {
         let size = end.size();
         let near = if self.follows { NEAR * started } else { f64::INFINITY };
         let settles = size <= near && creeps(phase, self.model.side(phase), end, forward);

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::curve::ledger;
 use super::{Flow, MachineStep, ORDER, PhaseSeries, stepped};
 use crate::flow::{Crossing, Detail, Leg, Limits, Method, Motion, Outcome, Problem, Sample};
-use crate::model::{ContactState, Model, Phase, Reason, State};
+use crate::model::{ContactState, Model, Phase, Reason, Result, State};
 
 /// The units in which a motion of a machine is told. The model itself computes in m and `1/omega_0`.
 #[derive(Clone, Copy, Debug)]
@@ -165,7 +165,7 @@ impl Flow<'_> {
     ///
     /// # Errors
     /// [`Reason`] where it does not.
-    pub fn rest_of(&mut self, mut x: f64, mut y: f64, limits: &Limits) -> Result<f64, Reason> {
+    pub fn rest_of(&mut self, mut x: f64, mut y: f64, limits: &Limits) -> Result<f64> {
         /// Turns that a motion may take.
         const TURNS: usize = 200_000;
         if self.model.guide_static == 0.0 {

@@ -4,7 +4,7 @@
 use super::MachineStep;
 use super::levels::{PhaseStep, crossing};
 use crate::flow::{DOP853, DOPRI5, ExplicitStepper, Method, StepPoint, Stepper};
-use crate::model::{ContactState, Field, Model, Phase, Reason};
+use crate::model::{ContactState, Field, Model, Phase, Reason, Result};
 
 /// The methods that can follow a machine.
 pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";
@@ -56,7 +56,7 @@ pub(super) fn pair_step(
     field: PhaseField,
     from: StepPoint,
     (left, just): (f64, bool),
-) -> Result<PhaseStep, Reason> {
+) -> Result<PhaseStep> {
     let PhaseField { model, phase } = field;
     let (least, most) = model.range(phase);
     let pieces = &model.side(phase).pieces;

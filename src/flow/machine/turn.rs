@@ -4,7 +4,7 @@
 //! likewise by the guide. An orbit that touches the belt's line tangentially sticks.
 
 use super::{ArcEnd, Flow, MachineStep, PhaseSeries};
-use crate::model::{ContactState, Phase, Reason};
+use crate::model::{ContactState, Phase, Reason, Result};
 
 /// A turning point, and the motion that led there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,7 +30,7 @@ impl Flow<'_> {
         mut place: ContactState,
         (x, mut y): (f64, f64),
         watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<Turn, Reason> {
+    ) -> Result<Turn> {
         /// Maximum number of legs: three contacts with the belt's line and one more by rounding, and a ride.
         const LEGS: usize = 8;
         let mut turn = Turn { x, rests: true, ..Turn::default() };
@@ -59,7 +59,7 @@ impl Flow<'_> {
         place: ContactState,
         (x, y): (f64, f64),
         watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<Option<(ContactState, ArcEnd)>, Reason> {
+    ) -> Result<Option<(ContactState, ArcEnd)>> {
         let model = self.model;
         let phase = match place {
             ContactState::Rests => return Ok(None),

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::Belt;
 use super::friction::Derivatives;
 use crate::model::knob::Knob;
-use crate::model::{Parameters, Reason};
+use crate::model::{Parameters, Reason, Result};
 use crate::numerics::maximum;
 
 /// The units of the dimensionless oscillator: what 1 of each stands for.
@@ -64,7 +64,7 @@ impl Belt {
     /// # Errors
     /// [`Reason`] where the law does not reach, where it has no derivatives, where friction does not
     /// pull, or where a parameter is beyond the range of numbers.
-    pub fn reduce(&self) -> Result<ReducedBelt, Reason> {
+    pub fn reduce(&self) -> Result<ReducedBelt> {
         self.reduce_at(self.belt_speed)
     }
 
@@ -72,7 +72,7 @@ impl Belt {
     ///
     /// # Errors
     /// Those of [`Self::reduce`].
-    pub fn reduce_at(&self, v0: f64) -> Result<ReducedBelt, Reason> {
+    pub fn reduce_at(&self, v0: f64) -> Result<ReducedBelt> {
         let Belt { mass, stiffness, normal_force, .. } = *self;
         let mu = self.law.at(v0);
         let mu = mu.ok_or(Reason::OutsideLaw { v0, range: self.law.range() })?;

@@ -7,7 +7,7 @@
 
 use std::sync::Arc as Shared;
 
-use crate::flow::{Cost, ExactStepper, KeptStep, Limits, Powers, Reason, Stepper};
+use crate::flow::{Cost, ExactStepper, KeptStep, Limits, Powers, Result, Stepper};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::{Bracket, PlaceTolerance, newton, times_power};
 use crate::portrait::{Direction, HalfMap, HalfSwing, Length};
@@ -54,14 +54,14 @@ pub struct Arc {
 
 impl Arc {
     /// The swing on `side` that starts with this `clearance` (forward), or after which the next one starts
-    /// starts with it (backward). Fails with the [`Reason`] why it could not be computed; escape is not an error.
+    /// starts with it (backward). Fails with the `Reason` why it could not be computed; escape is not an error.
     pub fn new(
         parameters: &Parameters,
         side: Side,
         direction: Direction,
         clearance: Length,
         limits: &Limits,
-    ) -> Result<Self, Reason> {
+    ) -> Result<Self> {
         let forward = HalfPlane::new(parameters, side);
         let (field, length) = match direction {
             Direction::Forward => (forward, clearance),

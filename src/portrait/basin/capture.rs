@@ -6,7 +6,7 @@
 //! half plane they are graphs over the displacement, like the borders of the basin ([`crate::portrait::basin`]).
 
 use super::Arc;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Result};
 use crate::model::{Parameters, Side, State};
 use crate::portrait::{Direction, Length};
 
@@ -24,14 +24,9 @@ const RESOLVED: f64 = 1e-9;
 
 /// Finds the borders of at most `most` bands whose turning points lie within `reach`.
 ///
-/// They stop earlier where they accumulate at the edge of the basin. Fails with the [`Reason`] why a border could
+/// They stop earlier where they accumulate at the edge of the basin. Fails with the `Reason` why a border could
 /// not be computed.
-pub fn bands(
-    parameters: &Parameters,
-    reach: f64,
-    most: usize,
-    limits: &Limits,
-) -> Result<Bands, Reason> {
+pub fn bands(parameters: &Parameters, reach: f64, most: usize, limits: &Limits) -> Result<Bands> {
     let mut bands = Bands::default();
     // Clearance from which a swing on the upper, on the lower side comes to rest exactly this many arrivals
     // later; None once there is none within reach.

@@ -16,7 +16,7 @@
 //! ```
 
 use super::orbit::works as works_over;
-use crate::flow::{Cost, Flow, Limits, Reason};
+use crate::flow::{Cost, Flow, Limits, Result};
 use crate::model::{Ledger, Model, Parameters, Side, State};
 use crate::numerics::exp;
 use crate::portrait::{
@@ -35,8 +35,8 @@ pub(crate) fn picture_reach(d2: f64) -> f64 {
 /// computed to rounding; `error` of each cycle says what that is worth near a fold.
 ///
 /// # Errors
-/// The [`Reason`] why the search could not be completed.
-pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<Cycles, Reason> {
+/// The `Reason` why the search could not be completed.
+pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<Cycles> {
     let mut equation = Equation::new(parameters, STEP, limits);
     let closings = all_closings(&mut equation)?;
     let cycles = described(parameters, &closings);
@@ -56,8 +56,8 @@ impl Portrait {
     /// parameters; with this many points on each integration step of a curve.
     ///
     /// # Errors
-    /// [`Reason`] why a cycle on a belt could not be followed once more.
-    pub fn drawn(self, parameters: &Parameters, points: u16) -> Result<Drawing, Reason> {
+    /// `Reason` why a cycle on a belt could not be followed once more.
+    pub fn drawn(self, parameters: &Parameters, points: u16) -> Result<Drawing> {
         let model = &self.model;
         let unit = model.drawing_length();
         let energy = model.stiffness * unit * unit;

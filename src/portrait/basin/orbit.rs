@@ -13,7 +13,7 @@
 //! and finite, a separatrix where not.
 
 use super::Arc;
-use crate::flow::{Limits, Motion, Powers, Reason, powers};
+use crate::flow::{Limits, Motion, Powers, Reason, Result, powers};
 use crate::model::{Ledger, Parameters, Side, State, energy};
 use crate::numerics::GAUSS;
 use crate::portrait::{Direction, HalfSwing, Length, SwingPair, first_side};
@@ -47,7 +47,7 @@ impl Orbit {
         closing: &SwingPair,
         repels: bool,
         limits: &Limits,
-    ) -> Result<Self, Reason> {
+    ) -> Result<Self> {
         let SwingPair { first, second, .. } = *closing;
         let arc = |of, side, start, next| attracting(of, side, (start, next), repels, limits);
         let arcs = [arc(own, side, first, second)?, arc(other, side.opposite(), second, first)?];
@@ -59,11 +59,7 @@ impl Orbit {
     ///
     /// With `D <= -1` the end points of the sticking set are nodes that repel, and on one side at least the border
     /// comes out of one.
-    pub fn separatrix(
-        parameters: &Parameters,
-        reach: f64,
-        limits: &Limits,
-    ) -> Result<Self, Reason> {
+    pub fn separatrix(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Self> {
         let reach = reach + 2.0 * parameters.r;
         if parameters.d <= -1.0 {
             return Self::around_nodes(parameters, forgotten(parameters, reach), limits);
@@ -81,7 +77,7 @@ impl Orbit {
         side: Side,
         reach: f64,
         limits: &Limits,
-    ) -> Result<Self, Reason> {
+    ) -> Result<Self> {
         let arc = |of, side, next| Arc::new(of, side, Direction::Backward, next, limits);
         let out = arc(other, side.opposite(), forgotten(other, reach))?;
         let before = arc(braking, side, out.clearance().or(Length::ZERO))?;
@@ -90,7 +86,7 @@ impl Orbit {
 
     /// The border where the end points of the sticking set repel: from the clearances 0 outwards, until
     /// nothing changes. A captured clearance that is infinite stands for one `far` out.
-    fn around_nodes(parameters: &Parameters, far: Length, limits: &Limits) -> Result<Self, Reason> {
+    fn around_nodes(parameters: &Parameters, far: Length, limits: &Limits) -> Result<Self> {
         /// Turns before giving up. As long as no cycle is near, two do.
         const TURNS: usize = 100;
         /// Relative change of a clearance that counts as none.
@@ -98,7 +94,7 @@ impl Orbit {
         let mut captured = [Length::ZERO; 2];
         let mut change = f64::INFINITY;
         for _ in 0..TURNS {
-            let mut turn = |index: usize, side| -> Result<(Arc, f64), Reason> {
+            let mut turn = |index: usize, side| -> Result<(Arc, f64)> {
                 let next = captured[1 - index].or(far);
                 let arc = Arc::new(parameters, side, Direction::Backward, next, limits)?;
                 let change = arc.clearance().apart(captured[index]);
@@ -159,7 +155,7 @@ fn attracting(
     (start, next): (Length, Length),
     backward: bool,
     limits: &Limits,
-) -> Result<Arc, Reason> {
+) -> Result<Arc> {
     /// Difference between the logarithms of two lengths that are the same: what is left of the digits where
     /// the time next to a nearly critical node takes its share.
     const MEETS: f64 = 1e-8;

@@ -9,7 +9,7 @@ use super::{
     is_exact, is_one_way, weak_closing, weighed_closing,
 };
 use crate::closed_form::LinearCycle;
-use crate::flow::Reason;
+use crate::flow::{Reason, Result};
 use crate::model::Parameters;
 use crate::numerics::{Twofold, ln};
 use crate::portrait::polish;
@@ -18,12 +18,12 @@ use crate::portrait::polish;
 pub const STEP: f64 = 1e-16;
 
 /// All closings, by amplitude, from the closed form where there is one.
-pub fn all_closings(equation: &mut Equation) -> Result<Vec<SwingPair>, Reason> {
+pub fn all_closings(equation: &mut Equation) -> Result<Vec<SwingPair>> {
     first_closings(equation, usize::MAX)
 }
 
 /// As many of them as are wanted: finding the innermost one alone is half the work.
-pub fn first_closings(equation: &mut Equation, most: usize) -> Result<Vec<SwingPair>, Reason> {
+pub fn first_closings(equation: &mut Equation, most: usize) -> Result<Vec<SwingPair>> {
     match closed_form(&equation.parameters) {
         Some(known) => Ok(known),
         None => closings(equation, most, &[]),
@@ -52,7 +52,7 @@ pub fn closings(
     equation: &mut Equation,
     most: usize,
     known: &[(f64, f64)],
-) -> Result<Vec<SwingPair>, Reason> {
+) -> Result<Vec<SwingPair>> {
     /// A search takes some tens of thousands of evaluations; where it takes this many on one half map,
     /// the flow is too stiff for it.
     const BUDGET: u64 = 40_000_000;
@@ -111,7 +111,7 @@ fn loses_square(closing: &SwingPair, parameters: &Parameters) -> bool {
 ///
 /// Where rounding reaches it, the works are weighed; where they are not decisive either, the swings are
 /// computed in twice the working precision.
-fn resolved(equation: &mut Equation, u: f64) -> Result<Node, Reason> {
+fn resolved(equation: &mut Equation, u: f64) -> Result<Node> {
     /// How far beyond its error bound a residual is smooth enough to be interpolated.
     const SMOOTH: f64 = 32.0;
     let closing = equation.at(Route::Mixed, u)?;
@@ -139,7 +139,7 @@ fn resolved(equation: &mut Equation, u: f64) -> Result<Node, Reason> {
 }
 
 /// Where the search begins, or `None` where no swing passes the sticking set.
-fn lower_end(equation: &mut Equation) -> Result<Option<f64>, Reason> {
+fn lower_end(equation: &mut Equation) -> Result<Option<f64>> {
     /// Without friction the linear terms alone decide about amplitudes this much below balance.
     const SMALL: f64 = 1e-4;
     /// A step down in the logarithm that no rounding bridges.
@@ -184,7 +184,7 @@ fn brackets(
     low: f64,
     most: usize,
     known: &[(f64, f64)],
-) -> Result<Vec<Bracket>, Reason> {
+) -> Result<Vec<Bracket>> {
     /// Tolerance of the steps of the search where the polish needs no coarser ones, and the blur of a
     /// residual that comes of it, in units of the tolerance; weak damping makes residuals that small and
     /// needs the steps of the polish from the beginning.
@@ -235,7 +235,7 @@ fn brackets(
 
 /// The bracket of the innermost closing, without any use of closed forms or of the parameters' D2: it serves an
 /// equation whose damping differs by side.
-pub(crate) fn innermost_bracket(equation: &mut Equation) -> Result<Option<Bracket>, Reason> {
+pub(crate) fn innermost_bracket(equation: &mut Equation) -> Result<Option<Bracket>> {
     let Some(low) = lower_end(equation)? else { return Ok(None) };
     Ok(brackets(equation, low, 1, &[])?.into_iter().next())
 }

@@ -10,7 +10,7 @@
 //! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
 
 use super::{Direction, Equation, HalfMap, HalfSwing, Length, SwingPair, UNIT};
-use crate::flow::{Limits, Reason, Stepper};
+use crate::flow::{Limits, Result, Stepper};
 use crate::model::{HalfPlane, PlaneField};
 use crate::numerics::{GAUSS, exp, exponent, gauss, ln_1p, times_power};
 
@@ -22,10 +22,7 @@ pub type Weighed = (f64, f64);
 ///
 /// Beside it a bound on its error: each work is known to rounding. `None` where a swing does not end, or where D2
 /// differs by side: it then does not give in one swing what it takes in the other.
-pub fn weighed_closing(
-    equation: &mut Equation,
-    u: f64,
-) -> Result<Option<(SwingPair, Weighed)>, Reason> {
+pub fn weighed_closing(equation: &mut Equation, u: f64) -> Result<Option<(SwingPair, Weighed)>> {
     if !equation.is_of_one_motion() {
         return Ok(None);
     }
@@ -64,7 +61,7 @@ fn weigh(
     start: Length,
     measure: i32,
     limits: &Limits,
-) -> Result<(HalfSwing, f64), Reason> {
+) -> Result<(HalfSwing, f64)> {
     let HalfPlane { d, d2, d3 } = map.field.in_units(measure);
     let mut gained = 0.0;
     // Every part of the swing counts: none may be skipped by a closed form.

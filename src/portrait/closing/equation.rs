@@ -13,7 +13,7 @@
 //! second swing run backward can escape.
 
 use super::{Direction, Errors, HalfMap, HalfSwing, Length, Node, SwingPair, rounding, share};
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{HalfPlane, Parameters, Side};
 use crate::numerics::{exp, ln, log10, pow};
 
@@ -177,7 +177,7 @@ impl<'a> Equation<'a> {
         index: usize,
         direction: Direction,
         start: Length,
-    ) -> Result<HalfSwing, Reason> {
+    ) -> Result<HalfSwing> {
         if start.log.is_infinite() {
             return Ok(HalfSwing::between(start, start));
         }
@@ -189,19 +189,19 @@ impl<'a> Equation<'a> {
     ///
     /// No cycle starts with less. It is infinite where no swing of any clearance passes it: every motion is
     /// captured.
-    pub fn smallest_clearance(&mut self) -> Result<Length, Reason> {
+    pub fn smallest_clearance(&mut self) -> Result<Length> {
         let end = Length::new(2.0 * self.parameters.r);
         Ok(self.swing(0, Direction::Backward, end)?.end)
     }
 
     /// The two swings for `u = ln c0`.
-    pub fn at(&mut self, route: Route, u: f64) -> Result<SwingPair, Reason> {
+    pub fn at(&mut self, route: Route, u: f64) -> Result<SwingPair> {
         self.from(route, Length::from_log(u))
     }
 
     /// The two swings for `c0`. Where one of them has no end, one of both functions of the node is infinite, and the
     /// other still bounds what lies further in or out.
-    pub fn from(&mut self, route: Route, start: Length) -> Result<SwingPair, Reason> {
+    pub fn from(&mut self, route: Route, start: Length) -> Result<SwingPair> {
         use Direction::{Backward, Forward};
         let (here, gap) = (Place::start(start), 2.0 * self.parameters.r);
         match route {
@@ -274,7 +274,7 @@ impl<'a> Equation<'a> {
 
     /// The first swing from `start`, or a bound on where it ends: the largest number where that is not known at
     /// little cost.
-    fn reach(&mut self, start: Length) -> Result<HalfSwing, Reason> {
+    fn reach(&mut self, start: Length) -> Result<HalfSwing> {
         /// Evaluations that this is worth.
         const LITTLE: u64 = 1_000;
         let map = &mut self.maps[0][0];
@@ -351,14 +351,14 @@ impl Equation<'_> {
     ///
     /// Every second swing, however close to the sticking set it starts, ends beyond the one that creeps out
     /// from its rim, and the next first swing starts there.
-    pub fn rim(&mut self) -> Result<f64, Reason> {
+    pub fn rim(&mut self) -> Result<f64> {
         let [first, second] = self.ends_from_rim()?;
         let beyond = |end: f64| ln((end - 2.0 * self.parameters.r).max(0.0));
         Ok(if first.is_finite() { beyond(second) } else { f64::INFINITY })
     }
 
     /// Where the first and the second swing end that leave the end of the sticking set.
-    fn ends_from_rim(&mut self) -> Result<[f64; 2], Reason> {
+    fn ends_from_rim(&mut self) -> Result<[f64; 2]> {
         let rim = self.rim_start();
         let first = self.swing(0, Direction::Forward, rim)?;
         let second = self.swing(1, Direction::Forward, rim)?;
@@ -367,7 +367,7 @@ impl Equation<'_> {
 
     /// The way of motions that leave the end of the sticking set, a node that repels (`D < -1`), on the side on which
     /// they come further.
-    pub fn way_from_rim(&mut self) -> Result<WayFromRim, Reason> {
+    pub fn way_from_rim(&mut self) -> Result<WayFromRim> {
         let Parameters { r, .. } = self.parameters;
         let gap = 2.0 * r;
         let ends = self.ends_from_rim()?;

@@ -15,7 +15,7 @@ use super::Errors;
 use super::roundoff::Roundoff;
 use crate::closed_form::LinearFlow;
 use crate::flow::swing::swing;
-use crate::flow::{AutoStepper, Cost, Limits, Reason, Step, StepPoint, Stepper, blow_up};
+use crate::flow::{AutoStepper, Cost, Limits, Reason, Result, Step, StepPoint, Stepper, blow_up};
 use crate::model::{HalfPlane, PlaneField};
 use crate::numerics::{atan2, exp, hypot, ln, ln_1p, sin_cos, times_power};
 
@@ -165,7 +165,7 @@ impl HalfMap {
     }
 
     /// Swings from `(-start, 0)`. Fails with the [`Reason`] why the motion could not be followed.
-    pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing, Reason> {
+    pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing> {
         self.swing_watched(start, false, limits, |_, _, _| {})
     }
 
@@ -177,7 +177,7 @@ impl HalfMap {
         tail: bool,
         limits: &Limits,
         mut watch: impl FnMut(&mut AutoStepper, i32, f64),
-    ) -> Result<HalfSwing, Reason> {
+    ) -> Result<HalfSwing> {
         self.swings += 1;
         // A swing in closed form takes no steps, but thousands of them take time.
         if (limits.interrupted)() {

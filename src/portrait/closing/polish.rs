@@ -7,7 +7,7 @@
 use super::{
     Bracket, Equation, FINER, Length, Node, Route, SwingPair, Weighed, places, weighed_closing,
 };
-use crate::flow::Reason;
+use crate::flow::{Reason, Result};
 use crate::numerics::{Twofold, exp_m1};
 
 /// Slope of the residual below which it is weighed as energy.
@@ -29,7 +29,7 @@ pub(crate) fn is_exact(equation: &Equation) -> bool {
 
 /// The closing in a bracket, to rounding where doubles allow it, else in twice the working precision. Fails with
 /// the [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
-pub fn polish(equation: &mut Equation, bracket: Bracket) -> Result<SwingPair, Reason> {
+pub fn polish(equation: &mut Equation, bracket: Bracket) -> Result<SwingPair> {
     let start = near_root(equation, &bracket)?;
     polish_from(equation, start, bracket, SHARP)
 }
@@ -44,7 +44,7 @@ fn polish_from(
     start: Guess,
     bracket: Bracket,
     sharp: f64,
-) -> Result<SwingPair, Reason> {
+) -> Result<SwingPair> {
     let rough = newton(equation, start, bracket)?;
     let worst = rough.spread().iter().fold(rough.uncertainty, |worst, it| worst.max(it.length));
     if worst <= sharp || !is_exact(equation) {
@@ -60,7 +60,7 @@ pub fn polish_near(
     u: f64,
     log_multiplier: f64,
     sharp: f64,
-) -> Result<Option<SwingPair>, Reason> {
+) -> Result<Option<SwingPair>> {
     /// How far in `ln c0` the guess may be off: where another cycle may be near, and where none is.
     const WIDTHS: (f64, f64) = (0.05, 0.5);
     let width = if log_multiplier.abs() < 1.0 { WIDTHS.0 } else { WIDTHS.1 };
@@ -75,7 +75,7 @@ pub fn polish_near(
 }
 
 /// Newton's method on the contracting route, inside the bracket.
-fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<SwingPair, Reason> {
+fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<SwingPair> {
     /// How far off coarse steps may put a cliff of the residual, such as the edge of an escape, and its slope.
     const SLACK: f64 = 1e-6;
     const STEEP: f64 = 1e3;
@@ -123,7 +123,7 @@ struct Steps<'a, 'l> {
 
 impl Steps<'_, '_> {
     /// The closing at `u`, its residual as well as it is known, and whether that is flat there.
-    fn at(&mut self, u: f64) -> Result<(SwingPair, f64, bool), Reason> {
+    fn at(&mut self, u: f64) -> Result<(SwingPair, f64, bool)> {
         let (mut closing, mut energy) = self.closing(u)?;
         let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;
         self.weigh = flat && closing.duration.is_finite();
@@ -140,7 +140,7 @@ impl Steps<'_, '_> {
     }
 
     /// The closing at `u` along the route that contracts, and what it is weighed as.
-    fn closing(&mut self, u: f64) -> Result<(SwingPair, Option<Weighed>), Reason> {
+    fn closing(&mut self, u: f64) -> Result<(SwingPair, Option<Weighed>)> {
         let found = self.along_route(u)?;
         let (route, node) = (self.route, found.0.node);
         let finite = node.value.is_finite();
@@ -157,7 +157,7 @@ impl Steps<'_, '_> {
     }
 
     /// The closing at `u` along the route at hand, weighed if it is to be.
-    fn along_route(&mut self, u: f64) -> Result<(SwingPair, Option<Weighed>), Reason> {
+    fn along_route(&mut self, u: f64) -> Result<(SwingPair, Option<Weighed>)> {
         let weighs = self.weigh && self.route == Route::Mixed;
         match if weighs { weighed_closing(self.equation, u)? } else { None } {
             Some((closing, energy)) => Ok((closing, Some(energy))),
@@ -182,7 +182,7 @@ fn beyond_the_end(nodes: &[Node]) -> Route {
 ///
 /// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
 /// use forward: backward it contracts.
-fn closest(equation: &mut Equation, u: f64) -> Result<SwingPair, Reason> {
+fn closest(equation: &mut Equation, u: f64) -> Result<SwingPair> {
     let worst =
         |it: &SwingPair| if it.node.value.is_finite() { it.uncertainty } else { f64::INFINITY };
     let mut best = equation.at(Route::Mixed, u)?;
@@ -200,7 +200,7 @@ fn sharpen(
     equation: &mut Equation,
     rough: &SwingPair,
     bracket: Bracket,
-) -> Result<Option<SwingPair>, Reason> {
+) -> Result<Option<SwingPair>> {
     /// Steps, and the relative change of the last one.
     const STEPS: usize = 20;
     const SETTLED: f64 = 1e-17;
@@ -241,7 +241,7 @@ fn sharpen(
 
 /// A place near the root in a bracket, by Newton's method with integration steps that are coarser than those of the
 /// equation and cost half as much.
-fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<Guess, Reason> {
+fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<Guess> {
     /// Tolerance of the coarse steps, how many of them, and the change of the unknown that is theirs.
     const COARSE: f64 = 1e-8;
     const STEPS: usize = 3;

@@ -8,7 +8,7 @@
 //! With D2 = D3 = 0 every half swing is the closed form (29), and nothing is integrated.
 
 use super::{Direction, Equation, Length};
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Result};
 use crate::model::{Parameters, Side};
 use crate::portrait::between;
 
@@ -39,13 +39,13 @@ pub struct ReturnMap {
 /// borders of capture: where the map has kinks.
 ///
 /// # Errors
-/// The [`Reason`] why a half swing failed; escape is not an error.
+/// The `Reason` why a half swing failed; escape is not an error.
 pub fn return_map(
     parameters: &Parameters,
     range: (f64, f64),
     count: u16,
     limits: &Limits,
-) -> Result<ReturnMap, Reason> {
+) -> Result<ReturnMap> {
     let mut cost = Cost::default();
     let mut side = |side: Side| {
         // Turning points on the right enter the lower half plane.
@@ -65,7 +65,7 @@ pub fn return_map(
 // Both half swings lead from a turning point on one side back to that side.
 impl Equation<'_> {
     /// The map at evenly spaced distances from zero, both ends included, and at its kinks.
-    fn returns_between(&mut self, near: f64, far: f64, count: u16) -> Result<Vec<Return>, Reason> {
+    fn returns_between(&mut self, near: f64, far: f64, count: u16) -> Result<Vec<Return>> {
         if near >= far {
             return Ok(Vec::new());
         }
@@ -84,7 +84,7 @@ impl Equation<'_> {
     }
 
     /// The next turning point of a motion that starts with this clearance.
-    fn next(&mut self, clearance: f64) -> Result<Option<f64>, Reason> {
+    fn next(&mut self, clearance: f64) -> Result<Option<f64>> {
         let r = self.parameters.r;
         let (mut place, mut passed) = (-self.side.sign() * r, clearance);
         for (index, side) in [self.side, self.side.opposite()].into_iter().enumerate() {
@@ -103,7 +103,7 @@ impl Equation<'_> {
 
     /// Distances from zero of the turning points that are captured on an end of the sticking set: by the
     /// first half swing, and by the second; infinite where there is none.
-    fn kinks(&mut self) -> Result<[f64; 2], Reason> {
+    fn kinks(&mut self) -> Result<[f64; 2]> {
         let r = self.parameters.r;
         let gap = Length::new(2.0 * r);
         let once = self.swing(0, Direction::Backward, gap)?.end;

@@ -1,7 +1,7 @@
 //! What is certain of the oscillator of the paper, of a machine or of a mode, whose numbers are known to tolerances.
 
 use super::{TwoSidedOscillator, machine, oscillator};
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Result};
 use crate::model::{Body, Source, Tolerances};
 use crate::portrait::{Margin, NoGuarantee, Portrait};
 
@@ -9,13 +9,13 @@ use crate::portrait::{Margin, NoGuarantee, Portrait};
 /// is not closed is followed as far as `reach`. A mode is known exactly.
 ///
 /// # Errors
-/// The [`Reason`] why the border could not be computed.
+/// The `Reason` why the border could not be computed.
 pub fn guaranteed(
     source: &Source,
     known: &Tolerances,
     reach: f64,
     limits: &Limits,
-) -> Result<Result<(Portrait, Margin), NoGuarantee>, Reason> {
+) -> Result<Result<(Portrait, Margin), NoGuarantee>> {
     match &source.body {
         Body::Paper(parameters) => {
             oscillator::guaranteed(&known.around(parameters), known.disturbance, reach, limits)
@@ -32,13 +32,13 @@ pub fn guaranteed(
 /// That whose basin all others lie within, where it is known.
 ///
 /// # Errors
-/// The [`Reason`] why the border could not be computed.
+/// The `Reason` why the border could not be computed.
 pub fn hopeful(
     source: &Source,
     known: &Tolerances,
     reach: f64,
     limits: &Limits,
-) -> Result<Option<Portrait>, Reason> {
+) -> Result<Option<Portrait>> {
     match &source.body {
         Body::Paper(parameters) => {
             let best = TwoSidedOscillator::best(&known.around(parameters), known.disturbance);

@@ -11,7 +11,7 @@
 
 use nalgebra::{DMatrix, DVectorView};
 
-use crate::flow::Reason;
+use crate::flow::{Reason, Result};
 use crate::model::{Belt, Knob, MONOTONE, Model, Phase, Tolerances, set};
 use crate::numerics::{real, try_bisect};
 use crate::portrait::{Margin, NoGuarantee, Portrait};
@@ -22,7 +22,7 @@ use crate::portrait::{Margin, NoGuarantee, Portrait};
 pub fn guaranteed(
     belt: &Belt,
     known: &Tolerances,
-) -> Result<Result<(Portrait, Margin), NoGuarantee>, Reason> {
+) -> Result<Result<(Portrait, Margin), NoGuarantee>> {
     let Some(corners) = Corners::new(belt, known)? else { return Ok(Err(NoGuarantee::TooMany)) };
     let least = corners.friction;
     if least < 0.0 || known.disturbance > 0.0 && least == 0.0 {
@@ -55,7 +55,7 @@ fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
 
 impl Corners {
     /// A machine whose border bounds all others at its own velocities.
-    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, NoGuarantee>, Reason> {
+    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, NoGuarantee>> {
         /// Ranges of velocities that are tried, each larger than the border of the one before.
         const ROUNDS: usize = 8;
         const ROOM: f64 = 1.2;
@@ -84,10 +84,10 @@ impl Corners {
 
     /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
     /// as that allows, and the velocities along the border.
-    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>, Reason> {
+    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>> {
         const HALVINGS: u32 = 24;
         let slowest = self.least(|model| model.speed);
-        let at = |less: f64| -> Result<Option<SlipBorder>, Reason> {
+        let at = |less: f64| -> Result<Option<SlipBorder>> {
             let portrait = Portrait::of_belt(&self.worst(corner, less))?;
             let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
             Ok(border.map(|velocities| (portrait, velocities)))
@@ -131,7 +131,7 @@ struct Corners {
 impl Corners {
     /// The corners of a machine's tolerances, unless more than [`MOST`] of its other numbers are uncertain. Fails with
     /// [`Reason`] where one of them has no model.
-    fn new(belt: &Belt, known: &Tolerances) -> Result<Option<Self>, Reason> {
+    fn new(belt: &Belt, known: &Tolerances) -> Result<Option<Self>> {
         let (monotone, others): (Vec<_>, Vec<_>) =
             known.intervals(belt).into_iter().partition(|(varied, _)| MONOTONE.contains(varied));
         if others.len() > MOST {

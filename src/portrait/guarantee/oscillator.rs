@@ -11,7 +11,7 @@
 //! computed side by side anyway.
 
 use crate::closed_form::LinearCycle;
-use crate::flow::{Fate, Limits, Reason};
+use crate::flow::{Fate, Limits, Reason, Result};
 use crate::model::{HalfPlane, Model, ParameterBox, Parameters, Side};
 use crate::numerics::Interval;
 use crate::portrait::{
@@ -64,7 +64,7 @@ impl TwoSidedOscillator {
     ///
     /// # Errors
     /// The [`Reason`] why the border could not be computed; [`Reason::NotApplicable`] for `D <= -1`.
-    pub fn portrait(&self, reach: f64, limits: &Limits) -> Result<(Portrait, f64), Reason> {
+    pub fn portrait(&self, reach: f64, limits: &Limits) -> Result<(Portrait, f64)> {
         if self.upper.d <= -1.0 {
             return Err(Reason::NotApplicable { needs: "D above -1" });
         }
@@ -90,7 +90,7 @@ impl TwoSidedOscillator {
 
     /// The innermost closed pair of swings, and the relative error of its clearances: from the closed form where
     /// there is one, else where the search closes.
-    fn closing(&self, equation: &mut Equation) -> Result<Option<(SwingPair, f64)>, Reason> {
+    fn closing(&self, equation: &mut Equation) -> Result<Option<(SwingPair, f64)>> {
         if self.upper == self.lower && self.upper.is_piecewise_linear() {
             let cycle = LinearCycle::new(self.upper.d, self.upper.r);
             return Ok(cycle.map(|cycle| (SwingPair::from(&cycle), NOISE)));
@@ -136,7 +136,7 @@ pub fn guaranteed(
     disturbance: f64,
     reach: f64,
     limits: &Limits,
-) -> Result<Result<(Portrait, Margin), NoGuarantee>, Reason> {
+) -> Result<Result<(Portrait, Margin), NoGuarantee>> {
     let (d, friction) = (known.d.lower(), known.r.lower());
     let worst = TwoSidedOscillator::worst(known, disturbance);
     if disturbance > 0.0 && worst.upper.r <= 0.0 {

@@ -14,7 +14,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{Edge, Portrait, Share, over_scales, support};
-use crate::flow::Reason;
+use crate::flow::{Reason, Result};
 use crate::model::{Border, quantity};
 use crate::numerics::{Integral, erfc, exp};
 
@@ -167,7 +167,7 @@ impl RandomKick {
 
     /// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
     /// basin is not known, or if its border cannot be traced as far as [`RandomKick::reach`].
-    pub fn lost(&self, portrait: &Portrait) -> Result<Share, Reason> {
+    pub fn lost(&self, portrait: &Portrait) -> Result<Share> {
         const NEEDS: Reason = Reason::NotApplicable {
             needs: "a basin of rest that is known, and no family of periodic motions",
         };

@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::flow::{Cost, Fate, Flow, Limits, Reason};
+use crate::flow::{Cost, Fate, Flow, Limits, Reason, Result};
 use crate::numerics::{real, truncated};
 use crate::portrait::{Portrait, RandomKick, Share};
 
@@ -45,11 +45,7 @@ const FAR: f64 = 5.0;
 
 /// Follows kicks until one is lost. Fails with the [`Reason`] why a motion could not be followed, with
 /// [`Reason::NotApplicable`] where the basin is not known, or without friction.
-pub fn repeated(
-    portrait: &Portrait,
-    kicks: &RandomKick,
-    limits: &Limits,
-) -> Result<Survival, Reason> {
+pub fn repeated(portrait: &Portrait, kicks: &RandomKick, limits: &Limits) -> Result<Survival> {
     // Kicks start from all that the guide holds.
     let portrait = &*portrait.followed_to(kicks.reach() + portrait.model.guide_static)?;
     let first = kicks.lost(portrait)?;
@@ -94,12 +90,7 @@ struct Chain {
 }
 
 impl Chain {
-    fn new(
-        portrait: &Portrait,
-        kicks: &RandomKick,
-        cells: usize,
-        limits: &Limits,
-    ) -> Result<Self, Reason> {
+    fn new(portrait: &Portrait, kicks: &RandomKick, cells: usize, limits: &Limits) -> Result<Self> {
         /// Error of a place of rest that matters to no cell.
         const TOLERANCE: f64 = 1e-7;
         let mut model = portrait.model.clone();
@@ -124,7 +115,7 @@ impl Chain {
         };
         let of = |(q, _): &StartColumn| {
             let rests = rows.iter().map(|&(v, share)| Ok((rest(*q, v)?, share)));
-            rests.collect::<Result<Vec<_>, Reason>>()
+            rests.collect::<Result<Vec<_>>>()
         };
         let found: Vec<_> = columns.par_iter().map(of).collect::<Result<_, _>>()?;
         for ((_, weights), rests) in columns.iter().zip(found) {
@@ -145,7 +136,7 @@ impl Chain {
             let from = RandomKick { q: (kicks.q.0 + centre, kicks.q.1), ..*kicks };
             Ok(from.lost(portrait)?.part)
         };
-        let lost = centres.iter().map(lost).collect::<Result<Vec<_>, Reason>>()?;
+        let lost = centres.iter().map(lost).collect::<Result<Vec<_>>>()?;
         let lost = DVector::from_vec(lost);
         for (row, lost) in lost.iter().enumerate() {
             let sum: f64 = steps.row(row).sum();

@@ -1,7 +1,7 @@
 //! The limit cycles of a machine: the fixed points of the return map, each found and described.
 
 use super::{Image, Landmarks};
-use crate::flow::{Flow, MachineCurve, Reason};
+use crate::flow::{Flow, MachineCurve, Reason, Result};
 use crate::model::{ContactState, Model, Phase};
 use crate::numerics::{PlaceTolerance, bisect, exp, exponent, ln, pow, times_power, try_newton};
 use crate::portrait::{Bracket, Cycle, Node, Portrait, Ride, RootSearch, places};
@@ -29,7 +29,7 @@ const FAR: f64 = 1e3;
 
 impl Flow<'_> {
     /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
-    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<Node, Reason> {
+    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<Node> {
         let x = unit * exp(u);
         let lost = |f| Ok(Node::of_growth(u, f, 0.0));
         match self.returned(x) {
@@ -50,10 +50,7 @@ fn growth_to(u: f64, x: f64, image: &Image) -> Node {
 /// The right turning points at which the return map changes, by amplitude: its fixed points, and where it jumps or catches.
 /// Tells the portrait how far they were sought, what ended the search, and where it did not settle. Fails with [`Reason`]
 /// if even the motions next to rest cannot be followed.
-pub(crate) fn fixed_points(
-    flow: &mut Flow,
-    portrait: &mut Portrait,
-) -> Result<Vec<(f64, Divide)>, Reason> {
+pub(crate) fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<Vec<(f64, Divide)>> {
     let landmarks = portrait.landmarks;
     let marks = landmarks.as_ref();
     let divides = jumps(flow.model, marks).into_iter().map(|x| (x, Divide::Jump)).collect();
@@ -94,12 +91,12 @@ struct FixedPointSearch<'f, 'm> {
 
 impl FixedPointSearch<'_, '_> {
     /// The growth of the return map at a logarithm.
-    fn growth(&mut self, u: f64) -> Result<Node, Reason> {
+    fn growth(&mut self, u: f64) -> Result<Node> {
         self.flow.growth(u, self.unit)
     }
 
     /// The growth at a right turning point.
-    fn growth_at(&mut self, x: f64) -> Result<Node, Reason> {
+    fn growth_at(&mut self, x: f64) -> Result<Node> {
         self.growth(ln(x / self.unit))
     }
 
@@ -108,7 +105,7 @@ impl FixedPointSearch<'_, '_> {
         self.unit * exp(u)
     }
 
-    fn run(&mut self, marks: Option<&Landmarks>) -> Result<(), Reason> {
+    fn run(&mut self, marks: Option<&Landmarks>) -> Result<()> {
         let held = self.flow.model.guide_static;
         let caught = match self.smallest() {
             // Every motion comes to rest at once, or leaves the law.
@@ -183,7 +180,7 @@ impl FixedPointSearch<'_, '_> {
 
     /// The right turning point below which every motion comes to rest; without friction of the guide, a point
     /// below which the map is linear.
-    fn smallest(&mut self) -> Result<f64, Reason> {
+    fn smallest(&mut self) -> Result<f64> {
         /// Growth below this is about to be lost in rounding.
         const WEAK: f64 = 1e-9;
         let held = self.flow.model.guide_static;
@@ -206,7 +203,7 @@ impl FixedPointSearch<'_, '_> {
     }
 
     /// Finds the zeros of the growth between two samples.
-    fn zeros_between(&mut self, first: Node, last: Node) -> Result<(), Reason> {
+    fn zeros_between(&mut self, first: Node, last: Node) -> Result<()> {
         /// Number of intervals to begin with, and how often each is halved at most.
         const PARTS: f64 = 8.0;
         const HALVINGS: f64 = 4096.0;
@@ -233,7 +230,7 @@ impl FixedPointSearch<'_, '_> {
     }
 
     /// The zero of the growth in a bracket, by Newton's method.
-    fn zero(&mut self, (left, right): Bracket) -> Result<f64, Reason> {
+    fn zero(&mut self, (left, right): Bracket) -> Result<f64> {
         let best = if left.value.abs() < right.value.abs() { left } else { right };
         if best.value == 0.0 {
             return Ok(best.at);
@@ -248,7 +245,7 @@ impl FixedPointSearch<'_, '_> {
     }
 
     /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
-    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Reason> {
+    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>> {
         let Some(image) = self.flow.returned(x)? else { return Ok(None) };
         let repels = image.slips() && image.log_slope >= STRONG;
         let sharper = if repels { self.settled_backward(x)? } else { None };
@@ -257,7 +254,7 @@ impl FixedPointSearch<'_, '_> {
 
     /// The strongly repelling fixed point to which a few turns backward lead from `x`, with its image; `None` where they
     /// lead to none.
-    fn settled_backward(&mut self, mut x: f64) -> Result<Option<(f64, Image)>, Reason> {
+    fn settled_backward(&mut self, mut x: f64) -> Result<Option<(f64, Image)>> {
         /// Maximum number of turns.
         const TURNS: usize = 8;
         /// To rounding, a cycle that repels beyond all digits turns where the guide lets go.
@@ -282,7 +279,7 @@ impl FixedPointSearch<'_, '_> {
     }
 
     /// A right turning point far beyond the unit, or as far as motions can be followed.
-    fn farthest(&mut self, from: f64) -> Result<Node, Reason> {
+    fn farthest(&mut self, from: f64) -> Result<Node> {
         /// Factor by which it lies beyond.
         const DOUBLINGS: u32 = 10;
         /// Doublings after which the shrinking of motions counts.
@@ -319,7 +316,7 @@ impl FixedPointSearch<'_, '_> {
     }
 
     /// Whether all motions between two samples are periodic.
-    fn is_neutral(&mut self, first: Node, last: Node) -> Result<bool, Reason> {
+    fn is_neutral(&mut self, first: Node, last: Node) -> Result<bool> {
         let middle = self.growth(0.5 * (first.at + last.at))?;
         let other = self.growth(0.3 * first.at + 0.7 * last.at)?;
         Ok([first, middle, other, last].iter().all(|sample| sample.value.abs() < NOTHING))
@@ -331,7 +328,7 @@ impl Flow<'_> {
     ///
     /// # Errors
     /// [`Reason`] if rounding carries the motion away.
-    pub fn describe(&mut self, x: f64, image: &Image, stable: bool) -> Result<Cycle, Reason> {
+    pub fn describe(&mut self, x: f64, image: &Image, stable: bool) -> Result<Cycle> {
         let Model { omega_0, guide, .. } = *self.model;
         let sticks = image.sticks_from.is_some();
         let overtakes = image.overtakes_from.is_some();
@@ -369,7 +366,7 @@ impl Flow<'_> {
     ///
     /// # Errors
     /// [`Reason`] if rounding carries the motion away.
-    pub fn around(&mut self, x: f64, backward: bool) -> Result<(MachineCurve, f64), Reason> {
+    pub fn around(&mut self, x: f64, backward: bool) -> Result<(MachineCurve, f64)> {
         let mut curve = MachineCurve::default();
         let left = if backward {
             let left = self.arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?.x;

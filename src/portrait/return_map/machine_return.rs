@@ -4,7 +4,7 @@
 //! motions that come to ride on the belt leave it at the same place. So at most one cycle sticks to the belt, and its
 //! multiplier is exactly 0; the fixed points order everything else.
 
-use crate::flow::{ArcEnd, Flow, MachineCurve, MachineStep, PhaseSeries, Reason, Turn};
+use crate::flow::{ArcEnd, Flow, MachineCurve, MachineStep, PhaseSeries, Reason, Result, Turn};
 use crate::model::{ContactState, Lines, Phase};
 use crate::numerics::ln;
 
@@ -38,7 +38,7 @@ impl Image {
 impl Flow<'_> {
     /// The next right turning point after the one at `x`, outside of what the guide holds; `None` if the mass comes to
     /// rest before. Fails with [`Reason`] if the motion does not turn.
-    pub fn returned(&mut self, x: f64) -> Result<Option<Image>, Reason> {
+    pub fn returned(&mut self, x: f64) -> Result<Option<Image>> {
         let mut divergence = 0.0;
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
         let [below, between] = [Phase::Below, Phase::Between].map(ContactState::Slips);
@@ -60,7 +60,7 @@ impl Flow<'_> {
         place: ContactState,
         start: (f64, f64),
         watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<Option<Turn>, Reason> {
+    ) -> Result<Option<Turn>> {
         match self.turn(place, start, watch) {
             Err(Reason::Settles) => Ok(None),
             turn => turn.map(|turn| Some(turn).filter(|turn| !turn.rests)),
@@ -76,7 +76,7 @@ impl Flow<'_> {
         start: (f64, f64),
         backward: bool,
         watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<ArcEnd, Reason> {
+    ) -> Result<ArcEnd> {
         let guide = self.model.guide;
         let x = if phase == Phase::Below { guide } else { -guide };
         match self.arc(phase, start, backward, watch) {
@@ -91,7 +91,7 @@ impl Flow<'_> {
         &mut self,
         left: f64,
         watch: &mut impl FnMut(&PhaseSeries),
-    ) -> Result<Option<ArcEnd>, Reason> {
+    ) -> Result<Option<ArcEnd>> {
         let left = left.min(-self.model.guide_static);
         match self.settling_arc(Phase::Below, (left, 0.0), true, watch) {
             Err(Reason::Escapes) => Ok(None),
@@ -102,7 +102,7 @@ impl Flow<'_> {
     /// The inverse map at the right turning point `x`, for motions that always slip below the belt's speed:
     /// [`Image::x`] is the turning point before. It contracts where the map itself expands. `None` if no such motion
     /// leads to `x`. Fails with [`Reason`] where the friction law ends or the steps run out.
-    pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Reason> {
+    pub fn preimage(&mut self, x: f64) -> Result<Option<Image>> {
         let mut divergence = 0.0;
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
         let end = match self.settling_arc(Phase::Between, (x, 0.0), true, &mut add) {
@@ -142,7 +142,7 @@ pub struct Landmarks {
 impl Flow<'_> {
     /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`Reason`] if the
     /// friction law ends before they are reached.
-    pub fn landmarks(&mut self) -> Result<Option<Landmarks>, Reason> {
+    pub fn landmarks(&mut self) -> Result<Option<Landmarks>> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };
         let (touch, grazing) = self.grazing(&lines)?;
@@ -156,7 +156,7 @@ impl Flow<'_> {
     }
 
     /// The right turning point of the orbit that touches the line, and its image.
-    fn grazing(&mut self, lines: &Lines) -> Result<(Option<f64>, Image), Reason> {
+    fn grazing(&mut self, lines: &Lines) -> Result<(Option<f64>, Image)> {
         let (guide, start) = (self.model.guide, (lines.fold, self.model.speed));
         let mut divergence = 0.0;
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
@@ -176,7 +176,7 @@ impl Flow<'_> {
     }
 
     /// The right turning point beyond which motions overtake the belt instead of riding on it.
-    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, Reason> {
+    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>> {
         let speed = self.model.speed;
         // The last motion that comes down on the band is followed back to where it rose above the line.
         let rose = self.arc(Phase::Above, (lines.release, speed), true, &mut |_| {});
@@ -192,7 +192,7 @@ impl Flow<'_> {
 }
 
 /// Where a motion comes from; `None` if it comes from nowhere that the law knows.
-fn if_any<T>(found: Result<T, Reason>) -> Result<Option<T>, Reason> {
+fn if_any<T>(found: Result<T>) -> Result<Option<T>> {
     match found {
         Err(Reason::Escapes | Reason::Settles | Reason::BeyondLaw { .. }) => Ok(None),
         found => found.map(Some),
@@ -214,7 +214,7 @@ impl Flow<'_> {
         x: f64,
         jumps: bool,
         landmarks: Option<&Landmarks>,
-    ) -> Result<(MachineCurve, f64), Reason> {
+    ) -> Result<(MachineCurve, f64)> {
         let speed = self.model.speed;
         let mut curve = MachineCurve::default();
         let mut end = self.settling_arc(Phase::Between, (x, 0.0), true, &mut curve.keeper())?;

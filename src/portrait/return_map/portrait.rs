@@ -4,7 +4,7 @@
 use std::cmp::Ordering;
 
 use super::{Divide, NOTHING};
-use crate::flow::{Fate, Flow, Reason};
+use crate::flow::{Fate, Flow, Reason, Result};
 use crate::model::{ContactState, Model};
 use crate::portrait::{Border, Edge, Gap, Portrait, Reach, fixed_points};
 
@@ -13,7 +13,7 @@ impl Portrait {
     ///
     /// # Errors
     /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
-    pub fn by_return_map(model: &Model) -> Result<Self, Reason> {
+    pub fn by_return_map(model: &Model) -> Result<Self> {
         let mut flow = Flow::new(model);
         let landmarks = flow.landmarks()?;
         let mut portrait = Portrait { landmarks, known: 0.0, ..Portrait::blank(model) };
@@ -32,7 +32,7 @@ impl Portrait {
         Ok(portrait)
     }
 
-    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Divide)]) -> Result<(), Reason> {
+    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Divide)]) -> Result<()> {
         let Some(first) = self.gaps.first() else { return Ok(()) };
         let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
         if let Fate::Unknown(stop) = first.fate {
@@ -79,10 +79,10 @@ impl Portrait {
 
 /// The direction of motions in a gap: outward if they grow, and neither way if they are periodic; or why they leave
 /// the known range.
-type Tendency = Result<Ordering, Reason>;
+type Tendency = Result<Ordering>;
 
 /// The direction of motions in each gap.
-fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tendency>, Reason> {
+fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tendency>> {
     let mut ways = Vec::with_capacity(marks.len() + 1);
     let mut low = flow.model.guide_static;
     for mark in marks.iter().map(Some).chain([None]) {

@@ -1,7 +1,7 @@
 //! What the oscillator of the paper says about a mass on a belt, whose friction it knows by its cubic expansion alone,
 //! beside the whole model.
 
-use crate::flow::{Limits, Reason};
+use crate::flow::{Limits, Result};
 use crate::model::Belt;
 use crate::model::belt::ReducedBelt;
 use crate::portrait::{Cycle, Margin, Portrait, picture_reach};
@@ -16,12 +16,12 @@ pub struct CubicExpansion<'a> {
     /// Its dimensionless form.
     pub reduced: ReducedBelt,
     /// What it does, or why the search gave up.
-    portrait: Result<Portrait, Reason>,
+    portrait: Result<Portrait>,
 }
 
 impl<'a> CubicExpansion<'a> {
-    /// Finds its cycles and its basin. Fails with [`Reason`] where the machine has no dimensionless form.
-    pub fn new(belt: &'a Belt, limits: &Limits) -> Result<Self, Reason> {
+    /// Finds its cycles and its basin. Fails with `Reason` where the machine has no dimensionless form.
+    pub fn new(belt: &'a Belt, limits: &Limits) -> Result<Self> {
         let reduced = belt.reduce()?;
         let reach = picture_reach(reduced.parameters.d2);
         let portrait = Portrait::of_oscillator(&reduced.parameters, reach, limits);

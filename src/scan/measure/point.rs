@@ -5,7 +5,7 @@ use super::settling::{largest_and_mean, rested, starts};
 use super::table::{CYCLES, Measure, Value};
 use crate::branch::escape::escape_point;
 use crate::branch::fold::fold;
-use crate::flow::{Detail, Problem, Reason, Subject};
+use crate::flow::{Detail, Problem, Reason, Result, Subject};
 use crate::model::{Body, Model, Parameters, State};
 use crate::numerics::Interval;
 use crate::portrait::guarantee::certain::guaranteed;
@@ -69,7 +69,7 @@ impl Cells<'_> {
     }
 
     /// The motion of the point, or those from a window of starts. Fails with why one was given up.
-    fn motions(&mut self, measure: Measure) -> Result<(), Reason> {
+    fn motions(&mut self, measure: Measure) -> Result<()> {
         let (limits, conditions) = (self.limits, self.conditions);
         let (problem, model) = self.subject.problem()?;
         let follow = |initial: State| {
@@ -92,7 +92,7 @@ impl Cells<'_> {
         Ok(())
     }
 
-    fn cycles_of(&mut self, parameters: &Parameters) -> Result<(), Reason> {
+    fn cycles_of(&mut self, parameters: &Parameters) -> Result<()> {
         let found = cycles(parameters, self.limits)?;
         self.cost += found.cost;
         self.cycles(&found.cycles);
@@ -100,7 +100,7 @@ impl Cells<'_> {
         Ok(())
     }
 
-    fn basin_of(&mut self, parameters: &Parameters) -> Result<(), Reason> {
+    fn basin_of(&mut self, parameters: &Parameters) -> Result<()> {
         let conditions = self.conditions;
         // The edge has to be followed as far as the window or the kicks reach only if these matter.
         let reach = |measure, reach| if self.asks(measure) { reach } else { 0.0 };
@@ -119,7 +119,7 @@ impl Cells<'_> {
         Ok(())
     }
 
-    fn proof_of(&mut self, parameters: &Parameters) -> Result<(), Reason> {
+    fn proof_of(&mut self, parameters: &Parameters) -> Result<()> {
         if self.known.is_none() {
             self.cycles_of(parameters)?;
         }
@@ -136,7 +136,7 @@ impl Cells<'_> {
     }
 
     /// The cycles and the basin of a machine: one computation, on which repeated kicks rest, too.
-    fn portray(&mut self) -> Result<(), Reason> {
+    fn portray(&mut self) -> Result<()> {
         let portrait = self.subject.source.portrait()?;
         self.cost.steps += portrait.cost.steps;
         self.cycles(&portrait.cycles);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 
 use super::table::{CYCLES, Conditions, Measure, Value};
-use crate::flow::{Cost, Limits, Motion, Outcome, Reason, Subject};
+use crate::flow::{Cost, Limits, Motion, Outcome, Reason, Result, Subject};
 use crate::portrait::{Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 
 /// What was measured at a point.
@@ -43,7 +43,7 @@ pub fn measure(
     measures: &[Measure],
     conditions: &Conditions,
     limits: &Limits,
-) -> Result<ScanRow, Reason> {
+) -> Result<ScanRow> {
     // Those with which each of them is computed.
     let mut wanted: BTreeSet<_> = measures.iter().map(|measure| measure.with()).collect();
     // Of a machine cycles and margin are one computation, on which repeated kicks rest.
@@ -104,7 +104,7 @@ impl Cells<'_> {
     }
 
     /// How a motion ended, when and after how many half swings, and where it rests. Fails with why it was given up.
-    pub fn motion(&mut self, found: &Motion) -> Result<(), Reason> {
+    pub fn motion(&mut self, found: &Motion) -> Result<()> {
         let (outcome, swings) = (found.outcome, Value::Count(found.crossings.len()));
         self.cost += found.cost;
         let ended = outcome.answered().map(|()| [outcome.tau().into(), swings]);

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use crate::flow::{Problem, Reason, Subject};
+use crate::flow::{Problem, Reason, Result, Subject};
 use crate::model::belt::ReducedBelt;
 use crate::model::{Belt, Body, Group, Knob, Model, RangeError, State, Tolerances};
 use crate::numerics::elementary::powi;
@@ -92,7 +92,7 @@ impl TryFrom<Machine> for ScaledMachine {
     type Error = Reason;
 
     /// Computes the dimensionless form of a machine. Fails with [`Reason`] where there is none.
-    fn try_from(machine: Machine) -> Result<Self, Reason> {
+    fn try_from(machine: Machine) -> Result<Self> {
         let reduced = machine.belt.reduce()?;
         Ok(ScaledMachine { machine, reduced })
     }
