@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::closed_form::{Harmonic, HarmonicCycle, amplitudes, harmonic_cycle};
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Parameters, State};
-use crate::numerics::ln;
+use crate::numerics::{by_number, ln};
 use crate::portrait::{Cycle, cycles};
 
 /// How far a cycle of N harmonics is from the true one; relative, positive where it is too large.
@@ -108,7 +108,7 @@ fn error(cycle: &HarmonicCycle, exact: &[Cycle]) -> Option<HarmonicError> {
     let amplitude = |exact: &Cycle| 0.5 * exact.q_max - 0.5 * exact.q_min;
     let distance = |exact: &&Cycle| ln(cycle.amplitude() / amplitude(exact)).abs();
     let same = exact.iter().filter(|exact| exact.stable == cycle.stable);
-    let nearest = same.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let nearest = same.min_by(by_number(distance))?;
     Some(HarmonicError {
         amplitude: cycle.amplitude() / amplitude(nearest) - 1.0,
         frequency: nearest.period / cycle.period - 1.0,

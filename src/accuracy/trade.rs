@@ -8,7 +8,7 @@ use crate::flow::{
     Cost, Detail, Limits, METHODS, Method, Motion, Outcome, Problem, Reason, Result,
 };
 use crate::model::{FINEST, Knob, Model};
-use crate::numerics::{amount, ln, log10};
+use crate::numerics::{amount, by_number, ln, log10};
 
 /// Tolerances, one for each digit.
 const TOLERANCES: [f64; 14] =
@@ -74,7 +74,7 @@ fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
     let mut rungs: Vec<Problem> = numbers.iter().map(rung).collect();
     if method == problem.method && rungs.iter().all(|rung| rung.setting() != problem.setting()) {
         rungs.push(*problem);
-        rungs.sort_by(|one, other| other.setting().total_cmp(&one.setting()));
+        rungs.sort_by(by_number(|rung: &Problem| -rung.setting()));
     }
     rungs
 }
@@ -156,8 +156,7 @@ impl Trade {
     pub fn nearest_to(&self, problem: &Problem) -> Option<&TradePoint> {
         let far = |row: &&TradePoint| ln(row.problem.setting() / problem.setting()).abs();
         let rows = self.rows.iter().filter(|row| row.problem.method == problem.method);
-        rows.filter(|row| row.error().is_some())
-            .min_by(|one, other| far(one).total_cmp(&far(other)))
+        rows.filter(|row| row.error().is_some()).min_by(by_number(far))
     }
 
     /// The cost of all rows together.

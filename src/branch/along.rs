@@ -31,7 +31,7 @@ use super::{
 use crate::closed_form::LinearCycle;
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters, Side};
-use crate::numerics::{cbrt, ln, pow, powi, real};
+use crate::numerics::{by_number, cbrt, ln, pow, powi, real};
 use crate::portrait::{
     Cycle, Equation, Route, STEP, SwingPair, closings, first_side, polish_near, weak_closing,
 };
@@ -116,7 +116,7 @@ pub fn branch(
     }
     let mut found = tracer.found;
     found.cost += tracer.curve.cost;
-    found.special.sort_by(|one, other| one.value.total_cmp(&other.value));
+    found.special.sort_by(by_number(|special: &Special| special.value));
     Ok(found)
 }
 

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::{Jump, JumpEnd, Jumps, Special, SpecialKind};
 use crate::flow::{Cost, Fate, Flow, Limits, Result};
 use crate::model::{ContactState, Knob, Model, Phase, Source};
-use crate::numerics::{PlaceTolerance, exp, illinois, ln, real, try_bisect};
+use crate::numerics::{PlaceTolerance, by_number, exp, illinois, ln, real, try_bisect};
 use crate::portrait::{Border, Cycle, Landmarks, Node, Portrait, between};
 
 /// A value of a number, in SI units, and what a machine does there, or why there is no answer.
@@ -62,7 +62,7 @@ impl MachineBranch {
             let known = changes.into_iter().flat_map(outer).filter(|(value, _)| within(value));
             let point = |(value, found)| Some(PortraitPoint { value, found: Ok(found?) });
             points.extend(known.filter_map(point));
-            points.sort_by(|one, other| one.value.total_cmp(&other.value));
+            points.sort_by(by_number(|point: &PortraitPoint| point.value));
         }
         let mut cost = Cost::default();
         let known = points.iter().filter_map(|point| point.found.as_ref().ok());
@@ -153,12 +153,9 @@ impl Family<'_> {
             let TestFunction { kind, q_max, .. } = self.test_functions(value)?[index]?;
             Some(self.change(&Special { q_max, ..Special::new(kind, value, None) }, step))
         };
-        let by_value = |one: &Change, other: &Change| {
-            let distance = |change: &Change| (change.special.value - left.value).abs();
-            distance(one).total_cmp(&distance(other))
-        };
+        let distance = |change: &Change| (change.special.value - left.value).abs();
         let mut found: Vec<Change> = (0..left.functions.len()).filter_map(zero_of).collect();
-        found.sort_by(by_value);
+        found.sort_by(by_number(distance));
         // Between these the portrait keeps its form, unless cycles fold.
         let mut folds = Vec::new();
         let mut begin = Some((left.value, left.portrait));
@@ -169,7 +166,7 @@ impl Family<'_> {
             begin = after;
         }
         found.extend(folds.iter().map(|fold| self.change(fold, step)));
-        found.sort_by(by_value);
+        found.sort_by(by_number(distance));
         found
     }
 
@@ -213,7 +210,7 @@ impl Family<'_> {
             .windows(2)
             .filter(|pair| pair[0].stable != pair[1].stable && !pair.iter().any(Cycle::sticks));
         let gap = |pair: &&[Cycle]| pair[1].q_max / pair[0].q_max;
-        let pair = pairs.min_by(|one, other| gap(one).total_cmp(&gap(other)))?;
+        let pair = pairs.min_by(by_number(gap))?;
         let (low, high) = (pair[0].q_max, pair[1].q_max);
         let extremum = |value: f64| -> Option<Node> {
             steepest(&self.model(value)?, (low * high).sqrt(), ln(high / low))

@@ -49,7 +49,7 @@ pub fn zeros(coefficients: &[f64], end: f64) -> Vec<f64> {
     let far = if end.is_finite() { end } else { beyond_zeros(coefficients) };
     let mut found = Vec::new();
     let mut from = 0.0;
-    for to in zeros(&derivative(coefficients), far).into_iter().chain([far]) {
+    for to in zeros(&polynomial::derivative(coefficients), far).into_iter().chain([far]) {
         let (left, right) = (value(from), value(to));
         if (left < 0.0) != (right < 0.0) {
             let changed = |at: f64| (value(at) < 0.0) != (left < 0.0);
@@ -58,10 +58,6 @@ pub fn zeros(coefficients: &[f64], end: f64) -> Vec<f64> {
         from = to;
     }
     found
-}
-
-fn derivative(coefficients: &[f64]) -> Vec<f64> {
-    coefficients.iter().zip(0_u32..).skip(1).map(|(c, k)| f64::from(k) * c).collect()
 }
 
 /// Cauchy's bound: all zeros are smaller.

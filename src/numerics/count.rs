@@ -1,4 +1,6 @@
-//! Conversion between counts and real numbers, and counting things once.
+//! Conversion between counts and real numbers, order by a number, and counting things once.
+
+use std::cmp::Ordering;
 
 /// A count as a double. Exact below `2^53`, which no count here reaches.
 #[expect(clippy::cast_precision_loss, reason = "counts are below 2^53")]
@@ -27,6 +29,11 @@ pub const fn reciprocals<const N: usize>() -> [f64; N] {
         k += 1;
     }
     table
+}
+
+/// The order of things by a number that each of them has.
+pub fn by_number<T>(number: impl Fn(&T) -> f64) -> impl Fn(&T, &T) -> Ordering {
+    move |one, other| number(one).total_cmp(&number(other))
 }
 
 /// Each of some things once, in the order in which they first appear.

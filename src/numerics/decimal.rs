@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ln, log10, powi, truncated};
+use super::{by_number, ln, log10, powi, truncated};
 
 /// The shortest text that parses back to this number, without a redundant `.0`.
 pub fn shortest(value: f64) -> String {
@@ -102,7 +102,7 @@ impl StepSize {
         let below = StepSize { place: 0 }.moved(3 * decade(value));
         let distance = |step: &StepSize| ln(step.value() / value).abs();
         let candidates = (0..=3).map(|places| below.moved(places));
-        candidates.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(below)
+        candidates.min_by(by_number(distance)).unwrap_or(below)
     }
 
     /// The smallest step size that is not below a positive number.

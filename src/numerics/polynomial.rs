@@ -3,12 +3,9 @@
 
 use super::{Scalar, real};
 
-/// The coefficients of the derivative, with a zero at the end.
-pub fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
-    std::array::from_fn(|k| match coefficients.get(k + 1) {
-        Some(next) => real(k + 1) * next,
-        None => 0.0,
-    })
+/// The coefficients of the derivative.
+pub fn derivative(coefficients: &[f64]) -> Vec<f64> {
+    coefficients.iter().enumerate().skip(1).map(|(k, c)| real(k) * c).collect()
 }
 
 /// The value, by Horner's rule.

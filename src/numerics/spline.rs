@@ -15,7 +15,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Derivatives, bisect, derivatives, exp, gauss, ln, powi, real, value};
+use super::{Derivatives, bisect, by_number, derivatives, exp, gauss, ln, powi, real, value};
 
 /// Smallest number of points with a third derivative.
 pub const FEWEST: usize = 4;
@@ -79,7 +79,7 @@ impl SmoothingSpline {
         let pieces = pieces(&x, &g, &bends(&x, &c));
         if !pieces.iter().flatten().chain(&g).all(|number| number.is_finite()) {
             let gap = |index: &usize| x[index + 1] - x[*index];
-            let closest = (0..x.len() - 1).min_by(|one, other| gap(one).total_cmp(&gap(other)));
+            let closest = (0..x.len() - 1).min_by(by_number(gap));
             let one = closest.unwrap_or(0) + 1;
             return Err(format!(
                 "points {one} and {} are too close together beside the others for a smooth curve",

@@ -3,7 +3,7 @@
 use super::{Cycle, Orbit};
 use crate::flow::MachineCurve;
 use crate::model::{Border, Parameters, State};
-use crate::numerics::{hypot, maximum};
+use crate::numerics::{by_number, hypot, maximum};
 
 impl Border {
     /// What borders the basin: the innermost cycle, else a separatrix where motions can escape.
@@ -88,8 +88,7 @@ impl Edge {
             Edge::Curve(curve) => curve.points((POINTS, POINTS)),
         };
         let far = |state: &State| hypot(state.q, state.v);
-        let nearer = |one: &usize, other: &usize| far(&curve[*one]).total_cmp(&far(&curve[*other]));
-        let nearest = (0..curve.len()).min_by(nearer)?;
+        let nearest = (0..curve.len()).min_by(by_number(|index: &usize| far(&curve[*index])))?;
         let State { v, .. } = curve[nearest];
         let distance = |q: f64| {
             let span = self.span_at(q);

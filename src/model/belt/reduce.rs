@@ -7,7 +7,7 @@ use super::Belt;
 use super::friction::Derivatives;
 use crate::model::knob::Knob;
 use crate::model::{Parameters, Reason, Result};
-use crate::numerics::maximum;
+use crate::numerics::{by_number, maximum};
 
 /// The units of the dimensionless oscillator: what 1 of each stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -28,14 +28,14 @@ pub struct Units {
 
 impl Units {
     /// Of numbers that have SI units themselves.
-    pub const SI: Units = Units {
-        omega_0: 1.0,
-        displacement: 1.0,
-        velocity: 1.0,
-        time: 1.0,
-        impulse: 1.0,
-        force: 1.0,
-    };
+    pub const SI: Units = Units::of([1.0; 2], 1.0, 1.0);
+
+    /// Those of a mass on a spring of this stiffness and natural frequency, whose unit of length is given.
+    const fn of([mass, stiffness]: [f64; 2], omega_0: f64, displacement: f64) -> Self {
+        let velocity = omega_0 * displacement;
+        let (time, impulse, force) = (1.0 / omega_0, mass * velocity, stiffness * displacement);
+        Units { omega_0, displacement, velocity, time, impulse, force }
+    }
 }
 
 /// The dimensionless oscillator that a belt is, with its units.
@@ -92,20 +92,8 @@ impl Belt {
         for knob in Knob::PARAMETERS {
             knob.check(parameters.value(knob)).map_err(Reason::Refused)?;
         }
-        let velocity = omega_0 * x0;
-        Ok(ReducedBelt {
-            parameters,
-            units: Units {
-                omega_0,
-                displacement: x0,
-                velocity,
-                time: 1.0 / omega_0,
-                impulse: mass * velocity,
-                force: stiffness * x0,
-            },
-            mu,
-            sticking_velocity: v0 / velocity,
-        })
+        let units = Units::of([mass, stiffness], omega_0, x0);
+        Ok(ReducedBelt { parameters, units, mu, sticking_velocity: v0 / units.velocity })
     }
 }
 
@@ -165,10 +153,8 @@ impl Belt {
             if index == INTERVALS { range.1 } else { range.0 + f64::from(index) * step }
         };
         let places = (0..=INTERVALS).map(place);
-        let worst = places
-            .clone()
-            .max_by(|one, other| difference(*one).total_cmp(&difference(*other)))
-            .unwrap_or(range.0);
+        let worst = places.clone().max_by(by_number(|v: &f64| difference(*v)));
+        let worst = worst.unwrap_or(range.0);
         let inside = |v: f64| v.clamp(range.0, range.1);
         let ends = (inside(worst - step), inside(worst + step));
         let ends = maximum(ends.0, ends.1, FLAT * (ends.1 - ends.0), difference);

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVectorView};
 
 use crate::flow::{Reason, Result};
 use crate::model::{Belt, Knob, MONOTONE, Model, Phase, Tolerances, set};
-use crate::numerics::{real, try_bisect};
+use crate::numerics::{by_number, real, try_bisect};
 use crate::portrait::{Margin, NoGuarantee, Portrait};
 
 /// The portrait of a machine whose basin lies within those of all others, and the kicks, in m and N s, that every one
@@ -223,7 +223,7 @@ impl Corners {
             (corner, excess.iter().copied().fold(0.0, f64::max) + 0.25 * bend)
         };
         let needed = forces.column_iter().enumerate().map(needed);
-        needed.min_by(|(_, one), (_, other)| one.total_cmp(other)).unwrap_or((0, 0.0))
+        needed.min_by(by_number(|(_, addition): &(usize, f64)| *addition)).unwrap_or((0, 0.0))
     }
 
     /// A bound on how far a smooth function rises between corners above its values there.

@@ -3,7 +3,9 @@
 use super::{Image, Landmarks};
 use crate::flow::{Flow, MachineCurve, Reason, Result};
 use crate::model::{ContactState, Model, Phase};
-use crate::numerics::{PlaceTolerance, bisect, exp, exponent, ln, pow, times_power, try_newton};
+use crate::numerics::{
+    PlaceTolerance, bisect, by_number, exp, exponent, ln, pow, times_power, try_newton,
+};
 use crate::portrait::{Bracket, Cycle, Node, Portrait, Ride, RootSearch, places};
 
 /// A right turning point at which the return map changes.
@@ -57,7 +59,7 @@ pub(crate) fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<V
     let unit = unit(flow.model, marks);
     let mut search = FixedPointSearch { flow, unit, portrait, divides };
     search.run(marks)?;
-    search.divides.sort_by(|one, other| one.0.total_cmp(&other.0));
+    search.divides.sort_by(by_number(|(x, _): &(f64, Divide)| *x));
     Ok(search.divides)
 }
 
