@@ -63,6 +63,7 @@ impl Interval {
     }
 
     /// The interval one double beyond each of two rounded bounds.
+    #[inline]
     fn outward(lower: f64, upper: f64) -> Self {
         let lower = if lower.is_nan() { f64::NEG_INFINITY } else { lower.next_down() };
         let upper = if upper.is_nan() { f64::INFINITY } else { upper.next_up() };
@@ -282,6 +283,7 @@ macro_rules! operation {
         impl $operation for Interval {
             type Output = Interval;
 
+            #[inline]
             fn $method(self, other: Interval) -> Interval {
                 $of(self, other)
             }
@@ -320,10 +322,11 @@ fn quotient(one: Interval, other: Interval) -> Interval {
 
 /// The outward hull of the rounded results of an operation on the bounds. Since `min` and `max` ignore NaN, it is tested
 /// for first.
+#[inline]
 fn extremes(one: Interval, other: Interval, of: impl Fn(f64, f64) -> f64) -> Interval {
-    let [a, b] = [other.lower, other.upper].map(|bound| of(one.lower, bound));
-    let [c, d] = [other.lower, other.upper].map(|bound| of(one.upper, bound));
-    if [a, b, c, d].iter().any(|result| result.is_nan()) {
+    let (a, b) = (of(one.lower, other.lower), of(one.lower, other.upper));
+    let (c, d) = (of(one.upper, other.lower), of(one.upper, other.upper));
+    if a.is_nan() || b.is_nan() || c.is_nan() || d.is_nan() {
         return Interval::ALL;
     }
     Interval::outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))

@@ -66,15 +66,17 @@ fn inner<T: SeriesScalar>(both: [&[T; LENGTH]; 2], other: &[T; 2 * LENGTH], k: u
         return [T::ZERO; 2];
     }
     let length = (k - 3).div_ceil(LANES) * LANES;
-    let [one, two] = both.map(|of| of[2..2 + length].chunks_exact(LANES));
-    let other = other[ORDER - k + 2..ORDER - k + 2 + length].chunks_exact(LANES);
-    for ((one, two), other) in one.zip(two).zip(other) {
+    let (one, _) = both[0][2..2 + length].as_chunks::<LANES>();
+    let (two, _) = both[1][2..2 + length].as_chunks::<LANES>();
+    let (other, _) = other[ORDER - k + 2..ORDER - k + 2 + length].as_chunks::<LANES>();
+    for (chunk, other) in other.iter().enumerate() {
         for lane in 0..LANES {
-            lanes[0][lane] = lanes[0][lane] + one[lane] * other[lane];
-            lanes[1][lane] = lanes[1][lane] + two[lane] * other[lane];
+            lanes[0][lane] = lanes[0][lane] + one[chunk][lane] * other[lane];
+            lanes[1][lane] = lanes[1][lane] + two[chunk][lane] * other[lane];
         }
     }
-    lanes.map(|lanes| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
+    let total = |lanes: [T; LANES]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+    [total(lanes[0]), total(lanes[1])]
 }
 
 impl<T: SeriesScalar> MotionSeries<T> {

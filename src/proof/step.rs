@@ -219,9 +219,10 @@ const DEGREES: [[f64; LENGTH]; 2] = {
 /// The sum of products.
 fn dot(one: &[f64], other: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
-    for (one, other) in one.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
+    let (one, other) = (one.as_chunks::<LANES>().0, other.as_chunks::<LANES>().0);
+    for (index, one) in one.iter().enumerate() {
         for (lane, sum) in lanes.iter_mut().enumerate() {
-            *sum += one[lane] * other[lane];
+            *sum += one[lane] * other[index][lane];
         }
     }
     (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
