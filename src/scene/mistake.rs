@@ -3,10 +3,9 @@
 use std::fmt::Display;
 use std::ops::Range;
 
-use serde::de::{DeserializeOwned, Error as _};
+use serde::de::Error as _;
 use thiserror::Error;
 
-use super::placed::Placed;
 use crate::words::{joined, printable};
 
 /// A mistake in a file, and its place.
@@ -62,12 +61,6 @@ impl Complaint {
             message: self.message,
         }
     }
-}
-
-/// Reads a TOML file. Fails with the first mistake as a [`FileMistake`].
-pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, FileMistake> {
-    let read = Placed::parse(text).and_then(Placed::read);
-    read.map_err(|complaint| complaint.in_file(file, text))
 }
 
 /// Names and texts of TOML files of the program in one folder.

@@ -4,13 +4,22 @@
 use std::marker::PhantomData;
 
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{DeserializeSeed, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::{
+    DeserializeOwned, DeserializeSeed, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor,
+};
 use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
 use serde_spanned::de::{SpannedDeserializer, is_spanned};
 use toml::Spanned;
 use toml::de::{DeArray, DeFloat, DeInteger, DeTable, DeValue};
 
-use super::mistake::Complaint;
+use super::mistake::{Complaint, FileMistake};
+
+/// Reads a TOML file. Fails with the first mistake as a [`FileMistake`].
+pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, FileMistake> {
+    let read = DeTable::parse(text).map_err(Complaint::from);
+    let read = read.and_then(|table| Placed::from(table).read());
+    read.map_err(|complaint| complaint.in_file(file, text))
+}
 
 /// A value and its place.
 pub struct Placed<'de>(pub Spanned<DeValue<'de>>);
@@ -22,11 +31,6 @@ impl<'de> From<Spanned<DeTable<'de>>> for Placed<'de> {
 }
 
 impl<'de> Placed<'de> {
-    /// The table of a whole file. Fails where the text is not TOML.
-    pub fn parse(text: &'de str) -> Result<Self, Complaint> {
-        Ok(Placed::from(DeTable::parse(text)?))
-    }
-
     /// What the value says. Fails with the first mistake, which is about this value where it has no narrower place.
     pub fn read<T: Deserialize<'de>>(self) -> Result<T, Complaint> {
         self.seeded(PhantomData)

@@ -17,7 +17,7 @@ use toml::Spanned;
 
 use crate::numerics::similar::most_similar;
 use crate::scene::mistake::Complaint;
-use crate::scene::{FileMistake, find, mistake};
+use crate::scene::{FileMistake, find, placed};
 use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, named};
 use crate::session::state::keymap::{contexts, full_name};
 use crate::session::{Command, Context, Key, Keymap};
@@ -61,7 +61,7 @@ const FORMER_CONTEXTS: [&str; 1] = ["form"];
 /// Reads a settings file; `file` is its name in error messages. Fails with [`FileMistake`], which names the place
 /// of the first mistake and what is allowed there.
 pub fn parse(file: &str, text: &str) -> Result<Config, FileMistake> {
-    let mut config: Config = mistake::toml(file, text)?;
+    let mut config: Config = placed::toml(file, text)?;
     let keymap = keymap(&std::mem::take(&mut config.keys));
     config.keymap = keymap.map_err(|complaint| complaint.in_file(file, text))?;
     Ok(config)

@@ -19,7 +19,7 @@ use crate::flow::Problem;
 use crate::model::{Knob, State};
 use crate::numerics::decimal::shortest;
 use crate::portrait::kicks::RandomKick;
-use crate::scene::{FileMistake, Point, Scene, Setting, find, mistake};
+use crate::scene::{FileMistake, Point, Scene, Setting, find, placed};
 use crate::session::act::history::{restore, snapshot};
 use crate::session::read::completion::difference;
 use crate::session::settings::{DisplaySettings, NamedValue};
@@ -203,14 +203,14 @@ fn read(text: &str) -> Result<SavedSession, String> {
         hopfscope: Option<u32>,
     }
     let refused = |mistake: FileMistake| format!("line {}: {}", mistake.line, mistake.message);
-    let head: Head = mistake::toml("", text).map_err(refused)?;
+    let head: Head = placed::toml("", text).map_err(refused)?;
     match head.hopfscope {
         None => Err("not a saved session: it does not say hopfscope = 1".to_owned()),
         Some(version @ (0 | VERSION..)) if version != VERSION => {
             Err(format!("a session of format {version}; this program reads up to {VERSION}"))
         }
         Some(_) => {
-            let file: SavedSession = mistake::toml("", text).map_err(refused)?;
+            let file: SavedSession = placed::toml("", text).map_err(refused)?;
             file.present.check()?;
             check_number(&file.plots)?;
             file.past.iter().chain(&file.future).try_for_each(EarlierState::check)?;

@@ -16,7 +16,7 @@ use strum::VariantArray;
 
 use crate::numerics::count::truncated;
 use crate::picture::{Mark, Role};
-use crate::scene::mistake;
+use crate::scene::placed;
 use crate::session::settings::{self, Colors, Glyphs, Theme};
 use crate::session::{Code, Key, Keymap};
 
@@ -62,7 +62,7 @@ struct GlyphSets {
 
 /// A test reads the file, so the empty sets never serve.
 static SETS: LazyLock<GlyphSets> = LazyLock::new(|| {
-    mistake::toml("", include_str!("../../assets/glyphs.toml")).unwrap_or_default()
+    placed::toml("", include_str!("../../assets/glyphs.toml")).unwrap_or_default()
 });
 
 impl Symbols {
@@ -111,7 +111,7 @@ impl Look {
             _ => colors,
         };
         let lines: BTreeMap<String, String> =
-            mistake::toml("theme", text).map_err(|mistake| mistake.to_string())?;
+            placed::toml("theme", text).map_err(|mistake| mistake.to_string())?;
         let mut styles = [Style::new(); ROLES];
         let mut rgb = [None; ROLES];
         let mut letters = [' '; ROLES];
