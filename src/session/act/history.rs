@@ -13,7 +13,8 @@ use crate::session::act::screen_setup::set_up;
 use crate::session::read::completion::difference;
 use crate::session::read::wants::COMPARED;
 use crate::session::{
-    Bookmark, Done, EarlierState, Pane, Playback, Plot, Row, Session, Setup, Snapshot, StepSizes,
+    Bookmark, Done, EarlierState, Framing, Pane, Playback, Plot, Row, Session, Setup, Snapshot,
+    StepSizes,
 };
 
 /// Undoes the last change.
@@ -98,6 +99,15 @@ fn bring_back(session: &mut Session, name: &str, state: EarlierState) {
         EarlierState::Scene { plots, show } => {
             session.inform(format!("{name}: scene {}", show.scene.name));
             restore(session, *show, opened(&plots));
+        }
+    }
+    for index in 0..session.plots.len() {
+        let Plot { view, axes, window, framing, .. } = session.plots[index];
+        let of_scene = session.plot_of_scene(index, view);
+        let is_scenes = |of: PlotSetup| of.axes == axes && of.window == Some(window);
+        // A window that is not the scene's was fitted or chosen.
+        if framing == Framing::Scene && !of_scene.is_some_and(is_scenes) {
+            session.plots[index].framing = Framing::Fitted;
         }
     }
 }

@@ -29,6 +29,16 @@ fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
 }
 
 #[test]
+fn a_fitted_window_that_is_brought_back_is_not_that_of_the_scene() {
+    let mut trial = Trial::alone("supercritical");
+    trial.press("<tab><tab>X");
+    let fitted = trial.session.plots[1].clone();
+    trial.press("Zu");
+    assert_eq!(trial.session.plots[1], fitted);
+    assert_eq!(trial.session.plot_setup(1).unwrap().window, Some(fitted.window));
+}
+
+#[test]
 fn the_window_follows_a_present_value_that_is_out_of_the_ordinary() {
     let mut trial = Trial::alone("supercritical");
     trial.goes(&[("<down>7<enter><tab><tab>X X", "abscissa D3")]);
