@@ -207,13 +207,7 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// The rows below a line of names.
     pub fn csv(&self, rows: impl RowsOf<R>) -> String {
-        let names = self.files.iter().map(|column| column.name.clone()).collect();
-        let cells = |row: &R| {
-            let object = self.object(row);
-            self.files.iter().map(|column| cell(object.at(&column.place))).collect()
-        };
-        let rows = rows.into_iter().map(|row| cells(row.borrow()));
-        lines(std::iter::once(names).chain(rows))
+        csv(&self.files, self.objects(rows))
     }
 
     /// A row as an object.
@@ -225,6 +219,15 @@ impl<'a, R: 'a> Columns<'a, R> {
     pub fn objects(&self, rows: impl RowsOf<R>) -> Vec<Document> {
         rows.into_iter().map(|row| self.object(row.borrow())).collect()
     }
+}
+
+/// Objects below the names of columns.
+fn csv(columns: &[FileColumn], objects: Vec<Document>) -> String {
+    let names = columns.iter().map(|column| column.name.clone()).collect();
+    let cells = |object: Document| {
+        columns.iter().map(|column| cell(object.at(&column.place))).collect::<Vec<_>>()
+    };
+    lines(std::iter::once(names).chain(objects.into_iter().map(cells)))
 }
 
 /// The names of the two ends of an interval.
