@@ -98,7 +98,7 @@ impl Reference {
         let run =
             |grain| Self::new(&precise(problem, grain, &tight)?, ReferenceSource::TwicePrecision);
         match run(FINE).and_then(|fine| Ok(fine.checked_by(&run(COARSE)?))) {
-            Err(reason) if reason != Reason::Interrupted => Self::by_two_methods(problem, limits),
+            Err(why) if why != Reason::Interrupted => Self::by_two_methods(problem, limits),
             answer => answer,
         }
     }
@@ -177,7 +177,7 @@ impl Reference {
         let apart = |one: Twofold, other: Twofold| (one - other).value().abs();
         let ends = self.end.state().zip(other.end.state());
         let besides = match (self.end, other.end) {
-            (Outcome::Escaped { tau: one }, Outcome::Escaped { tau: other }) => apart(one, other),
+            (Outcome::Escaped { tau }, Outcome::Escaped { tau: other }) => apart(tau, other),
             _ => ends.map(|(one, other)| apart(one.1, other.1))?,
         };
         let mut error = ends.map_or(0.0, |(one, other)| apart(one.0, other.0));

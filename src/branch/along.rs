@@ -235,7 +235,8 @@ impl CurveTracer<'_> {
             Err(Reason::Budget { .. } | Reason::NoConvergence { .. }) if rough => Vec::new(),
             closings => closings?,
         };
-        Ok(closings.into_iter().map(|closing| CurvePoint::of(closing, p, &parameters)).collect())
+        let point = |closing| CurvePoint::of(closing, p, &parameters);
+        Ok(closings.into_iter().map(point).collect())
     }
 
     /// Follows one curve and ends it exactly at the border that it crosses.

@@ -155,14 +155,14 @@ impl<'a> CycleCurve<'a> {
                 (Some((s_before, value_before)), _) => {
                     let along = (value - value_before) / (s - s_before);
                     if tangent.u.abs() > 0.01 {
-                        let slope = (in_u - along) / (self.scale * tangent.u);
+                        let slope = (in_u - along) / (scale * tangent.u);
                         self.slope_in_p = slope.is_finite().then_some((route, slope));
                     }
                     along
                 }
                 (None, _) if tangent.u == 0.0 => in_u,
-                (None, Some((of, slope))) if of == route => in_u - slope * self.scale * tangent.u,
-                (None, _) => in_u - self.renew_slope(route, u, p, value)? * self.scale * tangent.u,
+                (None, Some((of, slope))) if of == route => in_u - slope * scale * tangent.u,
+                (None, _) => in_u - self.renew_slope(route, u, p, value)? * scale * tangent.u,
             };
             let change = -value / along;
             if !change.is_finite() || per_s * change.abs() > 1.0 {

@@ -149,7 +149,8 @@ impl Family<'_> {
                 SpecialKind::Hopf => Some(self.model(value)?.damping),
                 _ => Some(self.test_functions(value)?[index]?.number),
             };
-            let value = zero(&of, (left.value, ends[0].number), (right.value, ends[1].number))?;
+            let ends = [(left.value, ends[0].number), (right.value, ends[1].number)];
+            let value = zero(&of, ends)?;
             let TestFunction { kind, q_max, .. } = self.test_functions(value)?[index]?;
             Some(self.change(&Special { q_max, ..Special::new(kind, value, None) }, step))
         };
@@ -193,8 +194,8 @@ impl Family<'_> {
         if count(left.1) == count(right.1) {
             return None;
         }
-        let (with, without) =
-            if left.1.cycles.len() > right.1.cycles.len() { (left, right) } else { (right, left) };
+        let falls = left.1.cycles.len() > right.1.cycles.len();
+        let (with, without) = if falls { (left, right) } else { (right, left) };
         let (wanted, mut nearest) = (count(with.1), with.1.clone());
         let (without, with) = try_bisect(without.0, with.0, NEAR, |value| {
             let portrait = self.portrait(value).ok_or(())?;
@@ -216,11 +217,8 @@ impl Family<'_> {
             steepest(&self.model(value)?, (low * high).sqrt(), ln(high / low))
         };
         let ends = (extremum(with)?, extremum(without)?);
-        let value = zero(
-            &|value| Some(extremum(value)?.value),
-            (with, ends.0.value),
-            (without, ends.1.value),
-        )?;
+        let ends = [(with, ends.0.value), (without, ends.1.value)];
+        let value = zero(&|value| Some(extremum(value)?.value), ends)?;
         let q_max = Some(exp(extremum(value)?.at));
         Some(Special { q_max, ..Special::new(SpecialKind::Fold, value, None) })
     }
@@ -281,13 +279,11 @@ fn test_functions(model: &Model, landmarks: Option<&Landmarks>) -> TestFunctions
 
 /// The zero of a function between two values of different sign; `None` where the function does not exist on
 /// the way.
-fn zero(function: &dyn Fn(f64) -> Option<f64>, left: (f64, f64), right: (f64, f64)) -> Option<f64> {
+fn zero(function: &dyn Fn(f64) -> Option<f64>, ends: [(f64, f64); 2]) -> Option<f64> {
     /// Relative width to which a special value is narrowed.
     const WIDTH: f64 = 4.0 * f64::EPSILON;
     let function = |value| function(value).ok_or(());
-    illinois([left, right], 0.0, PlaceTolerance::Relative(WIDTH), function)
-        .ok()
-        .map(|ends| ends[0].0)
+    illinois(ends, 0.0, PlaceTolerance::Relative(WIDTH), function).ok().map(|ends| ends[0].0)
 }
 
 /// How many cycles there are, of each kind; a fold takes one of each stability.

@@ -95,7 +95,8 @@ pub fn check(text: &str) -> Result<Certificate, String> {
     let at_line = |word: &str, number: usize, why: String| {
         // Several steps may share a line.
         let lines = text.lines().enumerate().filter(|(_, line)| line.contains(word));
-        format!("line {}: {why}", lines.take(number + 1).last().map_or(1, |(index, _)| index + 1))
+        let last = lines.take(number + 1).last();
+        format!("line {}: {why}", last.map_or(1, |(index, _)| index + 1))
     };
     let ordered = |[low, high]: Bounds| low <= high && low.is_finite() && high.is_finite();
     let sensible = given.parameters.into_iter().all(ordered) && given.parameters[3][0] >= 0.0;
@@ -111,8 +112,8 @@ pub fn check(text: &str) -> Result<Certificate, String> {
     }
     known(at == f64::INFINITY, &format!("nothing is said of clearances beyond {at:?}"))
         .map_err(|why| at_line("\"step\"", given.steps.len().saturating_sub(1), why))?;
-    known(cycles == given.cycles, &format!("{} cycles are claimed, {cycles} shown", given.cycles))
-        .map_err(|why| at_line("\"cycles\"", 0, why))?;
+    let differ = format!("{} cycles are claimed, {cycles} shown", given.cycles);
+    known(cycles == given.cycles, &differ).map_err(|why| at_line("\"cycles\"", 0, why))?;
     Ok(given)
 }
 
@@ -190,7 +191,8 @@ impl CertificateStep {
         let slope = map.slope(Interval::new(from, to)).ok_or("a turn is not certain")?;
         known(slope.upper() < 1.0, "the map that should contract may not")?;
         let [low, high] = self.clearance.ok_or("a cycle has a clearance")?;
-        known(from <= low && low <= high && high <= to, "the clearance is not within the step")?;
+        let inside = from <= low && low <= high && high <= to;
+        known(inside, "the clearance is not within the step")?;
         let [above, below] = [low, high].map(|z| map.images(Interval::point(z)));
         known(above.lower() > low, "the clearance may be below its bounds")?;
         known(below.upper() < high, "the clearance may be above its bounds")

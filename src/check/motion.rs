@@ -297,7 +297,8 @@ impl Disc {
     /// The disc around a box with one side of zero width.
     fn new(place: StateBox) -> Self {
         let radius = place[0].radius().max(place[1].radius());
-        Disc { centre: place.map(Interval::middle), radius, time: point(0.0), damping: point(0.0) }
+        let (centre, none) = (place.map(Interval::middle), point(0.0));
+        Disc { centre, radius, time: none, damping: none }
     }
 
     fn square(&self) -> StateBox {

@@ -64,8 +64,8 @@ impl LinearCycle {
             let half = growth.times(-0.5).exp();
             2.0 * r * half * half
         };
-        let log_clearance =
-            if clearance.is_normal() { ln(clearance) } else { ln(2.0 * r) - x - ln_1p(-exp(-x)) };
+        let tiny = || ln(2.0 * r) - x - ln_1p(-exp(-x));
+        let log_clearance = if clearance.is_normal() { ln(clearance) } else { tiny() };
         let q_max = r + clearance;
         // The largest velocity comes a quarter turn and some before the end of the half swing: counted
         // back from there, nothing under- or overflows.

@@ -95,7 +95,8 @@ impl TimeStepping {
     /// A stepper with steps of this length.
     pub fn new(field: SmoothField, length: f64) -> Self {
         let start = StepPoint { x: 0.0, v: 0.0 };
-        TimeStepping { field, length, start, end: start, duration: length, cost: Cost::default() }
+        let cost = Cost::default();
+        TimeStepping { field, length, start, end: start, duration: length, cost }
     }
 
     /// The impulse still needed from friction if the step is to end with velocity `v`.

@@ -186,9 +186,9 @@ impl<N: Scalar> Taylor<N> {
         let (end, v_end) = (end.value(), v_end.value());
         let (v, slope) = (self.v[0].value(), self.v[1].value());
         let bend = ((v_end - v) / end - slope) / end;
-        let spread = (slope * slope - 4.0 * bend * v).sqrt();
+        let span = (slope * slope - 4.0 * bend * v).sqrt();
         let guess =
-            if slope > 0.0 { (slope + spread) / (-2.0 * bend) } else { 2.0 * v / (spread - slope) };
+            if slope > 0.0 { (slope + span) / (-2.0 * bend) } else { 2.0 * v / (span - slope) };
         let start = if guess > 0.0 && guess < end { guess } else { end };
         let rounded = self.v.map(N::value);
         let v = |t: f64| value_and_slope(&rounded[..=self.order], t);

@@ -84,7 +84,7 @@ pub struct MotionRun<'a, N = f64> {
 
 impl<'a, N: Scalar> MotionRun<'a, N> {
     /// A run at its start.
-    pub fn new(problem: &Problem, method: Method, detail: Detail, limits: &'a Limits<'a>) -> Self {
+    pub fn new(problem: &Problem, method: Method, detail: Detail, limits: &'a Limits) -> Self {
         let State { q, v } = problem.initial;
         let mut found = Motion::begun(problem, method);
         if detail.samples_per_step > 0 {

@@ -114,8 +114,8 @@ pub struct ForceBranch {
 impl ForceBranch {
     /// The piece for a motion at `y` towards larger or smaller velocities; `None` beyond the law.
     pub fn piece(&self, y: f64, rising: bool) -> Option<&ForcePiece> {
-        self.pieces.iter().find(|piece| {
-            if rising { piece.low <= y && y < piece.high } else { piece.low < y && y <= piece.high }
+        self.pieces.iter().find(|ForcePiece { low, high, .. }| {
+            if rising { *low <= y && y < *high } else { *low < y && y <= *high }
         })
     }
 

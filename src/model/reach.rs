@@ -26,9 +26,10 @@ fn falling_zero((drop, velocity, exponent): (f64, f64, f64), rest: &[f64]) -> f6
     let [kinetic, viscous] = [0, 1].map(|power| rest.get(power).copied().unwrap_or(0.0));
     let far = if viscous < 0.0 { 2.0 * (kinetic / viscous).abs() } else { 0.0 };
     let last = far.max(1024.0 * velocity);
-    let ladder = (0..).map(|rung| velocity * exp2(f64::from(rung - 20 * RUNGS) / f64::from(RUNGS)));
-    let negative =
-        |slip: f64| kinetic + drop * exp(-pow(slip / velocity, exponent)) + viscous * slip < 0.0;
+    let doublings = (0..).map(|rung| f64::from(rung - 20 * RUNGS) / f64::from(RUNGS));
+    let ladder = doublings.map(|power| velocity * exp2(power));
+    let fall = |slip: f64| drop * exp(-pow(slip / velocity, exponent));
+    let negative = |slip: f64| kinetic + fall(slip) + viscous * slip < 0.0;
     let mut below = 0.0;
     for slip in ladder.take_while(|slip| *slip <= 2.0 * last) {
         if negative(slip) {

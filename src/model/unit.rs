@@ -215,8 +215,8 @@ impl UnitReader<'_> {
     }
 
     /// The dimension of a product with a power of another one. Fails beyond all sense.
-    fn times(&self, mut one: Dimension, other: Dimension, power: i8) -> Result<Dimension, String> {
-        for (exponent, other) in one.iter_mut().zip(other) {
+    fn times(&self, mut one: Dimension, by: Dimension, power: i8) -> Result<Dimension, String> {
+        for (exponent, other) in one.iter_mut().zip(by) {
             let sum = other.checked_mul(power).and_then(|other| exponent.checked_add(other));
             *exponent = sum.ok_or_else(|| self.wrong())?;
         }

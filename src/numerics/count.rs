@@ -15,7 +15,7 @@ pub const fn amount(count: u64) -> f64 {
 }
 
 /// The integer part of a number; 0 for negative numbers and NaN.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
 pub fn truncated(number: f64) -> usize {
     number as usize
 }

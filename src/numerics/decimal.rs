@@ -149,7 +149,7 @@ impl StepSize {
 }
 
 /// The power of ten at or below a positive number; far below all others for zero.
-#[expect(clippy::cast_possible_truncation, reason = "the exponent of a double has three digits")]
+#[expect(clippy::cast_possible_truncation, reason = "exponents have three digits")]
 pub fn decade(value: f64) -> i32 {
     log10(value).floor().max(-400.0) as i32
 }

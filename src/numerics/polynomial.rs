@@ -48,7 +48,7 @@ impl Derivatives {
 
     /// Whether all four are finite.
     pub fn is_finite(&self) -> bool {
-        [self.value, self.first, self.second, self.third].iter().all(|number| number.is_finite())
+        [self.value, self.first, self.second, self.third].iter().all(|it| it.is_finite())
     }
 }
 

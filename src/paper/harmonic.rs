@@ -68,9 +68,9 @@ pub(super) const CHECKS: &[Check] = &[
         Ok((cycle.v_max, cycle.extent()))
     }),
     worst("amplitude between extents", |it| {
-        harmonic_against_extents(it, |a, low, high| low <= a && a <= high)
+        amplitude_and_extents(it, |a, low, high| low <= a && a <= high)
     }),
-    worst("amplitude below extents", |it| harmonic_against_extents(it, |a, low, _| a < low)),
+    worst("amplitude below extents", |it| amplitude_and_extents(it, |a, low, _| a < low)),
     tends("A_v at D = -1", |it| Ok((2.0 / E, it.smallest()?.speed()))),
     worst("unstable amplitude", |it| {
         let unstable = amplitudes(it).first().ok_or(missing("a stationary amplitude"))?.amplitude;
@@ -162,7 +162,7 @@ fn largest_amplitude(parameters: &Parameters) -> Result<f64> {
 }
 
 /// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent, over all dampings.
-fn harmonic_against_extents(it: &ClaimCase, holds: fn(f64, f64, f64) -> bool) -> Result<Evidence> {
+fn amplitude_and_extents(it: &ClaimCase, holds: fn(f64, f64, f64) -> bool) -> Result<Evidence> {
     Evidence::always((1..20).map(|number| {
         let d = -0.05 * f64::from(number);
         let it = it.of([d, 0.0, 0.0, 0.1].into());

@@ -164,7 +164,8 @@ impl<'a> ClaimCase<'a> {
     ) -> Result<[Approximation; N]> {
         let [first, second] =
             METHODS.map(|method| Ok::<_, Reason>(read(&self.run(course, method, true)?)));
-        let (Some(first), Some(second)) = (first?, second?) else { return Err(missing(sought)) };
+        let both = first?.zip(second?);
+        let (first, second) = both.ok_or(missing(sought))?;
         Ok(std::array::from_fn(|index| Approximation::twice(first[index], second[index])))
     }
 

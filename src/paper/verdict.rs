@@ -155,7 +155,7 @@ impl Certainty {
     }
 
     /// The mark of a formula beside what it is compared with.
-    pub(crate) fn of(sense: Sense, formula: f64, computed: &Approximation) -> Option<Certainty> {
+    pub(crate) fn of(sense: Sense, formula: f64, computed: &Approximation) -> Option<Self> {
         let bounds = computed.bounds?;
         let formula = with_rounding(formula, computed.error);
         let [holds, fails] = match sense {

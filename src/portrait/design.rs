@@ -134,7 +134,8 @@ pub fn friction_for(
     let any = match source.body {
         // Undamped motions come to rest by friction alone, in the end by any.
         Body::Paper(Parameters { d: 0.0, d3: 0.0, .. }) => Some(wanted * f64::EPSILON),
-        Body::Paper(Parameters { d, d3, .. }) => (d > 0.0 || (d == 0.0 && d3 > 0.0)).then_some(0.0),
+        Body::Paper(Parameters { d, d3, .. }) if d > 0.0 || (d == 0.0 && d3 > 0.0) => Some(0.0),
+        Body::Paper(_) => None,
         _ => (model.damping > 0.0 && !uncertain).then_some(0.0),
     };
     Ok((least_friction((kick, wanted), (holds, any), &mut margin)?, cost))

@@ -90,7 +90,7 @@ impl Walk {
         for _ in 0..40 {
             for (fences, map) in self.maps(false) {
                 if map.images(Interval::point(to)).upper() < 0.0 {
-                    self.take(StepKind::Within, Some(to), None, fences);
+                    self.add(StepKind::Within, Some(to), None, fences);
                     return Ok(());
                 }
             }
@@ -102,8 +102,9 @@ impl Walk {
     }
 
     /// Appends one step.
-    fn take(&mut self, kind: StepKind, to: Option<f64>, clearance: Option<Bounds>, fences: Fences) {
-        self.steps.push(CertificateStep { kind, from: self.at, to, clearance, fences });
+    fn add(&mut self, kind: StepKind, to: Option<f64>, within: Option<Bounds>, fences: Fences) {
+        let (from, clearance) = (self.at, within);
+        self.steps.push(CertificateStep { kind, from, to, clearance, fences });
         self.at = to.unwrap_or(f64::INFINITY);
     }
 
@@ -130,7 +131,7 @@ impl Walk {
         if !(to > from && to < f64::INFINITY && self.steps.len() < MOST) {
             return Err(format!("a turn from the clearance {from:?} is not certain"));
         }
-        self.take(self.aside(), Some(to), None, fences);
+        self.add(self.aside(), Some(to), None, fences);
         Ok(())
     }
 
@@ -164,7 +165,7 @@ impl Walk {
                 self.step(from)?;
             }
             let kind = if cycle.stable { StepKind::Stable } else { StepKind::Unstable };
-            self.take(kind, Some(to), Some(clearance), fences);
+            self.add(kind, Some(to), Some(clearance), fences);
             self.above = !cycle.stable;
             return Ok(());
         }
@@ -178,11 +179,11 @@ impl Walk {
         let greatest = map.images(all).upper();
         loop {
             if !self.above && greatest < self.at {
-                self.take(StepKind::Within, None, None, fences);
+                self.add(StepKind::Within, None, None, fences);
                 return Ok(());
             }
             if let (f64::INFINITY, fences) = self.reach() {
-                self.take(self.aside(), None, None, fences);
+                self.add(self.aside(), None, None, fences);
                 return Ok(());
             }
             self.step(f64::MAX)?;

@@ -134,9 +134,9 @@ impl Count {
         order.into_iter().any(|direction| self.settle_along(map, direction, gap))
     }
 
-    fn settle_along(&mut self, map: &mut ProvedMap, along: MapDirection, gap: SignedGap) -> bool {
+    fn settle_along(&mut self, map: &mut ProvedMap, way: MapDirection, gap: SignedGap) -> bool {
         let SignedGap { over, low, high } = gap;
-        let Some(slope) = map.slope(along, over) else { return false };
+        let Some(slope) = map.slope(way, over) else { return false };
         if slope.lower() > 1.0 || slope.upper() < 1.0 {
             if low != high {
                 self.cycles.push(ProvedCycle::new(over, low == Sign::Above));
@@ -148,7 +148,7 @@ impl Count {
         }
         // Whether the distance from the diagonal in the middle exceeds any approach towards an end.
         let middle = Interval::point(over.middle());
-        let away = map.image(along, middle) - middle;
+        let away = map.image(way, middle) - middle;
         let sway = (slope - Interval::point(1.0)) * (over - middle);
         let sum = away + sway;
         sum.lower() > 0.0 || sum.upper() < 0.0
@@ -282,8 +282,8 @@ fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     }
     if bound < f64::INFINITY {
         // No image is larger: the map is not above the diagonal there, unless the motion never turns again.
-        let sign =
-            if map.parameters.d3.lower() > 0.0 { Some(Sign::Below) } else { sign_at(map, bound) };
+        let returns = map.parameters.d3.lower() > 0.0;
+        let sign = if returns { Some(Sign::Below) } else { sign_at(map, bound) };
         return sign.map(|sign| (bound, sign)).ok_or_else(|| Count::beyond(inner));
     }
     // The same for the inverse, all of whose images are below its greatest one.

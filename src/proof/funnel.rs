@@ -233,7 +233,7 @@ impl Funnel {
         }
         let unit = exponent(self.speed);
         let end = Interval::new(self.least(), self.greatest());
-        let (late, squares) = self.after(field, end, unit)?;
+        let [late, squares] = self.after(field, end, unit)?;
         let FieldBox { a, b, c } = field.in_units_of(unit);
         let [x, v, entry, e] = [fallen.end, fallen.speed, self.entry, Interval::point(self.speed)]
             .map(|it| scaled(it, -unit));
@@ -257,14 +257,14 @@ impl Funnel {
     /// The integral of the slope of the damping over time from the line `v = speed` on.
     fn damping_after(&self, field: &FieldBox, end: Interval) -> Option<Interval> {
         let unit = exponent(self.speed);
-        let (duration, squares) = self.after(field, end, unit)?;
+        let [duration, squares] = self.after(field, end, unit)?;
         let FieldBox { a, b, c } = field.in_units_of(unit);
         let way = scaled(end, -unit) - scaled(self.entry, -unit);
         Some(a * duration + (b * way).twice() + c * squares * 3.0)
     }
 
     /// The time from the line `v = speed` on, and the integral of `v^2` in units of `2^(2 unit)`.
-    fn after(&self, field: &FieldBox, end: Interval, unit: i32) -> Option<(Interval, Interval)> {
+    fn after(&self, field: &FieldBox, end: Interval, unit: i32) -> Option<[Interval; 2]> {
         let (low, high) = (self.low?, self.high?);
         let FieldBox { a, b, c } = field.in_units_of(unit);
         let [end, entry, speed] =
@@ -285,7 +285,7 @@ impl Funnel {
         let rim = (speed * entry.width()).upper();
         let squares = low.square_in(unit).hull(high.square_in(unit));
         let squares = squares + Interval::new(-rim, rim);
-        Some((duration, squares))
+        Some([duration, squares])
     }
 
     /// Lower bound of this integral for motions that fall off a fold.
@@ -341,8 +341,8 @@ pub fn fences([a, b, c]: [f64; 3]) -> Option<(f64, f64)> {
     let at_fold = gentle.max(AT_FOLD * cbrt(b * b / c.abs()));
     // The roots of f' = slope: the larger one for c > 0, both for c < 0.
     let root = |slope: f64| (b * b + 3.0 * c * (slope - a)).sqrt();
-    let speed =
-        if b >= 0.0 { (gentle - a) / (b + root(gentle)) } else { (root(at_fold) - b) / (3.0 * c) };
+    let beyond_fold = || (root(at_fold) - b) / (3.0 * c);
+    let speed = if b >= 0.0 { (gentle - a) / (b + root(gentle)) } else { beyond_fold() };
     let fastest = if c < 0.0 { (b + root(at_fold)) / (-3.0 * c) } else { f64::INFINITY };
     (speed > 0.0 && speed.is_finite()).then_some((speed, fastest))
 }

@@ -132,7 +132,7 @@ impl ProvedMap {
         let (halves, effort) = self.halves(direction);
         let (mut at, mut product) = (over, Interval::point(1.0));
         for half in halves {
-            let (end, slope) = half.end_and_slope(half.start(at), effort)?;
+            let (end, slope) = half.end_slope(half.start(at), effort)?;
             product = product * slope;
             at = if direction == MapDirection::Forward { end - half.gap } else { end };
             if !(at.lower() > 0.0) {
@@ -145,12 +145,12 @@ impl ProvedMap {
 
 impl Effort {
     /// Runs one field from rest; with a funnel it stops as soon as every motion is faster than the ceiling of that.
-    pub fn run(&mut self, field: &FieldBox, start: Interval, funnel: Option<&Funnel>) -> Passage {
+    pub fn run(&mut self, of: &FieldBox, start: Interval, funnel: Option<&Funnel>) -> Passage {
         if self.steps > MOST_WORK {
             return Passage::Unknown;
         }
         let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
-        let passage = swing_below(field, &StartBox::at_rest(start), ceiling, false);
+        let passage = swing_below(of, &StartBox::at_rest(start), ceiling, false);
         self.swings += 1;
         self.steps += match passage {
             Passage::Arrives(swing) | Passage::Exceeds(swing) => swing.steps,
@@ -162,8 +162,9 @@ impl Effort {
 
     /// The swings from rest in an interval of starts that end lowest and highest (lemma 8).
     pub fn extremes(&mut self, field: &FieldBox, start: Interval) -> Option<[ProvedSwing; 2]> {
-        let low = self.run(&field.strongest(), Interval::point(start.lower()), None).arrived()?;
-        let high = self.run(&field.weakest(), Interval::point(start.upper()), None).arrived()?;
+        let [first, last] = [start.lower(), start.upper()].map(Interval::point);
+        let low = self.run(&field.strongest(), first, None).arrived()?;
+        let high = self.run(&field.weakest(), last, None).arrived()?;
         Some([low, high])
     }
 }
@@ -283,31 +284,31 @@ impl ProvedHalf {
     }
 
     /// The end of a swing from an interval of starts, and its derivative with respect to the start.
-    fn end_and_slope(&self, start: Interval, effort: &mut Effort) -> Option<(Interval, Interval)> {
+    fn end_slope(&self, from: Interval, effort: &mut Effort) -> Option<(Interval, Interval)> {
         let (field, funnel) = (&self.field, self.funnel(effort));
-        let stiff = |climb| funnel.and_then(|it| it.contraction(field, start, climb));
-        let far = funnel.and_then(|it| it.climb_from(field, start)).and_then(stiff);
+        let stiff = |climb| funnel.and_then(|it| it.contraction(field, from, climb));
+        let far = funnel.and_then(|it| it.climb_from(field, from)).and_then(stiff);
         let settled = |(_, slope): &(Interval, Interval)| slope.upper() < SUPERSTABLE;
         if far.as_ref().is_some_and(settled) {
             return far;
         }
-        let whole = match effort.run(field, start, funnel.as_ref()) {
+        let whole = match effort.run(field, from, funnel.as_ref()) {
             Passage::Arrives(swing) => swing,
             Passage::Exceeds(swing) => {
                 let near = funnel.and_then(|it| it.climb_of(field, &swing)).and_then(stiff);
                 if near.as_ref().is_some_and(settled) {
                     return near;
                 }
-                match effort.run(field, start, None) {
+                match effort.run(field, from, None) {
                     Passage::Arrives(swing) => swing,
                     _ => return near,
                 }
             }
             _ => return None,
         };
-        let swing = self.swing_over(start, whole, effort)?;
+        let swing = self.swing_over(from, whole, effort)?;
         // Lemma 9.
-        let slope = start / swing.end * swing.divergence.exp();
+        let slope = from / swing.end * swing.divergence.exp();
         slope.is_finite().then_some((swing.end, slope))
     }
 

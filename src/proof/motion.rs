@@ -211,7 +211,7 @@ pub fn state_at(
         let left = target - ball.time;
         if !(left > 4.0 * f64::EPSILON * target) {
             let off = (time - ball.elapsed(0.0)).magnitude();
-            let (x, v) = about(&ball.local.field, ball.state(), off)?;
+            let [x, v] = about(&ball.local.field, ball.state(), off)?;
             let (x, v) = (scaled(x, ball.unit), scaled(v, ball.unit));
             return (v.lower() >= 0.0).then_some((x, v));
         }
@@ -221,14 +221,14 @@ pub fn state_at(
 }
 
 /// A larger box that motions do not leave within the time `off` before and after they are in a box.
-fn about(field: &FieldBox, (x, v): (Interval, Interval), off: f64) -> Option<(Interval, Interval)> {
+fn about(field: &FieldBox, (x, v): (Interval, Interval), off: f64) -> Option<[Interval; 2]> {
     let time = Interval::new(-off, off);
     let (mut wide_x, mut wide_v) = (x, v);
     for _ in 0..6 {
         let next_x = x + time * wide_v;
         let next_v = v + time * field.acceleration(wide_x, wide_v);
         if next_x.is_within(wide_x) && next_v.is_within(wide_v) {
-            return Some((next_x, next_v));
+            return Some([next_x, next_v]);
         }
         let wider = |it: Interval| Interval::around(it.middle(), 1.1 * it.radius());
         (wide_x, wide_v) = (wider(wide_x.hull(next_x)), wider(wide_v.hull(next_v)));

@@ -54,13 +54,13 @@ impl SeriesScalar for f64 {
     }
 }
 
-/// Sums of `one[i] other[k - i]` for `2 <= i <= k - 2`, in lanes, for two arrays. `other` holds its factor in
+/// Sums of `one[i] by[k - i]` for `2 <= i <= k - 2`, in lanes, for two arrays. `by` holds its factor in
 /// reverse, from index `ORDER` down. It holds zeros for degrees 0 and 1, so the last lanes add zeros.
 ///
 /// Each of these `k - 3` products passes at most `k/4 + 2` roundings: one as a product, two where the lanes are
 /// combined, the others along its lane. Adding zeros is exact. Nothing is read that was written in the last two
 /// iterations, because waiting for memory would take longer than the sum.
-fn inner<T: SeriesScalar>(both: [&[T; LENGTH]; 2], other: &[T; 2 * LENGTH], k: usize) -> [T; 2] {
+fn inner<T: SeriesScalar>(both: [&[T; LENGTH]; 2], by: &[T; 2 * LENGTH], k: usize) -> [T; 2] {
     let mut lanes = [[T::ZERO; LANES]; 2];
     if k < 4 {
         return [T::ZERO; 2];
@@ -68,11 +68,11 @@ fn inner<T: SeriesScalar>(both: [&[T; LENGTH]; 2], other: &[T; 2 * LENGTH], k: u
     let length = (k - 3).div_ceil(LANES) * LANES;
     let (one, _) = both[0][2..2 + length].as_chunks::<LANES>();
     let (two, _) = both[1][2..2 + length].as_chunks::<LANES>();
-    let (other, _) = other[ORDER - k + 2..ORDER - k + 2 + length].as_chunks::<LANES>();
-    for (chunk, other) in other.iter().enumerate() {
+    let (by, _) = by[ORDER - k + 2..ORDER - k + 2 + length].as_chunks::<LANES>();
+    for (chunk, by) in by.iter().enumerate() {
         for lane in 0..LANES {
-            lanes[0][lane] = lanes[0][lane] + one[chunk][lane] * other[lane];
-            lanes[1][lane] = lanes[1][lane] + two[chunk][lane] * other[lane];
+            lanes[0][lane] = lanes[0][lane] + one[chunk][lane] * by[lane];
+            lanes[1][lane] = lanes[1][lane] + two[chunk][lane] * by[lane];
         }
     }
     let total = |lanes: [T; LANES]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);

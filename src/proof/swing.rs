@@ -154,8 +154,10 @@ impl SwingRun {
             let faster = self.finish(ball.state(), 0.0);
             return faster.map(|swing| ControlFlow::Break(Passage::Exceeds(swing)));
         }
-        let escapes = never_returns(&field, (ball.x + off).next_up(), (ball.v - off).next_down());
-        Some(if escapes { ControlFlow::Break(Passage::Never) } else { ControlFlow::Continue(()) })
+        if never_returns(&field, (ball.x + off).next_up(), (ball.v - off).next_down()) {
+            return Some(ControlFlow::Break(Passage::Never));
+        }
+        Some(ControlFlow::Continue(()))
     }
 
     /// The arrival at `v = 0` near the end of the last step (lemma 6).
@@ -176,8 +178,8 @@ impl SwingRun {
         }
         let lag = (Interval::point(most) / Interval::point(rate.lower())).upper();
         let along = (Interval::point(most) * Interval::point(lag)).upper();
-        let end =
-            Interval::new(x.lower(), (Interval::point(x.upper()) + Interval::point(along)).upper());
+        let last = (Interval::point(x.upper()) + Interval::point(along)).upper();
+        let end = Interval::new(x.lower(), last);
         let end = if end.lower() > 0.0 { end } else { return None };
         self.finish((end, Interval::point(0.0)), lag)
     }

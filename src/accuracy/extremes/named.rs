@@ -31,8 +31,8 @@ const BLOW_UPS: &str = include_str!("../../../assets/blow_ups.txt");
 /// Every named extreme by the methods that serve it.
 pub fn named(limits: &Limits) -> Vec<NamedExtreme> {
     let mut all = vec![
-        million_swings(Method::Exact, 1e-13, 1e-15, limits),
-        million_swings(Method::Taylor, 1e-15, 1e-13, limits),
+        many_swings(Method::Exact, 1e-13, 1e-15, limits),
+        many_swings(Method::Taylor, 1e-15, 1e-13, limits),
     ];
     for [what, numbers @ ..] in BLOW_UPS.lines().filter_map(cells::<7>) {
         let numbers = numbers.map(|number| number.parse().unwrap_or(f64::NAN));
@@ -60,14 +60,15 @@ impl NamedExtreme {
 }
 
 /// A million half swings of the undamped oscillator, and what they did to its energy.
-fn million_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits) -> NamedExtreme {
+fn many_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits) -> NamedExtreme {
     const SWINGS: f64 = 1e6;
     let undamped = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
     let until = (SWINGS + 0.5) * std::f64::consts::PI;
     let problem = Problem::new(undamped, State { q: 1.0, v: 0.0 }, until);
     let problem = Problem { method, tolerance, ..problem };
     let measure = ("energy gained or lost", allowed);
-    NamedExtreme::of("a million half swings at D = r = 0", measure, &problem, limits, |motion| {
+    let what = "a million half swings at D = r = 0";
+    NamedExtreme::of(what, measure, &problem, limits, |motion| {
         let Outcome::Moving { q, v, .. } = motion.outcome else { return None };
         let changed = energy(State { q, v }) / energy(problem.initial) - 1.0;
         (motion.crossings.len() == 1_000_000).then_some(changed.abs())

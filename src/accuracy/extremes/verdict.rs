@@ -104,7 +104,8 @@ fn changed(motion: &Motion, part: f64, limits: &Limits) -> Motion {
 
 fn follow(case: &Case, method: Method, tolerance: f64, budget: u64, limits: &Limits) -> Motion {
     let problem = Problem::new(case.parameters, case.initial, UNTIL);
-    trajectory(&Problem { method, tolerance, ..problem }, Detail::default(), &limits.up_to(budget))
+    let problem = Problem { method, tolerance, ..problem };
+    trajectory(&problem, Detail::default(), &limits.up_to(budget))
 }
 
 /// The motion to compare with: the closed form, else a tight motion by the series, else, where that is

@@ -97,11 +97,11 @@ pub(crate) struct Tracer<'a> {
 
 impl Tracer<'_> {
     /// Adds the lines that are needed between two, so that chords lie close to the boundaries.
-    pub fn between(&mut self, before: &ChartLine, after: &ChartLine, halvings: u32) -> Result<()> {
+    pub fn between(&mut self, before: &ChartLine, after: &ChartLine, depth: u32) -> Result<()> {
         let chord = self.resolution.chord;
         let through_zero = before.at < 0.0 && after.at > 0.0;
         let failed = before.failure.is_some() || after.failure.is_some();
-        if halvings == 0 || chord.is_infinite() || through_zero || failed {
+        if depth == 0 || chord.is_infinite() || through_zero || failed {
             return Ok(());
         }
         let middle = self.line(f64::midpoint(before.at, after.at))?;
@@ -118,9 +118,9 @@ impl Tracer<'_> {
             _ => false,
         };
         if bent || !before.alike(after) {
-            self.between(before, &middle, halvings - 1)?;
+            self.between(before, &middle, depth - 1)?;
             self.lines.push(middle.clone());
-            self.between(&middle, after, halvings - 1)?;
+            self.between(&middle, after, depth - 1)?;
         }
         Ok(())
     }

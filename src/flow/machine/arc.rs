@@ -160,7 +160,8 @@ impl<'a> Flow<'a> {
         let length = if model.tolerance > FINEST { length.min(LONGEST) } else { length };
         if !(length > 0.0 && length.is_finite()) {
             // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
-            return Err(if length == f64::INFINITY { Reason::Settles } else { Reason::Escapes });
+            let settles = length == f64::INFINITY;
+            return Err(if settles { Reason::Settles } else { Reason::Escapes });
         }
         let terms = &series.step.y;
         let velocity = |t: f64| value_and_slope(terms, t);
@@ -188,14 +189,14 @@ impl<'a> Flow<'a> {
     }
 
     /// Fails where a motion of some size at its start has settled, or turns no more, or has escaped.
-    fn stays(&self, (phase, forward): (Phase, f64), started: f64, end: StepPoint) -> Result<()> {
+    fn stays(&self, (phase, forward): (Phase, f64), start: f64, end: StepPoint) -> Result<()> {
         let size = end.size();
-        let near = if self.follows { NEAR * started } else { f64::INFINITY };
+        let near = if self.follows { NEAR * start } else { f64::INFINITY };
         let settles = size <= near && creeps(phase, self.model.side(phase), end, forward);
-        if settles || size < SETTLED * started {
+        if settles || size < SETTLED * start {
             return Err(Reason::Settles);
         }
-        let escapes = size.is_nan() || size > ESCAPED * started;
+        let escapes = size.is_nan() || size > ESCAPED * start;
         if escapes { Err(Reason::Escapes) } else { Ok(()) }
     }
 

@@ -78,7 +78,7 @@ pub struct KnobSpec {
 impl KnobSpec {
     /// The row of a number of which nothing else is said. One of a motion may not be so close to 0 that products of a
     /// few of them underflow.
-    const fn of(group: Group, name: &'static str, unit: &'static str, range: (f64, f64)) -> Self {
+    const fn of(group: Group, [name, unit]: [&'static str; 2], range: (f64, f64)) -> Self {
         KnobSpec {
             knob: Knob::D,
             name,
@@ -115,7 +115,7 @@ macro_rules! knobs {
             knob: Knob::$knob,
             meaning: $meaning,
             $($($more)+,)?
-            ..KnobSpec::of(Group::$group, $name, $unit, $range)
+            ..KnobSpec::of(Group::$group, [$name, $unit], $range)
         }),+),+];
     };
 }

@@ -97,7 +97,8 @@ impl<'a> Equation<'a> {
         limits: &Limits<'a>,
     ) -> Self {
         let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
-        Self::on_fields(parameters, side, fields, limits, |field| HalfMap::new(field, tolerance))
+        let map = |field| HalfMap::new(field, tolerance);
+        Self::on_fields(parameters, side, fields, limits, map)
     }
 
     /// The same with half maps made by `map`, and with damping that may differ by side: the fields of the first and of
@@ -269,7 +270,8 @@ impl<'a> Equation<'a> {
         });
         let uncertainty = (node.value.abs() + noise) / node.slope.abs();
         let lengths = clearances.map(|clearance| clearance.length);
-        SwingPair { growth, noise, uncertainty, errors, ..SwingPair::new(node, lengths, swings) }
+        let pair = SwingPair::new(node, lengths, swings);
+        SwingPair { growth, noise, uncertainty, errors, ..pair }
     }
 
     /// The first swing from `start`, or a bound on where it ends: the largest number where that is not known at
@@ -314,7 +316,8 @@ impl Place {
         let own = own.plus(gain, self.error);
         let errors = [own, Errors::default().plus(gain, exp(self.log_gain))];
         let log_gain = self.log_gain + swing.log_elasticity;
-        (HalfSwing { errors, ..swing }, Place { length: swing.end, log_gain, error: own.length })
+        let end = Place { length: swing.end, log_gain, error: own.length };
+        (HalfSwing { errors, ..swing }, end)
     }
 
     fn plus(self, gap: f64) -> Self {

@@ -40,11 +40,11 @@ pub(crate) fn rounding(length: Length) -> f64 {
 }
 
 impl SwingPair {
-    pub(crate) fn new(node: Node, [first, second]: [Length; 2], swings: [HalfSwing; 2]) -> Self {
+    pub(crate) fn new(node: Node, starts: [Length; 2], swings: [HalfSwing; 2]) -> Self {
         SwingPair {
             node,
-            first,
-            second,
+            first: starts[0],
+            second: starts[1],
             duration: swings[0].duration + swings[1].duration,
             square: swings[0].square + swings[1].square,
             fastest: swings.map(|swing| swing.fastest),

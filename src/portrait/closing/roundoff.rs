@@ -73,7 +73,8 @@ impl Roundoff {
         let area = exp(2.0 * (log_start - field.d * skipped - log_size));
         let duration = Errors { duration: skipped, ..Errors::default() };
         let errors = [Errors::default().plus(duration, rounding), duration];
-        Roundoff { field, tolerance: rounding, unit, from, area: [rounding * area, area], errors }
+        let area = [rounding * area, area];
+        Roundoff { field, tolerance: rounding, unit, from, area, errors }
     }
 
     /// The errors of a swing in closed form.

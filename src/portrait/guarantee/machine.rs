@@ -23,7 +23,8 @@ pub fn guaranteed(
     belt: &Belt,
     known: &Tolerances,
 ) -> Result<Result<(Portrait, Margin), NoGuarantee>> {
-    let Some(corners) = Corners::new(belt, known)? else { return Ok(Err(NoGuarantee::TooMany)) };
+    let corners = Corners::new(belt, known)?;
+    let Some(corners) = corners else { return Ok(Err(NoGuarantee::TooMany)) };
     let least = corners.friction;
     if least < 0.0 || known.disturbance > 0.0 && least == 0.0 {
         let (disturbance, friction) = (known.disturbance, corners.belts[0].friction);
@@ -132,8 +133,9 @@ impl Corners {
     /// The corners of a machine's tolerances, unless more than [`MOST`] of its other numbers are uncertain. Fails with
     /// [`Reason`] where one of them has no model.
     fn new(belt: &Belt, known: &Tolerances) -> Result<Option<Self>> {
+        let uncertain = known.intervals(belt).into_iter();
         let (monotone, others): (Vec<_>, Vec<_>) =
-            known.intervals(belt).into_iter().partition(|(varied, _)| MONOTONE.contains(varied));
+            uncertain.partition(|(varied, _)| MONOTONE.contains(varied));
         if others.len() > MOST {
             return Ok(None);
         }
@@ -208,7 +210,8 @@ impl Corners {
         const VELOCITIES: usize = 200;
         let sides = [(Phase::Below, low), (Phase::Between, high)];
         // The forces along the motion, at velocities of both signs: a row for each, a column for each corner.
-        let forces = DMatrix::from_fn(2 * (VELOCITIES + 1), self.models.len(), |place, corner| {
+        let corners = self.models.len();
+        let forces = DMatrix::from_fn(2 * (VELOCITIES + 1), corners, |place, corner| {
             let (phase, end) = sides[place / (VELOCITIES + 1)];
             let y = end * real(place % (VELOCITIES + 1)) / real(VELOCITIES);
             phase.sign() * self.models[corner].force(phase, y).0

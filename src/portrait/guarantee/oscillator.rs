@@ -116,7 +116,8 @@ impl TwoSidedOscillator {
         // How far out a search goes follows from the weaker D2.
         let weaker = fields.map(|field| field.d2.abs()).into_iter().fold(f64::INFINITY, f64::min);
         let parameters = Parameters { d2: weaker, ..self.upper };
-        Equation::on_fields(&parameters, first, fields, limits, |field| HalfMap::new(field, STEP))
+        let map = |field| HalfMap::new(field, STEP);
+        Equation::on_fields(&parameters, first, fields, limits, map)
     }
 }
 

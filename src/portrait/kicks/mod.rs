@@ -52,9 +52,8 @@ impl RandomKick {
     /// Reads `q=0+-0.1,v=0+-0.05`, with `uniform:` before it for a law that is not normal; displacements and velocities
     /// in these units, or with their own. Fails with one line that says what is wrong and what is allowed.
     pub fn read(text: &str, units: [&str; 2]) -> Result<Self, String> {
-        let form = || {
-            format!("{text:?}: expected kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0")
-        };
+        const FORM: &str = "kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0";
+        let form = || format!("{text:?}: expected {FORM}");
         let (name, parts) = text.split_once(':').unwrap_or(("normal", text));
         let mut laws = [Distribution::Normal, Distribution::Uniform].into_iter();
         let law = laws.find(|law| law.name() == name).ok_or_else(form)?;

@@ -52,7 +52,7 @@ fn growth_to(u: f64, x: f64, image: &Image) -> Node {
 /// The right turning points at which the return map changes, by amplitude: its fixed points, and where it jumps or catches.
 /// Tells the portrait how far they were sought, what ended the search, and where it did not settle. Fails with [`Reason`]
 /// if even the motions next to rest cannot be followed.
-pub(crate) fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<Vec<(f64, Divide)>> {
+pub fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<Vec<(f64, Divide)>> {
     let landmarks = portrait.landmarks;
     let marks = landmarks.as_ref();
     let divides = jumps(flow.model, marks).into_iter().map(|x| (x, Divide::Jump)).collect();

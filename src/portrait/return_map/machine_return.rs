@@ -170,8 +170,9 @@ impl Flow<'_> {
         };
         let ratio = before.map_or(0.0, |before| before.log_ratio);
         let between = (left + guide) / (after + guide);
-        let log_slope =
-            if after > -guide { divergence - ratio + ln(between.abs()) } else { f64::NEG_INFINITY };
+        let turns = after > -guide;
+        let log_slope = divergence - ratio + ln(between.abs());
+        let log_slope = if turns { log_slope } else { f64::NEG_INFINITY };
         Ok((before.map(|before| before.x), Image::slipping(after, left, log_slope)))
     }
 
@@ -227,7 +228,8 @@ impl Flow<'_> {
             let corner = if touches { lines.fold } else { lines.low };
             curve.steps.push(MachineStep::ride(corner, end.x, speed));
             before = if jumps { curve.steps.len() } else { 0 };
-            left = self.settling_arc(Phase::Between, (corner, speed), true, &mut curve.keeper())?.x;
+            let start = (corner, speed);
+            left = self.settling_arc(Phase::Between, start, true, &mut curve.keeper())?.x;
         }
         left = left.min(-self.model.guide_static);
         self.settling_arc(Phase::Below, (left, 0.0), true, &mut curve.keeper())?;
