@@ -149,7 +149,8 @@ impl Trade {
 
     /// Which rows stand for the method and tolerance of the problem.
     pub fn is_own(&self, row: &TradePoint) -> bool {
-        row.problem.method == self.problem.method && row.problem.setting() == self.problem.setting()
+        let (it, own) = (&row.problem, &self.problem);
+        it.method == own.method && it.setting() == own.setting()
     }
 
     /// The row of a problem's method whose accuracy is nearest to the problem's.

@@ -178,7 +178,7 @@ impl Family<'_> {
             (value, self.portrait(value))
         });
         let beside: Vec<_> = beside.collect();
-        let all: Option<Vec<&Portrait>> = beside.iter().map(|(_, found)| found.as_ref()).collect();
+        let all: Option<Vec<&Portrait>> = beside.iter().map(|(_, it)| it.as_ref()).collect();
         let jumps = all.map_or_else(Jumps::default, |all| {
             let ways = [[0, 1, 2, 3], [3, 2, 1, 0]].map(|way| lasting_jump(way.map(|at| all[at])));
             let [up, down] = if step > 0.0 { ways } else { [ways[1], ways[0]] };
@@ -252,7 +252,7 @@ fn test_functions(model: &Model, landmarks: Option<&Landmarks>) -> TestFunctions
     };
     // What comes to rest on the left would have turned where the guide lets go.
     let held = -model.guide_static;
-    let of = |right: f64, left: Option<f64>| if right > 0.0 { left.unwrap_or(held) } else { held };
+    let of = |right: f64, left: Option<f64>| left.filter(|_| right > 0.0).unwrap_or(held);
     let after_touch = of(grazing.x, left(grazing.x.max(model.guide_static)));
     let after_release = released.map(|right| of(right, left(right)));
     // The next left turning points of the orbit that touches the line, as if it slipped, and of the one that the belt
@@ -267,7 +267,7 @@ fn test_functions(model: &Model, landmarks: Option<&Landmarks>) -> TestFunctions
     let at_touch = if ends { SpecialKind::Annihilation } else { SpecialKind::Grazing };
     // What is released comes to the lower end of the stick band, or to where motions do not stick any more.
     let overtaking = after_release.filter(|_| rides).map(|left| left - low_left);
-    let unsticking = released.filter(|_| rides).zip(beyond).map(|(right, beyond)| right - beyond);
+    let unsticking = released.filter(|_| rides).zip(beyond).map(|(right, last)| right - last);
     [
         hopf,
         function(at_touch, touch, Some(touching)),

@@ -58,7 +58,7 @@ pub struct HarmonicFold {
 /// then empty and [`is_centre`] says so.
 pub fn amplitudes(parameters: &Parameters) -> Vec<Harmonic> {
     let Parameters { d, d2, d3, r } = *parameters;
-    let alone = |root: Option<f64>, stable| root.map(|root| (root, stable)).into_iter().collect();
+    let alone = |root: Option<f64>, stable| root.map(|it| (it, stable)).into_iter().collect();
     let roots = if r == 0.0 {
         alone(large_asymptote(parameters), d3 > 0.0)
     } else if d3 == 0.0 {
@@ -68,7 +68,7 @@ pub fn amplitudes(parameters: &Parameters) -> Vec<Harmonic> {
     } else {
         supercritical(d, d3, r)
     };
-    let harmonic = |(amplitude, stable)| Harmonic { amplitude, mean: mean(d2, amplitude), stable };
+    let harmonic = |(a, stable)| Harmonic { amplitude: a, mean: mean(d2, a), stable };
     roots.into_iter().map(harmonic).collect()
 }
 

@@ -155,7 +155,8 @@ impl<const S: usize, const R: usize, F: Field> ExplicitStepper<S, R, F> {
                 return Err(Reason::OutOfRange);
             }
             grow = 1.0;
-            length *= if error.is_finite() { factor(error.max(1.0)).clamp(0.2, 0.9) } else { 1e-3 };
+            let shorter = factor(error.max(1.0)).clamp(0.2, 0.9);
+            length *= if error.is_finite() { shorter } else { 1e-3 };
             if !self.is_fixed() {
                 self.next = length;
             }

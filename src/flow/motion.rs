@@ -330,7 +330,8 @@ impl Motion {
     pub fn rides(&self) -> impl Iterator<Item = [Sample; 2]> {
         let ends = self.legs.iter().skip(1).map(|leg| leg.start).chain([self.end()]);
         let legs = self.legs.iter().zip(ends);
-        legs.filter(|(leg, _)| leg.place == ContactState::Sticks).map(|(leg, end)| [leg.start, end])
+        let rides = legs.filter(|(leg, _)| leg.place == ContactState::Sticks);
+        rides.map(|(leg, end)| [leg.start, end])
     }
 
     /// The motion at any time from its start: between two samples on the cubic through their displacements and

@@ -34,7 +34,8 @@ impl ApproachToRest {
         let x = times_power(point.x, -unit);
         let top = times_power(point.v, -unit);
         let force = |v: f64| v * (2.0 * d.abs() + v * (d2.abs() + v * d3.abs()));
-        if !(x > 0.0 && top > 0.0 && force(top) <= WEAK * x && top * top <= negligible * x * x) {
+        let is_weak = force(top) <= WEAK * x && top * top <= negligible * x * x;
+        if !(x > 0.0 && top > 0.0 && is_weak) {
             return None;
         }
         // In units of the position neither integral overflows or underflows.

@@ -158,7 +158,7 @@ impl<N: Scalar> Taylor<N> {
     /// coefficient almost vanishes, and those of a pair of complex poles pass through zero now and then, so
     /// fewer would sometimes miss the trend.
     fn allowed(&self) -> Option<f64> {
-        let log2 = |value: f64| if value == 0.0 { f64::NEG_INFINITY } else { rough_log2(value) };
+        let log2 = |size: f64| if size == 0.0 { f64::NEG_INFINITY } else { rough_log2(size) };
         let (size, slope) = (log2(self.v[0].value().abs()), log2(self.v[1].value().abs()));
         let (mut by_size, mut by_slope) = (f64::INFINITY, f64::INFINITY);
         for k in self.order + 1 - TAIL..=self.order {
@@ -329,8 +329,8 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
 
     fn at(&self, time: f64) -> StepPoint {
         let (order, t) = (self.order, N::from(times_power(time, -self.time_exponent)));
-        let point = StepPoint { x: value(&self.x[..=order], t), v: value(&self.v[..=order], t) };
-        point.rounded()
+        let [x, v] = [&self.x, &self.v].map(|series| value(&series[..=order], t));
+        StepPoint { x, v }.rounded()
     }
 
     fn powers(&self) -> Powers {

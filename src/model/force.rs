@@ -122,8 +122,7 @@ impl ForceBranch {
     /// The least of `-force/y` at velocities up to `reach` in size, along the direction of integration: how
     /// strongly each of them decays at least. `None` where no bound is at hand.
     pub fn decay(&self, reach: f64, forward: f64) -> Option<f64> {
-        let covers =
-            |piece: &&ForcePiece| piece.center == 0.0 && piece.low <= -reach && reach <= piece.high;
+        let covers = |it: &&ForcePiece| it.center == 0.0 && it.low <= -reach && reach <= it.high;
         let piece = self.pieces.iter().find(covers)?;
         let fall = match self.fall.filter(|_| piece.falls) {
             None => 0.0,
@@ -160,7 +159,7 @@ impl LawParts {
     pub(crate) fn scaled(&self, force: f64, omega_0: f64) -> Self {
         let scaled = |(from, to, coefficients): LawPiece| {
             let numbers = (0..).zip(coefficients);
-            let numbers = numbers.map(|(k, number)| force * number * powi(omega_0, k)).collect();
+            let numbers = numbers.map(|(k, c)| force * c * powi(omega_0, k)).collect();
             (from / omega_0, to / omega_0, numbers)
         };
         // What falls ends within the first piece.

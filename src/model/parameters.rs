@@ -142,7 +142,7 @@ impl Ledger {
     pub fn of_terms(parameters: &Parameters, energies: (f64, f64), works: [f64; 4]) -> Self {
         let Parameters { d, d2, d3, r } = *parameters;
         let terms = [("linear", d), ("quadratic", d2), ("cubic", d3), ("friction", r)];
-        let work = |((source, strength), amount)| Work { source, amount, acts: strength != 0.0 };
+        let work = |((source, factor), amount)| Work { source, amount, acts: factor != 0.0 };
         Ledger::new(energies, terms.into_iter().zip(works).map(work).collect())
     }
 

@@ -187,8 +187,8 @@ impl Tolerances {
     pub fn check(&self, belt: &Belt) -> Result<(), String> {
         for (name, half) in &self.half_widths {
             let knob = Knob::named(name, Group::SOURCE)?;
-            for end in knob.of_belt(belt).into_iter().flat_map(|value| [value - half, value + half])
-            {
+            let ends = knob.of_belt(belt).map(|value| [value - half, value + half]);
+            for end in ends.into_iter().flatten() {
                 knob.check(end)?;
             }
         }

@@ -126,7 +126,8 @@ pub fn measured(text: &str) -> Result<DimensionalNumber, String> {
     let (number, unit) = plain.split_at(number_end(&plain));
     let unit = unit.trim();
     let begins_a_unit = |first: char| first.is_alphabetic() || matches!(first, '1' | '(' | '/');
-    let value = number.parse().ok().filter(|_| unit.is_empty() || unit.starts_with(begins_a_unit));
+    let is_sound = unit.is_empty() || unit.starts_with(begins_a_unit);
+    let value = number.parse().ok().filter(|_| is_sound);
     let value: f64 = value.ok_or_else(|| format!("{text:?} is not a number"))?;
     let unit = if unit.is_empty() { None } else { Some(read_unit(unit)?) };
     let (value, dimension) =

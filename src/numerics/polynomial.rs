@@ -166,7 +166,7 @@ mod tests {
             }
         }
         let slopes = derivative(&series);
-        assert!((value(&slopes, 0.5) - exp(0.5)).abs() < 2e-15 && slopes[19] == 0.0);
+        assert!((value(&slopes, 0.5) - exp(0.5)).abs() < 2e-15 && slopes.len() == 19);
     }
 
     #[test]

@@ -148,7 +148,7 @@ impl<'a> SplineSystem<'a> {
             for right in 0..4.min(rows - row) {
                 gram[row][right] = overlap(x, row, row + right);
                 let shared = q[row][right..].iter().zip(&q[row + right]);
-                penalty[row][right] = 36.0 * shared.map(|(one, other)| one * other).sum::<f64>();
+                penalty[row][right] = 36.0 * shared.map(|(a, b)| a * b).sum::<f64>();
             }
         }
         SplineSystem { y, q, gram, penalty }

@@ -28,7 +28,8 @@ impl<N: Scalar> Sum<N> {
     /// Adds a non-negative term.
     pub fn add(&mut self, term: N) {
         let sum = self.sum + term;
-        let lost = if self.sum >= term { (self.sum - sum) + term } else { (term - sum) + self.sum };
+        let (more, less) = if self.sum >= term { (self.sum, term) } else { (term, self.sum) };
+        let lost = (more - sum) + less;
         self.lost = self.lost + lost;
         self.sum = sum;
     }

@@ -330,7 +330,7 @@ impl Evidence {
         let cases = all.iter().map(|it| it.cases).sum();
         let held = all.iter().map(|it| it.held).sum();
         let mark = all.iter().map(|it| it.mark).fold(Some(Certainty::Proved), Certainty::and);
-        let order = |it: &Self| (it.corrected.is_some_and(|value| !it.holds(value)), it.strain());
+        let order = |it: &Self| (it.corrected.is_some_and(|at| !it.holds(at)), it.strain());
         let worse = |one: Self, next: Self| if order(&next) > order(&one) { next } else { one };
         let none = || Self::new(Sense::Always, 0.0, Approximation::exact(0.0));
         let worst = all.into_iter().reduce(worse).unwrap_or_else(none);

@@ -73,7 +73,7 @@ pub fn agreed(proved: ProvedKicks, found: &Portrait) -> ProvedKicks {
 ///
 /// Next to a fold two cycles may both be near: one of them attracts, the other repels.
 pub fn matching<'a>(proof: &'a Proof, cycle: &Cycle) -> Option<&'a ProvedCycle> {
-    let place = |proved: &ProvedCycle| proved.enclosure.map_or(proved.within, |it| it.clearance);
+    let place = |it: &ProvedCycle| it.enclosure.map_or(it.within, |it| it.clearance);
     let mut alike = proof.cycles.iter().filter(|proved| proved.stable == cycle.stable);
     alike.find(|proved| is_near(place(proved), cycle.clearance))
 }

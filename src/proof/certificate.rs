@@ -83,7 +83,7 @@ impl Walk {
     fn begin(&mut self, proof: &Proof) -> Result<(), String> {
         let mut map = ProvedMap::new(&proof.parameters);
         let before =
-            |at: f64, half: &ProvedHalf| half.image(Interval::point(at), &mut map.effort).lower();
+            |at: f64, it: &ProvedHalf| it.image(Interval::point(at), &mut map.effort).lower();
         let first = map.backward.iter().fold(0.0, before);
         let known = first > 0.0 && first < f64::INFINITY;
         let mut to = if known { 0.95 * first } else { map.gap.upper() };

@@ -151,7 +151,7 @@ fn describe(
         let forward = if stable { slope } else { repelling };
         multiplier = multiplier.intersection(forward)?;
     }
-    let fastest = |swing: Option<ProvedSwing>| swing.and_then(|it| it.fastest).unwrap_or(positive);
+    let fastest = |of: Option<ProvedSwing>| of.and_then(|it| it.fastest).unwrap_or(positive);
     Some(Enclosure {
         q_max: clearance + r,
         q_min: -(left + r),

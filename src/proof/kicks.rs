@@ -115,7 +115,7 @@ fn is_bounded(map: &mut ProvedMap, proof: &Proof) -> bool {
     let ParameterBox { d2, d3, .. } = proof.parameters;
     // Every motion loses energy, the first integral of lemma 13 for D2 = 0.
     let energy = proof.theorem == Some(Theorem::OneWay) && d2 == Interval::point(0.0);
-    let barred = |half: &ProvedHalf| half.greatest(f64::INFINITY, &mut map.effort) < f64::INFINITY;
+    let barred = |it: &ProvedHalf| it.greatest(f64::INFINITY, &mut map.effort) < f64::INFINITY;
     energy || (d3.lower() > 0.0 && map.forward.iter().all(barred))
 }
 

@@ -193,9 +193,8 @@ impl SwingRun {
         /// An error in the moment costs only its square.
         const NEAR: f64 = 1e-10;
         let (ball, field) = (&self.ball, self.ball.local.field);
-        let rough =
-            |x: f64, v: f64| field.acceleration(Interval::point(x), Interval::point(v)).middle();
-        if rough(end.x, end.v) > 0.0 {
+        let [x, v] = [end.x, end.v].map(Interval::point);
+        if field.acceleration(x, v).middle() > 0.0 {
             return Some(());
         }
         let acceleration = |at: f64| ball.series.velocity(at).1;

@@ -142,7 +142,7 @@ fn is_image(motion: &Motion, of: &Motion, sign: f64, k: i32) -> bool {
     let same_end = ends.is_some_and(|((q, v), (from, speed))| {
         is_image(q, from) && (is_image(v, speed) || matches!(of.outcome, Outcome::Captured { .. }))
     });
-    let turn = |turn: &Crossing, from: &Crossing| turn.tau == from.tau && is_image(turn.q, from.q);
+    let turn = |it: &Crossing, from: &Crossing| it.tau == from.tau && is_image(it.q, from.q);
     motion.outcome.word() == of.outcome.word()
         && motion.outcome.tau() == of.outcome.tau()
         && same_end

@@ -129,7 +129,7 @@ fn distance(one: &Motion, other: &Motion) -> Option<f64> {
     if one.outcome.word() != other.outcome.word() {
         return Some(f64::INFINITY);
     }
-    let relative = |a: f64, b: f64, scale: f64| if a == b { 0.0 } else { (a - b).abs() / scale };
+    let relative = |a: f64, b: f64, unit: f64| if a == b { 0.0 } else { (a - b).abs() / unit };
     let at = other.outcome.tau();
     let time = relative(one.outcome.tau(), at, at);
     let ends = one.outcome.state().zip(other.outcome.state());

@@ -118,7 +118,7 @@ impl BalanceResidual {
     /// The largest of what the equations leave, relative to the largest term in them.
     pub fn relative(&self) -> f64 {
         let largest =
-            |series: &Fourier| series.coefficients.iter().map(|c| c.modulus()).fold(0.0, f64::max);
+            |it: &Fourier| it.coefficients.iter().map(|c| c.modulus()).fold(0.0, f64::max);
         let sizes = self.factors().into_iter().zip(&self.powers[1..]);
         let sizes = sizes.map(|(factor, power)| factor.abs() * largest(power));
         let terms = sizes.chain([largest(&self.ansatz.q)]);
@@ -178,10 +178,10 @@ impl BalanceResidual {
         };
         if k == 0 {
             // The sign before the first change is that after the last; from each change on it is another one.
-            let changes = self.crossings.iter().map(|(change, _)| change.direction * change.angle);
+            let changes = self.crossings.iter().map(|(it, _)| it.direction * it.angle);
             return Complex::from(last.direction - changes.sum::<f64>() / PI);
         }
-        let jumps = self.crossings.iter().map(|(change, waves)| waves[k].conj() * change.direction);
+        let jumps = self.crossings.iter().map(|(it, waves)| waves[k].conj() * it.direction);
         jumps.sum::<Complex<f64>>() / Complex::new(0.0, PI * real(k))
     }
 

@@ -115,7 +115,7 @@ impl MachineCurve {
 
     /// The area within a closed curve: the integral of `y dx` along it, which is that of `y^2` over time.
     pub fn area(&self) -> f64 {
-        let square = |step: &MachineStep| gauss(|part| powi(step.at(part * step.duration).1, 2));
+        let square = |it: &MachineStep| gauss(|part| powi(it.at(part * it.duration).1, 2));
         self.steps.iter().map(|step| square(step) * step.duration.abs()).sum()
     }
 

@@ -176,7 +176,8 @@ impl PhaseSeries {
                 // Its slope is a multiple of itself.
                 return fall.sign() / fall.velocity * integral(&self.fall, duration);
             }
-            let slope = |part| value(&self.fall, part * duration) * fall.steepness(velocity(part));
+            let full = |part| value(&self.fall, part * duration);
+            let slope = |part| full(part) * fall.steepness(velocity(part));
             fall.sign() * duration * gauss(slope)
         });
         polynomial + fall.unwrap_or(0.0)

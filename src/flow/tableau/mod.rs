@@ -32,7 +32,8 @@ fn rows(scheme: &str) -> impl Iterator<Item = Vec<f64>> {
 /// A number, or a fraction.
 fn number(text: &str) -> f64 {
     let parsed = |text: &str| text.parse().unwrap_or(f64::NAN);
-    text.split_once('/').map_or_else(|| parsed(text), |(over, under)| parsed(over) / parsed(under))
+    let fraction = text.split_once('/');
+    fraction.map_or_else(|| parsed(text), |(over, under)| parsed(over) / parsed(under))
 }
 
 /// An explicit Runge-Kutta scheme of S stages as a stepper reads it: by slopes, not by stages.

@@ -46,13 +46,14 @@ impl Collocation {
     /// The scheme with the nodes of this name, each the double next to it and what that leaves out. The difference from the
     /// embedded solution vanishes for polynomials of degree below S.
     fn read(name: &str, start: f64, stiff: f64) -> Self {
-        let nodes: Vec<_> = rows(name).map(|row| Twofold { high: row[0], low: row[1] }).collect();
+        let node = |row: Vec<f64>| Twofold { high: row[0], low: row[1] };
+        let nodes: Vec<_> = rows(name).map(node).collect();
         let polynomials: Vec<_> = (0..nodes.len()).map(|own| lagrange(&nodes, own)).collect();
         let integrals = StageMatrix::from_fn(|stage, own| {
             let pair = nodes.get(stage).zip(polynomials.get(own));
             pair.map_or(0.0, |(end, one)| integral(one, *end))
         });
-        let error = |own: usize| polynomials.get(own).map_or(0.0, |one| -start * one[0].value());
+        let error = |own: usize| polynomials.get(own).map_or(0.0, |it| -start * it[0].value());
         Collocation {
             nodes: nodes.iter().map(|node| node.value()).collect(),
             integrals,

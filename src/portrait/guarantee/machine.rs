@@ -37,7 +37,7 @@ pub fn guaranteed(
     };
     Ok(found.map(|portrait| {
         // An impulse less than the smallest `m omega_0` times a velocity starts no machine faster.
-        let lightest = corners.least(|model| model.mass * model.omega_0) / portrait.model.omega_0;
+        let lightest = corners.least(|it| it.mass * it.omega_0) / portrait.model.omega_0;
         let margin = portrait.margin_within(corners.farthest_rest(), lightest);
         (portrait, margin)
     }))
@@ -50,8 +50,8 @@ type SlipBorder = (Portrait, (f64, f64));
 /// The velocities along the border of the basin, if it is a cycle of slip; divided by the natural frequency.
 fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
     let cycle = portrait.bordering_cycle()?;
-    let omega_0 = portrait.model.omega_0;
-    (!cycle.sticks() && !cycle.overtakes).then_some((cycle.v_min / omega_0, cycle.v_max / omega_0))
+    let [slowest, fastest] = [cycle.v_min, cycle.v_max].map(|v| v / portrait.model.omega_0);
+    (!cycle.sticks() && !cycle.overtakes).then_some((slowest, fastest))
 }
 
 impl Corners {
@@ -150,7 +150,7 @@ impl Corners {
         let mut belts = vec![worst];
         for (varied, interval) in &others {
             let values = [interval.lower(), interval.middle(), interval.upper()].into_iter();
-            let at = |value: f64| belts.iter().map(move |belt| with(belt.clone(), *varied, value));
+            let at = |value: f64| belts.iter().map(move |it| with(it.clone(), *varied, value));
             belts = values.flat_map(at).collect();
         }
         let left = |force: f64| {

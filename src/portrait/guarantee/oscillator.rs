@@ -114,7 +114,7 @@ impl TwoSidedOscillator {
         };
         let fields = [first, first.opposite()].map(|side| self.field(side));
         // How far out a search goes follows from the weaker D2.
-        let weaker = fields.map(|field| field.d2.abs()).into_iter().fold(f64::INFINITY, f64::min);
+        let weaker = fields[0].d2.abs().min(fields[1].d2.abs());
         let parameters = Parameters { d2: weaker, ..self.upper };
         let map = |field| HalfMap::new(field, STEP);
         Equation::on_fields(&parameters, first, fields, limits, map)
