@@ -198,6 +198,35 @@ impl<N: Scalar> Taylor<N> {
             root - v / slope
         })
     }
+
+    /// Expands at a point; returns the step length that the tolerance allows, at most `longest`, in units of the
+    /// coefficients.
+    fn settle(&mut self, from: StepPoint<N>, longest: N, bound: f64) -> Result<N> {
+        /// Length of a step, in units of time as a power of two, up to which no coefficient underflows.
+        const WIDE: i32 = 32;
+        self.time_exponent = self.next_time_exponent;
+        loop {
+            self.expand(from);
+            if let Some(allowed) = self.allowed() {
+                let longest = longest.times_power(-self.time_exponent);
+                let allowed = allowed.min(times_power(bound, -self.time_exponent));
+                let is_wide = allowed.min(longest.value()) > times_power(1.0, WIDE);
+                // Coefficients that underflow tell nothing: use a larger unit, unless all is at rest.
+                if is_wide && self.v[1] != N::default() && self.time_exponent < 1000 {
+                    self.time_exponent += WIDE;
+                    continue;
+                }
+                let allowed = N::from(allowed);
+                return Ok(if longest < allowed { longest } else { allowed });
+            }
+            // Coefficients that overflow belong to a time scale far below 1: use a smaller unit.
+            if self.time_exponent < -1000 {
+                return Err(Reason::OutOfRange);
+            }
+            self.time_exponent -= 40;
+            self.inner = InnerCoefficients::empty();
+        }
+    }
 }
 
 impl Taylor {
@@ -250,37 +279,6 @@ impl<N: Scalar> InnerCoefficients<N> {
             }
         }
         (squares[0] + squares[1], products[0] + products[1])
-    }
-}
-
-impl<N: Scalar> Taylor<N> {
-    /// Expands at a point; returns the step length that the tolerance allows, at most `longest`, in units of the
-    /// coefficients.
-    fn settle(&mut self, from: StepPoint<N>, longest: N, bound: f64) -> Result<N> {
-        /// Length of a step, in units of time as a power of two, up to which no coefficient underflows.
-        const WIDE: i32 = 32;
-        self.time_exponent = self.next_time_exponent;
-        loop {
-            self.expand(from);
-            if let Some(allowed) = self.allowed() {
-                let longest = longest.times_power(-self.time_exponent);
-                let allowed = allowed.min(times_power(bound, -self.time_exponent));
-                let is_wide = allowed.min(longest.value()) > times_power(1.0, WIDE);
-                // Coefficients that underflow tell nothing: use a larger unit, unless all is at rest.
-                if is_wide && self.v[1] != N::default() && self.time_exponent < 1000 {
-                    self.time_exponent += WIDE;
-                    continue;
-                }
-                let allowed = N::from(allowed);
-                return Ok(if longest < allowed { longest } else { allowed });
-            }
-            // Coefficients that overflow belong to a time scale far below 1: use a smaller unit.
-            if self.time_exponent < -1000 {
-                return Err(Reason::OutOfRange);
-            }
-            self.time_exponent -= 40;
-            self.inner = InnerCoefficients::empty();
-        }
     }
 }
 

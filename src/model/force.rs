@@ -181,11 +181,6 @@ impl LawParts {
     }
 }
 
-/// The damper's part of the force, in powers of `y - center`.
-fn damper_about(damper: &[f64], center: f64) -> Vec<f64> {
-    shifted(damper, center).into_iter().map(|number| 0.0 - number).collect()
-}
-
 fn added(mut one: Vec<f64>, other: impl Iterator<Item = f64>) -> Vec<f64> {
     for (k, number) in other.enumerate() {
         if k < one.len() { one[k] += number } else { one.push(number) }
@@ -219,7 +214,9 @@ pub(crate) fn branch(
         let about = if steady { speed } else { *from };
         let center = velocity(about);
         let pull_of = shifted(coefficients, about - from).into_iter().enumerate().map(signed);
-        let mut coefficients = added(damper_about(damper, center), pull_of);
+        // The damper pulls the other way.
+        let brakes = shifted(damper, center).into_iter().map(|number| 0.0 - number);
+        let mut coefficients = added(brakes.collect(), pull_of);
         if steady {
             coefficients[0] = 0.0;
         } else if !above {

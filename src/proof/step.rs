@@ -89,49 +89,6 @@ pub struct StepField {
     pub field: FieldBox,
 }
 
-impl StepField {
-    /// Prepares a field.
-    pub fn new(field: &FieldBox) -> Self {
-        let FieldBox { a, b, c } = *field;
-        let spread = [a, b, c].map(Interval::radius);
-        let most = [a, b, c].map(Interval::magnitude);
-        StepField { middles: [a, b, c].map(Interval::middle), spread, most, field: *field }
-    }
-
-    /// The norm in which errors grow least over the next step, between these two velocities, and for a while
-    /// beyond, including the cost of changing the norm.
-    ///
-    /// Any norm is valid; this one keeps balls small.
-    pub fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
-        /// Time for which the present conditions are assumed to last, if the step is shorter.
-        const WHILE: f64 = 0.6;
-        /// A change with a smaller gain, in the logarithm of the radius, is not made.
-        const WORTH: f64 = 0.25;
-        let [a, b, c] = self.middles;
-        let slope = |v: f64| a + v * (2.0 * b + v * 3.0 * c);
-        let (start, end) = (slope(now), slope(next));
-        let (low, high) = (start.min(end), start.max(end));
-        let time = h.max(WHILE);
-        // In no norm do errors grow more slowly than the eigenvalues.
-        let least = 0.5 * ((low * low - 4.0).max(0.0).sqrt() - low);
-        if (before.rate(low, high) - least) * time < WORTH {
-            return before;
-        }
-        let cost = |norm: Norm| ln(before.into(norm)) + norm.rate(low, high) * time;
-        let candidates = [
-            before,
-            Norm::fitting(a),
-            Norm::new(0.0),
-            Norm::fitting(0.5 * (low + high)),
-            Norm::fitting(low),
-        ];
-        let best = candidates
-            .into_iter()
-            .fold(before, |one, other| if cost(other) < cost(one) { other } else { one });
-        if cost(best) < cost(before) - WORTH { best } else { before }
-    }
-}
-
 /// The result of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct StepEnd {
@@ -289,6 +246,47 @@ impl Sums {
 }
 
 impl StepField {
+    /// Prepares a field.
+    pub fn new(field: &FieldBox) -> Self {
+        let FieldBox { a, b, c } = *field;
+        let spread = [a, b, c].map(Interval::radius);
+        let most = [a, b, c].map(Interval::magnitude);
+        StepField { middles: [a, b, c].map(Interval::middle), spread, most, field: *field }
+    }
+
+    /// The norm in which errors grow least over the next step, between these two velocities, and for a while
+    /// beyond, including the cost of changing the norm.
+    ///
+    /// Any norm is valid; this one keeps balls small.
+    pub fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
+        /// Time for which the present conditions are assumed to last, if the step is shorter.
+        const WHILE: f64 = 0.6;
+        /// A change with a smaller gain, in the logarithm of the radius, is not made.
+        const WORTH: f64 = 0.25;
+        let [a, b, c] = self.middles;
+        let slope = |v: f64| a + v * (2.0 * b + v * 3.0 * c);
+        let (start, end) = (slope(now), slope(next));
+        let (low, high) = (start.min(end), start.max(end));
+        let time = h.max(WHILE);
+        // In no norm do errors grow more slowly than the eigenvalues.
+        let least = 0.5 * ((low * low - 4.0).max(0.0).sqrt() - low);
+        if (before.rate(low, high) - least) * time < WORTH {
+            return before;
+        }
+        let cost = |norm: Norm| ln(before.into(norm)) + norm.rate(low, high) * time;
+        let candidates = [
+            before,
+            Norm::fitting(a),
+            Norm::new(0.0),
+            Norm::fitting(0.5 * (low + high)),
+            Norm::fitting(low),
+        ];
+        let best = candidates
+            .into_iter()
+            .fold(before, |one, other| if cost(other) < cost(one) { other } else { one });
+        if cost(best) < cost(before) - WORTH { best } else { before }
+    }
+
     /// Carries a ball around the start of a series over a step of length h to its `end` by [`MotionSeries::at`];
     /// `None` where nothing can be stated, because the ball grows too much or the motion might cross `v = 0`
     /// and return unseen.

@@ -54,59 +54,6 @@ fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
     (!cycle.sticks() && !cycle.overtakes).then_some((slowest, fastest))
 }
 
-impl Corners {
-    /// A machine whose border bounds all others at its own velocities.
-    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, NoGuarantee>> {
-        /// Ranges of velocities that are tried, each larger than the border of the one before.
-        const ROUNDS: usize = 8;
-        const ROOM: f64 = 1.2;
-        let slowest = self.least(|model| model.speed);
-        let middle = slip_border(&Portrait::of_belt(belt)?).unwrap_or((-slowest, slowest));
-        let mut range = (ROOM * middle.0, (ROOM * middle.1).min(slowest));
-        for _ in 0..ROUNDS {
-            if self.models.iter().any(|model| model.least_velocity() > range.0) {
-                return Ok(Err(NoGuarantee::OutsideLaw));
-            }
-            let (corner, less) = self.bound(range.0, range.1);
-            if less * self.stiffest() >= self.friction {
-                return Ok(Err(NoGuarantee::Tolerances));
-            }
-            let Some(found) = self.below_the_line(corner, less)? else {
-                return Ok(Err(NoGuarantee::Unbounded));
-            };
-            let (portrait, (low, high)) = found;
-            if low >= range.0 && high <= range.1 {
-                return Ok(Ok(portrait));
-            }
-            range = (range.0.min(ROOM * low), range.1.max(ROOM * high).min(slowest));
-        }
-        Ok(Err(NoGuarantee::Unbounded))
-    }
-
-    /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
-    /// as that allows, and the velocities along the border.
-    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>> {
-        const HALVINGS: u32 = 24;
-        let slowest = self.least(|model| model.speed);
-        let at = |less: f64| -> Result<Option<SlipBorder>> {
-            let portrait = Portrait::of_belt(&self.worst(corner, less))?;
-            let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
-            Ok(border.map(|velocities| (portrait, velocities)))
-        };
-        if let Some(found) = at(less)? {
-            return Ok(Some(found));
-        }
-        let mut best = None;
-        try_bisect(less, self.friction / self.stiffest(), HALVINGS, |less| {
-            let found = at(less)?;
-            let holds = found.is_some();
-            best = found.or_else(|| best.take());
-            Ok::<_, Reason>(holds)
-        })?;
-        Ok(best)
-    }
-}
-
 // The machines that all others within the tolerances lie between.
 
 /// Maximum number of other numbers that may be uncertain together.
@@ -239,6 +186,57 @@ impl Corners {
                 0.25 * bends.fold(0.0, f64::max)
             })
             .sum()
+    }
+
+    /// A machine whose border bounds all others at its own velocities.
+    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, NoGuarantee>> {
+        /// Ranges of velocities that are tried, each larger than the border of the one before.
+        const ROUNDS: usize = 8;
+        const ROOM: f64 = 1.2;
+        let slowest = self.least(|model| model.speed);
+        let middle = slip_border(&Portrait::of_belt(belt)?).unwrap_or((-slowest, slowest));
+        let mut range = (ROOM * middle.0, (ROOM * middle.1).min(slowest));
+        for _ in 0..ROUNDS {
+            if self.models.iter().any(|model| model.least_velocity() > range.0) {
+                return Ok(Err(NoGuarantee::OutsideLaw));
+            }
+            let (corner, less) = self.bound(range.0, range.1);
+            if less * self.stiffest() >= self.friction {
+                return Ok(Err(NoGuarantee::Tolerances));
+            }
+            let Some(found) = self.below_the_line(corner, less)? else {
+                return Ok(Err(NoGuarantee::Unbounded));
+            };
+            let (portrait, (low, high)) = found;
+            if low >= range.0 && high <= range.1 {
+                return Ok(Ok(portrait));
+            }
+            range = (range.0.min(ROOM * low), range.1.max(ROOM * high).min(slowest));
+        }
+        Ok(Err(NoGuarantee::Unbounded))
+    }
+
+    /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
+    /// as that allows, and the velocities along the border.
+    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>> {
+        const HALVINGS: u32 = 24;
+        let slowest = self.least(|model| model.speed);
+        let at = |less: f64| -> Result<Option<SlipBorder>> {
+            let portrait = Portrait::of_belt(&self.worst(corner, less))?;
+            let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
+            Ok(border.map(|velocities| (portrait, velocities)))
+        };
+        if let Some(found) = at(less)? {
+            return Ok(Some(found));
+        }
+        let mut best = None;
+        try_bisect(less, self.friction / self.stiffest(), HALVINGS, |less| {
+            let found = at(less)?;
+            let holds = found.is_some();
+            best = found.or_else(|| best.take());
+            Ok::<_, Reason>(holds)
+        })?;
+        Ok(best)
     }
 }
 

@@ -87,6 +87,64 @@ impl RandomKick {
         }
         Err(format!("kicks {self} reach too far; they stay within {FARTHEST:e}"))
     }
+
+    /// The same kick in these units, which are given in its present ones.
+    #[must_use]
+    pub fn in_units(mut self, displacement: f64, velocity: f64) -> Self {
+        for (part, unit) in [(&mut self.q, displacement), (&mut self.v, velocity)] {
+            *part = (part.0 / unit, part.1 / unit);
+        }
+        self
+    }
+
+    /// The largest displacement that matters.
+    pub fn reach(&self) -> f64 {
+        self.q.0.abs() + self.law.reach() * self.q.1
+    }
+
+    /// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
+    /// basin is not known, or if its border cannot be traced as far as [`RandomKick::reach`].
+    pub fn lost(&self, portrait: &Portrait) -> Result<Share> {
+        const NEEDS: Reason = Reason::NotApplicable {
+            needs: "a basin of rest that is known, and no family of periodic motions",
+        };
+        if matches!(portrait.border, Border::Unknown(_)) || portrait.neutral {
+            return Err(NEEDS);
+        }
+        if !portrait.has_basin() {
+            return Ok(Share::exact(1.0));
+        }
+        let rate = portrait.model.omega_0;
+        let scaled = RandomKick { v: (self.v.0 / rate, self.v.1 / rate), ..*self };
+        Ok(portrait
+            .followed_to(self.reach())?
+            .edge()
+            .map_or(Share::exact(0.0), |edge| scaled.lost_outside(edge)))
+    }
+
+    /// The fraction of the kicks that leads out of a border.
+    /// Quadrature as in `part_within`.
+    fn lost_outside(&self, edge: &Edge) -> Share {
+        let (law, (mean, spread)) = (self.law, self.q);
+        let lost_at = |q: f64| {
+            let Some((low, high)) = edge.span_at(q) else { return 1.0 };
+            law.above(high - self.v.0, self.v.1) + law.above(self.v.0 - low, self.v.1)
+        };
+        if spread == 0.0 {
+            // A border and an erfc known to 1e-12 of themselves: a tail nine spreads out falls eighty times as fast.
+            const KNOWN: f64 = 1e-10;
+            let part = lost_at(mean).min(1.0);
+            return Share { part, error: KNOWN * part };
+        }
+        let far = law.reach() * spread;
+        let Some((left, right)) = support(edge, (mean - far, mean + far)) else {
+            return Share::exact(1.0);
+        };
+        let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
+        let lost = |q: f64| law.density(q - mean, spread) * lost_at(q);
+        let Integral { value, error } = over_scales(lost, (left, right), edge);
+        Share { part: (beyond + value).clamp(0.0, 1.0), error: error + f64::EPSILON }
+    }
 }
 
 impl TryFrom<String> for RandomKick {
@@ -146,66 +204,6 @@ impl Distribution {
             Distribution::Normal => 9.0,
             Distribution::Uniform => 1.0,
         }
-    }
-}
-
-impl RandomKick {
-    /// The same kick in these units, which are given in its present ones.
-    #[must_use]
-    pub fn in_units(mut self, displacement: f64, velocity: f64) -> Self {
-        for (part, unit) in [(&mut self.q, displacement), (&mut self.v, velocity)] {
-            *part = (part.0 / unit, part.1 / unit);
-        }
-        self
-    }
-
-    /// The largest displacement that matters.
-    pub fn reach(&self) -> f64 {
-        self.q.0.abs() + self.law.reach() * self.q.1
-    }
-
-    /// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
-    /// basin is not known, or if its border cannot be traced as far as [`RandomKick::reach`].
-    pub fn lost(&self, portrait: &Portrait) -> Result<Share> {
-        const NEEDS: Reason = Reason::NotApplicable {
-            needs: "a basin of rest that is known, and no family of periodic motions",
-        };
-        if matches!(portrait.border, Border::Unknown(_)) || portrait.neutral {
-            return Err(NEEDS);
-        }
-        if !portrait.has_basin() {
-            return Ok(Share::exact(1.0));
-        }
-        let rate = portrait.model.omega_0;
-        let scaled = RandomKick { v: (self.v.0 / rate, self.v.1 / rate), ..*self };
-        Ok(portrait
-            .followed_to(self.reach())?
-            .edge()
-            .map_or(Share::exact(0.0), |edge| scaled.lost_outside(edge)))
-    }
-
-    /// The fraction of the kicks that leads out of a border.
-    /// Quadrature as in `part_within`.
-    fn lost_outside(&self, edge: &Edge) -> Share {
-        let (law, (mean, spread)) = (self.law, self.q);
-        let lost_at = |q: f64| {
-            let Some((low, high)) = edge.span_at(q) else { return 1.0 };
-            law.above(high - self.v.0, self.v.1) + law.above(self.v.0 - low, self.v.1)
-        };
-        if spread == 0.0 {
-            // A border and an erfc known to 1e-12 of themselves: a tail nine spreads out falls eighty times as fast.
-            const KNOWN: f64 = 1e-10;
-            let part = lost_at(mean).min(1.0);
-            return Share { part, error: KNOWN * part };
-        }
-        let far = law.reach() * spread;
-        let Some((left, right)) = support(edge, (mean - far, mean + far)) else {
-            return Share::exact(1.0);
-        };
-        let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
-        let lost = |q: f64| law.density(q - mean, spread) * lost_at(q);
-        let Integral { value, error } = over_scales(lost, (left, right), edge);
-        Share { part: (beyond + value).clamp(0.0, 1.0), error: error + f64::EPSILON }
     }
 }
 

@@ -29,20 +29,6 @@ pub(crate) const NOTHING: f64 = 1e-12;
 /// Replaces a value that does not exist because the mass comes to rest or escapes.
 const FAR: f64 = 1e3;
 
-impl Flow<'_> {
-    /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
-    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<Node> {
-        let x = unit * exp(u);
-        let lost = |f| Ok(Node::of_growth(u, f, 0.0));
-        match self.returned(x) {
-            Ok(Some(image)) => Ok(growth_to(u, x, &image)),
-            Ok(None) => lost(-FAR),
-            Err(Reason::Escapes) => lost(FAR),
-            Err(stop) => Err(stop),
-        }
-    }
-}
-
 /// The growth at `u = ln(x/unit)` where the return map leads from `x` to this image.
 fn growth_to(u: f64, x: f64, image: &Image) -> Node {
     let growth = if image.x > 0.0 { ln(image.x / x) } else { -FAR };
@@ -326,6 +312,18 @@ impl FixedPointSearch<'_, '_> {
 }
 
 impl Flow<'_> {
+    /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
+    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<Node> {
+        let x = unit * exp(u);
+        let lost = |f| Ok(Node::of_growth(u, f, 0.0));
+        match self.returned(x) {
+            Ok(Some(image)) => Ok(growth_to(u, x, &image)),
+            Ok(None) => lost(-FAR),
+            Err(Reason::Escapes) => lost(FAR),
+            Err(stop) => Err(stop),
+        }
+    }
+
     /// The description of the cycle through a right turning point.
     ///
     /// # Errors

@@ -35,6 +35,24 @@ impl Image {
     }
 }
 
+/// The places at which the return map changes its form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Landmarks {
+    /// The places on the belt's line.
+    pub lines: Lines,
+    /// Right turning point of the orbit that touches the line; `None` if no motion comes from one.
+    pub touch: Option<f64>,
+    /// The image by that orbit, as if it continued to slip; the derivative is that from below.
+    pub grazing: Image,
+    /// Right turning point after a release from the belt; `None` if the mass then comes to rest at once.
+    pub released: Option<f64>,
+    /// Left turning point from which the lower end of the stick band is reached.
+    pub low_left: f64,
+    /// Right turning point beyond which motions overtake the belt instead of ending on the band; `None` if all
+    /// end on it.
+    pub beyond: Option<f64>,
+}
+
 impl Flow<'_> {
     /// The next right turning point after the one at `x`, outside of what the guide holds; `None` if the mass comes to
     /// rest before. Fails with [`Reason`] if the motion does not turn.
@@ -117,29 +135,9 @@ impl Flow<'_> {
             Image::slipping(before.x, end.x, log_slope)
         }))
     }
-}
 
-// The special motions at the belt's line: those that touch it, are released by it, or overtake it.
+    // The special motions at the belt's line: those that touch it, are released by it, or overtake it.
 
-/// The places at which the return map changes its form.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Landmarks {
-    /// The places on the belt's line.
-    pub lines: Lines,
-    /// Right turning point of the orbit that touches the line; `None` if no motion comes from one.
-    pub touch: Option<f64>,
-    /// The image by that orbit, as if it continued to slip; the derivative is that from below.
-    pub grazing: Image,
-    /// Right turning point after a release from the belt; `None` if the mass then comes to rest at once.
-    pub released: Option<f64>,
-    /// Left turning point from which the lower end of the stick band is reached.
-    pub low_left: f64,
-    /// Right turning point beyond which motions overtake the belt instead of ending on the band; `None` if all
-    /// end on it.
-    pub beyond: Option<f64>,
-}
-
-impl Flow<'_> {
     /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`Reason`] if the
     /// friction law ends before they are reached.
     pub fn landmarks(&mut self) -> Result<Option<Landmarks>> {
@@ -190,20 +188,10 @@ impl Flow<'_> {
         let right = if_any(self.right_before(left, &mut |_| {}))?.flatten();
         Ok(right.map(|right| right.x))
     }
-}
 
-/// Where a motion comes from; `None` if it comes from nowhere that the law knows.
-fn if_any<T>(found: Result<T>) -> Result<Option<T>> {
-    match found {
-        Err(Reason::Escapes | Reason::Settles | Reason::BeyondLaw { .. }) => Ok(None),
-        found => found.map(Some),
-    }
-}
+    // The border of the basin of rest where it is not a cycle: followed backward in time from where the return map
+    // jumps.
 
-// The border of the basin of rest where it is not a cycle: followed backward in time from where the return map
-// jumps.
-
-impl Flow<'_> {
     /// The closed border through the right turning point `x`, backward in time, and its left turning point.
     ///
     /// Where the return map `jumps`, it leads from the belt's line to the line again, with the piece of line between.
@@ -236,5 +224,13 @@ impl Flow<'_> {
         // A border through a jump begins where it leaves the line.
         curve.steps.rotate_left(before);
         Ok((curve, left))
+    }
+}
+
+/// Where a motion comes from; `None` if it comes from nowhere that the law knows.
+fn if_any<T>(found: Result<T>) -> Result<Option<T>> {
+    match found {
+        Err(Reason::Escapes | Reason::Settles | Reason::BeyondLaw { .. }) => Ok(None),
+        found => found.map(Some),
     }
 }
