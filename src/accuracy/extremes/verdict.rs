@@ -21,8 +21,10 @@ pub const BUDGET: u64 = 40_000;
 const REFERENCE_BUDGET: u64 = 200_000;
 
 /// The methods that find events and control their error, `auto` first.
-pub const METHODS: [Method; 6] =
-    [Method::Auto, Method::Exact, Method::Taylor, Method::Dop853, Method::Dopri5, Method::Stiff];
+pub const METHODS: [Method; 6] = {
+    use Method::{Auto, Dop853, Dopri5, Exact, Stiff, Taylor};
+    [Auto, Exact, Taylor, Dop853, Dopri5, Stiff]
+};
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MethodAnswer {
