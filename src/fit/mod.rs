@@ -79,33 +79,9 @@ pub use {
 
 // What other rings use of it, and its files of each other.
 pub(crate) use {
-    curves::{Curves, Extent, PlotPoint, memory},
-    drift::{FittedDrift, LeftDrift, drift_of_swings, without_drift},
-    estimate::{Omission, RISES, held, judged, left_out},
-    guess::{Beginning, Guess, guess, period_of},
-    margin::MarginSpread,
-    motion::{FittedTurn, LostMotion, follow},
-    noise::{
-        IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,
-    },
-    observation::{Bound, Misfit, Region, drift},
-    posterior::{Draws, FEWEST, drawn},
-    question::{Loss, UnknownsMatrix, assigned, direction, listed, placed, reach, row_of},
-    record::decoded,
-    residuals::{
-        Whiteness, autocorrelations, chi_squared, deviation_of_95_percent, normal_at, whiteness,
-    },
-    result::{Combination, combination, rows},
-    samples::of_kind,
-    search::released_before,
-    signal::{SignalUnit, measure, quantity},
-    task::{FitVerdict, HIDDEN, LinearResiduals, Optimum, RUN, longest_run, mean_square},
-    turning_points::{
-        Extreme, amplitudes, averaged, dominant_frequency, middle_of, regressions, robust,
-        smoothed, turning_points, without_jumps,
-    },
-    uncertainty::{Covariance, Profile, ProfileInterval, left_over, ratio_of_kinds},
-    valley::{WIDE, by_cost, closest},
+    curves::*, drift::*, estimate::*, guess::*, margin::*, motion::*, noise::*, observation::*,
+    posterior::*, question::*, record::*, residuals::*, result::*, samples::*, search::*,
+    signal::*, task::*, turning_points::*, uncertainty::*, valley::*,
 };
 
 /// Number of motions after which a fit gives up. A record of this oscillator takes about a hundred, one with a
