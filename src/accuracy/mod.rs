@@ -5,4 +5,4 @@ pub mod harmonic_error;
 pub(crate) mod reference;
 pub mod trade;
 
-pub(crate) use self::{harmonic_error::*, reference::*};
+pub(crate) use self::{harmonic_error::*, reference::*, trade::*};

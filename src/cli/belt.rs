@@ -9,8 +9,7 @@ use super::input::{self, MACHINE, page_file, tolerance};
 use super::{CommandCase, Failure, Output, second, timed, troubled, write};
 use crate::figure::panels;
 use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Result, Subject};
-use crate::model::Knob;
-use crate::model::unit::TolerancedNumber;
+use crate::model::{Knob, TolerancedNumber};
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Kick, Portrait, StartWindow, friction_for};
 use crate::report::About;
@@ -31,30 +30,29 @@ pub struct BeltCommand {
     machine: String,
     /// Sets a quantity of the machine or its friction law, such as "v0=0.2 m/s", or with a tolerance "R=1 N +- 0.2 N";
     /// repeatable; also the start x, v
-    #[arg(long, value_name = "NAME=VALUE", value_parser = |text: &str| MACHINE.assignment(text), allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=VALUE", value_parser = |text: &str| MACHINE.assignment(text))]
     set: Vec<(Knob, TolerancedNumber)>,
     /// Bound on a force that disturbs the mass in any way, such as "0.1 N": also reports the margin that is guaranteed under it
-    #[arg(long, value_name = "FORCE", value_parser = |text: &str| Knob::DisturbingForce.parse(text), allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| Knob::DisturbingForce.parse(text))]
     disturbance: Option<f64>,
     /// Start of the motion, such as "x=1 mm,v=0 m/s"
-    #[arg(long, value_name = "x=..,v=..", value_parser = input::start, value_delimiter = ',',
-          allow_hyphen_values = true)]
+    #[arg(long, value_name = "x=..,v=..", value_parser = input::start, value_delimiter = ',')]
     start: Vec<(Knob, TolerancedNumber)>,
     /// Window "XMIN:XMAX,VMIN:VMAX": reports the share of its starts that come to rest
-    #[arg(long, value_name = "WINDOW", value_parser = |text: &str| MACHINE.window(text), allow_hyphen_values = true)]
+    #[arg(long, value_parser = |text: &str| MACHINE.window(text))]
     window: Option<StartWindow>,
     /// Measures the window's displacements from the relaxed spring instead of the steady position
     #[arg(long, requires = "window")]
     elongation: bool,
     /// Finds the friction R that a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
-    #[arg(long, value_name = "MARGIN", value_parser = input::physical_margin, allow_hyphen_values = true)]
+    #[arg(long, value_name = "MARGIN", value_parser = input::physical_margin)]
     design: Option<(Kick, f64)>,
     /// Integration method: auto or taylor (Taylor series); with dop853 or dopri5 the motion is computed a second
     /// time and the difference reported
     #[arg(long, value_name = "NAME", value_parser = input::method)]
     method: Option<Method>,
     /// Size of the last terms of a step, relative to the state, 1e-15 .. 0.01 (default: below rounding)
-    #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = tolerance)]
     tol: Option<f64>,
     /// Also writes the answer as a page to print and sign: margins, cycles, pictures, SHA-256 of the machine file
     #[arg(long, value_name = "FILE.html", value_parser = page_file)]

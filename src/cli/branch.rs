@@ -7,16 +7,15 @@ use rayon::prelude::*;
 use super::input::MACHINE;
 use super::{CERTIFY, CommandCase, Failure, Output, QuestionOptions, given, read, timed};
 use crate::branch::along::{Points, branch};
-use crate::branch::fold::{Boundary, BoundaryPoint, border};
 use crate::branch::machine::MachineBranch;
+use crate::branch::{Boundary, BoundaryPoint, border};
 use crate::flow::{Limits, Problem};
 use crate::model::{Belt, Knob, Source};
-use crate::proof::ParameterBox;
 use crate::proof::bifurcation::{enclose_escape, enclose_fold};
-use crate::proof::range::{change_near, range};
+use crate::proof::{ParameterBox, change_near, range};
+use crate::report::BorderProof;
 use crate::report::branch as report;
-use crate::report::proof::BorderProof;
-use crate::scan::sweep::{Spacing, Sweep};
+use crate::scan::{Spacing, Sweep};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
 #[derive(Debug, Args)]
@@ -25,7 +24,7 @@ pub struct BranchCommand {
     certify: bool,
     /// The parameter (D, D2, D3 or r, or a number of the machine), its range, and the number of points, which is
     /// approximate for D, D2, D3 and r
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT")]
     over: String,
 }
 
@@ -73,16 +72,11 @@ pub struct BorderCommand {
     #[arg(long, help = CERTIFY)]
     certify: bool,
     /// The second parameter (D2, D3 or r, or a number of the machine), its range, and the number of values
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT")]
     over: String,
     /// The number of the machine along which changes are located, in place of D, its range, and the number of
     /// portraits between which they are sought (default: 60 belt speeds from a tenth of its own to three times)
-    #[arg(
-        long,
-        value_name = "NAME=FROM:TO:COUNT",
-        requires = "machine",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", requires = "machine")]
     along: Option<String>,
 }
 

@@ -5,17 +5,15 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Failure, QuestionOptions, input, print, timed, troubled, write};
-use crate::accuracy::harmonic_error::{HarmonicBalance, compare, ladder};
+use crate::accuracy::{HarmonicBalance, compare, ladder};
 use crate::check::check;
-use crate::closed_form::harmonics::MOST;
+use crate::closed_form::MOST;
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
-use crate::portrait::basin::cycle::{Cycles, cycles};
-use crate::portrait::proved::proved;
+use crate::portrait::{Cycles, cycles, proved};
 use crate::proof::certificate::{certificate, text};
 use crate::proof::{ParameterBox, Proof, prove};
-use crate::report::proof::{boxed, certificate_table};
-use crate::report::{About, Answer, cycles as report};
+use crate::report::{About, Answer, boxed, certificate_table, cycles as report};
 use crate::runtime::{bounded, provenance_file};
 
 /// The harmonic balance with ever more harmonics, if asked for.
@@ -94,7 +92,6 @@ impl CyclesCommand {
 #[derive(Debug, Args)]
 pub struct CheckCommand {
     /// The certificate
-    #[arg(value_name = "FILE")]
     file: PathBuf,
 }
 

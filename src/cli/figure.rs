@@ -33,7 +33,7 @@ pub struct FigureCommand {
     #[arg(long, requires = "output")]
     force: bool,
     /// Format on standard output, without --output
-    #[arg(long, value_enum, default_value_t = FigureForm::Text, value_name = "FORMAT",
+    #[arg(long, value_enum, default_value_t = FigureForm::Text,
           conflicts_with = "output")]
     format: FigureForm,
 }

@@ -7,15 +7,11 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 
 use super::progress::{Outlet, StatusLine};
-use super::{Failure, Output, input, timed, write};
+use super::{Failure, Output, half_widths, input, timed, write};
 use crate::figure::{self, Figure, FigureForm};
-use crate::fit::{
-    D, DRAWS, FitResult, Inertia, MarginQuestion, NameSpec, NoEstimate, Record, assigned,
-    length_in_metres,
-};
+use crate::fit::{DRAWS, FitResult, Inertia, MarginQuestion, NoEstimate, Record, length_in_metres};
 use crate::flow::Limits;
-use crate::model::Knob;
-use crate::model::unit::{DimensionalNumber, LENGTH, measured};
+use crate::model::{DimensionalNumber, Knob, LENGTH, measured};
 use crate::question::{OpenedRecord, record::RecordOptions};
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file};
@@ -26,17 +22,16 @@ use crate::words::fit::signed;
 #[command(group = ArgGroup::new("written").args(["pictures", "report"]).multiple(true))]
 pub struct FitCommand {
     /// Record: a column of times and one of displacements, as instruments write them
-    #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
     record: RecordOptions,
     /// Largest force that may act beside the kick, such as "0.5 N"; without --mass or --stiffness over the stiffness, as a
     /// length
-    #[arg(long, value_name = "FORCE", value_parser = not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE", value_parser = not_negative)]
     disturbance: Option<DimensionalNumber>,
     /// How much D, D2, D3 or r may change after the record, such as r=0.01 in its unit; repeatable
-    #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = half_width, allow_hyphen_values = true)]
-    half_width: Vec<(&'static NameSpec, f64)>,
+    #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width)]
+    half_width: Vec<(Knob, f64)>,
     /// Probability with which the kicks of the statement are survived (default: 0.95)
     #[arg(long, value_name = "P", default_value_t = 0.95, hide_default_value = true,
           value_parser = |text: &str| Knob::Confidence.parse(text))]
@@ -62,15 +57,6 @@ pub struct FitCommand {
 fn not_negative(text: &str) -> Result<DimensionalNumber, String> {
     let read = measured(text)?;
     if read.value >= 0.0 { Ok(read) } else { Err(format!("{text:?} is negative")) }
-}
-
-fn half_width(text: &str) -> Result<(&'static NameSpec, f64), String> {
-    let (row, half) = assigned(text)?;
-    if row.place >= D && half >= 0.0 {
-        Ok((row, half))
-    } else {
-        Err(format!("{text:?}: D, D2, D3 and r have half widths, of 0 or more, such as r=0.01"))
-    }
 }
 
 impl FitCommand {
@@ -101,7 +87,7 @@ impl FitCommand {
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
         // What contradicts itself is not the fault of the file.
         self.record.question().map_err(Failure::Usage)?;
-        let half_widths = self.half_widths().map_err(Failure::Usage)?;
+        let half_widths = half_widths(&self.half_width)?;
         let opened = self.record.opened(&self.file, bytes).map_err(|problem| bad(&problem))?;
         let (inertia, record) = (opened.metric(), &opened.record);
         let disturbance = self.disturbance.map_or(Ok(0.0), |it| disturbance(it, inertia, record));
@@ -120,17 +106,6 @@ impl FitCommand {
         })?;
         let OpenedRecord { name, record, .. } = opened;
         Ok(FitResult { seconds, ..FitResult::new(name, record, estimate, margins) })
-    }
-
-    /// The half widths of D, D2, D3 and r.
-    fn half_widths(&self) -> Result<[f64; 4], String> {
-        let mut half_widths = [None; 4];
-        for (row, half) in &self.half_width {
-            if half_widths[row.place - D].replace(*half).is_some() {
-                return Err(format!("{} has two half widths", row.name));
-            }
-        }
-        Ok(half_widths.map(Option::unwrap_or_default))
     }
 }
 

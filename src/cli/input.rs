@@ -5,13 +5,14 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use clap::Command;
+
 use super::Failure;
 use crate::figure::FigureForm;
 use crate::flow::{METHODS, Method, Subject};
-use crate::model::unit::{IMPULSE, LENGTH, TolerancedNumber, measured};
-use crate::model::{Group, Knob};
+use crate::model::{Group, IMPULSE, Knob, LENGTH, TolerancedNumber, measured};
 use crate::portrait::{Kick, RandomKick, StartWindow};
-use crate::scan::sweep::{Spacing, Sweep};
+use crate::scan::{Spacing, Sweep};
 use crate::words::one_of;
 
 /// The numbers by which options are read whose values depend on what a command is about.
@@ -147,6 +148,17 @@ pub fn half_width(text: &str) -> Result<(Knob, f64), String> {
     Ok((knob, wide.ok_or_else(|| format!("{text:?}: a half width is 0 or more"))?))
 }
 
+/// The half widths of D, D2, D3 and r. Fails if one of them is given twice.
+pub fn half_widths(given: &[(Knob, f64)]) -> Result<[f64; 4], Failure> {
+    let mut all = [None; 4];
+    for (knob, half_width) in given {
+        if all[knob.place()].replace(*half_width).is_some() {
+            return Err(Failure::Usage(format!("{knob} has two half widths")));
+        }
+    }
+    Ok(all.map(Option::unwrap_or_default))
+}
+
 /// A margin of the oscillator: `q=DISPLACEMENT` or `v=IMPULSE`.
 fn margin(text: &str) -> Result<(Kick, f64), String> {
     let form = || format!("{text:?} is not a margin; expected q=DISPLACEMENT or v=IMPULSE");
@@ -171,6 +183,31 @@ pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
         _ => return Err(format!("{text:?} is not a margin; {EXPECTED}")),
     };
     if read.value > 0.0 { Ok((kick, read.value)) } else { Err(format!("{text:?} is not positive")) }
+}
+
+/// The options whose values may begin with a minus.
+const SIGNED: [&str; 13] = [
+    "along",
+    "design",
+    "disturbance",
+    "epsilon",
+    "half-width",
+    "kicks",
+    "over",
+    "set",
+    "start",
+    "step",
+    "tol",
+    "until",
+    "window",
+];
+
+/// A command whose numbers may be negative: a minus begins no option there.
+pub fn signed(command: Command) -> Command {
+    command.mut_args(|option| {
+        let is_signed = option.get_long().is_some_and(|name| SIGNED.contains(&name));
+        if is_signed { option.allow_hyphen_values(true) } else { option }
+    })
 }
 
 /// The window where none is given.

@@ -17,7 +17,7 @@ use crate::question::answer;
 use crate::report::extremes::{extreme_cycles, extremes};
 use crate::report::scenes::{OPENING, QuestionBatch, QuestionCost, SceneCost, costs, scenes};
 use crate::report::{Answer, Columns, Format, claims};
-use crate::runtime::standard::tell;
+use crate::runtime::tell;
 use crate::scene::{Scene, library};
 use crate::session::state::keymap::{ContextSpec, contexts};
 use crate::session::{self, Command, Msg, Row, Session, Size, commands, update};
@@ -26,7 +26,7 @@ use crate::session::{self, Command, Msg, Row, Session, Size, commands, update};
 #[derive(Debug, Args)]
 pub struct ScenesCommand {
     /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
     /// Shows what each scene computes, what that costs, and what a step of each number recomputes
     #[arg(long)]
@@ -49,7 +49,7 @@ pub struct KeysCommand {
     #[command(flatten)]
     settings: Settings,
     /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
@@ -103,7 +103,7 @@ impl PaperCommand {
 #[derive(Debug, Args)]
 pub struct ExtremesCommand {
     /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
     /// Every motion of the lattice instead of every eleventh; every set of parameters instead of every seventh
     #[arg(long)]

@@ -8,11 +8,8 @@ use super::{
 };
 use crate::flow::{Limits, Subject};
 use crate::model::{Knob, Parameters};
-use crate::portrait::Portrait;
 use crate::portrait::guarantee::machine;
-use crate::portrait::guarantee::oscillator::guaranteed;
-use crate::portrait::kicks::repeated::repeated;
-use crate::portrait::proved::proved_kicks;
+use crate::portrait::{Portrait, guaranteed, proved_kicks, repeated};
 use crate::report::About;
 use crate::report::margin::{basin, kicks, margins};
 
@@ -20,7 +17,7 @@ use crate::report::margin::{basin, kicks, margins};
 #[derive(Debug, Args)]
 pub struct MarginCommand {
     /// Bound on the disturbing force, in the units of r; of a machine a force, such as "0.1 N"
-    #[arg(long, value_name = "W", allow_hyphen_values = true)]
+    #[arg(long, value_name = "W")]
     disturbance: Option<String>,
 }
 
@@ -75,7 +72,7 @@ pub struct BasinCommand {
     certify: bool,
     /// Displacements and velocities of the starts (default: -3:3,-3:3; of a machine one and a half times its largest
     /// cycle, or its margin)
-    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", allow_hyphen_values = true)]
+    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX")]
     window: Option<String>,
     /// Number of starts, evenly spaced, including both ends of the window
     #[arg(long, value_name = "WxH", default_value = "320x384", value_parser = input::grid)]
@@ -107,7 +104,7 @@ impl BasinCommand {
 pub struct KicksCommand {
     /// Displacement and velocity of a kick, mean and standard deviation; with uniform: before them, mean and
     /// half width
-    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD", allow_hyphen_values = true)]
+    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD")]
     kicks: String,
 }
 

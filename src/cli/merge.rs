@@ -12,10 +12,7 @@ use super::part::Shard;
 use super::scan::ScanCommand;
 use crate::flow::Limits;
 use crate::report::Format;
-use crate::runtime::new_file::{NewFile, Readers};
-use crate::runtime::provenance_file;
-use crate::runtime::scan_part::{PartFile, merge};
-use crate::runtime::standard::tell;
+use crate::runtime::{NewFile, PartFile, Readers, merge, provenance_file, tell};
 use crate::words::provenance::{Checksum, Provenance};
 
 /// Merges the parts of a scan, or lists the rows that are missing and how to compute them

@@ -36,7 +36,7 @@ use signal_hook::consts::SIGXFSZ;
 use signal_hook::flag;
 
 pub(super) use crate::runtime::failure::Failure;
-pub(super) use input::{given, number, read};
+pub(super) use input::{given, half_widths, number, read, signed};
 pub(super) use machine::{CommandCase, second, troubled};
 pub(super) use output::{CERTIFY, Output, in_turn, print, timed, write};
 pub(super) use source::{QuestionOptions, SourceOptions, StartOptions};
@@ -110,7 +110,7 @@ fn commands() -> [Subcommand; 22] {
 
 /// The command line: the explorer, unless a command stands first.
 fn program() -> Command {
-    let program = ExploreCommand::augment_args(Command::new("hopfscope"))
+    let program = signed(ExploreCommand::augment_args(Command::new("hopfscope")))
         .version(env!("CARGO_PKG_VERSION"))
         .about("Explorer of one oscillator: dry friction and the Hopf bifurcation")
         .long_about(LONG_ABOUT.trim_end())
@@ -118,7 +118,7 @@ fn program() -> Command {
         .args_conflicts_with_subcommands(true);
     commands()
         .into_iter()
-        .fold(program, |all, row| all.subcommand((row.options)(Command::new(row.name))))
+        .fold(program, |all, row| all.subcommand(signed((row.options)(Command::new(row.name)))))
 }
 
 /// Moves the options `--config` and `--no-config` from before a command to after it. Before a command they would

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::{CERTIFY, Failure, QuestionOptions, in_turn, number, second, timed, troubled};
-use crate::accuracy::trade::Trade;
+use crate::accuracy::Trade;
 use crate::flow::{Detail, Limits, Motion, Outcome, Problem};
 use crate::model::{Knob, Model};
 use crate::numerics::Interval;
@@ -55,7 +55,7 @@ impl AskedMotion {
 #[derive(Debug, Args)]
 pub struct TrajectoryCommand {
     /// Time at which to stop, 0 .. 1e9 (default: the scene's)
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(long, value_name = "T")]
     until: Option<String>,
     #[arg(long, help = CERTIFY)]
     certify: bool,
@@ -95,7 +95,7 @@ pub struct TradeCommand {
     #[arg(value_name = "SCENE", conflicts_with_all = ["scene", "machine"])]
     named: Option<String>,
     /// Time at which to stop, 0 .. 1e9 (default: the scene's)
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(long, value_name = "T")]
     until: Option<String>,
 }
 

@@ -10,15 +10,15 @@ use clap::Args;
 use super::Failure;
 use crate::flow::Result;
 use crate::report::{Answer, Format};
-use crate::runtime::new_file::{self, Readers};
-use crate::runtime::{provenance_file, standard};
+use crate::runtime::new_file;
+use crate::runtime::{Readers, provenance_file, standard};
 use crate::words::printable;
 
 /// How an answer is printed.
 #[derive(Clone, Debug, Args)]
 pub struct Output {
     /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    #[arg(long, value_enum, default_value_t = Format::Table)]
     pub format: Format,
 
     /// Computes N times and reports the median time

@@ -3,9 +3,8 @@
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-use crate::numerics::count::real;
-use crate::words::number::remaining;
-use crate::words::significant;
+use crate::numerics::real;
+use crate::words::{remaining, significant};
 
 /// Where progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

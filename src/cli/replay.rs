@@ -6,8 +6,8 @@ use clap::{Args, ValueEnum};
 
 use super::settings::Looks;
 use super::{Failure, StartOptions, input, print};
-use crate::runtime::new_file::{self, Readers};
-use crate::runtime::{bounded, play};
+use crate::runtime::new_file;
+use crate::runtime::{Readers, bounded, play};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
 use crate::session::settings::Theme;
@@ -19,7 +19,6 @@ use crate::view::screen::{self, Paper};
 #[derive(Debug, Args)]
 pub struct ReplayCommand {
     /// Keystroke file
-    #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Size of the screen, in cells
     #[arg(long, value_name = "WxH", value_parser = input::size, default_value = "120x40")]

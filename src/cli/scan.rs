@@ -1,6 +1,5 @@
 //! `hopfscope scan`: the same measures at every point of a line or grid of parameters.
 
-use std::collections::BTreeMap;
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -16,19 +15,15 @@ use super::output::holds_something;
 use super::part::RowChoice;
 use super::plan::Plan;
 use super::progress::{Outlet, StatusLine, message};
-use super::{Failure, SourceOptions, given, number, print, read};
+use super::{Failure, SourceOptions, given, half_widths, number, print, read, signed};
 use crate::flow::{Limits, Subject};
 use crate::model::Knob;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
-use crate::runtime::provenance_file;
-use crate::runtime::scan_file::ScanFile;
 use crate::runtime::scanning::rows;
 use crate::runtime::signals::exit_code;
-use crate::runtime::standard::tell;
-use crate::scan::grid::Scan;
-use crate::scan::measure::{Conditions, MEASURES, Measure};
-use crate::scan::sweep::Sweep;
+use crate::runtime::{ScanFile, provenance_file, tell};
+use crate::scan::{Conditions, MEASURES, Measure, Scan, Sweep};
 use crate::words::joined;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
@@ -40,7 +35,7 @@ pub struct ScanCommand {
     source: SourceOptions,
     /// A parameter and its values, evenly spaced, or at equal ratios with log: before FROM; repeatable, the last
     /// one varies fastest
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", required = true, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", required = true)]
     over: Vec<String>,
     #[arg(long, value_name = "NAME,..", required = true, value_delimiter = ',',
           value_parser = Measure::named, help = measures_help(), long_help = measures_list())]
@@ -50,34 +45,33 @@ pub struct ScanCommand {
     certify: bool,
     /// Displacements and velocities of the starts of `stability`, `settling` and `finite-time` (default: -3:3,-3:3;
     /// none for a machine)
-    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", allow_hyphen_values = true)]
+    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX")]
     window: Option<String>,
     /// Measures the window's displacements from the relaxed spring of a machine instead of the steady position
     #[arg(long, requires_all = ["window", "machine"])]
     elongation: bool,
     /// The margin of `design`: a displacement, such as q=0.3, or an impulse, such as v=0.3; of a machine "2 mm" or
     /// "0.1 N s"
-    #[arg(long, value_name = "MARGIN", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MARGIN")]
     design: Option<String>,
     /// Bound on the disturbing force of `guaranteed`, in the units of r
-    #[arg(long, value_name = "W", allow_hyphen_values = true)]
+    #[arg(long, value_name = "W")]
     disturbance: Option<String>,
     /// Half width of a parameter for `guaranteed`, such as r=0.01; repeatable. Of a machine --set takes tolerances
-    #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width, conflicts_with = "machine",
-          allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width, conflicts_with = "machine")]
     half_width: Vec<(Knob, f64)>,
     /// Random kicks of `lost` and `repeated`, mean and standard deviation; with uniform: before them, mean and
     /// half width (default: q=0+-1,v=0+-1; none for a machine)
-    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD", allow_hyphen_values = true)]
+    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD")]
     kicks: Option<String>,
     /// Time at which the motions of `outcome`, `rest`, `settling` and `finite-time` stop (default: the scene's)
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(long, value_name = "T")]
     until: Option<String>,
     /// Number of threads (default: one per core)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     /// Output format; json writes one object per line (default: the extension of FILE, or csv)
-    #[arg(long, value_enum, value_name = "FORMAT")]
+    #[arg(long)]
     format: Option<Format>,
     /// Writes the rows to FILE instead of standard output
     #[arg(long, value_name = "FILE")]
@@ -121,7 +115,7 @@ impl ScanCommand {
     /// The scan of a command line without the program name; `None` if this version cannot parse it.
     pub fn of_line(arguments: &[String]) -> Option<Self> {
         arguments.first().filter(|command| *command == "scan")?;
-        let parser = Self::augment_args(clap::Command::new("scan"));
+        let parser = signed(Self::augment_args(clap::Command::new("scan")));
         Self::from_arg_matches(&parser.try_get_matches_from(arguments).ok()?).ok()
     }
 
@@ -217,13 +211,9 @@ impl ScanCommand {
         let Subject { tolerances, motion, .. } = &mut case.described.subject;
         motion.until = until.unwrap_or(motion.until);
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
-        let mut half_widths = BTreeMap::new();
-        for (knob, half) in &self.half_width {
-            if half_widths.insert(knob.to_string(), *half).is_some() {
-                return Err(Failure::Usage(format!("{knob} has two half widths")));
-            }
-        }
-        tolerances.half_widths.extend(half_widths);
+        let half_widths = Knob::PARAMETERS.into_iter().zip(half_widths(&self.half_width)?);
+        let wide = half_widths.filter(|(_, half_width)| *half_width > 0.0);
+        tolerances.half_widths.extend(wide.map(|(knob, half)| (knob.to_string(), half)));
         let subject = case.checked()?.described.subject;
         let machine = subject.paper().is_none();
         for measure in self.measure.iter().filter(|_| machine) {

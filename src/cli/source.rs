@@ -7,9 +7,8 @@ use clap::Args;
 use super::input::{self, MACHINE, Numbers, OSCILLATOR};
 use super::{CommandCase, Failure, Output, read, second};
 use crate::flow::{METHODS, Method};
-use crate::model::unit::TolerancedNumber;
-use crate::model::{Knob, ParameterBox};
-use crate::runtime::standard::tell;
+use crate::model::{Knob, ParameterBox, TolerancedNumber};
+use crate::runtime::tell;
 use crate::scene::library::PLAIN;
 use crate::scene::{Scene, find};
 use crate::words::joined;
@@ -88,22 +87,22 @@ pub struct StartOptions {
     pub scene: Option<String>,
 
     /// What is set is read when it is known of what.
-    #[arg(long, value_name = "NAME=VALUE", help = parameters_help(), allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=VALUE", help = parameters_help())]
     pub set: Vec<String>,
 
     #[arg(long, value_name = "NAME", value_parser = input::method, help = methods_help())]
     pub method: Option<Method>,
 
     /// Relative error per step, 1e-15 .. 0.01
-    #[arg(long, value_name = "X", value_parser = input::tolerance, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = input::tolerance)]
     pub tol: Option<f64>,
 
     /// Step length of the fixed-step methods, 1e-7 .. 1
-    #[arg(long, value_name = "H", value_parser = |text: &str| Knob::Step.parse(text), allow_hyphen_values = true)]
+    #[arg(long, value_name = "H", value_parser = |text: &str| Knob::Step.parse(text))]
     step: Option<f64>,
 
     /// Velocity scale over which the method `smoothed` smooths friction, 1e-12 .. 1e6
-    #[arg(long, value_name = "E", value_parser = |text: &str| Knob::Epsilon.parse(text), allow_hyphen_values = true)]
+    #[arg(long, value_name = "E", value_parser = |text: &str| Knob::Epsilon.parse(text))]
     epsilon: Option<f64>,
 }
 

@@ -111,7 +111,7 @@ pub struct Outline {
 /// Areas in a document, which have an edge in place of points.
 fn with_edges<S: Serializer>(areas: &[Outline], serializer: S) -> Result<S::Ok, S::Error> {
     let area = |Outline { name, role, parameters, points, .. }: &Outline| {
-        let named = Document::default().with("name", name).with("role", role);
+        let named = Document::of("name", name).with("role", role);
         named.with("parameters", parameters).with("edge", points)
     };
     serializer.collect_seq(areas.iter().map(area))

@@ -2,7 +2,7 @@
 //! them; and the header above the numbers, with names of columns and their units.
 
 use super::{Signal, quantity};
-use crate::model::unit::{TIME, in_si};
+use crate::model::{TIME, in_si};
 use crate::numerics::amount;
 
 /// What instruments write for a missing number, in lower case.

@@ -6,8 +6,7 @@ use super::{
     DropReason, Estimate, FEWEST, FittedDrift, HIDDEN, IMPOSSIBLE, Margins, NameSpec, NoEstimate,
     Question, R, RUN, Record, Rival, Runs, Unknowns, longest_run, of_kind,
 };
-use crate::numerics::decimal::{in_unit, significant, with_error};
-use crate::numerics::{Random, real};
+use crate::numerics::{Random, in_unit, real, significant, with_error};
 
 /// A condition on which an answer rests.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -9,8 +9,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::task::{LinearResiduals, Optimum, Task};
-use super::{Bound, Misfit, R, UNKNOWNS, Unknowns, UnknownsMatrix, direction};
+use super::{
+    Bound, LinearResiduals, Misfit, Optimum, R, Task, UNKNOWNS, Unknowns, UnknownsMatrix, direction,
+};
 use crate::numerics::powi;
 
 /// Maximum number of iterations.

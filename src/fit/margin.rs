@@ -13,12 +13,11 @@ use serde::{Serialize, Serializer};
 use super::{
     D2, D3, Draws, Estimate, Inertia, NAMES, OMEGA0, Unknowns, drawn, following, parameters,
 };
-use crate::branch::fold::fold;
+use crate::branch::fold;
 use crate::flow::{Limits, Reason, Result};
 use crate::model::{Knob, ParameterBox, Parameters};
 use crate::numerics::{real, truncated};
-use crate::portrait::guarantee::oscillator::guaranteed;
-use crate::portrait::{Kicks, Margin, Portrait};
+use crate::portrait::{Kicks, Margin, Portrait, guaranteed};
 
 /// What is asked of the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,8 +13,7 @@
 use nalgebra::Vector4;
 
 use super::{D, D2, D3, LAST, Q0, R, Signal, Unknowns, direction};
-use crate::flow::step::{StepPoint, Stepper};
-use crate::flow::taylor::Taylor;
+use crate::flow::{StepPoint, Stepper, Taylor};
 use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::{hypot, real};
 

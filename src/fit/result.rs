@@ -16,9 +16,7 @@ use super::{
     length_in_metres, parameters, rate, row_of,
 };
 use crate::flow::Problem;
-use crate::model::belt::Units;
-use crate::model::unit::dimension_of;
-use crate::model::{Knob, State};
+use crate::model::{Knob, State, Units, dimension_of};
 use crate::numerics::{powi, real};
 
 /// The whole result of a fit.

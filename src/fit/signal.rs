@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::unit::{LENGTH, in_si};
+use crate::model::{LENGTH, in_si};
 
 /// A measured quantity: the displacement, differentiated so many times by the time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,20 +3,15 @@
 use strum::EnumTryAs;
 use thiserror::Error;
 
-use super::fit::Fit;
-use super::request::Request;
-use super::zones::{CertainZones, zones};
-use crate::accuracy::harmonic_error::{HarmonicBalance, harmonic_balance};
-use crate::accuracy::reference::Reference;
-use crate::accuracy::trade::Trade;
+use super::{CertainZones, Fit, Request, zones};
+use crate::accuracy::{HarmonicBalance, Reference, Trade, harmonic_balance};
 use crate::branch::Branch;
 use crate::branch::along::{Points, branch};
 use crate::branch::chart::{Chart, Plane, Resolution, chart};
 use crate::branch::machine::MachineBranch;
 use crate::flow::quality::DRAFT;
-use crate::flow::trajectory::trajectory;
 use crate::flow::{
-    Cost, Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, Result, follow,
+    Cost, Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, Result, follow, trajectory,
 };
 use crate::model::{Belt, Body, Knob, Model, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};

@@ -11,7 +11,4 @@ pub mod record;
 pub mod request;
 pub mod zones;
 
-pub use answer::{Finding, NoAnswer, Reply};
-pub use answer::{Fineness, Rows, answer, answer_for};
-pub use fit::{Fit, OpenedRecord, Recording};
-pub use request::{Request, TOPICS, Topic};
+pub use self::{answer::*, fit::*, request::*, zones::*};

@@ -27,22 +27,22 @@ pub struct RecordOptions {
     #[arg(long, value_name = "NAMES", value_parser = listed)]
     free: Option<std::vec::Vec<&'static NameSpec>>,
     /// Holds a quantity at a value, such as D3=0; repeatable
-    #[arg(long, value_name = "NAME=VALUE", value_parser = assigned, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assigned)]
     set: Vec<(&'static NameSpec, f64)>,
     /// How residuals are weighted
-    #[arg(long, value_enum, default_value_t = LossName::Auto, value_name = "LOSS")]
+    #[arg(long, value_enum, default_value_t = LossName::Auto)]
     loss: LossName,
     /// Mass of the oscillator, such as "2 kg": forces and damping in N, N s/m
-    #[arg(long, value_name = "MASS", value_parser = |text: &str| Knob::Mass.parse(text), conflicts_with = "stiffness")]
+    #[arg(long, value_parser = |text: &str| Knob::Mass.parse(text), conflicts_with = "stiffness")]
     mass: Option<f64>,
     /// Stiffness of the spring, such as "800 N/m", instead of the mass
-    #[arg(long, value_name = "STIFFNESS", value_parser = |text: &str| Knob::Stiffness.parse(text))]
+    #[arg(long, value_parser = |text: &str| Knob::Stiffness.parse(text))]
     stiffness: Option<f64>,
     /// What the second column holds, if the file does not tell it by a unit
-    #[arg(long, value_enum, value_name = "SIGNAL")]
+    #[arg(long)]
     signal: Option<Signal>,
     /// Unit of the displacements, velocities or accelerations, if the file does not name it, such as mm or m/s^2
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    #[arg(long, value_parser = unit)]
     unit: Option<String>,
 }
 

@@ -6,14 +6,14 @@ use std::sync::Arc;
 use serde::Serialize;
 use strum::{EnumDiscriminants, IntoStaticStr, VariantArray};
 
-use super::fit::{Fit, Recording};
+use super::{Fit, Recording};
 use crate::branch::chart::Plane;
 use crate::fit::MarginQuestion;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Method, Problem};
 use crate::model::{Belt, Knob, Parameters, Source, Tolerances};
-use crate::portrait::kicks::RandomKick;
-use crate::scan::grid::Scan;
+use crate::portrait::RandomKick;
+use crate::scan::Scan;
 
 /// Every topic, the most urgent first.
 pub const TOPICS: &[Topic] = Topic::VARIANTS;

@@ -4,9 +4,8 @@
 use clap::ValueEnum;
 use serde::Serialize;
 
-use super::columns::{Columns, Quantity, RowsOf};
-use super::json::{self, Document};
-use super::table::Table;
+use super::json;
+use super::{Columns, Document, Quantity, RowsOf, Table};
 use crate::flow::Cost;
 use crate::model::{Body, Group, Interval, Knob, ParameterBox, Source};
 use crate::words::provenance::Provenance;
@@ -151,7 +150,7 @@ impl Answer {
     /// With its cost: of a machine, the steps.
     pub fn cost(self, cost: Cost, seconds: f64) -> Self {
         let (line, counted) = if self.by_steps {
-            (format!("{} steps", cost.steps), Document::default().with("steps", cost.steps))
+            (format!("{} steps", cost.steps), Document::of("steps", cost.steps))
         } else {
             (format!("{} evaluations", cost.evaluations), Document::default().and(&cost))
         };

@@ -1,19 +1,17 @@
 //! The cycles as a number varies and the special points, and these along a second number.
 
-use super::answer::PLACES;
 use super::cycle_numbers::{cycle_fields, machine_cycles, number_columns};
-use super::proof::{
-    BorderProof, border_columns, decided, piece_columns, range_changes, range_pieces,
+use super::{
+    About, Answer, BorderProof, Columns, Document, PLACES, Quantity, border_columns, decided,
+    digits, piece_columns, range_changes, range_pieces,
 };
-use super::table::digits;
-use super::{About, Answer, Columns, Document, Quantity};
-use crate::branch::fold::{Boundary, BoundaryPoint};
 use crate::branch::machine::{MachineBranch, PortraitPoint};
-use crate::branch::{Branch, BranchPoint, Jump, JumpEnd, Special};
+use crate::branch::{Boundary, BoundaryPoint, Branch, BranchPoint, Jump, JumpEnd, Special};
 use crate::flow::Cost;
 use crate::model::Knob;
 use crate::portrait::Cycle;
-use crate::proof::range::{MOST_STEPS, Range, RangePiece};
+use crate::proof::range::MOST_STEPS;
+use crate::proof::{Range, RangePiece};
 use crate::words::{significant, stability, with_unit};
 
 /// A point with the number of the connected piece to which it belongs.
@@ -219,9 +217,8 @@ pub fn border_of_machine(
     let rows =
         found.iter().flat_map(|(value, all)| all.iter().map(move |special| (*value, special)));
     let nothing = rows.clone().next().is_none();
-    let points = found
-        .iter()
-        .map(|(value, special)| Document::default().with("value", value).with("special", special));
+    let points =
+        found.iter().map(|(value, special)| Document::of("value", value).with("special", special));
     about
         .answer()
         .with("parameter", over_name)

@@ -7,11 +7,10 @@ use csv::Writer;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::json::{self, Document};
-use super::table::Table;
+use super::json;
+use super::{Document, Table};
 use crate::numerics::{Interval, cells, log10, pow};
-use crate::words::number::rounded_down;
-use crate::words::{joined, significant, with_unit};
+use crate::words::{joined, rounded_down, significant, with_unit};
 
 /// What columns are called in text, where that is not their name in files, a line each.
 const TITLES: &str = include_str!("../../assets/titles.txt");
@@ -235,7 +234,7 @@ const ENDS: [&str; 2] = ["lower", "upper"];
 
 /// An interval in a document; an infinite end is null.
 pub fn bounds(it: Interval) -> Document {
-    Document::default().with(ENDS[0], it.lower()).with(ENDS[1], it.upper())
+    Document::of(ENDS[0], it.lower()).with(ENDS[1], it.upper())
 }
 
 /// A value with all its digits: the shortest decimal that reads back as the same double, as `0.1`, `-3.0`, `1e-300`;

@@ -1,7 +1,6 @@
 //! The numbers that describe a limit cycle, and the columns that show them.
 
-use super::answer::PLACES;
-use super::{Columns, Quantity};
+use super::{Columns, PLACES, Quantity};
 use crate::numerics::Interval;
 use crate::portrait::{Cycle, CycleErrors};
 use crate::proof::Enclosure;

@@ -1,13 +1,10 @@
 //! The limit cycles: of the oscillator of the paper with what is proved about them and the answers of harmonic balance,
 //! of a machine in SI units.
 
-use super::answer::PLACES;
 use super::cycle_numbers::machine_cycles;
-use super::proof::{ProvedRow, with_proof};
-use super::{About, Answer, Columns, Document, Quantity};
-use crate::accuracy::harmonic_error::{BalanceResult, HarmonicBalance};
-use crate::closed_form::harmonic::{Harmonic, amplitudes};
-use crate::closed_form::harmonics::HarmonicCycle;
+use super::{About, Answer, Columns, Document, PLACES, ProvedRow, Quantity, with_proof};
+use crate::accuracy::{BalanceResult, HarmonicBalance};
+use crate::closed_form::{Harmonic, HarmonicCycle, amplitudes};
 use crate::portrait::{Border, Cycle, Cycles, Portrait};
 use crate::proof::Proof;
 use crate::words::{stability, with_unit};
@@ -30,7 +27,7 @@ pub fn cycles(
     let mut answer = with_proof(about.answer(), &ProvedRow::found(&found.cycles, proof), proof)
         .with("harmonic", &by_one)
         .with_any("balance", rungs.map(|rungs| balance_columns().objects(balances(rungs))))
-        .with("basin", Document::default().with("edge", found.border))
+        .with("basin", Document::of("edge", found.border))
         .lines([border(found.border)])
         .lines(by_one.is_empty().then_some("by one harmonic: no cycle"))
         .table(harmonic.table(by_one));
@@ -48,9 +45,9 @@ pub fn of_machine(about: &About, found: &Portrait, seconds: f64) -> Answer {
         .answer()
         .with("cycles", columns.objects(&found.cycles))
         // The number of cycles is not proved; where the search did not settle is known.
-        .with("count", Document::default().with("proved", false).with("open", &found.unresolved))
+        .with("count", Document::of("proved", false).with("open", &found.unresolved))
         .with("neutral", found.neutral)
-        .with("basin", Document::default().with("edge", found.border))
+        .with("basin", Document::of("edge", found.border))
         .rows(&columns, &found.cycles)
         .lines(found.cycles.is_empty().then_some(NO_CYCLE))
         .portrayed(found, seconds)

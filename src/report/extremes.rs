@@ -132,11 +132,10 @@ pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer {
     });
     let sets = verdicts.iter().map(|SetVerdict { parameters, answer, cost }| {
         let kind = if answer.is_ok() { "found" } else { "gave-up" };
-        let answer = Document::default()
-            .with("kind", kind)
+        let answer = Document::of("kind", kind)
             .with_any("cycles", answer.as_ref().ok())
             .with_any("reason", answer.as_ref().err());
-        Document::default().with("parameters", parameters).with("answer", answer).with("cost", cost)
+        Document::of("parameters", parameters).with("answer", answer).with("cost", cost)
     });
     Answer::default()
         .with("budget", BUDGET_OF_SET)

@@ -9,15 +9,14 @@ use crate::fit::{
 };
 use crate::portrait::Kicks;
 use crate::words::fit::{Statement, left_out as counts, sentences, signed, undetermined};
-use crate::words::number::{in_unit, resolved, with_error};
-use crate::words::{joined, significant};
+use crate::words::{in_unit, joined, resolved, significant, with_error};
 
 /// The whole answer of a fit: in rows one for each estimated number, then the margins.
 pub fn fit(fitted: &FitResult) -> Answer {
     let statement = signed(fitted);
     let broken = statement.broken();
     let (with, plain) = fitted.motions();
-    let motions = Document::default().with("with_derivatives", with).with("without", plain);
+    let motions = Document::of("with_derivatives", with).with("without", plain);
     let counted = format!("{with} motions with derivatives, {plain} without");
     let name = Columns::default().file("name", |row: &EstimateRow| row.name.clone());
     let numbers = || fitted.estimate.wanted().map(|row| EstimateRow::of_number(fitted, row));
@@ -55,13 +54,11 @@ fn document(fitted: &FitResult, statement: &Statement) -> Document {
     let held = held.filter_map(|row| Some((row.name, estimate.choice.held(row)?)));
     let separable = |it: &Combination| {
         let terms = it.terms.iter().map(|(row, weight)| (row.name, *weight));
-        Document::default()
-            .with("combination", terms.collect::<BTreeMap<_, _>>())
+        Document::of("combination", terms.collect::<BTreeMap<_, _>>())
             .with("value", it.value)
             .with("standard_error", it.standard_error)
     };
-    Document::default()
-        .with("file", &fitted.name)
+    Document::of("file", &fitted.name)
         .with("unit", &record.unit)
         .with("signal", record.signal)
         .with("parameters", parameters.collect::<BTreeMap<_, _>>())
@@ -86,15 +83,14 @@ fn document(fitted: &FitResult, statement: &Statement) -> Document {
         .with_any("physical", physical(fitted))
         .with("statement", statement)
         .with("conditions", &statement.conditions)
-        .with("draws", Document::default().with("effective", margins.effective))
+        .with("draws", Document::of("effective", margins.effective))
         .with("sentences", sentences(fitted))
 }
 
 fn start_document(fitted: &FitResult) -> Document {
     let estimate = &fitted.estimate;
     let value = |place: usize| {
-        Document::default()
-            .with("standard_error", estimate.covariance.error(place))
+        Document::of("standard_error", estimate.covariance.error(place))
             .with("value", estimate.p[place])
     };
     let (kind, last) = match estimate.start {
@@ -102,8 +98,7 @@ fn start_document(fitted: &FitResult) -> Document {
         StartKind::Moving => ("moving", "v0"),
     };
     let struck_after = Some(estimate.count(DropReason::Before)).filter(|before| *before > 0);
-    Document::default()
-        .with("kind", kind)
+    Document::of("kind", kind)
         .with("q0", value(Q0))
         .with_any("struck_after", struck_after)
         .with_any(last, estimate.free[LAST].then(|| value(LAST)))
@@ -130,7 +125,7 @@ fn physical(fitted: &FitResult) -> Option<Document> {
     let numbers: BTreeMap<_, _> =
         rows(fitted).into_iter().map(|number| (number.name, number)).collect();
     let guaranteed = fitted.margins.guaranteed.as_ref().map(scaled);
-    let document = Document::default().with("numbers", numbers);
+    let document = Document::of("numbers", numbers);
     Some(document.and(&scaled(&fitted.margins.kicks)).with_any("guaranteed", guaranteed))
 }
 

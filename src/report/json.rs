@@ -12,6 +12,11 @@ use crate::words::printable;
 pub struct Document(Map<String, Value>);
 
 impl Document {
+    /// An object with this field.
+    pub fn of(name: &str, value: impl Serialize) -> Self {
+        Document::default().with(name, value)
+    }
+
     /// The document with this field.
     pub fn with(self, name: &str, value: impl Serialize) -> Self {
         self.with_value(name, self::value(&value))

@@ -1,11 +1,9 @@
 //! How large a kick is survived: margins, nominal and guaranteed, the basin over a window of starts, and random kicks.
 
-use super::proof::kick_columns;
-use super::{About, Answer, Columns, Document, Quantity, cycles};
-use crate::portrait::guarantee::NoGuarantee;
-use crate::portrait::{Counts, Margin, Portrait, RandomKick, StartWindow, Survival};
-use crate::proof::kicks::ProvedKicks;
-use crate::words::number::significant;
+use super::{About, Answer, Columns, Document, Quantity, cycles, kick_columns};
+use crate::portrait::{Counts, Margin, NoGuarantee, Portrait, RandomKick, StartWindow, Survival};
+use crate::proof::ProvedKicks;
+use crate::words::significant;
 
 /// What a margin is called, and how large it is.
 pub(super) type MarginRow = (&'static str, Margin);
@@ -125,8 +123,7 @@ pub fn kicks(about: &About, law: &RandomKick, found: &Survival, held: f64, secon
     let density = Columns::default()
         .file("q", |(q, _): &(f64, f64)| *q)
         .file("density", |(_, density)| *density);
-    let repeated = Document::default()
-        .with("lost", found.later)
+    let repeated = Document::of("lost", found.later)
         .with("mean", found.mean)
         .with("error", found.error)
         .with("density", &found.density);

@@ -21,7 +21,4 @@ pub mod scan;
 pub mod scenes;
 pub mod table;
 
-pub use answer::{About, Answer, Format};
-pub use columns::{Columns, Quantity};
-pub use json::Document;
-pub use table::Table;
+pub use self::{answer::*, columns::*, json::*, proof::*, table::*};

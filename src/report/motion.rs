@@ -1,20 +1,16 @@
 //! One motion: its turning points, how it ends, where its energy goes; and what its accuracy costs, one row for each method
 //! and accuracy.
 
-use super::proof::{followed, point_columns};
-use super::table::digits;
-use super::{About, Answer, Columns, Document, Quantity, Table};
-use crate::accuracy::reference::ReferenceSource;
-use crate::accuracy::trade::{Trade, TradePoint};
+use super::{About, Answer, Columns, Document, Quantity, Table, digits, followed, point_columns};
+use crate::accuracy::{ReferenceSource, Trade, TradePoint};
 use crate::flow::{
     Cost, Crossing, Leg, METHODS, Method, MethodSpec, Motion, Outcome, Problem, Sample,
 };
-use crate::model::belt::Units;
-use crate::model::{ContactState, Knob, Ledger, State, Work};
+use crate::model::{ContactState, Knob, Ledger, State, Units, Work};
 use crate::numerics::{Interval, log10, pow};
-use crate::proof::motion::{ProvedMotion, ProvedPoint};
-use crate::words::motion::{Notation, ended, sentence};
-use crate::words::{count, duration, exact, significant};
+use crate::proof::{ProvedMotion, ProvedPoint};
+use crate::words::motion::{ended, sentence};
+use crate::words::{Notation, count, duration, exact, significant};
 
 /// A point of a motion, its start, an arrival at `v = 0` or its end: what it is, `tau`, `q` and `v` as far as they are
 /// known, and what is proved of them.
@@ -116,7 +112,7 @@ pub(super) fn phases(legs: &[Leg], [time, place]: [&str; 2]) -> Vec<Document> {
             ContactState::Slips(_) => "slip",
         };
         let Sample { tau, q, .. } = leg.start;
-        Document::default().with(time, tau).with(place, q).with("phase", phase)
+        Document::of(time, tau).with(place, q).with("phase", phase)
     };
     legs.iter().map(phase).collect()
 }
@@ -124,7 +120,7 @@ pub(super) fn phases(legs: &[Leg], [time, place]: [&str; 2]) -> Vec<Document> {
 /// The works along a motion. Those of the damper and of the guide of a machine are told as what they take, in J, and what
 /// does not add up as a fraction of all.
 pub(super) fn energy(ledger: &Ledger, machine: bool) -> Document {
-    let ends = Document::default().with("start", ledger.start).with("end", ledger.end);
+    let ends = Document::of("start", ledger.start).with("end", ledger.end);
     let works = ledger.works.iter().fold(ends, |all, Work { source, amount, .. }| {
         let takes = matches!(*source, "damper" | "guide");
         all.with(source, if takes { -amount } else { *amount })

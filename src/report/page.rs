@@ -1,8 +1,7 @@
 //! An answer as a page that can be kept, printed and signed: one file of HTML that needs no other file, no network
 //! and no script, and is well-formed as XML.
 
-use super::answer::{Answer, Part};
-use super::table::Table;
+use super::{Answer, Part, Table};
 use crate::words::printable::xml;
 use crate::words::provenance::Provenance;
 

@@ -1,18 +1,15 @@
 //! Proofs: of limit cycles, and enclosures of motions, kicks, ranges and borders, for tables and documents.
 
-use super::columns::{bounds, certain, ends};
 use super::cycle_numbers::{CycleNumber, NUMBERS, cycle_fields, number_columns};
-use super::{About, Answer, Columns, Document, Format, Quantity};
-use crate::branch::fold::BoundaryPoint;
+use super::{About, Answer, Columns, Document, Format, Quantity, bounds, certain, ends};
+use crate::branch::BoundaryPoint;
 use crate::check::{Bounds, Certificate, StepKind};
 use crate::numerics::Interval;
-use crate::portrait::Cycle;
-use crate::portrait::proved::matching;
+use crate::portrait::{Cycle, matching};
 use crate::proof::cycles::ProvedCycle;
-use crate::proof::kicks::ProvedKicks;
-use crate::proof::motion::{ProvedMotion, ProvedPoint};
-use crate::proof::range::{CountChange, Range, RangePiece};
-use crate::proof::{Enclosure, Proof};
+use crate::proof::{
+    CountChange, Enclosure, Proof, ProvedKicks, ProvedMotion, ProvedPoint, Range, RangePiece,
+};
 use crate::words::{counted, cycles, significant, stability};
 
 /// A cycle with what is proved about it, or an interval of clearances that is open.
@@ -47,7 +44,7 @@ impl<'a> ProvedRow<'a> {
     fn document(&self) -> Document {
         let own = match self.cycle {
             Some(cycle) => Document::default().and(cycle),
-            None => Document::default().with("stable", self.stable),
+            None => Document::of("stable", self.stable),
         };
         own.with("proved", self.cycle.is_none() || self.enclosure.is_some())
             .with_any("enclosure", self.enclosure)
@@ -98,8 +95,7 @@ pub(super) fn with_proof(answer: Answer, rows: &[ProvedRow], proof: &Proof) -> A
     };
     let texts = Columns::default().text("cycle", kind);
     let is_unknown = |row: &ProvedRow| NUMBERS.iter().any(|number| row.text(number) == "?");
-    let count = Document::default()
-        .with("proved", proof.is_complete())
+    let count = Document::of("proved", proof.is_complete())
         .with("open", proof.open.iter().map(gap).collect::<Vec<_>>())
         .with("parameters", proof.parameters);
     answer
@@ -183,11 +179,9 @@ pub(super) fn point_columns<'a>() -> Columns<'a, ProvedPoint> {
 
 /// A motion up to a time, for documents.
 pub(super) fn followed(motion: &ProvedMotion) -> Document {
-    let turn = |turn: &ProvedPoint| {
-        Document::default().with("tau", bounds(turn.tau)).with("q", turn.q.map(bounds))
-    };
-    Document::default()
-        .with("outcome", motion.fate)
+    let turn =
+        |turn: &ProvedPoint| Document::of("tau", bounds(turn.tau)).with("q", turn.q.map(bounds));
+    Document::of("outcome", motion.fate)
         .with("half_swings", motion.turns.len())
         .with("turns", motion.turns.iter().map(turn).collect::<Vec<_>>())
         .and(&point_columns().object(&motion.end))
@@ -245,8 +239,7 @@ pub(super) fn range_changes<'a>() -> Columns<'a, CountChange> {
 pub(super) fn decided(range: &Range) -> Document {
     let open = range.pieces.iter().filter(|piece| piece.cycles.is_none());
     let open: Vec<_> = open.map(|piece| bounds(piece.over)).collect();
-    Document::default()
-        .with("pieces", range_pieces().objects(&range.pieces))
+    Document::of("pieces", range_pieces().objects(&range.pieces))
         .with("changes", range_changes().objects(&range.changes))
         .with("open", &open)
         .with("proved", open.is_empty())
@@ -275,8 +268,7 @@ impl BorderProof {
     }
 
     pub(super) fn document(&self) -> Document {
-        Document::default()
-            .with("value", self.value)
+        Document::of("value", self.value)
             .with("fold", self.fold.map(bounds))
             .with("escape", self.escape.map(bounds))
             .with("proved", self.open.is_empty())

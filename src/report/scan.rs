@@ -5,11 +5,10 @@
 
 use std::ops::Range;
 
-use super::Format;
-use super::columns::lines;
-use crate::scan::grid::{Scan, ScanRow};
-use crate::scan::measure::Value;
-use crate::words::number::measurement;
+use super::{Format, lines};
+use crate::scan::grid::ScanRow;
+use crate::scan::{Scan, Value};
+use crate::words::measurement;
 
 /// Width of a column of the table: eight digits, sign, point and exponent.
 const WIDTH: usize = 14;

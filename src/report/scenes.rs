@@ -10,7 +10,7 @@ use crate::scene::said::said_by;
 use crate::scene::{Scene, Topic};
 use crate::session::Keymap;
 use crate::session::wants::consequence;
-use crate::words::number::count;
+use crate::words::count;
 
 /// A scene under one of its names.
 struct SceneRow<'a> {
@@ -105,8 +105,7 @@ fn document(found: &SceneCost) -> Document {
     let [opening, steps @ ..] = found.asked.as_slice() else { return Document::default() };
     let step = |step: &QuestionBatch| {
         let (cost, seconds) = sum(&step.questions);
-        Document::default()
-            .with("parameter", step.after)
+        Document::of("parameter", step.after)
             .with("recomputed", step.questions.iter().map(|it| it.topic).collect::<Vec<_>>())
             .with("reused", &step.reused)
             .with("evaluations", cost.evaluations)
@@ -114,8 +113,7 @@ fn document(found: &SceneCost) -> Document {
             .with("seconds", seconds)
     };
     let (cost, seconds) = sum(&opening.questions);
-    Document::default()
-        .with("scene", &found.scene.name)
+    Document::of("scene", &found.scene.name)
         .with("questions", &opening.questions)
         .with("formulas", &found.formulas)
         .with("evaluations", cost.evaluations)

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::numerics::elementary::powi;
+use crate::numerics::powi;
 use crate::words::wrapped;
 
 /// Width of a screen that every table fits.

@@ -7,7 +7,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use rustix::io::Errno;
 
-use super::workers::Work;
+use super::Work;
 use crate::scene::Request;
 use crate::session::replay::ScriptError;
 use crate::session::{Effect, Gesture, Key, Msg, PointerTarget, Session, save};

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use rustix::fs::OFlags;
 
-use super::failure::Failure;
+use super::Failure;
 use super::new_file::block;
 
 /// Longest file that is read, in bytes.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use crossterm::Command;
 use crossterm::clipboard::CopyToClipboard;
 
-use super::bounded;
-use super::new_file::{self, Readers};
+use super::new_file;
+use super::{Readers, bounded};
 use crate::fit::decoded;
 
 /// The destination of copies besides the clipboard: terminals do not report whether they accept a copy.

@@ -11,12 +11,10 @@ use crossbeam_channel::unbounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::application::{Application, ReplayResult};
-use super::effects::Files;
-use super::launch::launch;
-use super::pump::{Options, Pump};
-use super::workers::{Tell, Work};
-use super::{print, provenance_file, scanning};
+use super::{
+    Application, Files, Options, Pump, ReplayResult, Tell, Work, launch, print, provenance_file,
+    scanning,
+};
 use crate::figure::{self, FigureForm};
 use crate::fit::NoEstimate;
 use crate::flow::{Limits, Result};

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use thiserror::Error;
 
-use super::standard::tell;
+use super::tell;
 
 /// Why a command has no answer.
 #[derive(Debug, Error)]

@@ -21,8 +21,8 @@ use termina::event::{
 };
 use termina::style::RgbColor;
 
-use super::application::{Event, LoopEnd};
 use super::panics::caught;
+use super::{Event, LoopEnd};
 use crate::session::{Code, Gesture, Key, Msg};
 
 mod sequences;

@@ -10,14 +10,8 @@ use std::sync::Arc;
 use crossbeam_channel::unbounded;
 use ratatui::layout::Size;
 
-use super::application::{Application, LoopEnd};
-use super::effects::Files;
-use super::new_file::Readers;
-use super::pump::{Options, Pump};
 use super::signals::{self, exit_code};
-use super::standard::tell;
-use super::workers::Compute;
-use super::{input, panics};
+use super::{Application, Compute, Files, LoopEnd, Options, Pump, Readers, input, panics, tell};
 use crate::session::Notice;
 use crate::terminal::{Guard, Screen};
 

@@ -26,8 +26,8 @@ pub mod signals;
 pub mod standard;
 pub mod workers;
 
-pub use application::{Application, Event, LoopEnd};
-pub use explorer::{Explorer, explore, play};
-pub use launch::launch;
-pub use pump::{Options, Pump};
-pub use record::RecordingFile;
+pub use self::{
+    application::*, effects::Files, explorer::*, failure::Failure, launch::launch,
+    new_file::NewFile, new_file::Readers, pump::*, record::*, scan_file::ScanFile, scan_part::*,
+    standard::tell, workers::*,
+};

@@ -6,7 +6,7 @@ use std::io::{self, BufReader, ErrorKind, Read, Write};
 use std::os::unix::fs::{FileTypeExt, MetadataExt, OpenOptionsExt, PermissionsExt, fchown};
 use std::path::{Path, PathBuf};
 
-use super::failure::Failure;
+use super::Failure;
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
 use tempfile::TempPath;
 

@@ -11,9 +11,8 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use time::OffsetDateTime;
 
-use super::bounded;
-use super::failure::Failure;
-use super::new_file::{self, Readers};
+use super::new_file;
+use super::{Failure, Readers, bounded};
 use crate::report::page::SourceFile;
 use crate::words::provenance::{Checksum, Provenance};
 

@@ -16,12 +16,9 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::application::{Application, Event, LoopEnd};
-use super::effects::Files;
-use super::new_file::Readers;
-use super::record::RecordingFile;
-use super::scan_file;
-use super::workers::{Compute, Workers};
+use super::{
+    Application, Compute, Event, Files, LoopEnd, Readers, RecordingFile, Workers, scan_file,
+};
 use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script, ScriptError};
 use crate::session::{Content, Effect, MouseAction, Msg, Notice};

@@ -5,8 +5,9 @@ use std::io::{self, Read};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
-use super::effects::{Files, at_home};
-use super::new_file::{self, Readers};
+use super::effects::at_home;
+use super::new_file;
+use super::{Files, Readers};
 use crate::session::replay::{HEADER, Recorder};
 
 /// The file of a recording.

@@ -12,16 +12,15 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use super::effects::at_home;
-use super::failure::Failure;
 use super::journal::Journal;
-use super::new_file::{self, Readers};
+use super::new_file;
 use super::provenance_file::{self, RunningChecksum};
-use super::scan_part::{FileRow, RowReader};
-use super::standard;
+use super::{Failure, FileRow, Readers, RowReader, standard};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
-use crate::scan::grid::{Scan, ScanRow};
+use crate::scan::Scan;
+use crate::scan::grid::ScanRow;
 use crate::words::provenance::{Checksum, Provenance};
 
 /// A file to which rows are added.

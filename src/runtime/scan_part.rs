@@ -10,7 +10,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::failure::Failure;
+use super::Failure;
 use crate::flow::{Limits, Reason};
 use crate::report::scan::ScanPart;
 use crate::words::provenance::{Checksum, Provenance};

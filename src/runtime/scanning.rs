@@ -10,11 +10,12 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::unbounded;
 use rayon::ThreadPoolBuilder;
 
+use super::Tell;
 use super::panics::caught;
-use super::workers::Tell;
 use crate::flow::{Limits, Reason, Result};
 use crate::question::Rows;
-use crate::scan::grid::{Scan, ScanRow};
+use crate::scan::Scan;
+use crate::scan::grid::ScanRow;
 use crate::scene::Finding;
 
 /// Rows that each thread may be ahead of the first unfinished one: enough that one slow row does not hold up

@@ -14,7 +14,7 @@ use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SI
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
 
-use super::application::{Event, LoopEnd};
+use super::{Event, LoopEnd};
 use crate::terminal::Guard;
 
 /// How long the loop may take to end after the first such signal.

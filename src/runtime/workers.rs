@@ -15,9 +15,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
-use super::effects::Files;
-use super::new_file::Readers;
 use super::panics::caught;
+use super::{Files, Readers};
 use crate::flow::{Limits, Reason, Result};
 use crate::question::NoAnswer;
 use crate::scene::{Finding, Reply, Request};

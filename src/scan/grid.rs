@@ -5,11 +5,9 @@
 //! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
 pub use super::measure::ScanRow;
-use super::measure::{Conditions, Measure, OF_THE_PAPER, Value, measure};
-use super::sweep::Sweep;
+use super::{Conditions, Measure, OF_THE_PAPER, Sweep, Value, measure};
 use crate::flow::{Cost, Limits, Problem, Result, Subject};
-use crate::model::belt::FrictionLaw;
-use crate::model::{Interval, Knob, State};
+use crate::model::{FrictionLaw, Interval, Knob, State};
 use crate::portrait::{RandomKick, StartWindow};
 
 /// Most points of a scan.

@@ -3,3 +3,5 @@
 pub mod grid;
 pub mod measure;
 pub mod sweep;
+
+pub use self::{grid::*, measure::*, sweep::*};

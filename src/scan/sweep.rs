@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use crate::model::unit::measured;
-use crate::model::{Group, Knob};
+use crate::model::{Group, Knob, measured};
 use crate::numerics::{log10, pow, real};
 
 /// How the values of a [`Sweep`] are spaced.

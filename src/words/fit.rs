@@ -5,13 +5,12 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use super::number::{in_unit, rounded_down, significant, with_unit};
-use super::{counted, joined};
+use super::{counted, in_unit, joined, rounded_down, significant, with_unit};
 use crate::fit::{
     AllowedLoss, Combination, Condition, D, DropReason, FitResult, MarginQuestion, Margins, NAMES,
     NameSpec, R, Rival, StartKind, combination, conditions,
 };
-use crate::numerics::count::real;
+use crate::numerics::real;
 use crate::portrait::Margin;
 
 /// All that is said of a fit.

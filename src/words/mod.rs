@@ -8,7 +8,7 @@ pub mod printable;
 pub mod provenance;
 pub mod usage;
 
-pub use number::{count, duration, exact, significant, with_unit};
+pub use self::{motion::Notation, number::*};
 
 use std::borrow::Cow;
 use std::fmt::Display;

@@ -2,7 +2,7 @@
 
 use super::{counted, significant, with_unit};
 use crate::flow::{Fate, Motion, Outcome};
-use crate::model::belt::Units;
+use crate::model::Units;
 use crate::portrait::Cycle;
 
 /// How the quantities of a motion are written: as numbers of the oscillator, or in the units of a machine.

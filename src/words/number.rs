@@ -2,7 +2,7 @@
 
 pub use crate::numerics::decimal::{in_unit, resolved, significant, with_error};
 use crate::numerics::{amount, real};
-use crate::scan::measure::Value;
+use crate::scan::Value;
 
 /// A positive `value` with all but this many significant digits cut off, so that it is not above `value`.
 pub fn rounded_down(value: f64, digits: usize) -> f64 {

@@ -4,10 +4,8 @@ use std::collections::BTreeMap;
 
 use super::{CubicExpansion, MachineAnswer};
 use crate::flow::{Fate, Motion, Sample};
-use crate::model::Group;
-use crate::model::belt::{Derivatives, FrictionLaw};
-use crate::portrait::guarantee::NoGuarantee;
-use crate::portrait::{Cycle, Margin, Portrait};
+use crate::model::{Derivatives, FrictionLaw, Group};
+use crate::portrait::{Cycle, Margin, NoGuarantee, Portrait};
 use crate::report::cycle_numbers::of_machine;
 use crate::report::motion::{energy, phases};
 use crate::report::{Columns, Document};
@@ -16,15 +14,13 @@ use crate::report::{Columns, Document};
 pub(super) fn document(answer: &MachineAnswer) -> Document {
     let MachineAnswer { portrait, expansion, .. } = answer;
     let design = answer.design.map(|designed| {
-        Document::default()
-            .with("kick", designed.kick)
+        Document::of("kick", designed.kick)
             .with("margin", designed.wanted)
             .with("R", designed.needed.least())
             .with("needed", designed.needed)
             .with("message", designed.sentence(&answer.subject.source))
     });
-    Document::default()
-        .with("model", "whole")
+    Document::of("model", "whole")
         .and(&expansion.as_ref().map(quantities).unwrap_or_default())
         .and(&motions(portrait))
         .with("motion", motion(answer))
@@ -40,7 +36,7 @@ fn quantities(expansion: &CubicExpansion) -> Document {
     let knobs = Group::Machine.knobs();
     let numbers = knobs.filter_map(|knob| Some((knob.spec().name, knob.of_belt(belt)?)));
     let both = |physical: f64, one: f64| {
-        Document::default().with("dimensionless", physical / one).with("physical", physical)
+        Document::of("dimensionless", physical / one).with("physical", physical)
     };
     let Derivatives { value, first, second, third } = reduced.mu;
     // Root mean square distance of a table's points from the law.
@@ -48,16 +44,14 @@ fn quantities(expansion: &CubicExpansion) -> Document {
         FrictionLaw::Table(spline) => Some(spline.missed),
         _ => None,
     };
-    let friction = Document::default()
-        .with("law", belt.law.name())
+    let friction = Document::of("law", belt.law.name())
         .with_any("missed", missed)
         .with("mu", value)
         .with("mu1", first)
         .with("mu2", second)
         .with("mu3", third)
         .with("mu_s", belt.static_coefficient.or_else(|| belt.law.mu(0.0)));
-    Document::default()
-        .with("quantities", numbers.collect::<BTreeMap<_, _>>())
+    Document::of("quantities", numbers.collect::<BTreeMap<_, _>>())
         .with("friction", friction)
         .with("units", reduced.units)
         .with("parameters", reduced.parameters)
@@ -85,13 +79,12 @@ fn motions(portrait: &Portrait) -> Document {
         .with("displacements", reach.map(|reach| reach.displacement))
         .with("velocities", reach.map(|reach| reach.velocity));
     // The right turning point beyond which motions are not known, and why.
-    let limit = portrait.stop.map(|stop| {
-        Document::default().with("displacement", portrait.known).with("reason", stop.to_string())
-    });
-    Document::default()
-        .with("cycles", cycle_columns().objects(&portrait.cycles))
+    let limit = portrait
+        .stop
+        .map(|stop| Document::of("displacement", portrait.known).with("reason", stop.to_string()));
+    Document::of("cycles", cycle_columns().objects(&portrait.cycles))
         .with("neutral", portrait.neutral)
-        .with("border", Document::default().with("kind", portrait.border))
+        .with("border", Document::of("kind", portrait.border))
         .with("margin", margin)
         .with_any("limit", limit)
         // Right turning points between which the search for cycles did not settle.
@@ -103,8 +96,7 @@ fn motion(answer: &MachineAnswer) -> Document {
     let (motion, (x, v)) = (&answer.motion, answer.subject.start());
     let end = motion.end();
     let [displacement, velocity] = motion.extremes.unwrap_or_default();
-    Document::default()
-        .with("start", Document::default().with("x", x).with("v", v))
+    Document::of("start", Document::of("x", x).with("v", v))
         .with("outcome", outcome(answer))
         .with("until", end.tau)
         .with("displacement", displacement)
@@ -117,12 +109,12 @@ fn motion(answer: &MachineAnswer) -> Document {
 
 /// A moment of a motion in SI units.
 fn state(Sample { tau, q, v }: Sample) -> Document {
-    Document::default().with("t", tau).with("x", q).with("v", v)
+    Document::of("t", tau).with("x", q).with("v", v)
 }
 
 /// What becomes of the motion: the index of its cycle, or where it rests, and when, if that is within the time followed.
 fn outcome(MachineAnswer { motion, fate, rest, .. }: &MachineAnswer) -> Document {
-    let named = |kind: &str| Document::default().with("kind", kind);
+    let named = |kind: &str| Document::of("kind", kind);
     match fate {
         Fate::Rest => {
             let at = motion.outcome.rest().ok().flatten();
@@ -141,8 +133,7 @@ fn by_second(second: &Motion, first: Sample) -> Document {
     let end = second.known_end();
     let less =
         |end: Sample| Sample { tau: end.tau - first.tau, q: end.q - first.q, v: end.v - first.v };
-    Document::default()
-        .with("method", second.method)
+    Document::of("method", second.method)
         .with("tolerance", second.problem.tolerance)
         .with_any("end", end.ok().map(state))
         .with_any("difference", end.ok().map(less).map(state))

@@ -2,13 +2,11 @@
 //! beside the whole model.
 
 use crate::flow::{Limits, Result};
-use crate::model::Belt;
-use crate::model::belt::ReducedBelt;
+use crate::model::{Belt, ReducedBelt};
 use crate::portrait::{Cycle, Margin, Portrait, picture_reach};
-use crate::report::Document;
-use crate::report::answer::PLACES;
 use crate::report::cycle_numbers::of_machine;
-use crate::words::number::{too_large, with_unit};
+use crate::report::{Document, PLACES};
+use crate::words::{too_large, with_unit};
 
 /// A mass on a belt by the cubic expansion of its friction.
 pub struct CubicExpansion<'a> {
@@ -43,8 +41,7 @@ impl<'a> CubicExpansion<'a> {
     pub(super) fn document(&self, whole: &Portrait) -> Document {
         let found = self.portrait.as_ref();
         let cycles = found.iter().flat_map(|found| &found.cycles);
-        Document::default()
-            .with("parameters", self.reduced.parameters)
+        Document::of("parameters", self.reduced.parameters)
             .with_any("reason", found.err().map(ToString::to_string))
             .with("cycles", cycles.map(|cycle| self.cycle(cycle, whole)).collect::<Vec<_>>())
             .with("edge", found.ok().map(|found| found.border))
@@ -60,8 +57,7 @@ impl<'a> CubicExpansion<'a> {
         let distance = |whole: &Cycle| (whole.q_max - physical.q_max).abs();
         let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
         let taylor = self.belt.taylor_error((physical.v_min, physical.v_max));
-        Document::default()
-            .with("stable", cycle.stable)
+        Document::of("stable", cycle.stable)
             .and(&numbers(&physical, &Cycle::default()))
             // There the expansion does not hold.
             .with("reaches_belt", cycle.v_max >= *sticking_velocity)
@@ -73,8 +69,7 @@ impl<'a> CubicExpansion<'a> {
     /// A margin with its differences to that of the whole model, in SI units and dimensionless.
     fn margin(&self, own: &Margin, whole: &Margin) -> Document {
         let physical = self.in_units(own);
-        let error = Document::default()
-            .with("displacement", excess(physical.displacement, whole.displacement))
+        let error = Document::of("displacement", excess(physical.displacement, whole.displacement))
             .with("impulse", excess(physical.impulse, whole.impulse));
         let velocity = own.impulse.map(|impulse| impulse * self.reduced.units.velocity);
         Document::default()

@@ -7,15 +7,13 @@ mod text;
 
 pub use expansion::CubicExpansion;
 
-use super::answer::PLACES;
 use super::cycle_numbers::{machine_cycles, of_machine};
 use super::cycles::{NO_CYCLE, known};
 use super::margin::{MarginRow, guaranteed, margin_columns};
-use super::{About, Answer, Columns, Quantity};
+use super::{About, Answer, Columns, PLACES, Quantity};
 use crate::flow::{Fate, Motion, Subject};
 use crate::model::{Interval, Knob};
-use crate::portrait::guarantee::NoGuarantee;
-use crate::portrait::{Cycle, FrictionNeed, Kick, Margin, Portrait};
+use crate::portrait::{Cycle, FrictionNeed, Kick, Margin, NoGuarantee, Portrait};
 use crate::words::stability;
 
 /// A part of a window; `None` if it is not known.

@@ -2,13 +2,11 @@
 
 use super::{CubicExpansion, DesignAnswer, MachineAnswer};
 use crate::flow::{Motion, Sample};
-use crate::model::belt::{Derivatives, FrictionLaw};
-use crate::model::{Knob, Source};
+use crate::model::{Derivatives, FrictionLaw, Knob, Source};
 use crate::portrait::{FrictionNeed, Kick};
-use crate::report::answer::{PLACES, interval};
+use crate::report::{PLACES, interval};
 use crate::words::motion::of_machine;
-use crate::words::number::rounded_down;
-use crate::words::{joined, significant, with_unit};
+use crate::words::{joined, rounded_down, significant, with_unit};
 
 /// The sentence about the impulse that is survived from any rest position: the guaranteed one, if it was asked for. Its
 /// number is rounded down.

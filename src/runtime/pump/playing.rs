@@ -10,7 +10,7 @@ use ratatui::layout::Size;
 
 use super::play::{Pause, Replay};
 use super::{Application, Files, Pump, Step};
-use crate::runtime::application::{Event, LoopEnd, ReplayResult};
+use crate::runtime::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
 use crate::session::replay::{Action, Script, ScriptError};
 use crate::session::{Code, Content, Effect, Key, Msg, Notice};

@@ -8,7 +8,7 @@ use ratatui::widgets::Widget;
 
 use super::*;
 use crate::flow::Reason;
-use crate::runtime::workers::{Tell, Work};
+use crate::runtime::{Tell, Work};
 use crate::session::{Code, Key, replay};
 
 /// An application that counts right-arrow keys, shows the last notice, moves for a while after `p`, and quits

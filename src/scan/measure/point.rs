@@ -2,16 +2,14 @@
 
 use super::row::{Cells, Failed};
 use super::settling::{largest_and_mean, rested, starts};
-use super::table::{CYCLES, Measure, Value};
-use crate::branch::escape::escape_point;
-use crate::branch::fold::fold;
+use super::table::CYCLES;
+use super::{Measure, Value};
+use crate::branch::{escape_point, fold};
 use crate::flow::{Detail, Problem, Reason, Result, Subject};
 use crate::model::{Body, Model, Parameters, State};
 use crate::numerics::Interval;
 use crate::portrait::guarantee::certain::guaranteed;
-use crate::portrait::kicks::repeated::repeated;
-use crate::portrait::proved::proved;
-use crate::portrait::{Portrait, cycles, friction_for};
+use crate::portrait::{Portrait, cycles, friction_for, proved, repeated};
 
 impl Cells<'_> {
     /// Computes a measure, and fills its cells and those of all that are computed with it. Fails with why it gave up.

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 
-use super::table::{CYCLES, Conditions, Measure, Value};
+use super::table::CYCLES;
+use super::{Conditions, Measure, Value};
 use crate::flow::{Cost, Limits, Motion, Outcome, Reason, Result, Subject};
 use crate::portrait::{Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 

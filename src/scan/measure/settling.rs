@@ -1,7 +1,7 @@
 //! How long starts over a window take to come to rest.
 
 use crate::model::State;
-use crate::portrait::basin::StartWindow;
+use crate::portrait::StartWindow;
 
 /// Starts along each side of the window, evenly spaced in the middles of as many cells.
 const SIDE: u16 = 32;
