@@ -185,27 +185,14 @@ pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
     if read.value > 0.0 { Ok((kick, read.value)) } else { Err(format!("{text:?} is not positive")) }
 }
 
-/// The options whose values may begin with a minus.
-const SIGNED: [&str; 13] = [
-    "along",
-    "design",
-    "disturbance",
-    "epsilon",
-    "half-width",
-    "kicks",
-    "over",
-    "set",
-    "start",
-    "step",
-    "tol",
-    "until",
-    "window",
-];
+/// The options whose values may begin with a minus, with blanks between them.
+const SIGNED: &str =
+    "along design disturbance epsilon half-width kicks over set start step tol until window";
 
 /// A command whose numbers may be negative: a minus begins no option there.
 pub fn signed(command: Command) -> Command {
     command.mut_args(|option| {
-        let is_signed = option.get_long().is_some_and(|name| SIGNED.contains(&name));
+        let is_signed = SIGNED.split(' ').any(|name| option.get_long() == Some(name));
         if is_signed { option.allow_hyphen_values(true) } else { option }
     })
 }
