@@ -138,14 +138,13 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
 
 /// `NAME=HALFWIDTH` of D, D2, D3 or r.
 pub fn half_width(text: &str) -> Result<(Knob, f64), String> {
-    let form = "expected NAME=HALFWIDTH with D, D2, D3 or r, such as r=0.01";
-    let (name, value) = text.split_once('=').ok_or(form)?;
-    let knob = Knob::named(name.trim(), OSCILLATOR.set)?;
-    if !knob.is_parameter() {
-        return Err(form.to_owned());
-    }
-    let wide = Some(knob.parse(value)?).filter(|half_width| *half_width >= 0.0);
-    Ok((knob, wide.ok_or_else(|| format!("{text:?}: a half width is 0 or more"))?))
+    let refused =
+        || format!("{text:?}: D, D2, D3 and r have half widths, of 0 or more, such as r=0.01");
+    let (name, value) = text.split_once('=').ok_or_else(refused)?;
+    let known = Knob::named(name.trim(), OSCILLATOR.set).ok();
+    let knob = known.filter(|knob| knob.is_parameter()).ok_or_else(refused)?;
+    let half_width = Some(knob.parse(value)?).filter(|half_width| *half_width >= 0.0);
+    Ok((knob, half_width.ok_or_else(refused)?))
 }
 
 /// The half widths of D, D2, D3 and r. Fails if one of them is given twice.
