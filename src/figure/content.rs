@@ -179,15 +179,15 @@ impl Panel {
             Item::Curve(line, points) => add(line, points),
             Item::Graph(line, value) => add(line, &graph(value, window)),
             Item::Upright(line, at) => {
-                add(line, &[y.from(), y.to()].map(|y| Point { x: *at, y }));
+                add(line, &y.ends().map(|y| Point { x: *at, y }));
             }
             Item::Shade(line, edge) => self.area(picture, line, edge),
             Item::Beyond(line, edge) => self.area(picture, line, &beyond(edge, picture.window)),
             Item::Columns(line, from, to) => {
-                self.area(picture, line, &rectangle([*from, *to], [y.from(), y.to()]));
+                self.area(picture, line, &rectangle([*from, *to], y.ends()));
             }
             Item::Rows(line, from, to) => {
-                self.area(picture, line, &rectangle([x.from(), x.to()], [*from, *to]));
+                self.area(picture, line, &rectangle(x.ends(), [*from, *to]));
             }
             Item::Texture(at) => {
                 for (Fill { role, name }, corners) in polygons(at, self.window) {
@@ -224,8 +224,8 @@ fn beyond(edge: &[Point], window: Window) -> Vec<Point> {
         let all = edge.iter().map(inner).chain(ends);
         all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], it| [a.min(it), b.max(it)])
     };
-    let across = reach([x.from(), x.to()], |at| at.x);
-    let corners = rectangle(across, reach([y.from(), y.to()], |at| at.y));
+    let across = reach(x.ends(), |at| at.x);
+    let corners = rectangle(across, reach(y.ends(), |at| at.y));
     corners.into_iter().chain(edge.iter().copied()).chain([corners[0]]).collect()
 }
 

@@ -6,7 +6,7 @@
 
 use super::paper::PLOT;
 use crate::numerics::elementary::{atan2, hypot};
-use crate::scene::{Point, Window};
+use crate::scene::{Point, Span, Window};
 
 /// Intervals that are always evaluated, so that no narrow feature is missed.
 const INTERVALS: u32 = 256;
@@ -69,12 +69,12 @@ fn place([x, y]: [f64; 2], window: Window) -> (f64, f64) {
 
 /// Whether a box around these points touches the window.
 fn in_sight(points: &[[f64; 2]], window: Window) -> bool {
-    let touches = |axis: usize, (from, to): (f64, f64)| {
+    let touches = |axis: usize, span: Span| {
         let values = points.iter().map(|point| point[axis]);
         let low = values.clone().fold(f64::INFINITY, f64::min);
-        low <= to && values.fold(f64::NEG_INFINITY, f64::max) >= from
+        low <= span.to() && values.fold(f64::NEG_INFINITY, f64::max) >= span.from()
     };
-    touches(0, (window.x.from(), window.x.to())) && touches(1, (window.y.from(), window.y.to()))
+    touches(0, window.x) && touches(1, window.y)
 }
 
 pub(super) fn missed(line: &[[f64; 2]], window: Window) -> f64 {

@@ -184,11 +184,10 @@ fn harmonic(
 ///
 /// Where the ordinate is not a length, that is twice the largest amplitude of the computed branches.
 fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[ComputedBranch]) -> f64 {
-    let y = diagram.window.y;
     let unit = height.friction.filter(|_| height.is_ratio()).unwrap_or(1.0);
     match diagram.axes.ordinate {
         Ordinate::QMax | Ordinate::QMin | Ordinate::VMax | Ordinate::Amplitude => {
-            2.0 * unit * y.from().abs().max(y.to().abs())
+            2.0 * unit * diagram.window.y.farthest()
         }
         Ordinate::Mean | Ordinate::Period | Ordinate::Multiplier => {
             let points = found.iter().flat_map(|found| found.branch.pieces.iter().flatten());

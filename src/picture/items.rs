@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use super::{Dash, Mark, Role, Scale, ScanMap, Ticks, units::said};
 use crate::model::{Knob, Parameters};
-use crate::numerics::{hypot, named, real, sin_cos, truncated};
+use crate::numerics::{hypot, named, real, sin_cos, sort_by_number, truncated};
 use crate::scene::{Point, Window};
 use crate::session::VariantTag;
 
@@ -349,7 +349,7 @@ impl<'a> Picture<'a> {
         const PLACES: usize = 60;
         let mut points: Vec<Point> =
             curve.iter().copied().filter(|point| self.window.contains(*point)).collect();
-        points.sort_by(|a, b| b.y.total_cmp(&a.y));
+        sort_by_number(&mut points, |point| -point.y);
         let step = points.len().div_ceil(PLACES).max(1);
         let mut places = points.into_iter().step_by(step);
         if let Some(at) = places.next().filter(|_| !name.is_empty()) {

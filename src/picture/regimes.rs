@@ -57,7 +57,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
 
 /// A level line from one side of the window to the other: a curve of two points in files.
 fn across(window: Window, y: f64) -> [Point; 2] {
-    [window.x.from(), window.x.to()].map(|x| Point { x, y })
+    window.x.ends().map(|x| Point { x, y })
 }
 
 /// What a regime looks like; nothing where every kick is survived.

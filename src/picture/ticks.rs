@@ -171,8 +171,7 @@ fn ticks(step: StepSize, axis: Span) -> Ticks {
 
 /// The number from which labels count, where they would be long if they counted from zero; first as it is written.
 fn origin(axis: Span, power: i32) -> Option<(String, f64)> {
-    let largest = axis.from().abs().max(axis.to().abs());
-    if decade(largest) - power < DIGITS {
+    if decade(axis.farthest()) - power < DIGITS {
         return None;
     }
     // A round number inside the axis or just below it, with as few digits as tell it apart.

@@ -24,7 +24,7 @@ pub fn shown(session: &Session) -> Option<Physical> {
 
 /// The scale in the largest unit of which the axis reaches one, when 1 on it is so much in SI units.
 fn scale(units: &AxisUnits, one: f64, span: Span) -> Scale {
-    let far = one * span.from().abs().max(span.to().abs());
+    let far = one * span.farthest();
     let (name, per_si) = *units.iter().find(|(_, per_si)| far * per_si >= 1.0).unwrap_or(&units[2]);
     Scale::Times { factor: one * per_si, name }
 }

@@ -6,6 +6,7 @@ use super::file::parse;
 use super::mistake::{built_in, texts};
 use super::scene::Scene;
 use crate::numerics::similar::similar;
+use crate::words::joined;
 
 /// The scene that opens unless another is named.
 pub const PLAIN: &str = "plain";
@@ -71,8 +72,7 @@ pub fn find(name: &str) -> Result<Arc<Scene>, String> {
     known.cloned().ok_or_else(|| {
         let nearest = similar(name, names());
         if nearest.is_empty() {
-            let all = names().collect::<Vec<_>>().join(", ");
-            return format!("no scene {name:?}; there are {all}");
+            return format!("no scene {name:?}; there are {}", joined(names(), ", "));
         }
         format!("no scene {name:?}; did you mean {}?", nearest.join(" or "))
     })

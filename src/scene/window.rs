@@ -81,6 +81,15 @@ impl Span {
         self.to
     }
 
+    pub fn ends(self) -> [f64; 2] {
+        [self.from, self.to]
+    }
+
+    /// The larger of the distances of both ends from 0.
+    pub fn farthest(self) -> f64 {
+        self.from.abs().max(self.to.abs())
+    }
+
     pub fn width(self) -> f64 {
         self.to - self.from
     }
@@ -140,7 +149,7 @@ impl TryFrom<[f64; 2]> for Span {
 
 impl std::convert::From<Span> for [f64; 2] {
     fn from(span: Span) -> Self {
-        [span.from, span.to]
+        span.ends()
     }
 }
 

@@ -91,10 +91,7 @@ pub fn text(session: &Session) -> Result<String, String> {
     let file = SavedSession {
         hopfscope: VERSION,
         selected: session.selected.name().to_owned(),
-        focus: match session.focus {
-            Pane::Parameters => 0,
-            Pane::Plot(index) => index + 1,
-        },
+        focus: session.focus.number(),
         plot: session.plot + 1,
         enlarged: session.enlarged,
         unfolded: session.unfolded,
@@ -165,7 +162,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let mut opened = Session::new(Arc::clone(&file.present.scene), session.size);
     restore(&mut opened, file.present, file.plots);
     opened.plot = file.plot - 1;
-    opened.focus = file.focus.checked_sub(1).map_or(Pane::Parameters, Pane::Plot);
+    opened.focus = Pane::numbered(file.focus);
     (opened.selected, opened.marks) = (selected, marks);
     (opened.enlarged, opened.unfolded) = (file.enlarged, file.unfolded);
     (opened.harmonics, opened.kicks) = (file.harmonics, file.kicks);

@@ -12,7 +12,7 @@ use crate::picture::{Danger, DangerousValues, MapCell, Role, ScanMap};
 use crate::scene::Point;
 use crate::session::scan::{ScanOnShow, WORDS};
 use crate::session::settings::Glyphs;
-use crate::words::significant;
+use crate::words::{joined, significant};
 
 /// Shades from the weakest to the strongest, and the letters that do without colour.
 const SHADES: [char; STEPS] = ['\u{b7}', '\u{2591}', '\u{2592}', '\u{2593}', '\u{2588}'];
@@ -90,7 +90,7 @@ pub fn without_numbers(scanned: &ScanOnShow, width: usize) -> String {
         meaning => format!("{} {meaning}", sign_of_nothing(meaning)),
     };
     let signs = || meanings.iter().map(sign);
-    let texts = [signs().collect::<Vec<_>>().join("  "), signs().take(1).collect()];
+    let texts = [joined(signs(), "  "), signs().take(1).collect()];
     pane::fitting(texts.map(|text| format!(" {text}")), width)
 }
 

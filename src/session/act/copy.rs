@@ -125,8 +125,7 @@ pub fn command_line(session: &Session) -> String {
         }
     }
     if let Some(plot) = diagram {
-        let span = plot.window.x;
-        let (from, to) = (shortest(span.from()), shortest(span.to()));
+        let [from, to] = plot.window.x.ends().map(shortest);
         line += &format!(" --over {}={from}:{to}:{BRANCH_POINTS}", plot.axes.abscissa.spec().name);
     } else {
         line += &format!(" --until {} --method {method}", shortest(until));

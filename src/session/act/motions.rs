@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::model::State;
 use crate::numerics::decimal::{decimal_sum, shortest};
+use crate::numerics::sort_by_number;
 use crate::portrait::Drawing;
 use crate::scene::{Layer, Topic};
 use crate::session::act::parameters::put;
@@ -129,7 +130,7 @@ pub fn step(session: &mut Session, steps: f64) -> Done {
 pub fn pace(session: &mut Session) {
     let real = session.scene.machine.is_some().then_some(Pace::Real);
     let mut paces: Vec<Pace> = PACES.into_iter().chain(real).collect();
-    paces.sort_by(|one, other| session.rate(*one).total_cmp(&session.rate(*other)));
+    sort_by_number(&mut paces, |pace| session.rate(*pace));
     let now = paces.iter().position(|pace| *pace == session.playback.pace);
     session.playback.pace = now.and_then(|now| paces.get(now + 1)).copied().unwrap_or(paces[0]);
     session.inform(format!("pace: {}", session.pace()));

@@ -3,7 +3,7 @@
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::model::unit::measured;
 use crate::model::{Knob, KnobSpec};
-use crate::numerics::{log10, shortest};
+use crate::numerics::{cycled, log10, shortest};
 use crate::scene::{Setting, View};
 use crate::session::read::completion::typed;
 use crate::session::state::setup::symbol_of;
@@ -165,8 +165,7 @@ pub fn next_method(session: &mut Session, by: isize) {
     });
     let rows: Vec<_> = usable.collect();
     let at = rows.iter().position(|row| row.method == session.problem.method).unwrap_or(0);
-    let next = at.checked_add_signed(by).unwrap_or(rows.len() - 1) % rows.len();
-    let row = rows[next];
+    let row = rows[cycled(at, by, rows.len())];
     session.measuring = true;
     change(session, Problem { method: row.method, ..session.problem });
     session.inform(format!("{}: {}", row.name, row.guarantee));

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::numerics::cycled;
 use crate::paper::Claim;
 use crate::scene::find;
 use crate::session::act::general::toggle;
@@ -95,8 +96,8 @@ pub fn complete(session: &mut Session, by: isize) {
     let Some(Overlay::Prompt(prompt)) = &session.overlay else { return };
     let found = match &prompt.completion {
         Some(Completion { stem, words, at }) => {
-            let next = at.checked_add_signed(by).unwrap_or(words.len() - 1) % words.len();
-            Some(Completion { stem: stem.clone(), words: words.clone(), at: next })
+            let at = cycled(*at, by, words.len());
+            Some(Completion { stem: stem.clone(), words: words.clone(), at })
         }
         None => completion(session, &prompt.input.before),
     };

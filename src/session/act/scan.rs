@@ -2,6 +2,7 @@
 
 use crate::flow::{Problem, Subject};
 use crate::model::{Knob, KnobSpec, State};
+use crate::numerics::cycled;
 use crate::portrait::basin;
 use crate::scan::grid::Scan;
 use crate::scan::measure::{Conditions, Measure};
@@ -13,7 +14,7 @@ use crate::session::scan::SCANNING;
 use crate::session::{
     Content, Done, Effect, Overlay, Pane, Plot, Prompt, ScanOnShow, ScanProgress, Session,
 };
-use crate::words::number::resolved;
+use crate::words::{joined, number::resolved};
 
 /// The file in which a key saves the rows; the command line takes any name.
 pub const FILE: &str = "scan.csv";
@@ -33,7 +34,7 @@ pub fn open(session: &mut Session) {
 fn typed(scan: &Scan) -> String {
     let over = scan.over().iter().map(ToString::to_string);
     let measures = scan.measures().iter().map(|measure| measure.spec().name);
-    over.chain([measures.collect::<Vec<_>>().join(",")]).collect::<Vec<_>>().join(" ")
+    joined(over.chain([joined(measures, ",")]), " ")
 }
 
 fn usual(session: &Session) -> String {
@@ -126,7 +127,7 @@ pub fn pause(session: &mut Session) -> Done {
 pub fn next_column(session: &mut Session, by: isize) -> Done {
     let scanned = scanned(session)?;
     let count = scanned.scan.measured().len();
-    scanned.column = scanned.column.checked_add_signed(by).unwrap_or(count - 1) % count;
+    scanned.column = cycled(scanned.column, by, count);
     refit(session);
     Ok(())
 }

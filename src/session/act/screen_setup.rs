@@ -1,6 +1,7 @@
 //! Commands that change what is on show: the view of a plot, the number of plots, how they share the screen, and
 //! which pane has the focus. Each change but that of the focus can be undone.
 
+use crate::numerics::cycled;
 use crate::scene::{Arrangement, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::settings::next_of;
 use crate::session::{Done, EarlierState, Pane, Plot, Session};
@@ -80,8 +81,7 @@ pub fn next_view(session: &mut Session, by: isize) {
     let before = can.iter().filter(|view| **view < present).count();
     // From a view that is not among them, the next one is the first behind it.
     let from = if can.get(before) == Some(&present) || by < 0 { by } else { by - 1 };
-    let next = before.checked_add_signed(from).unwrap_or(can.len() - 1) % can.len();
-    show(session, can[next]);
+    show(session, can[cycled(before, from, can.len())]);
 }
 
 /// Adds a plot beside the one in use: with the first view that is not on show, otherwise with the same view.
@@ -147,12 +147,7 @@ pub fn arrange(session: &mut Session) {
 pub fn focus(session: &mut Session, by: isize) {
     // If a plot is enlarged, the next plot takes its space.
     let panes = session.plots.len() + 1;
-    let at = match session.focus {
-        Pane::Parameters => 0,
-        Pane::Plot(index) => index + 1,
-    };
-    let next = at.checked_add_signed(by).unwrap_or(panes - 1) % panes;
-    focus_on(session, next.checked_sub(1).map_or(Pane::Parameters, Pane::Plot));
+    focus_on(session, Pane::numbered(cycled(session.focus.number(), by, panes)));
 }
 
 pub(crate) fn focus_on(session: &mut Session, pane: Pane) {

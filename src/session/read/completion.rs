@@ -6,7 +6,7 @@ use crate::numerics::decimal::shortest;
 use crate::scan::measure::MEASURES;
 use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, Window};
 use crate::session::{Command, Completion, Keymap, Row, Session, Setup};
-use crate::words::counted;
+use crate::words::{counted, joined};
 
 /// These names as candidates.
 pub fn all<Name: ToString>(names: impl IntoIterator<Item = Name>) -> Vec<String> {
@@ -82,8 +82,8 @@ pub fn methods(_: &Session, _: &[&str]) -> Vec<String> {
 /// The present window of the plot in use, in a form that can be typed.
 pub fn window(session: &Session, _: &[&str]) -> Vec<String> {
     let Window { x, y } = session.plots[session.plot].window;
-    let [x0, x1, y0, y1] = [x.from(), x.to(), y.from(), y.to()].map(shortest);
-    vec![format!("{x0}:{x1},{y0}:{y1}")]
+    let [x, y] = [x, y].map(|span| joined(span.ends().map(shortest), ":"));
+    vec![format!("{x},{y}")]
 }
 
 /// Numbers with `=`, and once one of them is given, also measures.
@@ -165,5 +165,5 @@ pub(crate) fn difference(old: &Setup, new: &Setup) -> String {
     });
     let count = |setup: &Setup| setup.others.len() + 1;
     let motions = (count(old) != count(new)).then(|| counted(count(new), "motion"));
-    said.chain(motions).collect::<Vec<_>>().join(", ")
+    joined(said.chain(motions), ", ")
 }

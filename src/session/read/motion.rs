@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use crate::flow::{Method, Motion, Outcome, Problem, Sample};
 use crate::model::{Parameters, State};
-use crate::numerics::elementary::tanh;
+use crate::numerics::{least_by, tanh};
 use crate::portrait::on_belt::first_at;
 use crate::scene::Topic;
 use crate::session::{Pace, Session};
@@ -27,9 +27,7 @@ impl Session {
         let after = samples.partition_point(|sample| sample.tau < tau);
         let beside = [after.checked_sub(1), Some(after)];
         let candidates = beside.into_iter().flatten().filter_map(|index| samples.get(index));
-        let nearest =
-            candidates.min_by(|a, b| (a.tau - tau).abs().total_cmp(&(b.tau - tau).abs()))?;
-        Some(nearest.state())
+        least_by(candidates, |sample| (sample.tau - tau).abs()).map(Sample::state)
     }
 }
 

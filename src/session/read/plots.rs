@@ -7,11 +7,12 @@ use crate::accuracy::trade::TradePoint;
 use crate::branch::Branch;
 use crate::flow::Problem;
 use crate::model::{Group, Knob};
-use crate::numerics::elementary::hypot;
+use crate::numerics::{hypot, least_by};
 use crate::scene::{
     Finding, Height, Layer, Needs, PlotSetup, Point, Request, Topic, Variant, View, Window,
 };
 use crate::session::{AnswerState, Framing, Pane, Plot, Row, ScreenSetup, Session};
+use crate::words::joined;
 
 impl Session {
     /// Whether a plot draws circles round.
@@ -253,7 +254,7 @@ fn alike(all: &[Variant], symbol: Knob, value: f64) -> bool {
 }
 
 fn text<'a>(held: impl Iterator<Item = (&'a Knob, &'a f64)>) -> String {
-    held.map(|(symbol, value)| format!("{symbol} = {value}")).collect::<Vec<_>>().join(", ")
+    joined(held.map(|(symbol, value)| format!("{symbol} = {value}")), ", ")
 }
 
 impl Session {
@@ -267,7 +268,6 @@ impl Session {
                 hypot((right - x) / across.width(), (high - y) / up.width())
             })
         };
-        let rows = self.trade()?.rows.iter().filter(|row| row.place().is_some());
-        rows.min_by(|one, other| distance(one).total_cmp(&distance(other)))
+        least_by(self.trade()?.rows.iter().filter(|row| row.place().is_some()), distance)
     }
 }

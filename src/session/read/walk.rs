@@ -4,7 +4,7 @@
 //! itself and not its index, so that it stays at the same point when the branch is computed again.
 
 use crate::branch::{Branch, SpecialKind};
-use crate::numerics::elementary::{hypot, ln};
+use crate::numerics::{hypot, least_by, ln};
 use crate::scene::Span;
 use crate::session::BranchStop;
 
@@ -92,8 +92,7 @@ impl BranchPath {
 
     /// The stop for which `measure` is smallest.
     pub fn nearest(&self, measure: impl Fn(&BranchStop) -> f64) -> Option<BranchStop> {
-        let rated = self.stops().map(|(_, stop)| (measure(stop), *stop));
-        rated.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, stop)| stop)
+        least_by(self.stops(), |(_, stop)| measure(stop)).map(|(_, stop)| *stop)
     }
 
     /// The start of a walk at a value of the parameter: the stop beside it on the innermost cycle there, which
@@ -106,8 +105,7 @@ impl BranchPath {
             around.then_some(if one.0 <= other.0 { one.1 } else { other.1 })
         });
         let size = |stop: &BranchStop| stop.cycle.map_or(f64::INFINITY, |cycle| cycle.q_max);
-        let innermost = beside.min_by(|a, b| size(a).total_cmp(&size(b)));
-        innermost.or_else(|| self.nearest(distance))
+        least_by(beside, size).or_else(|| self.nearest(distance))
     }
 
     /// The same stop on this way, or the nearest one.
@@ -117,9 +115,8 @@ impl BranchPath {
 
     fn place(&self, held: &BranchStop) -> Option<Position> {
         let same = self.stops().find(|(_, stop)| *stop == held);
-        let rated = || self.stops().map(|(place, stop)| (self.apart(held, stop), place));
-        same.map(|(place, _)| place)
-            .or_else(|| rated().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, place)| place))
+        let nearest = || least_by(self.stops(), |(_, stop)| self.apart(held, stop));
+        same.or_else(nearest).map(|(place, _)| place)
     }
 
     /// The stop `count` stops further along the same piece, or the end of the piece.
@@ -135,17 +132,13 @@ impl BranchPath {
         let marked = |(piece, place): Position, stop: &BranchStop| {
             stop.special.is_some() || place == 0 || place + 1 == self.pieces[piece].len()
         };
-        let landmarks: Vec<Position> = self
-            .stops()
-            .filter(|(place, stop)| marked(*place, stop))
-            .map(|(place, _)| place)
-            .collect();
+        let landmarks = || self.stops().filter(|(place, stop)| marked(*place, stop));
         let next = if onward {
-            landmarks.iter().find(|place| **place > here).or(landmarks.first())
+            landmarks().find(|(place, _)| *place > here).or_else(|| landmarks().next())
         } else {
-            landmarks.iter().rev().find(|place| **place < here).or(landmarks.last())
+            landmarks().filter(|(place, _)| *place < here).last().or_else(|| landmarks().last())
         };
-        next.map(|(piece, place)| self.pieces[*piece][*place])
+        next.map(|(_, stop)| *stop)
     }
 }
 

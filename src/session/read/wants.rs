@@ -13,6 +13,7 @@ use crate::model::Knob;
 use crate::numerics::{distinct, exp2, hypot, log2};
 use crate::scene::{Axes, Finding, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::{Framing, List, ListKind, Overlay, Pane, Row, Session};
+use crate::words::joined;
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
 /// questions on it are first answered by drafts.
@@ -193,7 +194,7 @@ impl Session {
                 // Until the window is known, there is nothing to ask.
                 let plot = own(View::ReturnMap)?;
                 let range = (plot.framing != Framing::Fitting).then_some(plot.window.x)?;
-                Request::ReturnMap { parameters, range: (range.from(), range.to()) }
+                Request::ReturnMap { parameters, range: range.ends().into() }
             }
             Topic::Regimes => {
                 let plot = own(View::Regimes)?;
@@ -214,14 +215,13 @@ impl Session {
 /// The part of a span within the range of a number, by its ends.
 fn within(knob: Knob, span: Span) -> Option<(f64, f64)> {
     let spec = knob.spec();
-    span.within(spec.min, spec.max).map(|span| (span.from(), span.to()))
+    span.within(spec.min, spec.max).map(|span| span.ends().into())
 }
 
 /// The distance up to which bands of capture are visible, rounded up to a power of two, so that small changes
 /// of the window ask no new question.
 fn reach(Window { x, y }: Window) -> f64 {
-    let farthest = |span: Span| span.from().abs().max(span.to().abs());
-    exp2(log2(hypot(farthest(x), farthest(y))).ceil())
+    exp2(log2(hypot(x.farthest(), y.farthest())).ceil())
 }
 
 /// A question and the layers for which it is asked.
@@ -297,23 +297,16 @@ impl Session {
 pub fn consequence(reused: &[Topic], anew: &[Topic]) -> String {
     let parts = [("recomputes", anew), ("reuses", reused)].into_iter();
     let parts = parts.filter(|(_, topics)| !topics.is_empty());
-    let parts: Vec<_> =
-        parts.map(|(verb, topics)| format!("{verb} {}", named(topics, ", "))).collect();
-    if parts.is_empty() { "nothing is asked".to_owned() } else { parts.join("; ") }
+    let said = joined(parts.map(|(verb, topics)| format!("{verb} {}", named(topics, ", "))), "; ");
+    if said.is_empty() { "nothing is asked".to_owned() } else { said }
 }
 
 /// The names of topics as they first occur, with a count for those that occur several times.
 pub fn named(topics: &[Topic], between: &str) -> String {
-    let mut counted: Vec<(Topic, usize)> = Vec::new();
-    for topic in topics {
-        match counted.iter_mut().find(|(known, _)| known == topic) {
-            Some((_, count)) => *count += 1,
-            None => counted.push((*topic, 1)),
-        }
-    }
-    let named = counted.into_iter().map(|(topic, count)| match count {
+    let count = |topic: &Topic| topics.iter().filter(|known| *known == topic).count();
+    let named = distinct(topics).into_iter().map(|topic| match count(topic) {
         1 => topic.name().to_owned(),
-        _ => format!("{} x{count}", topic.name()),
+        count => format!("{} x{count}", topic.name()),
     });
-    named.collect::<Vec<_>>().join(between)
+    joined(named, between)
 }

@@ -360,6 +360,18 @@ pub enum Pane {
     Plot(usize),
 }
 
+impl Pane {
+    /// Its number in the order in which the panes get the focus: 0 for the parameters, then the plots.
+    pub fn number(self) -> usize {
+        if let Pane::Plot(index) = self { index + 1 } else { 0 }
+    }
+
+    /// The pane of a number.
+    pub fn numbered(number: usize) -> Self {
+        number.checked_sub(1).map_or(Pane::Parameters, Pane::Plot)
+    }
+}
+
 /// How a plot's window was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

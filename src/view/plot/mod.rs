@@ -150,8 +150,7 @@ impl<'a> Canvas<'a> {
     }
 
     pub fn upright(&mut self, x: f64, role: Role, dash: Dash) {
-        let Window { y, .. } = self.window;
-        self.curve([y.from(), y.to()].map(|y| Point { x, y }), role, dash);
+        self.curve(self.window.y.ends().map(|y| Point { x, y }), role, dash);
     }
 
     /// Shades the cells that `curve` does not separate from the origin, or those that it does.
