@@ -19,7 +19,7 @@ use crate::report::scenes::{OPENING, QuestionBatch, QuestionCost, SceneCost, cos
 use crate::report::{Answer, Columns, Format, claims};
 use crate::runtime::tell;
 use crate::scene::{Scene, library};
-use crate::session::state::keymap::{ContextSpec, contexts};
+use crate::session::state::keymap::{CONTEXTS, ContextSpec};
 use crate::session::{self, Command, Msg, Row, Session, Size, commands, update};
 
 /// Lists the scenes
@@ -60,7 +60,7 @@ impl KeysCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let keymap = self.settings.read()?.keymap;
         let mut rows = Vec::new();
-        for ContextSpec { context, name, .. } in contexts() {
+        for &ContextSpec { context, name, .. } in CONTEXTS.iter() {
             let here = commands().filter(|row| row.keys.iter().any(|(at, _)| *at == context));
             rows.extend(here.map(|command| {
                 let keys = keymap.keys_in(context, command).map(|key| key.to_string());

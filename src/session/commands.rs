@@ -15,8 +15,8 @@ use crate::session::act::{
 };
 use crate::session::read::completion::{self, all, nothing};
 use crate::session::settings::{Colors, Glyphs, Theme, choices, named};
+use crate::session::state::keymap::COMMANDS;
 use crate::session::state::keymap::CommandAction::{self, Act, Line, Move, Press, Toggle, Try};
-use crate::session::state::keymap::{COMMANDS, contexts};
 use crate::session::{Command, Context, Effect, Input, Key, Keymap, List, PendingInput, Purpose};
 
 /// What commands do: by the name that their line ends with, which is that of the command where the line does not say
@@ -193,26 +193,20 @@ fn table() -> &'static [Command] {
 fn command(line: &'static str) -> Option<Command> {
     let fields: Vec<&str> = line.split(" | ").collect();
     let action = |name: &str| ACTIONS.iter().find(|row| row.0 == name).map(|row| row.1);
-    match fields[..] {
-        [typed, arguments, doc, ref needs @ ..] if typed.starts_with(':') => {
-            let (name, run) = (&typed[1..], action(typed)?);
-            let needs = needs.first().unwrap_or(&"");
-            let (keys, hint, by) = (Vec::new(), "", [0; 2]);
-            Some(Command { name, keys, hint, doc, arguments, run, by, needs })
-        }
-        [name, places, hint, doc, ref does @ ..] => {
-            let mut words = does.first().unwrap_or(&name).split(' ');
-            let run = action(words.next()?)?;
-            let mut by = [0; 2];
-            for (by, word) in by.iter_mut().zip(words) {
-                *by = steps(word)?;
-            }
-            let hint = if hint == "-" { "" } else { hint };
-            let (keys, arguments, needs) = (keys(places), "", does.get(1).unwrap_or(&""));
-            Some(Command { name, keys, hint, doc, arguments, run, by, needs })
-        }
-        _ => None,
+    let [name, places, hint, doc, ref does @ ..] = fields[..] else { return None };
+    let mut words = does.first().unwrap_or(&name).split(' ');
+    let run = action(words.next()?)?;
+    let mut by = [0; 2];
+    for (by, word) in by.iter_mut().zip(words) {
+        *by = steps(word)?;
     }
+    let hint = if hint == "-" { "" } else { hint };
+    let needs = does.get(1).unwrap_or(&"");
+    let (name, keys, arguments) = match name.strip_prefix(':') {
+        Some(name) => (name, Vec::new(), places),
+        None => (name, keys(places), ""),
+    };
+    Some(Command { name, keys, hint, doc, arguments, run, by, needs })
 }
 
 /// How many steps a command moves something, as the file says it.
@@ -228,8 +222,8 @@ fn steps(word: &str) -> Option<i32> {
 fn keys(text: &str) -> Vec<(Context, Vec<Key>)> {
     let mut places: Vec<(Context, Vec<Key>)> = Vec::new();
     for word in text.split_whitespace() {
-        match (contexts().find(|row| row.name == word), places.last_mut()) {
-            (Some(row), _) => places.push((row.context, Vec::new())),
+        match (Context::named(word), places.last_mut()) {
+            (Some(context), _) => places.push((context, Vec::new())),
             (None, Some((_, keys))) => keys.extend(word.parse::<Key>()),
             (None, None) => {}
         }

@@ -19,8 +19,9 @@ use crate::numerics::similar::most_similar;
 use crate::scene::mistake::Complaint;
 use crate::scene::{FileMistake, find, placed};
 use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, named};
-use crate::session::state::keymap::{contexts, full_name};
+use crate::session::state::keymap::{CONTEXTS, full_name};
 use crate::session::{Command, Context, Key, Keymap};
+use crate::words::joined;
 
 /// The content of a settings file; whatever is missing keeps its default.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -99,18 +100,17 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
     let mut given: Vec<Given> = Vec::new();
     let former = |context: &Spanned<String>| FORMER_CONTEXTS.contains(&context.get_ref().as_str());
     for (context, commands) in read.iter().filter(|(context, _)| !former(context)) {
-        let known = contexts()
-            .find(|row| row.name == context.get_ref())
-            .map(|row| row.context)
-            .ok_or_else(|| unknown(context, "context", contexts().map(|row| row.name)))?;
+        let names = || CONTEXTS.iter().map(|row| row.name);
+        let known = Context::named(context.get_ref());
+        let known = known.ok_or_else(|| unknown(context, "context", names()))?;
         for (name, keys) in commands {
-            let found = keymap
-                .named(full_name(name.get_ref()))
-                .ok_or_else(|| unknown(name, "command", keymap.commands().map(|row| row.name)))?;
-            if !found.keys.iter().any(|(context, _)| *context == known) {
-                let places: Vec<_> =
-                    found.keys.iter().map(|(context, _)| context.spec().name).collect();
-                let message = format!("{} applies in {}", found.name, places.join(", "));
+            let names = || keymap.commands().map(|row| row.name);
+            let found = keymap.named(full_name(name.get_ref()));
+            let found = found.ok_or_else(|| unknown(name, "command", names()))?;
+            let mut places = found.keys.iter().map(|(context, _)| *context);
+            if !places.clone().any(|context| context == known) {
+                let places = joined(places.by_ref().map(|context| context.spec().name), ", ");
+                let message = format!("{} applies in {places}", found.name);
                 return Err(Complaint { at: name.span(), message });
             }
             given.push((known, found, keys));

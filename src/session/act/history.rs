@@ -13,8 +13,7 @@ use crate::session::act::screen_setup::set_up;
 use crate::session::read::completion::difference;
 use crate::session::read::wants::COMPARED;
 use crate::session::{
-    Bookmark, Done, EarlierState, Framing, Pane, Playback, Plot, Row, Session, Setup, Snapshot,
-    StepSizes,
+    Bookmark, Done, EarlierState, Framing, Pane, Playback, Plot, Row, Session, Snapshot,
 };
 
 /// Undoes the last change.
@@ -72,17 +71,6 @@ pub(crate) fn snapshot(session: &Session) -> Snapshot {
     }
 }
 
-/// Everything that a scene determines but its plots, as it opens.
-fn opening(scene: Arc<Scene>) -> Snapshot {
-    Snapshot {
-        setup: Setup::of_scene(&scene),
-        steps: StepSizes::of_scene(&scene),
-        layers: scene.layers.clone(),
-        arrangement: scene.arrangement,
-        scene,
-    }
-}
-
 /// Brings a state back, and says what differs.
 fn bring_back(session: &mut Session, name: &str, state: EarlierState) {
     match state {
@@ -131,7 +119,7 @@ pub(crate) fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot
 /// Opens a scene, as one change that can be undone.
 pub(crate) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     let (plots, before) = (session.screen_setup().plots, snapshot(session));
-    let opens = opening(scene);
+    let opens = snapshot(&Session::new(scene, session.size));
     if before != opens || plots != opens.scene.plots {
         session.history.record(EarlierState::Scene { plots, show: Box::new(before) });
     }

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use crate::scene::{Request, TOPICS, Topic, VIEWS, View};
 use crate::session::read::wants::COMPARED;
 use crate::session::read::windows;
-use crate::session::state::keymap::{called, chain};
+use crate::session::state::keymap::called;
 use crate::session::{
     Code, Command, Context, Key, ListKind, MouseAction, Msg, Overlay, PaletteRow, Pane,
     PendingInput, PointerTarget, Prompt, Session, SessionCaption,
@@ -113,10 +113,10 @@ pub fn forgets(message: &Msg) -> bool {
 
 impl Session {
     /// The contexts that hold at present, the most specific first: one of
-    /// [`chains`](crate::session::state::keymap::chains).
+    /// the chains of [`CONTEXTS`](crate::session::state::keymap::CONTEXTS).
     pub fn contexts(&self) -> &'static [Context] {
         let pending = self.pending.map(PendingInput::context);
-        pending.map_or_else(|| self.contexts_at_rest(), chain)
+        pending.map_or_else(|| self.contexts_at_rest(), |context| &context.spec().chain)
     }
 
     /// The contexts that hold when nothing is pending.
@@ -131,16 +131,17 @@ impl Session {
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Offer(_)) => Context::Offer,
         };
-        chain(first)
+        &first.spec().chain
     }
 
     /// The contexts that hold when nothing is open.
     pub(crate) fn contexts_below(&self) -> &'static [Context] {
-        chain(match self.focused() {
+        let first = match self.focused() {
             _ if self.held.is_some() => Context::Walk,
             Some(plot) => Context::View(plot.view),
             None => Context::Parameters,
-        })
+        };
+        &first.spec().chain
     }
 
     /// Whether a key has its usual effect while the caption of a tour is shown: the caption names its command,

@@ -8,7 +8,7 @@ use crate::paper::{Claim, ClaimResult, Verdict, claims};
 use crate::scene::library::SceneGroup;
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, LayerSpec, Machine, Scene, VIEWS, View, ViewSpec, library};
-use crate::session::state::keymap::contexts;
+use crate::session::state::keymap::CONTEXTS;
 use crate::session::{Code, Command, Context, KeptSession, Key, List, ListKind, Session};
 
 #[derive(Clone, Copy, Debug)]
@@ -146,7 +146,7 @@ impl Session {
     fn distance(&self, row: PaletteRow) -> usize {
         let Some(place) = self.place_of(row) else { return usize::MAX };
         let near = self.contexts_below().iter().position(|context| *context == place);
-        let far = || contexts().position(|row| row.context == place).unwrap_or(0);
+        let far = || CONTEXTS.iter().position(|row| row.context == place).unwrap_or(0);
         near.unwrap_or_else(|| self.contexts_below().len() + far())
     }
 

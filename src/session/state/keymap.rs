@@ -9,7 +9,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-use crate::scene::{Layer, VIEWS, View};
+use strum::EnumString;
+
+use crate::numerics::{cells, named};
+use crate::scene::{Layer, VIEWS, View, ViewSpec};
 use crate::session::{Done, Key, ListKind, Session};
 
 /// Something that a key can do, or a line with words.
@@ -143,9 +146,9 @@ impl Keymap {
         command: &'static Command,
         key: Key,
     ) -> Result<(), String> {
-        let together = chains().iter().filter(|chain| chain.contains(&context));
-        let contexts: BTreeSet<Context> =
-            together.flat_map(|chain| chain.iter()).copied().collect();
+        let chains = CONTEXTS.iter().map(|row| &row.chain);
+        let together = chains.filter(|chain| chain.contains(&context));
+        let contexts: BTreeSet<Context> = together.flatten().copied().collect();
         if key.typed().is_some() && contexts.iter().any(|context| context.takes_text()) {
             return Err(format!(
                 "{key} types a character here; use a key that types none, as <f6>"
@@ -214,11 +217,13 @@ impl Keymap {
 }
 
 /// A context in which a key can have a meaning.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString)]
+#[strum(serialize_all = "lowercase")]
 pub enum Context {
     /// The focus is on the parameter pane.
     Parameters,
     /// The focus is on a plot that shows this view.
+    #[strum(disabled)]
     View(View),
     /// A point of the branch is held.
     Walk,
@@ -227,6 +232,7 @@ pub enum Context {
     /// No overlay is open.
     Everywhere,
     /// This list is open and not being searched; that of the costs has the keys of the palette.
+    #[strum(disabled)]
     List(ListKind),
     /// The palette is being searched.
     Palette,
@@ -248,71 +254,50 @@ pub enum Context {
 }
 
 /// The description of a context.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct ContextSpec {
     pub context: Context,
     /// Its name in settings files.
     pub name: &'static str,
     /// A heading for its keys.
     pub title: &'static str,
-    /// The contexts that hold with it where it is the most specific; `None` if it never is.
-    others: Option<&'static [Context]>,
+    /// The contexts that hold together where it is the most specific, which is the first of them; none if it never is.
+    pub chain: Vec<Context>,
 }
 
-const fn row(
-    context: Context,
-    name: &'static str,
-    title: &'static str,
-    others: Option<&'static [Context]>,
-) -> ContextSpec {
-    ContextSpec { context, name, title, others }
-}
+/// All contexts, those of the views after the first one: the lines of `assets/contexts.txt`.
+pub static CONTEXTS: LazyLock<Vec<ContextSpec>> = LazyLock::new(|| {
+    let lines = include_str!("../../../assets/contexts.txt").lines();
+    let mut all: Vec<ContextSpec> = lines.filter_map(cells).filter_map(described).collect();
+    let of_view = |row: &ViewSpec| {
+        // A scan has a cursor and keys of its own.
+        let alone = row.view == View::Scan;
+        let others = if alone { "everywhere always" } else { "plots everywhere always" };
+        described([row.name, row.heading, others])
+    };
+    all.splice(1..1, VIEWS.iter().filter_map(of_view));
+    all
+});
 
-/// What holds with a pane that is no ordinary plot, with a plot, with a list, and with what takes all other keys.
-const PANE: Option<&[Context]> = Some(&[Context::Everywhere, Context::Always]);
-const PLOT: Option<&[Context]> = Some(&[Context::Plots, Context::Everywhere, Context::Always]);
-const LIST: Option<&[Context]> = Some(&[Context::Lists, Context::Always]);
-const ALONE: Option<&[Context]> = Some(&[Context::Always]);
-
-/// All contexts other than those of the views.
-#[rustfmt::skip]
-const OTHERS: [ContextSpec; 19] = [
-    row(Context::Parameters, "parameters", "Parameters", PANE),
-    row(Context::Walk, "walk", "Walking along the branch", ALONE),
-    row(Context::Plots, "plots", "Every plot", None),
-    row(Context::Everywhere, "everywhere", "Everywhere", None),
-    row(Context::List(ListKind::Palette), "help", "In this list", LIST),
-    row(Context::List(ListKind::Scenes), "scenes", "In the scene picker", LIST),
-    row(Context::List(ListKind::Layers), "layers", "In the layer list", LIST),
-    row(Context::List(ListKind::Views), "views", "In the picker of views", LIST),
-    row(Context::List(ListKind::Paper), "paper", "In the list of claims", LIST),
-    row(Context::List(ListKind::Interrupted), "interrupted", "In the list of interrupted sessions", LIST),
-    row(Context::Palette, "palette", "While searching the list", ALONE),
-    row(Context::Count, "count", "After a count", ALONE),
-    row(Context::Letter, "letter", "Before the letter of a mark", ALONE),
-    row(Context::Lists, "lists", "In every list", None),
-    row(Context::Search, "search", "While searching", ALONE),
-    row(Context::Entry, "entry", "While typing a value", ALONE),
-    row(Context::Prompt, "prompt", "On the command line", ALONE),
-    row(Context::Offer, "offer", "After pasting keystrokes", ALONE),
-    row(Context::Always, "always", "At any time", None),
-];
-
-/// All contexts; those of the views come after the first one.
-pub fn contexts() -> impl Iterator<Item = ContextSpec> {
-    let views = VIEWS.iter().map(|row| Context::View(row.view).spec());
-    OTHERS[..1].iter().copied().chain(views).chain(OTHERS[1..].iter().copied())
+/// A context by its name, its heading and the names of those that hold with it.
+fn described([name, title, others]: [&'static str; 3]) -> Option<ContextSpec> {
+    let context = Context::named(name)?;
+    let others = others.split(' ').map(Context::named).collect::<Option<Vec<_>>>();
+    let chain = others.map(|others| [&[context], &others[..]].concat()).unwrap_or_default();
+    Some(ContextSpec { context, name, title, chain })
 }
 
 impl Context {
+    /// The context of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        let of_list = || Some(Context::List(name.parse().ok()?));
+        let of_view = || named(name).map(Context::View);
+        name.parse().ok().or_else(of_list).or_else(of_view)
+    }
+
     /// The description of this context.
-    pub fn spec(self) -> ContextSpec {
-        if let Context::View(view) = self {
-            let others = if view == View::Scan { PANE } else { PLOT };
-            return row(self, view.spec().name, view.spec().heading, others);
-        }
-        let own = |row: &&ContextSpec| row.context == self;
-        *OTHERS.iter().find(own).expect("every other context has its row")
+    pub fn spec(self) -> &'static ContextSpec {
+        CONTEXTS.iter().find(|row| row.context == self).expect("every context has its line")
     }
 
     /// Whether characters that are no commands are typed into a line.
@@ -330,19 +315,4 @@ impl Context {
     pub fn view(self) -> Option<View> {
         if let Context::View(view) = self { Some(view) } else { None }
     }
-}
-
-/// All sets of contexts that hold together, each with the most specific context first.
-pub fn chains() -> &'static [Vec<Context>] {
-    static CHAINS: LazyLock<Vec<Vec<Context>>> = LazyLock::new(|| {
-        let chain = |row: ContextSpec| Some([&[row.context], row.others?].concat());
-        contexts().filter_map(chain).collect()
-    });
-    &CHAINS
-}
-
-/// The contexts that hold together with this one, which is the most specific of them.
-pub fn chain(first: Context) -> &'static [Context] {
-    let chains = chains();
-    chains.iter().find(|chain| chain[0] == first).unwrap_or(&chains[0])
 }

@@ -2,6 +2,8 @@
 
 use std::mem::{Discriminant, discriminant};
 
+use strum::EnumString;
+
 use crate::session::{Row, Script};
 
 /// An overlay over the panes.
@@ -15,7 +17,9 @@ pub enum Overlay {
     Offer(Script),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+/// A list over the panes; its keys have the context of its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString)]
+#[strum(serialize_all = "lowercase")]
 pub enum ListKind {
     /// The scenes, to pick one.
     Scenes,
@@ -26,8 +30,10 @@ pub enum ListKind {
     /// The claims of the paper.
     Paper,
     /// Everything that can be picked by name: commands, scenes, views, layers, claims.
+    #[strum(serialize = "help")]
     Palette,
     /// The cost of the picture, question by question.
+    #[strum(disabled)]
     Cost,
     /// The sessions that were interrupted, to continue one.
     Interrupted,
