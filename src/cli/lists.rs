@@ -19,8 +19,9 @@ use crate::report::scenes::{OPENING, QuestionBatch, QuestionCost, SceneCost, cos
 use crate::report::{Answer, Columns, Format, claims};
 use crate::runtime::tell;
 use crate::scene::{Scene, library};
-use crate::session::state::keymap::{CONTEXTS, ContextSpec};
-use crate::session::{self, Command, Msg, Row, Session, Size, commands, update};
+use crate::session::{
+    self, CONTEXTS, Command, ContextSpec, Msg, Row, Session, Size, commands, update,
+};
 
 /// Lists the scenes
 #[derive(Debug, Args)]

@@ -10,8 +10,7 @@ use crate::runtime::new_file;
 use crate::runtime::{Readers, bounded, play};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
-use crate::session::settings::Theme;
-use crate::session::{Session, Size};
+use crate::session::{Session, Size, Theme};
 use crate::terminal::Environment;
 use crate::view::screen::{self, Paper};
 

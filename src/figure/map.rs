@@ -2,7 +2,7 @@
 
 use super::elements::{Anchor, path, text};
 use super::paper::{Frame, PLOT, Spot, shading};
-use crate::numerics::count::{real, truncated};
+use crate::numerics::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
 use crate::scene::Point;
 use crate::words::significant;

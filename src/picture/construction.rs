@@ -1,11 +1,10 @@
 //! Formulas drawn into the phase plane: levels of the energy, and the spirals that make the cycle.
 
 use super::{Item, Mark, Picture, Role, ellipse};
-use crate::closed_form::{
-    linear::LinearFlow, lyapunov::energy_rate, piecewise_linear::LinearCycle,
-};
+use crate::closed_form::lyapunov::energy_rate;
+use crate::closed_form::{LinearCycle, LinearFlow};
 use crate::model::{Parameters, State};
-use crate::numerics::root::{TO_ROUNDING, bisect};
+use crate::numerics::{TO_ROUNDING, bisect};
 use crate::scene::{Point, Span};
 
 /// Circles on which the energy V is the same, and shaded the velocities at which it falls.

@@ -8,11 +8,9 @@
 
 use super::{Dash, Fill, Item, LineStyle, Picture, Role, Text, cycle_mark, cycle_name};
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
-use crate::closed_form::harmonic::{
-    amplitudes, damping_at, large_asymptote, mean, small_asymptote,
-};
+use crate::closed_form::{amplitudes, damping_at, large_asymptote, mean, small_asymptote};
 use crate::model::{Knob, Parameters};
-use crate::numerics::root::bisect;
+use crate::numerics::bisect;
 use crate::scene::{Axes, Height, Layer, Ordinate, Point};
 use crate::session;
 use crate::session::{Session, ShownMotion};

@@ -3,7 +3,7 @@
 //! Bars are fractions of the largest work of their owner, numbers are energies in the units of the model.
 
 use super::{Dash, LineStyle, Mark, Picture, Role};
-use crate::numerics::count::real;
+use crate::numerics::real;
 use crate::scene::{Point, Span};
 use crate::session::Session;
 use crate::session::ledger::{LedgerLine, Owner};

@@ -12,7 +12,7 @@ use crate::fit::{
 };
 use crate::flow::Limits;
 use crate::model::Parameters;
-use crate::numerics::count::real;
+use crate::numerics::real;
 use crate::portrait::Portrait;
 use crate::scene::{Point, Span, Window};
 

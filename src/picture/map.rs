@@ -8,7 +8,7 @@ use super::units;
 use crate::numerics::{cells, distinct, ln, named, pow};
 use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
-use crate::session::scan::ScanOnShow;
+use crate::session::ScanOnShow;
 
 /// Which values of a measure are the dangerous ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

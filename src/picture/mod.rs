@@ -25,14 +25,9 @@ mod time_series;
 pub mod trade;
 pub(crate) mod units;
 
-pub use items::{
-    Caption, Fill, Flow, Function, Item, LineStyle, Marks, Picture, Text, Texture, along, ellipse,
-    passes,
-};
+pub use self::{items::*, role::*, ticks::*};
 pub use legend::{LegendEntry, LegendSample};
 pub use map::{Danger, DangerousValues, MapCell, ScanMap};
-pub use role::{Dash, Mark, Role, cycle_mark, cycle_name, cycle_role, end_mark};
-pub use ticks::{Scale, Tick, Ticks};
 
 use crate::fit::FitResult;
 use crate::scene::View;

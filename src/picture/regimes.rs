@@ -6,7 +6,7 @@
 
 use super::{Fill, Item, LineStyle, Mark, Marks, Picture, Role};
 use crate::branch::chart::{Chart, ChartLine};
-use crate::branch::regime::{REGIMES, Regime};
+use crate::branch::{REGIMES, Regime};
 use crate::model::{Knob, Parameters};
 use crate::scene::machine::path::Station;
 use crate::scene::{Axes, Layer, Point, Window};

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::scan::sweep::{Spacing, Sweep};
 use crate::scene::Point;
-use crate::session::{Session, scan::ScanOnShow};
+use crate::session::{ScanOnShow, Session};
 
 /// What the numbers along both axes stand for.
 pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {

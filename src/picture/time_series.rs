@@ -9,8 +9,7 @@ use super::{
 };
 use crate::fit::Signal;
 use crate::flow::{Motion, Outcome, Sample};
-use crate::model::State;
-use crate::model::parameters::energy;
+use crate::model::{State, energy};
 use crate::scene::{Layer, Point};
 use crate::session::{Session, motion::friction_force};
 

@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 use super::file::parse;
 use super::mistake::{built_in, texts};
 use super::scene::Scene;
-use crate::numerics::similar::similar;
+use crate::numerics::similar;
 use crate::words::joined;
 
 /// The scene that opens unless another is named.

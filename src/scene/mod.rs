@@ -12,13 +12,7 @@ pub mod scene;
 pub mod views;
 pub mod window;
 
+pub use self::{library::*, plot_setup::*, scene::*, views::*, window::*};
 pub use crate::question::{Finding, Fit, Recording, Reply, Request, TOPICS, Topic};
-pub use library::{find, library, plain};
 pub use machine::{Machine, ScaledMachine, Setting};
 pub use mistake::FileMistake;
-pub use plot_setup::{
-    Arrangement, Axes, Height, MOST_PLOTS, ORDINATES, Ordinate, PlotSetup, Unit, usual_values,
-};
-pub use scene::{Scene, Variant};
-pub use views::{LAYERS, Layer, LayerSpec, Needs, VIEWS, View, ViewSpec, letters};
-pub use window::{Point, Span, Window, rectangle};

@@ -14,10 +14,12 @@ use crate::session::act::{
     values, walk,
 };
 use crate::session::read::completion::{self, all, nothing};
-use crate::session::settings::{Colors, Glyphs, Theme, choices, named};
-use crate::session::state::keymap::COMMANDS;
+use crate::session::settings::{choices, named};
 use crate::session::state::keymap::CommandAction::{self, Act, Line, Move, Press, Toggle, Try};
-use crate::session::{Command, Context, Effect, Input, Key, Keymap, List, PendingInput, Purpose};
+use crate::session::{
+    COMMANDS, Colors, Command, Context, Effect, Glyphs, Input, Key, Keymap, List, PendingInput,
+    Purpose, Theme,
+};
 
 /// What commands do: by the name that their line ends with, which is that of the command where the line does not say
 /// it; by its name behind a colon if it takes words. What moves something takes the steps to the right and upwards

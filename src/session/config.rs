@@ -15,12 +15,13 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use crate::numerics::similar::most_similar;
+use crate::numerics::most_similar;
 use crate::scene::mistake::Complaint;
 use crate::scene::{FileMistake, find, placed};
-use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, named};
-use crate::session::state::keymap::{CONTEXTS, full_name};
-use crate::session::{Command, Context, Key, Keymap};
+use crate::session::settings::named;
+use crate::session::{
+    CONTEXTS, Colors, Command, Context, Glyphs, Key, Keymap, NamedValue, Theme, full_name,
+};
 use crate::words::joined;
 
 /// The content of a settings file; whatever is missing keeps its default.

@@ -7,7 +7,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::numerics::similar::most_similar;
+use crate::numerics::most_similar;
 use crate::words::printable::is_printable;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

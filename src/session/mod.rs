@@ -25,28 +25,13 @@ pub mod state;
 pub(crate) mod tests;
 pub mod update;
 
+pub use self::{message::*, read::contexts::*, read::lists::*, read::machine::*, read::plots::*};
 pub use act::run::run_line;
 pub use commands::commands;
 pub use key::{Code, Key};
-pub use message::{
-    Content, Done, Effect, Gesture, MouseAction, Msg, Notice, PointerTarget, Purpose,
-};
 pub use read::answers::NoErrorReason;
-pub use read::contexts::Hint;
-pub use read::lists::PaletteRow;
-pub use read::machine::MachineMargins;
-pub use read::plots::{ShownMotion, VariantTag};
 pub use read::{fate, ledger, motion, wants};
 pub use replay::script::{Instruction, Script, ScriptStep};
-pub use state::answers::{AnswerState, Answers, Course};
-pub use state::history::{Bookmark, Bookmarks, EarlierState, History, ScreenSetup, Snapshot};
-pub use state::keymap::{Candidates, Command, CommandAction, Context, Keymap};
-pub use state::overlay::{Completion, Input, List, ListKind, Overlay, Prompt, SessionCaption};
-pub use state::scan::{ScanOnShow, ScanProgress};
-pub use state::session::{
-    BranchStop, Framing, KeptSession, Pace, Pane, PendingInput, Playback, Plot, Price,
-    Recomputation, Session, Size, WaitingPress,
-};
-pub use state::setup::{MOST_MOTIONS, Row, Setup, StepSizes, Uncertainty};
-pub use state::{overlay, scan, settings};
+pub use state::{answers::*, history::*, keymap::*, overlay::*, scan::*};
+pub use state::{overlay, scan, session::*, settings, settings::*, setup::*};
 pub use update::{settle, update};

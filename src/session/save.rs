@@ -17,17 +17,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
 use crate::model::{Knob, State};
-use crate::numerics::decimal::shortest;
-use crate::portrait::kicks::RandomKick;
+use crate::numerics::shortest;
+use crate::portrait::RandomKick;
 use crate::scene::{FileMistake, Point, Scene, Setting, find, placed};
 use crate::session::act::history::{restore, snapshot};
 use crate::session::read::completion::difference;
-use crate::session::settings::{DisplaySettings, NamedValue};
-use crate::session::state::history::check_number;
-use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{
-    Bookmark, Bookmarks, EarlierState, History, Instruction, Msg, Overlay, Pane, Plot, Prompt, Row,
-    Session, Setup, Snapshot, Uncertainty,
+    Bookmark, Bookmarks, DisplaySettings, EarlierState, History, Instruction, MOST_HARMONICS, Msg,
+    NamedValue, Overlay, Pane, Plot, Prompt, Row, Session, Setup, Snapshot, Uncertainty,
+    check_number,
 };
 use crate::words::counted;
 

@@ -9,11 +9,11 @@ use crate::question::NoAnswer;
 use crate::scene::{Reply, Request};
 use crate::session::act::run::{ENTER, run, run_line, run_where_it_belongs};
 use crate::session::act::{answers, files, history, plots, prompt, walk};
-use crate::session::read::contexts::{self, elsewhere};
+use crate::session::read::contexts;
 use crate::session::replay::script::parse;
 use crate::session::{
     Context, Effect, Key, Msg, Overlay, Pane, PendingInput, Price, Prompt, Row, Session,
-    SessionCaption, Size, WaitingPress,
+    SessionCaption, Size, WaitingPress, elsewhere,
 };
 
 /// Takes a message in; a press that needs an answer that is still being computed waits for it.

@@ -3,7 +3,7 @@
 //! Only [`Environment::of_process`] reads the environment, so that every decision is a function of its variables and can
 //! be tested.
 
-use crate::session::settings::{Colors, DisplaySettings, Glyphs, Theme};
+use crate::session::{Colors, DisplaySettings, Glyphs, Theme};
 
 /// The terminal, as far as it is known.
 #[derive(Clone, Debug, PartialEq, Eq)]

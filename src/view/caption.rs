@@ -6,7 +6,7 @@ use ratatui::text::Line;
 
 use super::{Surface, pane};
 use crate::picture::Role;
-use crate::session::{Session, overlay::SessionCaption};
+use crate::session::{Session, SessionCaption};
 
 const WIDTH: u16 = 100;
 

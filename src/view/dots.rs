@@ -19,7 +19,7 @@ use ratatui::symbols::pixel::{OCTANTS, QUADRANTS};
 
 use super::Surface;
 use crate::picture::{Dash, Role};
-use crate::session::settings::Glyphs;
+use crate::session::Glyphs;
 
 /// What a curve is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

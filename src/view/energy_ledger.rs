@@ -9,7 +9,7 @@ use ratatui::layout::Rect;
 use super::Surface;
 use super::pane::{self, FramedPicture};
 use super::plot::{Canvas, rows};
-use crate::numerics::count::real;
+use crate::numerics::real;
 use crate::picture::energy_ledger::reading;
 use crate::picture::{Dash, Mark, Picture, Role, Tick, Ticks, cycle_mark, cycle_name, cycle_role};
 use crate::scene::{Point, Span, View, Window};

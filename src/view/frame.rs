@@ -13,7 +13,7 @@ use super::{
 };
 use crate::picture::{self, Role, legend::entries};
 use crate::scene::View;
-use crate::session::{Overlay, Pane, PointerTarget, Session, settings::Glyphs};
+use crate::session::{Glyphs, Overlay, Pane, PointerTarget, Session};
 
 /// The screen of a session at this size. Nothing is decided or computed here except what a visible cell shows.
 pub fn picture(size: Size, session: &Session, look: &Look) -> Buffer {

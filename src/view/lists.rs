@@ -9,12 +9,11 @@ use super::{Look, Surface, pane};
 use crate::numerics::cells;
 use crate::paper::{Claim, ClaimResult, Verdict};
 use crate::picture::Role;
-use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
-use crate::scene::{Finding, Layer, Reply, letters};
-use crate::session::wants::{CostRow, Requirement, consequence};
+use crate::scene::{Layer, SceneGroup, letters};
+use crate::session::wants::CostRow;
 use crate::session::{List, ListKind, Overlay, PaletteRow, Session};
-use crate::words::{claim, count, duration, joined, significant};
+use crate::words::{claim, joined, significant};
 
 /// Columns of keys in the help.
 const KEYS: usize = 16;
@@ -137,38 +136,11 @@ fn interrupted(content: &mut ListContent, session: &Session, list: &List, look: 
 
 /// What each question of the picture took, and what a step of each number asks again.
 fn costs(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
-    /// Columns of what a row is about.
-    const NAME: usize = 14;
-    for row in session.cost_rows(list) {
-        let heading = if matches!(row, CostRow::Step(..)) { "a step of" } else { "" };
-        let (name, text) = match row {
-            CostRow::Asked(requirement) => asked(session, &requirement),
-            CostRow::Formulas(layers) => ("formulas", format!("nothing for {}", names(&layers))),
-            CostRow::Step(row, reused, anew) => {
-                (row.name_in(&session.problem), consequence(&reused, &anew))
-            }
-        };
-        let name = format!("{name:<NAME$}");
-        content.row(heading, [look.span(name, Role::Key), look.span(text, Role::Text)]);
+    for CostRow { name, text, is_step } in session.cost_rows(list) {
+        let heading = if is_step { "a step of" } else { "" };
+        let name = look.span(format!("{name:<14}"), Role::Key);
+        content.row(heading, [name, look.span(text, Role::Text)]);
     }
-}
-
-fn names(layers: &[Layer]) -> String {
-    joined(layers.iter().map(|layer| layer.spec().name), ", ")
-}
-
-/// What a question took, and for which layers it is asked.
-fn asked(session: &Session, requirement: &Requirement) -> (&'static str, String) {
-    let topic = requirement.request.topic();
-    let held = session.answers.standing(&requirement.request).fresh().reply();
-    let price = held.map_or_else(|| "not answered".to_owned(), price);
-    (topic.name(), format!("{price} for {}", names(&requirement.layers)))
-}
-
-fn price(reply: &Reply) -> String {
-    let cost = reply.result.as_ref().map(Finding::cost).unwrap_or_default();
-    let (evaluations, steps) = (count(cost.evaluations), count(cost.steps));
-    format!("{evaluations:>6} ev {steps:>6} steps {:>8}", duration(reply.seconds))
 }
 
 /// The claims of the paper, section by section, with their verdicts.

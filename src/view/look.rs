@@ -14,11 +14,11 @@ use ratatui::text::Span;
 use serde::Deserialize;
 use strum::VariantArray;
 
-use crate::numerics::count::truncated;
+use crate::numerics::truncated;
 use crate::picture::{Mark, Role};
 use crate::scene::placed;
-use crate::session::settings::{self, Colors, Glyphs, Theme};
-use crate::session::{Code, Key, Keymap};
+use crate::session::settings;
+use crate::session::{Code, Colors, Glyphs, Key, Keymap, Theme};
 
 /// The text of a theme that comes with the program.
 fn text_of(theme: Theme) -> &'static str {

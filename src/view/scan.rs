@@ -13,7 +13,7 @@ use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Picture, Role};
 use crate::scan::measure::Value;
 use crate::scene::View;
-use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
+use crate::session::{ScanOnShow, ScanProgress, WORDS};
 use crate::words::number::{measurement, remaining};
 use crate::words::{joined, significant};
 

@@ -10,8 +10,7 @@ use crate::numerics::{distinct, real, truncated};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, DangerousValues, MapCell, Role, ScanMap};
 use crate::scene::Point;
-use crate::session::scan::{ScanOnShow, WORDS};
-use crate::session::settings::Glyphs;
+use crate::session::{Glyphs, ScanOnShow, WORDS};
 use crate::words::{joined, significant};
 
 /// Shades from the weakest to the strongest, and the letters that do without colour.

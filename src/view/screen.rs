@@ -11,7 +11,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::look::{FIXED, fixed};
 use super::signs::MINUS;
-use crate::numerics::count::real;
+use crate::numerics::real;
 use crate::words::printable::xml;
 
 /// The rows of a screen, without the blanks at their ends and with minus signs as programs read them.

@@ -4,7 +4,7 @@
 use ratatui::layout::Rect;
 
 use super::{Look, Surface, fitted::UNRELIABLE, margin, pane, verdict};
-use crate::flow::trajectory::choice;
+use crate::flow::choice;
 use crate::picture::{Role, end_mark};
 use crate::scene::Topic;
 use crate::session::Session;

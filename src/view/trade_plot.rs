@@ -9,7 +9,8 @@ use crate::accuracy::trade::Trade;
 use crate::numerics::elementary::log10;
 use crate::picture::{Picture, Role};
 use crate::scene::{Point, Window};
-use crate::session::settings::{self, Colors, Glyphs};
+use crate::session::settings;
+use crate::session::{Colors, Glyphs};
 
 /// The letter of each of the methods.
 const LETTERS: [char; 10] = ['a', 'e', 't', '8', '5', '4', 'i', '~', 's', 'm'];

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::flow::{Problem, Reason, Result, Subject};
 use crate::model::belt::ReducedBelt;
 use crate::model::{Belt, Body, Group, Knob, Model, RangeError, State, Tolerances};
-use crate::numerics::elementary::powi;
+use crate::numerics::powi;
 
 /// What a file describes: a machine or a vibration mode, and one motion of it.
 #[derive(Clone, Debug, PartialEq)]

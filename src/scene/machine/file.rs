@@ -15,8 +15,9 @@ use super::Description;
 use super::table::table;
 use crate::flow::Subject;
 use crate::model::belt::FrictionLaw;
-use crate::model::unit::quantity;
-use crate::model::{Belt, Body, Group, Knob, KnobSpec, Mode, Source, Tolerances, unknown};
+use crate::model::{
+    Belt, Body, Group, Knob, KnobSpec, Mode, Source, Tolerances, quantity, unknown,
+};
 use crate::numerics::{SmoothingSpline, shortest};
 use crate::scene::mistake::{Complaint, FileMistake};
 use crate::scene::placed::Placed;

@@ -1,6 +1,6 @@
 //! Tables of friction, in the form of measured data.
 
-use crate::model::unit::quantity;
+use crate::model::quantity;
 
 /// Reads a table. Each line has a velocity and a coefficient of friction, separated by a comma, or by a
 /// semicolon or a tab (numbers may then have a decimal comma). `#` begins a comment, and the first line may

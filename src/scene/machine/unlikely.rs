@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::model::Body;
-use crate::numerics::decimal::shortest;
+use crate::numerics::shortest;
 use crate::words::significant;
 
 /// What is looked at: name, meaning, SI unit, and the smallest and largest likely size.

@@ -9,8 +9,7 @@ use crate::question::{NoAnswer, Rows};
 use crate::scene::{Finding, Fit, Reply, Topic};
 use crate::session::act::scan::refit;
 use crate::session::read::windows::{awaited, fitted};
-use crate::session::scan::SCANNING;
-use crate::session::{Framing, Recomputation, ScanProgress, Session, StepSizes};
+use crate::session::{Framing, Recomputation, SCANNING, ScanProgress, Session, StepSizes};
 use crate::words::fit::sentences;
 
 impl Session {

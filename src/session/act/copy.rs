@@ -3,7 +3,7 @@
 
 use crate::flow::Problem;
 use crate::model::Knob;
-use crate::numerics::decimal::shortest;
+use crate::numerics::shortest;
 use crate::scan::measure::Value;
 use crate::scene::{Axes, View};
 use crate::session::read::completion::plain_value;

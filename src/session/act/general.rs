@@ -1,10 +1,12 @@
 //! Commands that belong to no pane: layers, harmonics, appearance, retry, counts, quitting.
 
-use crate::accuracy::harmonic_error::ladder;
+use crate::accuracy::ladder;
 use crate::scene::Layer;
-use crate::session::settings::{DisplaySettings, NamedValue, next_of};
-use crate::session::state::session::{LARGEST_COUNT, MOST_HARMONICS};
-use crate::session::{Done, Effect, Key, Overlay, PendingInput, Session};
+use crate::session::settings::next_of;
+use crate::session::{
+    DisplaySettings, Done, Effect, Key, LARGEST_COUNT, MOST_HARMONICS, NamedValue, Overlay,
+    PendingInput, Session,
+};
 
 /// Shows or hides a layer.
 pub fn toggle(session: &mut Session, layer: Layer) {

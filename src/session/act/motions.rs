@@ -4,13 +4,11 @@
 use std::f64::consts::TAU;
 
 use crate::model::State;
-use crate::numerics::decimal::{decimal_sum, shortest};
-use crate::numerics::sort_by_number;
+use crate::numerics::{decimal_sum, shortest, sort_by_number};
 use crate::portrait::Drawing;
 use crate::scene::{Layer, Topic};
 use crate::session::act::parameters::put;
-use crate::session::state::session::PACES;
-use crate::session::{Done, MOST_MOTIONS, Pace, Session, Setup};
+use crate::session::{Done, MOST_MOTIONS, PACES, Pace, Session, Setup};
 use crate::words::counted;
 
 /// Clearance of a start relative to that of the border: near enough to stay close for a while, far enough to be

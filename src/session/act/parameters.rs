@@ -6,9 +6,8 @@ use crate::model::{Knob, KnobSpec};
 use crate::numerics::{cycled, log10, shortest};
 use crate::scene::{Setting, View};
 use crate::session::read::completion::typed;
-use crate::session::state::setup::symbol_of;
 use crate::session::{
-    Done, EarlierState, Framing, Key, Overlay, Prompt, Row, Session, Setup, StepSizes,
+    Done, EarlierState, Framing, Key, Overlay, Prompt, Row, Session, Setup, StepSizes, symbol_of,
 };
 use crate::words::one_of;
 

@@ -3,7 +3,7 @@
 
 use crate::flow::Problem;
 use crate::model::State;
-use crate::numerics::decimal::{StepSize, shortest};
+use crate::numerics::{StepSize, shortest};
 use crate::scene::{Axes, ORDINATES, PlotSetup, Point, Span, Unit, View, Window};
 use crate::session::act::general::flip;
 use crate::session::act::motions::start;

@@ -12,9 +12,8 @@ use crate::session::act::run::{ENTER, run_line, run_where_it_belongs};
 use crate::session::act::screen_setup::show_from_list;
 use crate::session::act::values::{belt, set_row};
 use crate::session::read::completion::completion;
-use crate::session::state::keymap::full_name;
 use crate::session::{
-    Completion, Done, Input, List, ListKind, Overlay, PaletteRow, Prompt, Session,
+    Completion, Done, Input, List, ListKind, Overlay, PaletteRow, Prompt, Session, full_name,
 };
 use crate::words::printable::is_printable;
 

@@ -1,12 +1,10 @@
 //! Running commands by their keys and their names, and lines of the command line.
 
-use crate::numerics::similar::most_similar;
+use crate::numerics::most_similar;
 use crate::session::act::general::toggle;
 use crate::session::act::screen_setup::focus_on;
 use crate::session::read::completion::names;
-use crate::session::read::contexts::place;
-use crate::session::state::keymap::called;
-use crate::session::{Code, Command, CommandAction, Context, Done, Key, Session};
+use crate::session::{Code, Command, CommandAction, Context, Done, Key, Session, called, place};
 use crate::words::printable;
 
 /// The key that is passed to commands that are run from a line.

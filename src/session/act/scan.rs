@@ -10,9 +10,8 @@ use crate::scan::sweep::Sweep;
 use crate::scene::{Request, Span, View};
 use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::{add, focus_on, show};
-use crate::session::scan::SCANNING;
 use crate::session::{
-    Content, Done, Effect, Overlay, Pane, Plot, Prompt, ScanOnShow, ScanProgress, Session,
+    Content, Done, Effect, Overlay, Pane, Plot, Prompt, SCANNING, ScanOnShow, ScanProgress, Session,
 };
 use crate::words::{joined, number::resolved};
 

@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use crate::model::{Knob, unknown};
 use crate::numerics::named;
-use crate::portrait::kicks::RandomKick;
+use crate::portrait::RandomKick;
 use crate::scene::{Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find, machine};
 use crate::session::act::{general, history, parameters, plots, screen_setup};
 use crate::session::read::completion::{properties, rows};
-use crate::session::state::session::MOST_HARMONICS;
-use crate::session::{Done, Framing, Pane, Plot, Row, Session};
+use crate::session::{Done, Framing, MOST_HARMONICS, Pane, Plot, Row, Session};
 use crate::words::one_of;
 
 /// The row of the parameter pane with this name.

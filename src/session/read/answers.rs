@@ -1,9 +1,8 @@
 //! The last answer on each topic, named after its content; and the fit of the record on show, of all numbers or of the
 //! others while some are held by hand.
 
-use crate::accuracy::harmonic_error::HarmonicBalance;
-use crate::accuracy::reference::{Deviation, NoComparison, Reference};
 use crate::accuracy::trade::Trade;
+use crate::accuracy::{Deviation, HarmonicBalance, NoComparison, Reference};
 use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
 use crate::fit::FitResult;

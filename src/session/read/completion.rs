@@ -2,7 +2,7 @@
 
 use crate::flow::METHODS;
 use crate::model::{Group, Knob};
-use crate::numerics::decimal::shortest;
+use crate::numerics::shortest;
 use crate::scan::measure::MEASURES;
 use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, Window};
 use crate::session::{Command, Completion, Keymap, Row, Session, Setup};
@@ -16,9 +16,8 @@ pub fn all<Name: ToString>(names: impl IntoIterator<Item = Name>) -> Vec<String>
 /// A layer, then on or off.
 pub fn layers(session: &Session, given: &[&str]) -> Vec<String> {
     match given {
-        [_] => all(LAYERS.iter().map(|row| row.name)),
-        [_, rest @ ..] => switch(session, rest),
-        [] => Vec::new(),
+        [_, state @ ..] if !state.is_empty() => switch(session, state),
+        _ => all(LAYERS.iter().map(|row| row.name)),
     }
 }
 

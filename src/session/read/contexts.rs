@@ -11,10 +11,9 @@ use std::collections::BTreeSet;
 use crate::scene::{Request, TOPICS, Topic, VIEWS, View};
 use crate::session::read::wants::COMPARED;
 use crate::session::read::windows;
-use crate::session::state::keymap::called;
 use crate::session::{
     Code, Command, Context, Key, ListKind, MouseAction, Msg, Overlay, PaletteRow, Pane,
-    PendingInput, PointerTarget, Prompt, Session, SessionCaption,
+    PendingInput, PointerTarget, Prompt, Session, SessionCaption, called,
 };
 
 impl Session {

@@ -4,8 +4,7 @@
 use std::ops::RangeBounds;
 
 use crate::flow::{Fate, Motion, Outcome, Problem};
-use crate::model::parameters::rests;
-use crate::model::{Parameters, State};
+use crate::model::{Parameters, State, rests};
 use crate::portrait::{Border, Cycle, Drawing, Portrait};
 use crate::scene::Topic;
 use crate::scene::said::{self, TextCondition};

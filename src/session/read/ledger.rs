@@ -4,8 +4,7 @@
 //! lines at every size and the cursor points at one of them.
 
 use crate::model::{Ledger, State};
-use crate::portrait::Cycle;
-use crate::portrait::basin::orbit::works_until;
+use crate::portrait::{Cycle, works_until};
 use crate::scene::Layer;
 use crate::session::Session;
 

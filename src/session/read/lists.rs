@@ -5,11 +5,9 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock};
 
 use crate::paper::{Claim, ClaimResult, Verdict, claims};
-use crate::scene::library::SceneGroup;
 use crate::scene::machine::library::machines;
-use crate::scene::{LAYERS, LayerSpec, Machine, Scene, VIEWS, View, ViewSpec, library};
-use crate::session::state::keymap::CONTEXTS;
-use crate::session::{Code, Command, Context, KeptSession, Key, List, ListKind, Session};
+use crate::scene::{LAYERS, LayerSpec, Machine, Scene, SceneGroup, VIEWS, View, ViewSpec, library};
+use crate::session::{CONTEXTS, Code, Command, Context, KeptSession, Key, List, ListKind, Session};
 
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {

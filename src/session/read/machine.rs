@@ -13,8 +13,7 @@ use crate::model::{Belt, Body, Knob, Parameters, Source};
 use crate::portrait::Margin;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Layer, Request, ScaledMachine, Setting, Topic, View};
-use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
-use crate::session::{Session, Setup, Uncertainty};
+use crate::session::{ON_A_MACHINE, Session, Setup, Uncertainty, symbol_of};
 
 /// The margins of a machine, without units.
 #[derive(Clone, Copy, Debug)]

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use crate::flow::{Method, Motion, Outcome, Problem, Sample};
 use crate::model::{Parameters, State};
 use crate::numerics::{least_by, tanh};
-use crate::portrait::on_belt::first_at;
+use crate::portrait::first_at;
 use crate::scene::Topic;
 use crate::session::{Pace, Session};
 

@@ -11,9 +11,9 @@ use crate::branch::chart::Plane;
 use crate::flow::Problem;
 use crate::model::Knob;
 use crate::numerics::{distinct, exp2, hypot, log2};
-use crate::scene::{Axes, Finding, Layer, Request, Span, TOPICS, Topic, View, Window};
+use crate::scene::{Axes, Finding, Layer, Reply, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::{Framing, List, ListKind, Overlay, Pane, Row, Session};
-use crate::words::joined;
+use crate::words::{count, duration, joined};
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
 /// questions on it are first answered by drafts.
@@ -234,35 +234,39 @@ pub struct Requirement {
 
 /// A row of the list of costs.
 #[derive(Clone, Debug, PartialEq)]
-pub enum CostRow {
-    /// A question that is asked at present.
-    Asked(Requirement),
-    /// Layers that are drawn by formulas.
-    Formulas(Vec<Layer>),
-    /// A step of this row: the topics of the questions that stay the same, and of those that are asked again.
-    Step(Row, Vec<Topic>, Vec<Topic>),
+pub struct CostRow {
+    /// A question, formulas, or a row that is stepped.
+    pub name: &'static str,
+    /// What it took and for which layers, or what the step asks again and what stays the same.
+    pub text: String,
+    pub is_step: bool,
 }
 
 impl Session {
+    /// What each question of the picture took, and what a step of each number asks again.
     pub fn cost_rows(&self, list: &List) -> Vec<CostRow> {
         let present = self.requirements();
+        let row = |name, text| CostRow { name, text, is_step: false };
+        let names = |layers: &[Layer]| joined(layers.iter().map(|layer| layer.spec().name), ", ");
+        let asked = present.iter().map(|Requirement { request, layers }| {
+            let held = self.answers.standing(request).fresh().reply();
+            let price = held.map_or_else(|| "not answered".to_owned(), price);
+            row(request.topic().name(), format!("{price} for {}", names(layers)))
+        });
+        let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
+        let formulas = formulas.map(|it| row("formulas", format!("nothing for {}", names(&it))));
         let is_asked = |request: &Request| present.iter().any(|it| it.request == *request);
-        let topics = |requests: Vec<Request>| requests.iter().map(Request::topic).collect();
+        let topics =
+            |requests: Vec<Request>| requests.iter().map(Request::topic).collect::<Vec<_>>();
         let steps = self.rows().into_iter().map(|row| {
             let stepped = self.stepped_once(row).requirements();
             let requests = stepped.into_iter().map(|requirement| requirement.request);
             let (reused, anew) = requests.partition(is_asked);
-            CostRow::Step(row, topics(reused), topics(anew))
+            let text = consequence(&topics(reused), &topics(anew));
+            CostRow { name: row.name_in(&self.problem), text, is_step: true }
         });
-        let asked = present.iter().cloned().map(CostRow::Asked);
-        let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
-        let name = |row: &CostRow| match row {
-            CostRow::Asked(requirement) => requirement.request.topic().name(),
-            CostRow::Formulas(_) => "formulas",
-            CostRow::Step(row, ..) => row.name(),
-        };
-        let rows = asked.chain(formulas.map(CostRow::Formulas)).chain(steps);
-        rows.filter(|row| list.matches(&[name(row)])).collect()
+        let rows = asked.chain(formulas).chain(steps);
+        rows.filter(|row| list.matches(&[row.name])).collect()
     }
 
     /// The questions for what is on show, each once, with the layers that need it.
@@ -291,6 +295,12 @@ impl Session {
         let shown = self.layers.iter().filter(|layer| self.shows(**layer));
         shown.filter(|layer| layer.spec().needs.is_none()).copied().collect()
     }
+}
+
+fn price(reply: &Reply) -> String {
+    let cost = reply.result.as_ref().map(Finding::cost).unwrap_or_default();
+    let (evaluations, steps) = (count(cost.evaluations), count(cost.steps));
+    format!("{evaluations:>6} ev {steps:>6} steps {:>8}", duration(reply.seconds))
 }
 
 /// What a step recomputes and what it reuses.

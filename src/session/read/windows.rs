@@ -4,8 +4,7 @@ use crate::accuracy::trade::TradePoint;
 use crate::closed_form::lyapunov;
 use crate::fit::{DropReason, RecordPoint, Signal};
 use crate::flow::{Motion, Outcome};
-use crate::model::parameters::energy;
-use crate::model::{Knob, State};
+use crate::model::{Knob, State, energy};
 use crate::numerics::{hypot, real, truncated};
 use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window, usual_values};
 use crate::session::state::setup::size;
@@ -86,8 +85,7 @@ fn belt_diagram(session: &Session, plot: usize) -> Option<Window> {
 /// All rows of the trade.
 fn trade(session: &Session) -> Option<Window> {
     let places = session.trade()?.rows.iter().filter_map(TradePoint::place);
-    let (x, y): (Vec<f64>, Vec<f64>) = places.unzip();
-    Some(Window { x: roomy(Span::covering(x)?), y: roomy(Span::covering(y)?) })
+    Window::around(&places.map(Point::from).collect::<Vec<_>>(), ROOM)
 }
 
 /// The motions, the cycles and the sticking sets.
@@ -126,15 +124,12 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
             points.push(Point { x: start.q, y: belt });
         }
     }
-    let x = Span::covering(points.iter().map(|point| point.x))?;
+    let Window { x, mut y } = Window::around(&points, ROOM)?;
     // A motion at rest has no extent in v: the window is then as high as it is wide.
-    let y = Span::covering(points.iter().map(|point| point.y))?;
-    let y = if y.contains(0.0) && points.iter().all(|point| point.y == 0.0) {
-        Span::new(-0.5 * x.width(), 0.5 * x.width()).ok()?
-    } else {
-        y
-    };
-    Some(Window { x: roomy(x), y: roomy(y) })
+    if points.iter().all(|point| point.y == 0.0) {
+        y = Span::new(-0.5 * x.width(), 0.5 * x.width()).ok()?;
+    }
+    Some(Window { x, y })
 }
 
 /// The positions of the mass.

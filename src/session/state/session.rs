@@ -18,10 +18,9 @@ use crate::scene::{
     Arrangement, Axes, Layer, PlotSetup, Point, Request, ScaledMachine, Scene, Setting, Topic,
     View, Window,
 };
-use crate::session::settings::DisplaySettings;
 use crate::session::{
-    Answers, Bookmarks, Context, Effect, History, Key, Keymap, Msg, Notice, Overlay, Row,
-    ScanOnShow, SessionCaption, Setup, StepSizes, Uncertainty,
+    Answers, Bookmarks, Context, DisplaySettings, Effect, History, Key, Keymap, Msg, Notice,
+    Overlay, Row, ScanOnShow, SessionCaption, Setup, StepSizes, Uncertainty,
 };
 
 /// Maximum number of harmonics: more would cost more than the picture can show.

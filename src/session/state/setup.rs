@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
 use crate::model::{Belt, Group, KNOBS, Knob, State, Tolerances};
-use crate::numerics::decimal::StepSize;
+use crate::numerics::StepSize;
 use crate::scene::{ScaledMachine, Scene, Setting};
 
 /// Maximum number of motions on show, including the present one.

@@ -1,7 +1,7 @@
 //! The dial for the accuracy: its stops, what is computed roughly first, and when an error is measured.
 
 use super::{COST, Trial, answered, by_hand};
-use crate::accuracy::reference::Reference;
+use crate::accuracy::Reference;
 use crate::flow::{Limits, Method, Reason};
 use crate::question::{NoAnswer, answer};
 use crate::scene::{Finding, Request, TOPICS, Topic, find};

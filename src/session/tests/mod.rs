@@ -28,9 +28,8 @@ use std::sync::Arc;
 
 use super::replay::{Action, Player, parse};
 use super::{Effect, List, Msg, Overlay, Session, Size, update};
-use crate::accuracy::harmonic_error::HarmonicBalance;
-use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade::{Trade, TradePoint};
+use crate::accuracy::{Deviation, HarmonicBalance, Reference, ReferenceSource};
 use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};

@@ -9,14 +9,14 @@ use super::Trial;
 use super::strange::any_key;
 use crate::flow::METHODS;
 use crate::model::Knob;
-use crate::numerics::elementary::powi;
+use crate::numerics::powi;
 use crate::scene::machine::library::machines;
 use crate::scene::{ScaledMachine, Scene, library};
-use crate::session::Answers;
 use crate::session::replay::{Recorder, text};
 use crate::session::save::opening;
-use crate::session::settings::{Colors, DisplaySettings, Glyphs, Theme};
-use crate::session::{Effect, Msg, Notice, Session, Size, save};
+use crate::session::{
+    Answers, Colors, DisplaySettings, Effect, Glyphs, Msg, Notice, Session, Size, Theme, save,
+};
 
 /// A session as options of the command line start it, with its recording.
 fn started(scene: Arc<Scene>, look: DisplaySettings) -> (Trial, Recorder) {

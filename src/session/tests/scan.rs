@@ -10,8 +10,7 @@ use crate::question::Rows;
 use crate::scan::grid::{Scan, ScanRow};
 use crate::scan::measure::Value;
 use crate::scene::{Finding, Reply, Request, Topic, View};
-use crate::session::scan::ScanProgress;
-use crate::session::{Content, Effect, Msg, Pane, ScanOnShow, Session, update};
+use crate::session::{Content, Effect, Msg, Pane, ScanOnShow, ScanProgress, Session, update};
 
 /// Made-up rows: the index of the point in each column.
 pub fn rows(scan: &Scan, points: Range<usize>) -> Vec<ScanRow> {

@@ -3,10 +3,11 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::numerics::count::real;
+use crate::numerics::real;
 use crate::picture::{Caption, Picture, Scale};
 use crate::scene::Span;
-use crate::session::settings::{DisplaySettings, Glyphs, choices};
+use crate::session::settings::choices;
+use crate::session::{DisplaySettings, Glyphs};
 use crate::view::pane::Heading;
 
 fn look(glyphs: Glyphs) -> Look {
