@@ -9,8 +9,7 @@ use clap::Args;
 use super::Failure;
 use crate::runtime::bounded;
 use crate::session::config::{Config, parse};
-use crate::session::settings::{choices, named};
-use crate::session::{Colors, DisplaySettings, Glyphs, NamedValue, Theme};
+use crate::session::{Colors, DisplaySettings, Glyphs, NamedValue, Theme, choices, named};
 use crate::words::joined;
 
 /// Which settings file is read.

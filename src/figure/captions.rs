@@ -4,7 +4,7 @@
 use super::elements::{self, Anchor};
 use super::paper::{Frame, Spot, ink};
 use super::{Outline, Panel};
-use crate::numerics::{hypot, least_by, real};
+use crate::numerics::{hypot, real};
 use crate::picture::{Caption, Dash, along};
 
 /// Width of a letter and height of a line, in pixels.
@@ -175,7 +175,7 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
         let find = |text: &'a str| surroundings.best(caption, text);
         let long = find(&caption.long);
         let short = long.filter(|(harm, ..)| *harm >= MUCH).and_then(|_| find(&caption.short));
-        let found = least_by([long, short].into_iter().flatten(), |(harm, ..)| *harm);
+        let found = [long, short].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, text, place)) = found {
             surroundings.taken.push(place);
             placed.push((caption, text, place));

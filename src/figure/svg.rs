@@ -40,12 +40,13 @@ fn picture(figure: &Figure, alone: Option<u32>) -> String {
     let legend_height = lines * ENTRY.1;
     let above = if alone.is_some() { HEAD } else { 0.0 };
     let height = below + legend_height + real(maps().count()) * map::SCALE + 12.0 - above;
-    let (title, remarks) = (xml(&figure.title), xml(&remarks(figure).join("\n")));
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 {above} {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
-         font-size=\"12\" role=\"img\">\n<title>{title}</title>\n<desc>{remarks}</desc>\n\
-         <rect y=\"{above}\" width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
+        include_str!("../../assets/figure.svg"),
+        above = above,
+        width = width,
+        height = height,
+        title = xml(&figure.title),
+        remarks = xml(&remarks(figure).join("\n")),
     );
     if alone.is_none() {
         let spot = (width / 2.0, 22.0);

@@ -41,17 +41,6 @@ pub fn cycled(place: usize, by: isize, count: usize) -> usize {
     place.checked_add_signed(by).unwrap_or(count - 1) % count
 }
 
-/// The thing of which a number is least, the first of several; `None` without any.
-pub fn least_by<T>(things: impl IntoIterator<Item = T>, number: impl Fn(&T) -> f64) -> Option<T> {
-    let numbered = things.into_iter().map(|thing| (number(&thing), thing));
-    numbered.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, thing)| thing)
-}
-
-/// Sorts things by a number, the least first; those alike keep their order.
-pub fn sort_by_number<T>(things: &mut [T], number: impl Fn(&T) -> f64) {
-    things.sort_by(|one, other| number(one).total_cmp(&number(other)));
-}
-
 /// Each of some things once, in the order in which they first appear.
 pub fn distinct<T: PartialEq>(all: impl IntoIterator<Item = T>) -> Vec<T> {
     let mut found = Vec::new();

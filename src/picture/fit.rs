@@ -105,9 +105,9 @@ pub fn damping(fitted: &FitResult) -> Option<Picture<'static>> {
     picture.items.push(Item::Shade("90 % band of averaged".into(), Point::all(&found.band)));
     let exact = Point::all(&found.exact);
     let zeros = exact.windows(2).filter(|two| two[0].y * two[1].y < 0.0);
-    picture.items.extend(zeros.map(|two| Item::Marks(zero(two[0], two[1]))));
+    zeros.for_each(|two| picture.marks(zero(two[0], two[1])));
     let marks = Marks::new(Mark::Turn, Role::Ghost, measured);
-    picture.items.push(Item::Marks(Marks { name: "measured".into(), at_edge: true, ..marks }));
+    picture.marks(Marks { name: "measured".into(), at_edge: true, ..marks });
     Some(picture)
 }
 
@@ -177,7 +177,7 @@ fn together(fitted: &FitResult) -> Option<Picture<'static>> {
     }
     picture.window = around(&picture)?;
     let marks = Marks::new(Mark::Stable, Role::Special, vec![[p[D], p[R]].into()]);
-    picture.items.push(Item::Marks(Marks { name: "estimate".into(), ..marks }));
+    picture.marks(Marks { name: "estimate".into(), ..marks });
     Some(picture)
 }
 
@@ -217,8 +217,7 @@ pub fn mark_dropped(picture: &mut Picture, samples: impl Iterator<Item = (Point,
         let at: Vec<Point> = all.iter().copied().step_by(all.len().div_ceil(MOST).max(1)).collect();
         if !at.is_empty() {
             let marks = Marks::new(mark, role, at);
-            let marks = Marks { name: name.into(), brief: name, at_edge: true, ..marks };
-            picture.items.push(Item::Marks(marks));
+            picture.marks(Marks { name: name.into(), brief: name, at_edge: true, ..marks });
         }
     }
 }

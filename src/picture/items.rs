@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use super::{Dash, Mark, Role, Scale, ScanMap, Ticks, units::said};
 use crate::model::{Knob, Parameters};
-use crate::numerics::{hypot, named, real, sin_cos, sort_by_number, truncated};
+use crate::numerics::{by_number, hypot, named, real, sin_cos, truncated};
 use crate::scene::{Point, Window};
 use crate::session::VariantTag;
 
@@ -326,7 +326,11 @@ impl<'a> Picture<'a> {
     }
 
     pub fn mark(&mut self, mark: Mark, at: impl Into<Point>, role: Role) {
-        self.items.push(Item::Marks(Marks::new(mark, role, vec![at.into()])));
+        self.marks(Marks::new(mark, role, vec![at.into()]));
+    }
+
+    pub fn marks(&mut self, marks: Marks) {
+        self.items.push(Item::Marks(marks));
     }
 
     pub fn caption(&mut self, at: impl Into<Point>, text: impl Into<Text>, role: Role) {
@@ -349,7 +353,7 @@ impl<'a> Picture<'a> {
         const PLACES: usize = 60;
         let mut points: Vec<Point> =
             curve.iter().copied().filter(|point| self.window.contains(*point)).collect();
-        sort_by_number(&mut points, |point| -point.y);
+        points.sort_by(by_number(|point: &Point| -point.y));
         let step = points.len().div_ceil(PLACES).max(1);
         let mut places = points.into_iter().step_by(step);
         if let Some(at) = places.next().filter(|_| !name.is_empty()) {

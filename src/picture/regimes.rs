@@ -156,7 +156,7 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
         let is_free = kept.iter().all(|other| apart(at, *other, APART.0, APART.1));
         if window.contains(at) && is_free && apart(at, here, CLEAR, CLEAR) {
             kept.push(at);
-            picture.items.push(milestone(at, speed, PEN));
+            picture.marks(milestone(at, speed, PEN));
             picture.caption(at, with_unit(speed, 1, "m/s"), PEN);
         }
     }
@@ -165,13 +165,13 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
     let text = with_unit(speed, 4, "m/s");
     if present != here {
         // Off the belt: where its speed would have the parameters.
-        picture.items.push(milestone(present, speed, Role::Current));
+        picture.marks(milestone(present, speed, Role::Current));
     }
     picture.caption(present, text, Role::Current);
 }
 
 /// The mark of a speed.
-fn milestone(at: Point, speed: f64, role: Role) -> Item<'static> {
+fn milestone(at: Point, speed: f64, role: Role) -> Marks {
     let name = format!("v0 = {speed} m/s").into();
-    Item::Marks(Marks { name, ..Marks::new(Mark::Turn, role, vec![at]) })
+    Marks { name, ..Marks::new(Mark::Turn, role, vec![at]) }
 }

@@ -47,8 +47,7 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
             let (mark, role) = (cycle_mark(cycle.stable), cycle_role(cycle.stable));
             let turning = [cycle.q_min, cycle.q_max].map(|q| Point { x: q, y: q });
             let brief = cycle_name(cycle.stable);
-            let marks = Marks { brief, ..Marks::new(mark, role, turning.to_vec()) };
-            picture.items.push(Item::Marks(marks));
+            picture.marks(Marks { brief, ..Marks::new(mark, role, turning.to_vec()) });
         }
     }
 }

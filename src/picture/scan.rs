@@ -1,8 +1,6 @@
 //! A scan: a curve over one parameter, or a map over two.
 
-use super::{
-    Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap, map::with_unit, units,
-};
+use super::{Dash, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap, map::with_unit, units};
 use crate::scan::sweep::{Spacing, Sweep};
 use crate::scene::Point;
 use crate::session::{ScanOnShow, Session};
@@ -45,9 +43,9 @@ fn curve(picture: &mut Picture, scanned: &ScanOnShow, name: String) {
     let joined = |index: usize| (index > 0 && known(index - 1)) || known(index + 1);
     let alone = all.clone().filter(|index| words || (known(*index) && !joined(*index)));
     let marks = Marks::new(Mark::Stable, Role::Trajectory, alone.map(place).collect());
-    let marks = Item::Marks(Marks { name: name.clone().into(), ..marks });
+    let marks = Marks { name: name.clone().into(), ..marks };
     if !words {
         picture.curve(LineStyle::new(name, Role::Trajectory, Dash::Solid), all.map(place));
     }
-    picture.items.push(marks);
+    picture.marks(marks);
 }

@@ -4,9 +4,7 @@
 //! jumps from one end of `[-r, r]` to the other; at rest it balances the spring.
 
 use super::phase_plane;
-use super::{
-    Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, fit::mark_dropped, units::said,
-};
+use super::{Dash, LineStyle, Mark, Marks, Picture, Role, Scale, fit::mark_dropped, units::said};
 use crate::fit::Signal;
 use crate::flow::{Motion, Outcome, Sample};
 use crate::model::{State, energy};
@@ -163,7 +161,7 @@ fn curve(motion: &Motion, end: f64, read: fn(State) -> f64) -> Vec<Point> {
 fn events(picture: &mut Picture, motion: &Motion) {
     let turns = motion.crossings.iter().map(|turn| Point { x: turn.tau, y: turn.q });
     let marks = Marks::new(Mark::Turn, Role::Trajectory, turns.collect());
-    picture.items.push(Item::Marks(Marks { sparse: true, ..marks }));
+    picture.marks(Marks { sparse: true, ..marks });
     match motion.outcome {
         Outcome::Captured { tau, q } => picture.mark(Mark::Rest, [tau, q], Role::Trajectory),
         Outcome::Moving { tau, q, .. } => picture.mark(Mark::Head, [tau, q], Role::Trajectory),

@@ -3,7 +3,7 @@
 //! Each method is a curve through its tolerances, steps or widths, with its name at the finest; the best
 //! choices stand out, and so does the row that is nearest to the method in use.
 
-use super::{Dash, Item, LineStyle, Mark, Marks, Picture, Role};
+use super::{Dash, LineStyle, Mark, Marks, Picture, Role};
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::{METHODS, Method, MethodSpec};
 use crate::scene::{Layer, Point};
@@ -24,7 +24,7 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         let at: Vec<Point> = found.rows.iter().filter(is_best).filter_map(place).collect();
         if !at.is_empty() {
             let marks = Marks::new(Mark::Stable, Role::Special, at);
-            picture.items.push(Item::Marks(Marks { brief: "best choices", ..marks }));
+            picture.marks(Marks { brief: "best choices", ..marks });
         }
     }
     if let Some(at) = found.nearest_to(&session.problem).and_then(place) {
@@ -44,7 +44,7 @@ fn method(picture: &mut Picture, found: &Trade, spec: &MethodSpec) {
         picture.caption(*finest, spec.name, role);
     }
     picture.curve(LineStyle::new(spec.name, role, dash).captioned(), points.iter().copied());
-    picture.items.push(Item::Marks(Marks::new(Mark::Turn, role, points)));
+    picture.marks(Marks::new(Mark::Turn, role, points));
 }
 
 /// Where a row lies; nowhere if it has no error, or none that can be told from zero.

@@ -8,17 +8,16 @@ use std::sync::LazyLock;
 
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, Layer, LayerSpec, VIEWS, library};
+use crate::session::CommandAction::{self, Act, Line, Move, Press, Toggle, Try};
 use crate::session::ListKind::{Cost, Layers, Palette as Everything, Paper, Scenes, Views};
 use crate::session::act::{
     copy, files, general, history, lists, motions, parameters, plots, prompt, scan, screen_setup,
     values, walk,
 };
 use crate::session::read::completion::{self, all, nothing};
-use crate::session::settings::{choices, named};
-use crate::session::state::keymap::CommandAction::{self, Act, Line, Move, Press, Toggle, Try};
 use crate::session::{
     COMMANDS, Colors, Command, Context, Effect, Glyphs, Input, Key, Keymap, List, PendingInput,
-    Purpose, Theme,
+    Purpose, Theme, named,
 };
 
 /// What commands do: by the name that their line ends with, which is that of the command where the line does not say
@@ -161,8 +160,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     (":save-scan", Line(nothing, scan::save)),
     (":harmonics", Line(nothing, values::harmonics)),
     (":kicks", Line(nothing, values::kicks)),
-    (":mark", Line(|s, _| all(s.marks.places.keys()), |s, rest| values::letter(rest).map(|name| history::set_mark(s, name)))),
-    (":goto", Line(|s, _| all(s.marks.places.keys()), |s, rest| history::go_to_mark(s, values::letter(rest)?))),
+    (":mark", Line(completion::marks, |s, rest| values::letter(rest).map(|it| history::set_mark(s, it)))),
+    (":goto", Line(completion::marks, |s, rest| history::go_to_mark(s, values::letter(rest)?))),
     (":write", Line(nothing, |s, rest| files::write(s, rest, false))),
     (":write!", Line(nothing, |s, rest| files::write(s, rest, true))),
     (":open", Line(nothing, |s, rest| files::ask(s, rest, Purpose::Open))),
@@ -174,11 +173,11 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     (":record", Line(nothing, |s, rest| files::record(s, rest, false))),
     (":record!", Line(nothing, |s, rest| files::record(s, rest, true))),
     (":play", Line(nothing, |s, rest| files::ask(s, rest, Purpose::Play))),
-    (":theme", Line(|_, _| all(choices::<Theme>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.theme = it))),
+    (":theme", Line(completion::values::<Theme>, |s, name| named(name).map(|it| s.display.theme = it))),
     (":units", Line(completion::switch, |s, state| values::is_on("units", state).map(|on| s.display.dimensionless = !on))),
     (":equal", Line(completion::switch, |s, state| values::is_on("equal units", state).map(|on| s.display.stretched = !on))),
-    (":glyphs", Line(|_, _| all(choices::<Glyphs>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.glyphs = it))),
-    (":color", Line(|_, _| all(choices::<Colors>().map(|row| row.0)), |s, name| named(name).map(|it| s.display.colors = it))),
+    (":glyphs", Line(completion::values::<Glyphs>, |s, name| named(name).map(|it| s.display.glyphs = it))),
+    (":color", Line(completion::values::<Colors>, |s, name| named(name).map(|it| s.display.colors = it))),
 ];
 
 /// All commands, in the order in which the help lists them.

@@ -18,9 +18,8 @@ use toml::Spanned;
 use crate::numerics::most_similar;
 use crate::scene::mistake::Complaint;
 use crate::scene::{FileMistake, find, placed};
-use crate::session::settings::named;
 use crate::session::{
-    CONTEXTS, Colors, Command, Context, Glyphs, Key, Keymap, NamedValue, Theme, full_name,
+    CONTEXTS, Colors, Command, Context, Glyphs, Key, Keymap, NamedValue, Theme, full_name, named,
 };
 use crate::words::joined;
 

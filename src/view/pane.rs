@@ -182,10 +182,7 @@ impl Heading {
     pub fn of(session: &Session, pane: Pane) -> Self {
         Heading {
             focused: session.focus == pane && session.overlay.is_none(),
-            mark: match pane {
-                Pane::Parameters => None,
-                Pane::Plot(index) => mark(session, index),
-            },
+            mark: if let Pane::Plot(index) = pane { mark(session, index) } else { None },
             reading: None,
         }
     }

@@ -49,14 +49,13 @@ impl Paper {
 }
 
 pub fn svg(screen: &Buffer, paper: Paper) -> String {
-    let ground = paper.ground;
-    let (width, height) = (f64::from(screen.area.width), f64::from(screen.area.height));
-    let (width, height) = (width * CELL.0, height * CELL.1);
-    // Browsers go by the style, other readers of SVG by the attribute.
+    // As to blanks, browsers go by the style, other readers of SVG by the attribute.
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" \
-         font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n<style>text{{white-space:pre}}</style>\n<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
+        include_str!("../../assets/terminal.svg"),
+        width = f64::from(screen.area.width) * CELL.0,
+        height = f64::from(screen.area.height) * CELL.1,
+        font_size = FONT_SIZE,
+        ground = paper.ground,
     );
     for (number, row) in rows(screen, paper).enumerate() {
         let mut corner = (0.0, CELL.1 * real(number));

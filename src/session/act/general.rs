@@ -2,10 +2,9 @@
 
 use crate::accuracy::ladder;
 use crate::scene::Layer;
-use crate::session::settings::next_of;
 use crate::session::{
     DisplaySettings, Done, Effect, Key, LARGEST_COUNT, MOST_HARMONICS, NamedValue, Overlay,
-    PendingInput, Session,
+    PendingInput, Session, next_of,
 };
 
 /// Shows or hides a layer.

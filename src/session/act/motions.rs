@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use crate::model::State;
-use crate::numerics::{decimal_sum, shortest, sort_by_number};
+use crate::numerics::{by_number, decimal_sum, shortest};
 use crate::portrait::Drawing;
 use crate::scene::{Layer, Topic};
 use crate::session::act::parameters::put;
@@ -128,7 +128,7 @@ pub fn step(session: &mut Session, steps: f64) -> Done {
 pub fn pace(session: &mut Session) {
     let real = session.scene.machine.is_some().then_some(Pace::Real);
     let mut paces: Vec<Pace> = PACES.into_iter().chain(real).collect();
-    sort_by_number(&mut paces, |pace| session.rate(*pace));
+    paces.sort_by(by_number(|pace| session.rate(*pace)));
     let now = paces.iter().position(|pace| *pace == session.playback.pace);
     session.playback.pace = now.and_then(|now| paces.get(now + 1)).copied().unwrap_or(paces[0]);
     session.inform(format!("pace: {}", session.pace()));

@@ -3,8 +3,7 @@
 
 use crate::numerics::cycled;
 use crate::scene::{Arrangement, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
-use crate::session::settings::next_of;
-use crate::session::{Done, EarlierState, Pane, Plot, Session};
+use crate::session::{Done, EarlierState, Pane, Plot, Session, next_of};
 
 /// Replaces the plots and their arrangement.
 pub(crate) fn set_up(session: &mut Session, arrangement: Arrangement, plots: Vec<Plot>) {

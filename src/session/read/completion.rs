@@ -5,7 +5,7 @@ use crate::model::{Group, Knob};
 use crate::numerics::shortest;
 use crate::scan::measure::MEASURES;
 use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, Window};
-use crate::session::{Command, Completion, Keymap, Row, Session, Setup};
+use crate::session::{Command, Completion, Keymap, NamedValue, Row, Session, Setup, choices};
 use crate::words::{counted, joined};
 
 /// These names as candidates.
@@ -24,6 +24,16 @@ pub fn layers(session: &Session, given: &[&str]) -> Vec<String> {
 /// No candidates, where the words are numbers or files.
 pub fn nothing(_: &Session, _: &[&str]) -> Vec<String> {
     Vec::new()
+}
+
+/// The letters of marks that are set.
+pub fn marks(session: &Session, _: &[&str]) -> Vec<String> {
+    all(session.marks.places.keys())
+}
+
+/// The values of a setting of the screen.
+pub fn values<T: NamedValue>(_: &Session, _: &[&str]) -> Vec<String> {
+    all(choices::<T>().map(|row| row.0))
 }
 
 pub fn switch(_: &Session, given: &[&str]) -> Vec<String> {

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use crate::flow::{Method, Motion, Outcome, Problem, Sample};
 use crate::model::{Parameters, State};
-use crate::numerics::{least_by, tanh};
+use crate::numerics::{by_number, tanh};
 use crate::portrait::first_at;
 use crate::scene::Topic;
 use crate::session::{Pace, Session};
@@ -27,7 +27,8 @@ impl Session {
         let after = samples.partition_point(|sample| sample.tau < tau);
         let beside = [after.checked_sub(1), Some(after)];
         let candidates = beside.into_iter().flatten().filter_map(|index| samples.get(index));
-        least_by(candidates, |sample| (sample.tau - tau).abs()).map(Sample::state)
+        let distance = |sample: &&Sample| (sample.tau - tau).abs();
+        candidates.min_by(by_number(distance)).map(Sample::state)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::accuracy::trade::TradePoint;
 use crate::branch::Branch;
 use crate::flow::Problem;
 use crate::model::{Group, Knob};
-use crate::numerics::{hypot, least_by};
+use crate::numerics::{by_number, hypot};
 use crate::scene::{
     Finding, Height, Layer, Needs, PlotSetup, Point, Request, Topic, Variant, View, Window,
 };
@@ -189,7 +189,7 @@ impl Session {
     /// The parameters that all variants of a plot hold at the same values, as text that needs to be given only
     /// once.
     pub fn held_alike(&self, plot: usize) -> String {
-        let Some(all) = self.variants(plot) else { return String::new() };
+        let all = self.variants(plot).unwrap_or_default();
         let held = all.iter().take(1).flat_map(|variant| &variant.held);
         text(held.filter(|(symbol, value)| symbol.is_parameter() && alike(all, **symbol, **value)))
     }
@@ -202,9 +202,9 @@ impl Session {
         read: fn(&'a Finding) -> Option<T>,
     ) -> Vec<(VariantTag, T)> {
         let starts = topic == Topic::Trajectory;
-        let labels = self.variants(plot).map(|all| labels(all, &self.problem, starts));
-        let label = |index: usize| labels.as_ref()?.get(index).cloned();
-        let tag = |index| VariantTag { index, label: label(index).unwrap_or_default() };
+        let labels = labels(self.variants(plot).unwrap_or_default(), &self.problem, starts);
+        let label = |index: usize| labels.get(index).cloned().unwrap_or_default();
+        let tag = |index| VariantTag { index, label: label(index) };
         let asked = self.requests(topic, plot).into_iter();
         let answer = |request: &Request| self.answers.standing(request).answer().and_then(read);
         asked.filter_map(|(index, request)| Some((tag(index), answer(&request)?))).collect()
@@ -268,6 +268,7 @@ impl Session {
                 hypot((right - x) / across.width(), (high - y) / up.width())
             })
         };
-        least_by(self.trade()?.rows.iter().filter(|row| row.place().is_some()), distance)
+        let rows = self.trade()?.rows.iter().filter(|row| row.place().is_some());
+        rows.min_by(by_number(distance))
     }
 }

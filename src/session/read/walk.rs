@@ -4,7 +4,7 @@
 //! itself and not its index, so that it stays at the same point when the branch is computed again.
 
 use crate::branch::{Branch, SpecialKind};
-use crate::numerics::{hypot, least_by, ln};
+use crate::numerics::{by_number, hypot, ln};
 use crate::scene::Span;
 use crate::session::BranchStop;
 
@@ -47,22 +47,19 @@ impl BranchPath {
         let apart = |one: Option<&BranchStop>, other: Option<&BranchStop>| {
             one.zip(other).map_or(0.0, |(one, other)| self.apart(one, other))
         };
-        let mut best: Option<(f64, Position)> = None;
-        let numbered = self.pieces.iter().enumerate();
-        let same =
-            |piece: &[BranchStop]| piece.first().is_some_and(|it| it.variant == special.variant);
-        for (index, piece) in numbered.filter(|(_, piece)| same(piece)) {
-            for gap in 0..=piece.len() {
-                let around = (gap.checked_sub(1).map(|last| &piece[last]), piece.get(gap));
-                let detour = apart(around.0, Some(&special)) + apart(Some(&special), around.1)
-                    - apart(around.0, around.1);
-                let is_shorter = best.is_none_or(|(least, _)| detour < least);
-                if is_shorter && admits(special.special, around) {
-                    best = Some((detour, (index, gap)));
-                }
-            }
-        }
-        if let Some((_, (piece, gap))) = best {
+        let around = |(piece, gap): Position| {
+            let piece = &self.pieces[piece];
+            (gap.checked_sub(1).map(|last| &piece[last]), piece.get(gap))
+        };
+        let detour = |place: &Position| {
+            let (before, after) = around(*place);
+            apart(before, Some(&special)) + apart(Some(&special), after) - apart(before, after)
+        };
+        let own = |piece: &[BranchStop]| piece[0].variant == special.variant;
+        let pieces = self.pieces.iter().enumerate().filter(|(_, piece)| own(piece));
+        let gaps = pieces.flat_map(|(index, piece)| (0..=piece.len()).map(move |gap| (index, gap)));
+        let fitting = gaps.filter(|place| admits(special.special, around(*place)));
+        if let Some((piece, gap)) = fitting.min_by(by_number(detour)) {
             self.pieces[piece].insert(gap, special);
         }
     }
@@ -92,7 +89,8 @@ impl BranchPath {
 
     /// The stop for which `measure` is smallest.
     pub fn nearest(&self, measure: impl Fn(&BranchStop) -> f64) -> Option<BranchStop> {
-        least_by(self.stops(), |(_, stop)| measure(stop)).map(|(_, stop)| *stop)
+        let stops = self.stops().map(|(_, stop)| *stop);
+        stops.min_by(by_number(measure))
     }
 
     /// The start of a walk at a value of the parameter: the stop beside it on the innermost cycle there, which
@@ -101,11 +99,10 @@ impl BranchPath {
         let distance = |stop: &BranchStop| (stop.value - value).abs();
         let beside = self.pieces.iter().flat_map(|piece| piece.windows(2)).filter_map(|pair| {
             let around = (pair[0].value <= value) != (pair[1].value <= value);
-            let [one, other] = [pair[0], pair[1]].map(|stop| (distance(&stop), stop));
-            around.then_some(if one.0 <= other.0 { one.1 } else { other.1 })
+            pair.iter().copied().min_by(by_number(distance)).filter(|_| around)
         });
         let size = |stop: &BranchStop| stop.cycle.map_or(f64::INFINITY, |cycle| cycle.q_max);
-        least_by(beside, size).or_else(|| self.nearest(distance))
+        beside.min_by(by_number(size)).or_else(|| self.nearest(distance))
     }
 
     /// The same stop on this way, or the nearest one.
@@ -115,7 +112,8 @@ impl BranchPath {
 
     fn place(&self, held: &BranchStop) -> Option<Position> {
         let same = self.stops().find(|(_, stop)| *stop == held);
-        let nearest = || least_by(self.stops(), |(_, stop)| self.apart(held, stop));
+        let distance = |(_, stop): &(Position, &BranchStop)| self.apart(held, stop);
+        let nearest = || self.stops().min_by(by_number(distance));
         same.or_else(nearest).map(|(place, _)| place)
     }
 

@@ -101,6 +101,7 @@ impl Player {
             if !inserted {
                 self.place = (line, column);
             }
+            let failed = |why| Err(ScriptError { line, column, why });
             match step {
                 Instruction::Async => self.asynchronous = true,
                 Instruction::File { name, text } => drop(self.files.insert(name.into(), text)),
@@ -109,12 +110,10 @@ impl Player {
                     return Ok(Action::Keep(name));
                 }
                 Instruction::Screen(_) => {
-                    let why = format!("more than {PICTURES} screens, the most that are kept");
-                    return Err(ScriptError { line, column, why });
+                    return failed(format!("more than {PICTURES} screens, the most that are kept"));
                 }
                 Instruction::Expect(text) if !screen().contains(&text) => {
-                    let why = format!("the screen does not show {text:?}");
-                    return Err(ScriptError { line, column, why });
+                    return failed(format!("the screen does not show {text:?}"));
                 }
                 Instruction::Give(Msg::Say(text, _)) => {
                     self.said += 1;

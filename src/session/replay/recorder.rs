@@ -35,22 +35,21 @@ impl Recorder {
 
     /// Adds a step, merged with the last one if possible.
     pub fn add(&mut self, step: Instruction) {
+        use Instruction::{Give, Key};
         self.changed = true;
         match (self.steps.last_mut(), step) {
-            (
-                Some(Instruction::Key { key, count }),
-                Instruction::Key { key: pressed, count: 1 },
-            ) if *key == pressed && *count < MOST => {
+            (Some(Key { key, count }), Key { key: pressed, count: 1 })
+                if *key == pressed && *count < MOST =>
+            {
                 *count += 1;
             }
-            (
-                Some(Instruction::Give(Msg::Elapsed { seconds: passed })),
-                Instruction::Give(Msg::Elapsed { seconds }),
-            ) if *passed + seconds <= LONGEST => *passed += seconds,
-            (Some(Instruction::Give(last @ Msg::Resize { .. })), Instruction::Give(step))
-                if matches!(step, Msg::Resize { .. }) =>
+            (Some(Give(Msg::Elapsed { seconds: passed })), Give(Msg::Elapsed { seconds }))
+                if *passed + seconds <= LONGEST =>
             {
-                *last = step;
+                *passed += seconds;
+            }
+            (Some(Give(last @ Msg::Resize { .. })), Give(size @ Msg::Resize { .. })) => {
+                *last = size;
             }
             (_, step) => self.steps.push(step),
         }

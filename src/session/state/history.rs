@@ -104,7 +104,7 @@ pub struct ScreenSetup {
 }
 
 /// A scene, by its name if it is built in, otherwise in full.
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(untagged)]
 enum SavedScene {
     Library(String),
@@ -112,11 +112,10 @@ enum SavedScene {
 }
 
 fn by_name<S: Serializer>(scene: &Arc<Scene>, serializer: S) -> Result<S::Ok, S::Error> {
-    let saved = match find(&scene.name) {
-        Ok(known) if known == *scene => SavedScene::Library(scene.name.clone()),
-        _ => SavedScene::Full(Box::new(Scene::clone(scene))),
-    };
-    saved.serialize(serializer)
+    match find(&scene.name) {
+        Ok(known) if known == *scene => scene.name.serialize(serializer),
+        _ => scene.serialize(serializer),
+    }
 }
 
 fn named_or_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Scene>, D::Error> {

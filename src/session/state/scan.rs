@@ -62,12 +62,8 @@ impl ScanOnShow {
 
     /// Its request while it is running.
     pub fn request(&self) -> Option<Request> {
-        match self.progress {
-            ScanProgress::Running { from } => {
-                Some(Request::Scan { scan: Arc::clone(&self.scan), from })
-            }
-            ScanProgress::Stopped | ScanProgress::Done => None,
-        }
+        let ScanProgress::Running { from } = self.progress else { return None };
+        Some(Request::Scan { scan: Arc::clone(&self.scan), from })
     }
 
     /// Whether it has two sweeps, so that its points form a grid.
