@@ -232,7 +232,7 @@ fn keys_pressed_while_a_file_plays_are_not_mixed_into_it() {
     let file = memory.path().join("slow.keys");
     // A line is typed repeatedly while the user presses other keys.
     let line = ":set<space>r=0.25<enter><right>";
-    fs::write(&file, format!("s/asymmetry<enter>{}", line.repeat(4))).unwrap();
+    fs::write(&file, format!("s/asymmetry<enter>{}", line.repeat(10))).unwrap();
     let mut terminal = begun(&["--play", file.to_str().unwrap()], memory.path());
     terminal.wait_for("Asymmetry");
     for _ in 0..5 {
