@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use strum::{EnumString, IntoStaticStr};
+use strum::IntoStaticStr;
 
 use crate::model::Knob;
 use crate::question::NoAnswer;
@@ -91,7 +91,7 @@ impl From<Result<String, String>> for Notice {
 }
 
 /// What the mouse did, by its word in keystroke files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumString, IntoStaticStr)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
 pub enum Gesture {
     /// The left button was pressed.

@@ -1,11 +1,12 @@
 //! Keystroke files as data: their steps, the messages that these give to a session, and how they are written and read.
 
 use std::fmt;
+use std::sync::LazyLock;
 
 use thiserror::Error;
 
 use crate::model::{Group, Knob};
-use crate::numerics::{cells, most_similar};
+use crate::numerics::similar::most_similar;
 use crate::scene::Point;
 use crate::session::{Code, Gesture, Key, MouseAction, Msg, PointerTarget, key};
 use crate::words::printable;
@@ -197,35 +198,45 @@ fn quoted(text: &str) -> String {
 /// Largest width and height that a file may ask for.
 const LARGEST: u16 = 1000;
 
-/// The words with which directives in angle brackets begin, as opposed to keys, and what follows each, with an example.
-fn directives() -> impl Iterator<Item = [&'static str; 2]> {
-    include_str!("../../../assets/directives.txt").lines().filter_map(cells)
+/// A directive in angle brackets, as opposed to a key.
+struct Directive {
+    /// Its first word.
+    word: &'static str,
+    /// What follows the word, with an example.
+    takes: String,
+    /// How that is read; `None` where it is something else.
+    read: fn(&str) -> Option<Instruction>,
 }
 
-/// The directive that begins with a word; `None` where something else follows that than it takes.
-fn directive(word: &str, rest: &str) -> Option<Instruction> {
-    match word {
-        "wait" => rest.is_empty().then_some(Instruction::Wait),
-        "async" => rest.is_empty().then_some(Instruction::Async),
-        "expect" => text(rest).map(Instruction::Expect),
-        "screen" => screen(rest),
-        "file" => file(rest),
-        _ => given(word, rest).map(Instruction::Give),
-    }
-}
+const NOTHING: &str = "nothing";
+const TEXT: &str =
+    "text in quotes, which may have \\\" \\\\ \\n \\r \\t, as in <expect \"captured\">";
+const PLACE: &str = "\"N X Y\" on plot N, from 1, or \"row N\", as in <click 1 0.5 -0.25>";
+const NAME: &str = "a name of letters, digits, \"-\", \"_\" and \".\", as in <screen a-1>";
+const NUMBERS: &str = "some of D, D2, D3, r, q0, v0, or nothing, as in <start D3 r>";
+const FILE: &str = "a name and a text, both in quotes, as in <file \"a.toml\" \"..\">";
 
-/// The message that such a directive gives.
-fn given(word: &str, rest: &str) -> Option<Msg> {
-    match word {
-        "elapse" => elapse(rest),
-        "resize" => resize(rest),
-        "paste" => text(rest).map(Msg::Paste),
-        "run" => text(rest).map(Msg::Run),
-        "say" => Some(Msg::Say(text(rest)?, None)),
-        "start" => start(rest),
-        gesture => pointed(gesture.parse().ok()?, rest),
-    }
-}
+static DIRECTIVES: LazyLock<[Directive; 14]> = LazyLock::new(|| {
+    let directive = |word, takes: &str, read| Directive { word, takes: takes.to_owned(), read };
+    let seconds = format!("seconds, 0 .. {LONGEST}, as in <elapse 0.25>");
+    let cells = format!("columns and rows from 1 to {LARGEST}, as in <resize 80x24>");
+    [
+        directive("wait", NOTHING, |rest| rest.is_empty().then_some(Instruction::Wait)),
+        directive("async", NOTHING, |rest| rest.is_empty().then_some(Instruction::Async)),
+        directive("elapse", &seconds, elapse),
+        directive("resize", &cells, resize),
+        directive("expect", TEXT, |rest| text(rest).map(Instruction::Expect)),
+        directive("paste", TEXT, |rest| text(rest).map(|it| Instruction::Give(Msg::Paste(it)))),
+        directive("run", TEXT, |rest| text(rest).map(|it| Instruction::Give(Msg::Run(it)))),
+        directive("say", TEXT, |rest| text(rest).map(|it| Instruction::Give(Msg::Say(it, None)))),
+        directive("screen", NAME, screen),
+        directive("start", NUMBERS, start),
+        directive("file", FILE, file),
+        directive("click", PLACE, |rest| pointed(Gesture::Click, rest)),
+        directive("nearer", PLACE, |rest| pointed(Gesture::Nearer, rest)),
+        directive("farther", PLACE, |rest| pointed(Gesture::Farther, rest)),
+    ]
+});
 
 /// Reads a whole keystroke file. Fails with [`ScriptError`], which has the place of the first mistake.
 pub fn parse(text: &str) -> Result<Script, ScriptError> {
@@ -283,18 +294,20 @@ fn step(token: &str) -> Result<Instruction, String> {
         return Err("\"<\" without \">\" on its line; the character itself is <lt>".to_owned());
     };
     let (word, rest) = name.split_once(' ').unwrap_or((name, ""));
-    let Some([_, takes]) = directives().find(|row| row[0] == word) else { return keys(name) };
+    let Some(Directive { takes, read, .. }) = DIRECTIVES.iter().find(|row| row.word == word) else {
+        return keys(name);
+    };
     let given = || match name.char_indices().nth(REPEATED) {
         Some((end, _)) => format!("<{} ..", &name[..end]),
         None => token.to_owned(),
     };
-    directive(word, rest.trim()).ok_or_else(|| format!("{}: {word} takes {takes}", given()))
+    read(rest.trim()).ok_or_else(|| format!("{}: {word} takes {takes}", given()))
 }
 
 /// Seconds that pass: at most an hour.
-fn elapse(text: &str) -> Option<Msg> {
+fn elapse(text: &str) -> Option<Instruction> {
     let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds))?;
-    Some(Msg::Elapsed { seconds })
+    Some(Instruction::Give(Msg::Elapsed { seconds }))
 }
 
 /// A key with an optional count: `right`, `right*5`, `*`, `**5`.
@@ -318,14 +331,14 @@ fn keys(name: &str) -> Result<Instruction, String> {
 /// A suggestion if a misspelt directive is more likely than a misspelt key.
 fn nearest_directive(name: &str) -> Option<String> {
     let word = name.split(' ').next().unwrap_or(name);
-    let directives: Vec<_> = directives().map(|[word, _]| word).collect();
+    let directives: Vec<_> = DIRECTIVES.iter().map(|row| row.word).collect();
     let nearest = most_similar(word, directives.iter().copied().chain(key::names()))?;
     let told = || format!("unknown key <{name}>; did you mean <{nearest}>?");
     directives.contains(&nearest).then(told)
 }
 
 /// The place that the mouse points at.
-fn pointed(gesture: Gesture, rest: &str) -> Option<Msg> {
+fn pointed(gesture: Gesture, rest: &str) -> Option<Instruction> {
     let words: Vec<&str> = rest.split_whitespace().collect();
     let finite = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
     let place = match words[..] {
@@ -336,13 +349,13 @@ fn pointed(gesture: Gesture, rest: &str) -> Option<Msg> {
         }
         _ => return None,
     };
-    Some(Msg::Pointed(MouseAction { gesture, place }))
+    Some(Instruction::Give(Msg::Pointed(MouseAction { gesture, place })))
 }
 
-fn resize(rest: &str) -> Option<Msg> {
+fn resize(rest: &str) -> Option<Instruction> {
     let read = |text: &str| text.parse().ok().filter(|cells| (1..=LARGEST).contains(cells));
     let (width, height) = rest.split_once('x')?;
-    Some(Msg::Resize { width: read(width)?, height: read(height)? })
+    Some(Instruction::Give(Msg::Resize { width: read(width)?, height: read(height)? }))
 }
 
 fn screen(name: &str) -> Option<Instruction> {
@@ -351,9 +364,10 @@ fn screen(name: &str) -> Option<Instruction> {
     is_name.then(|| Instruction::Screen(name.to_owned()))
 }
 
-fn start(rest: &str) -> Option<Msg> {
+fn start(rest: &str) -> Option<Instruction> {
     let named = |name: &str| Knob::named(name, &[Group::Motion]).ok();
-    rest.split_whitespace().map(named).collect::<Option<_>>().map(Msg::Start)
+    let names = rest.split_whitespace().map(named).collect::<Option<_>>()?;
+    Some(Instruction::Give(Msg::Start(names)))
 }
 
 /// A name and a text, both in quotes.
