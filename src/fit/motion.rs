@@ -321,13 +321,14 @@ impl Sensitivities {
         let mut w = [Ways::zeros(); ORDER + 1];
         (terms[0], w[0], self.unit) = (start.y, start.w, unit);
         for k in 0..ORDER {
-            square[k] = (0..=k).map(|i| v[i] * v[k - i]).sum();
-            let cube: f64 = (0..=k).map(|i| square[i] * v[k - i]).sum();
+            let backward = || v[..=k].iter().rev();
+            square[k] = v[..=k].iter().zip(backward()).map(|(one, other)| one * other).sum();
+            let cube: f64 = square[..=k].iter().zip(backward()).map(|(one, v)| one * v).sum();
             let linear = if k == 0 { -2.0 * d } else { 0.0 };
             slope[k] = linear - 2.0 * d2 * v[k] - 3.0 * d3 * square[k];
             let mut sum = Ways::new(0.0, -2.0 * v[k], -square[k], -cube);
-            for i in 0..=k {
-                sum += slope[i] * w[k - i];
+            for (slope, w) in slope[..=k].iter().zip(w[..=k].iter().rev()) {
+                sum += *slope * w;
             }
             let part = unit / real(k + 1);
             w[k + 1] = part * (sum - terms[k]);

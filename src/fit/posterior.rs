@@ -232,7 +232,9 @@ fn seen_along(task: &Task, along: &[Unknowns], seen: &Misfit) -> (Unknowns, Unkn
     let (mut values, mut by) = (Unknowns::zeros(), task.held());
     for (along, residual) in along.iter().zip(task.used_residuals(seen)) {
         values.axpy(residual.value, along, 1.0);
-        by.ger(1.0, along, &task.by_free(&residual.by), 1.0);
+        for place in task.columns() {
+            by.column_mut(place).axpy(residual.by[place], along, 1.0);
+        }
     }
     (values, by)
 }
