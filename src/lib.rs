@@ -11,8 +11,8 @@
 //!   set, energy. [`model::Knob`] is the one table of every number that can be set. [`closed_form`] is what follows in
 //!   formulas.
 //! - [`flow`] computes motions. A motion is a chain of smooth half swings glued at `v = 0`; a
-//!   [`flow::step::Stepper`] takes one step of the smooth field, [`flow::swing`] runs it to the next
-//!   `v = 0`, [`flow::trajectory`] glues. No step ever crosses the discontinuity. [`flow::machine`] follows a mass on
+//!   [`flow::step::Stepper`] takes one step of the smooth field, [`mod@flow::swing`] runs it to the next
+//!   `v = 0`, [`mod@flow::trajectory`] glues. No step ever crosses the discontinuity. [`flow::machine`] follows a mass on
 //!   its belt: friction by its own law, two switching lines, riding on the belt and overtaking it.
 //!   A [`flow::Subject`] is what a question is about, the oscillator of the paper or a machine.
 //! - [`numerics`] is the ground floor: roots in brackets, quadrature, cubics, splines, sums, numbers of twice the
@@ -24,7 +24,7 @@
 //!   is a graph over q, so basins and margins are comparisons ([`portrait::basin`]). On a belt one return map, which never
 //!   decreases, orders all cycles, and what a start ends as is read off the next turning point ([`portrait::return_map`]).
 //! - [`branch`] follows cycles along a number by continuation; folds are roots of their own ([`branch::extended`],
-//!   [`branch::fold`]), and boundaries of regimes are curves over two numbers ([`branch::chart`]).
+//!   [`mod@branch::fold`]), and boundaries of regimes are curves over two numbers ([`branch::chart`]).
 //! - [`scan`] measures at many points; [`accuracy`] holds methods against each other and against references, to the
 //!   extremes; [`paper`] puts the paper's own equations and sentences to the test.
 //! - [`fit`] turns a recorded motion into estimates of all these numbers, with their errors, and the margin

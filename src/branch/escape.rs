@@ -30,7 +30,7 @@ use crate::portrait::{Equation, Route, weighed_closing};
 /// rounding. To leading order `D_c = -sqrt(2/pi) r abs(D2)`.
 ///
 /// # Errors
-/// The `Reason` why a swing failed.
+/// The [`Reason`](crate::model::Reason) why a swing failed.
 pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<(Option<f64>, Cost)> {
     let Parameters { d2, d3, r, .. } = *parameters;
     let leading = -(2.0 / PI).sqrt() * r * d2.abs();
@@ -52,7 +52,7 @@ pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<(Option<
 /// inverse of [`escape_point`] at `r = 1`.
 ///
 /// # Errors
-/// The `Reason` why a swing failed.
+/// The [`Reason`](crate::model::Reason) why a swing failed.
 pub fn escape_product(d: f64, limits: &Limits) -> Result<(Option<f64>, Cost)> {
     let mut cost = Cost::default();
     if !(d < 0.0 && d > -1.0) {
@@ -82,7 +82,7 @@ fn where_it_falls(
 /// By how much, as a logarithm, the swing from infinity passes the one to infinity; adds what it cost.
 ///
 /// # Errors
-/// The `Reason` why a swing failed.
+/// The [`Reason`](crate::model::Reason) why a swing failed.
 fn far_excess(parameters: &Parameters, limits: &Limits, cost: &mut Cost) -> Result<f64> {
     /// Clearance, in units of `1/abs(D2)`, from which a swing has forgotten its start to rounding: what
     /// is left of it decays as `exp(-2 D2 c)`.

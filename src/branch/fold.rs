@@ -3,7 +3,7 @@
 //! For a given clearance exactly one D closes the cycle, so all cycles with `D3 > 0` are one graph
 //! `D(u)`, `u = ln c0`, which rises from -1 to a largest value and falls again: the fold `D_F`. Newton's method
 //! finds it from an estimate ([`super::extended`]); where that fails, the graph is followed to its top
-//! ([`super::fold_graph`]). Below `D = -1` cycles may end otherwise ([`super::fold`]).
+//! ([`super::fold_graph`]). Below `D = -1` cycles may end otherwise ([`mod@super::fold`]).
 //!
 //! ```
 //! use hopfscope::flow::Limits;

@@ -141,9 +141,9 @@ pub fn half_width(text: &str) -> Result<(Knob, f64), String> {
     let refused =
         || format!("{text:?}: D, D2, D3 and r have half widths, of 0 or more, such as r=0.01");
     let (name, value) = text.split_once('=').ok_or_else(refused)?;
-    let known = Knob::named(name.trim(), OSCILLATOR.set).ok();
-    let knob = known.filter(|knob| knob.is_parameter()).ok_or_else(refused)?;
-    let half_width = Some(knob.parse(value)?).filter(|half_width| *half_width >= 0.0);
+    let knob = Knob::named(name.trim(), OSCILLATOR.set)?;
+    let half_width = Some(knob.parse(value)?);
+    let half_width = half_width.filter(|it| knob.is_parameter() && *it >= 0.0);
     Ok((knob, half_width.ok_or_else(refused)?))
 }
 
@@ -185,7 +185,7 @@ pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
 }
 
 /// The options whose values may begin with a minus, with blanks between them.
-const SIGNED: &str =
+pub const SIGNED: &str =
     "along design disturbance epsilon half-width kicks over set start step tol until window";
 
 /// A command whose numbers may be negative: a minus begins no option there.

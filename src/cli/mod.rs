@@ -167,12 +167,26 @@ fn command_names() -> Vec<&'static str> {
 
 #[cfg(test)]
 mod tests {
+    use super::input::SIGNED;
     use super::*;
     use crate::scene::library;
 
     #[test]
     fn the_definition_of_the_command_line_is_consistent() {
         program().debug_assert();
+    }
+
+    #[test]
+    fn what_may_begin_with_a_minus_is_an_option_of_some_command() {
+        let program = program();
+        let all = || program.get_subcommands().chain([&program]).flat_map(Command::get_arguments);
+        for name in SIGNED.split(' ') {
+            let is_named = |option: &&clap::Arg| option.get_long() == Some(name);
+            assert!(
+                all().find(is_named).is_some_and(clap::Arg::is_allow_hyphen_values_set),
+                "{name}"
+            );
+        }
     }
 
     #[test]

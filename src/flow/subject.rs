@@ -66,7 +66,7 @@ impl Subject {
     /// The motion as a problem, and the model that moves, unless that is the oscillator of the paper.
     ///
     /// # Errors
-    /// `Reason` where a machine has no model.
+    /// [`Reason`](crate::model::Reason) where a machine has no model.
     pub fn problem(&self) -> Result<(Problem, Option<Model>)> {
         if let Some(problem) = self.paper() {
             return Ok((problem, None));

@@ -108,7 +108,7 @@ impl Source {
     /// Its whole model.
     ///
     /// # Errors
-    /// `Reason` where it has none.
+    /// [`Reason`](crate::model::Reason) where it has none.
     pub fn model(&self) -> Result<Model> {
         let mut model = match &self.body {
             Body::Paper(parameters) => Model::of_paper(parameters)?,

@@ -36,7 +36,8 @@ pub fn by_number<T>(number: impl Fn(&T) -> f64) -> impl Fn(&T, &T) -> Ordering {
     move |one, other| number(one).total_cmp(&number(other))
 }
 
-/// The place so many steps from another one in a circle of `count` places, counted from 0.
+/// The next place (`by` is 1), the previous one (-1) or the same (0) in a circle of `count` places, at least one, counted
+/// from 0.
 pub fn cycled(place: usize, by: isize, count: usize) -> usize {
     place.checked_add_signed(by).unwrap_or(count - 1) % count
 }

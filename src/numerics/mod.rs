@@ -2,10 +2,11 @@
 //!
 //! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`scalar`] says what both have in
 //!   common with doubles, [`scaling`] multiplies by powers of two without error, [`sum`] compensates rounding,
-//!   [`mod@count`] converts between counts and real numbers, and leaves out repetitions, [`random`] simulates noise.
+//!   [`mod@count`] converts between counts and real numbers, orders by a number, goes in circles and leaves out
+//!   repetitions, [`random`] simulates noise.
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
 //!   integrates, [`polynomial`] evaluates and interpolates by cubics, [`spline`] smooths measured points.
-//! - Texts: [`mod@decimal`] writes numbers and steps from one round number to the next, [`similar`] finds the name that was
+//! - Texts: [`mod@decimal`] writes numbers and steps from one round number to the next, [`mod@similar`] finds the name that was
 //!   meant, [`table`] reads the tables of the program and the names in them.
 
 pub(crate) mod count;

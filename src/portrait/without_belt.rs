@@ -16,7 +16,7 @@ impl Portrait {
     /// The portrait of a machine: by half swings that close where there is no belt, else by the return map.
     ///
     /// # Errors
-    /// `Reason` if the motions near rest, or those that the belt releases, cannot be followed.
+    /// [`Reason`](crate::model::Reason) if the motions near rest, or those that the belt releases, cannot be followed.
     pub fn of(model: &Model) -> Result<Self> {
         without_belt(model).map_or_else(|| Portrait::by_return_map(model), Ok)
     }
@@ -53,7 +53,7 @@ impl Portrait {
     /// ```
     ///
     /// # Errors
-    /// `Reason` if the search for cycles fails, or a border cannot be traced.
+    /// [`Reason`](crate::model::Reason) if the search for cycles fails, or a border cannot be traced.
     pub fn of_oscillator(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Self> {
         Self::by_closings(&Model::of_paper(parameters)?, parameters, usize::MAX, reach, limits)
     }
@@ -86,7 +86,7 @@ impl Portrait {
     /// the outermost.
     ///
     /// # Errors
-    /// `Reason` if a border cannot be traced.
+    /// [`Reason`](crate::model::Reason) if a border cannot be traced.
     pub fn around(
         model: &Model,
         parameters: &Parameters,

@@ -1,13 +1,13 @@
 //! Proofs: half swings enclosed rigorously, whatever the rounding, and from them all limit cycles.
 //!
 //! A [`ball`] of motions is carried around Taylor polynomials in plain doubles ([`series`], [`step`]) through one
-//! half plane, for every [`field`] in a box of parameters: a [`swing`]. Swings too stiff for this run through a
+//! half plane, for every [`field`] in a box of parameters: a [`mod@swing`]. Swings too stiff for this run through a
 //! [`funnel`]. Two half swings form the return [`map`], with bounds from both sides, its inverse and its
 //! derivative. The [`count`] excludes every clearance, or finds it in an interval with exactly one cycle, which is
-//! then enclosed ([`enclose`]). Where a theorem decides, nothing is computed. [`cycles`] combines these parts.
+//! then enclosed ([`mod@enclose`]). Where a theorem decides, nothing is computed. [`cycles`] combines these parts.
 //!
-//! [`bifurcation`] encloses the value of a parameter at which the number of cycles changes, [`range`] decides
-//! that number piece by piece, [`motion`] follows single motions, and [`kicks`] bounds the margins.
+//! [`bifurcation`] encloses the value of a parameter at which the number of cycles changes, [`mod@range`] decides
+//! that number piece by piece, [`motion`] follows single motions, and [`mod@kicks`] bounds the margins.
 //!
 //! "Unknown" and "open" are possible answers everywhere. Nothing here shares code with the search in `portrait`.
 //!

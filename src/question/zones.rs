@@ -31,7 +31,7 @@ pub struct CertainZones {
 }
 
 /// The zones, with `points` on each step of a border; of a machine in the units of its oscillator. Fails with the
-/// `Reason` why a border could not be computed.
+/// [`Reason`](crate::model::Reason) why a border could not be computed.
 pub(super) fn zones(
     source: &Source,
     known: &Tolerances,

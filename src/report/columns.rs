@@ -206,7 +206,7 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// The rows below a line of names.
     pub fn csv(&self, rows: impl RowsOf<R>) -> String {
-        csv(&self.files, self.objects(rows))
+        csv(&self.files, &mut rows.into_iter().map(|row| self.object(row.borrow())))
     }
 
     /// A row as an object.
@@ -221,12 +221,12 @@ impl<'a, R: 'a> Columns<'a, R> {
 }
 
 /// Objects below the names of columns.
-fn csv(columns: &[FileColumn], objects: Vec<Document>) -> String {
+fn csv(columns: &[FileColumn], objects: &mut dyn Iterator<Item = Document>) -> String {
     let names = columns.iter().map(|column| column.name.clone()).collect();
     let cells = |object: Document| {
         columns.iter().map(|column| cell(object.at(&column.place))).collect::<Vec<_>>()
     };
-    lines(std::iter::once(names).chain(objects.into_iter().map(cells)))
+    lines(std::iter::once(names).chain(objects.map(cells)))
 }
 
 /// The names of the two ends of an interval.

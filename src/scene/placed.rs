@@ -86,8 +86,9 @@ impl<'de> SeqAccess<'de> for Elements<'de> {
     }
 }
 
-fn integer(digits: &DeInteger) -> Result<i64, Complaint> {
-    i64::from_str_radix(digits.as_str(), digits.radix()).map_err(Complaint::custom)
+/// A whole number; `None` beyond 64 bits.
+fn integer(digits: &DeInteger) -> Option<i64> {
+    i64::from_str_radix(digits.as_str(), digits.radix()).ok()
 }
 
 fn float(digits: &DeFloat) -> Result<f64, Complaint> {
@@ -105,10 +106,14 @@ impl<'de> Deserializer<'de> for Placed<'de> {
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Complaint> {
         match self.0.into_inner() {
             DeValue::String(text) => visitor.visit_str(&text),
-            DeValue::Integer(digits) => visitor.visit_i64(integer(&digits)?),
+            DeValue::Integer(digits) => match integer(&digits) {
+                Some(value) => visitor.visit_i64(value),
+                // Larger ones can only be meant as real numbers.
+                None => visitor.visit_f64(digits.as_str().parse().map_err(Complaint::custom)?),
+            },
             DeValue::Float(digits) => visitor.visit_f64(float(&digits)?),
             DeValue::Boolean(value) => visitor.visit_bool(value),
-            DeValue::Datetime(moment) => visitor.visit_str(&moment.to_string()),
+            DeValue::Datetime(_) => Err(Complaint::custom("a date or a time; nothing here is one")),
             DeValue::Array(values) => visitor.visit_seq(Elements(values.into_iter())),
             DeValue::Table(table) => visitor.visit_map(entries(table)),
         }

@@ -35,7 +35,7 @@ pub(crate) fn picture_reach(d2: f64) -> f64 {
 /// computed to rounding; `error` of each cycle says what that is worth near a fold.
 ///
 /// # Errors
-/// The `Reason` why the search could not be completed.
+/// The [`Reason`](crate::model::Reason) why the search could not be completed.
 pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<Cycles> {
     let mut equation = Equation::new(parameters, STEP, limits);
     let closings = all_closings(&mut equation)?;
@@ -56,7 +56,7 @@ impl Portrait {
     /// parameters; with this many points on each integration step of a curve.
     ///
     /// # Errors
-    /// `Reason` why a cycle on a belt could not be followed once more.
+    /// [`Reason`](crate::model::Reason) why a cycle on a belt could not be followed once more.
     pub fn drawn(self, parameters: &Parameters, points: u16) -> Result<Drawing> {
         let model = &self.model;
         let unit = model.drawing_length();

@@ -2,7 +2,7 @@
 //!
 //! The roots of the closing equation ([`super::equation`]) are searched for between the smallest
 //! clearance that a swing past the sticking set can have and the edge of escape ([`super::search`]), then polished
-//! ([`super::polish`]).
+//! ([`mod@super::polish`]).
 
 use super::{
     Bracket, Equation, FINER, Length, Node, RootSearch, Route, SwingPair, VAGUE, has_cycle,

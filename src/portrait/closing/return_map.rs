@@ -39,7 +39,7 @@ pub struct ReturnMap {
 /// borders of capture: where the map has kinks.
 ///
 /// # Errors
-/// The `Reason` why a half swing failed; escape is not an error.
+/// The [`Reason`](crate::model::Reason) why a half swing failed; escape is not an error.
 pub fn return_map(
     parameters: &Parameters,
     range: (f64, f64),

@@ -9,7 +9,7 @@ use crate::portrait::{Margin, NoGuarantee, Portrait};
 /// is not closed is followed as far as `reach`. A mode is known exactly.
 ///
 /// # Errors
-/// The `Reason` why the border could not be computed.
+/// The [`Reason`](crate::model::Reason) why the border could not be computed.
 pub fn guaranteed(
     source: &Source,
     known: &Tolerances,
@@ -32,7 +32,7 @@ pub fn guaranteed(
 /// That whose basin all others lie within, where it is known.
 ///
 /// # Errors
-/// The `Reason` why the border could not be computed.
+/// The [`Reason`](crate::model::Reason) why the border could not be computed.
 pub fn hopeful(
     source: &Source,
     known: &Tolerances,

@@ -83,17 +83,22 @@ fn bring_back(session: &mut Session, name: &str, state: EarlierState) {
                 screen_setup.plots.iter().map(|plot| plot.view.spec().title).collect();
             session.inform(format!("{name}: {}", titles.join(", ")));
             set_up(session, screen_setup.arrangement, opened(&screen_setup.plots));
+            own_windows(session);
         }
         EarlierState::Scene { plots, show } => {
             session.inform(format!("{name}: scene {}", show.scene.name));
             restore(session, *show, opened(&plots));
+            own_windows(session);
         }
     }
+}
+
+/// Of plots that came back with a window, those whose window is not the scene's: it was fitted or chosen.
+fn own_windows(session: &mut Session) {
     for index in 0..session.plots.len() {
         let Plot { view, axes, window, framing, .. } = session.plots[index];
         let of_scene = session.plot_of_scene(index, view);
         let is_scenes = |of: PlotSetup| of.axes == axes && of.window == Some(window);
-        // A window that is not the scene's was fitted or chosen.
         if framing == Framing::Scene && !of_scene.is_some_and(is_scenes) {
             session.plots[index].framing = Framing::Fitted;
         }

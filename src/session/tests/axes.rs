@@ -39,6 +39,16 @@ fn a_fitted_window_that_is_brought_back_is_not_that_of_the_scene() {
 }
 
 #[test]
+fn an_undone_number_leaves_windows_those_of_the_scene_that_leaves_them_open() {
+    let mut trial = Trial::open("inside");
+    let opened = trial.session.clone();
+    trial.press(":set<space>q0=0.3<enter>u");
+    assert_eq!(trial.session.plots, opened.plots);
+    assert!(opened.plots.iter().any(|plot| plot.framing == Framing::Scene));
+    assert_eq!(trial.session.screen_setup().plots, opened.scene.plots);
+}
+
+#[test]
 fn the_window_follows_a_present_value_that_is_out_of_the_ordinary() {
     let mut trial = Trial::alone("supercritical");
     trial.goes(&[("<down>7<enter><tab><tab>X X", "abscissa D3")]);
