@@ -38,7 +38,8 @@ pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<(Option<
     if d3 != 0.0 || leading == 0.0 || 0.8 * leading < -1.0 {
         return Ok((None, cost));
     }
-    let mut excess = |d: f64| far_excess(&Parameters { d, ..*parameters }, limits, &mut cost);
+    let mut excess =
+        |d: f64| excess_at_infinity(&Parameters { d, ..*parameters }, limits, &mut cost);
     // It falls from positive at D = -1 to negative at D = 0 (no cycle without self-excitation).
     let near = [f64::max(1.2 * leading, -1.0 + f64::EPSILON), 0.8 * leading];
     let mut found = where_it_falls(near, &mut excess)?;
@@ -61,7 +62,7 @@ pub fn escape_product(d: f64, limits: &Limits) -> Result<(Option<f64>, Cost)> {
     let leading = -d * (PI / 2.0).sqrt();
     let found = where_it_falls([0.25 * leading, 4.0 * leading], |product| {
         let unit = Parameters { d, d2: product, d3: 0.0, r: 1.0 };
-        far_excess(&unit, limits, &mut cost)
+        excess_at_infinity(&unit, limits, &mut cost)
     })?;
     Ok((found, cost))
 }
@@ -83,7 +84,7 @@ fn where_it_falls(
 ///
 /// # Errors
 /// The [`Reason`](crate::model::Reason) why a swing failed.
-fn far_excess(parameters: &Parameters, limits: &Limits, cost: &mut Cost) -> Result<f64> {
+fn excess_at_infinity(parameters: &Parameters, limits: &Limits, cost: &mut Cost) -> Result<f64> {
     /// Clearance, in units of `1/abs(D2)`, from which a swing has forgotten its start to rounding: what
     /// is left of it decays as `exp(-2 D2 c)`.
     const FAR: f64 = 40.0;

@@ -33,12 +33,12 @@ pub struct Integral {
 /// rules, a large overestimate where the function is smooth.
 ///
 /// Hard-wired: an interval is halved at most 30 times, which locates a kink to 1e-9 of the range.
-pub fn integrate(of: &impl Fn(f64) -> f64, range: (f64, f64), tolerance: f64) -> Integral {
+pub fn integrate(function: &impl Fn(f64) -> f64, range: (f64, f64), tolerance: f64) -> Integral {
     const DEPTH: u32 = 30;
     let mut total = Integral { value: 0.0, error: 0.0 };
     let mut waiting = vec![(range, DEPTH)];
     while let Some(((from, to), depth)) = waiting.pop() {
-        let part = gauss_kronrod(of, from, to);
+        let part = gauss_kronrod(function, from, to);
         if part.error <= tolerance || depth == 0 {
             total.value += part.value;
             total.error += part.error;

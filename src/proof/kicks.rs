@@ -45,8 +45,8 @@ pub fn kicks(proof: &Proof, near: &Margin) -> ProvedKicks {
     };
     let r = parameters.r;
     let mut at = |x: Interval, hint| {
-        let [one, other] =
-            [0, 1].map(|half| bounds(hint, |speed| pushed(&mut map, half, x, speed, clearances)));
+        let [one, other] = [0, 1]
+            .map(|half| threshold(hint, |speed| pushed(&mut map, half, x, speed, clearances)));
         one.zip(other).map(|(one, other)| smaller(one, other))
     };
     let impulse = at(r, near.impulse);
@@ -90,7 +90,7 @@ fn border(
     let guess = hint.map(|hint| hint - r.middle());
     let sides = [0, 1].map(|side| {
         let mut known = Interval::new(0.0, f64::INFINITY);
-        bounds(guess, |clearance| at_rest(map, side, clearance, &mut known))
+        threshold(guess, |clearance| at_rest(map, side, clearance, &mut known))
     });
     let [Some(right), Some(left)] = sides else { return Err(NO_EDGE) };
     if right.upper().min(left.upper()) == f64::INFINITY {
@@ -178,21 +178,21 @@ fn halving(over: Interval) -> f64 {
 
 /// An interval from the largest value that is certainly captured to the smallest that certainly is not,
 /// infinite where none is found.
-fn bounds(hint: Option<f64>, mut rests: impl FnMut(f64) -> Option<bool>) -> Option<Interval> {
+fn threshold(hint: Option<f64>, mut captured: impl FnMut(f64) -> Option<bool>) -> Option<Interval> {
     /// Number of increasing strides from the hint in either direction; the largest is a factor of `1.5^128`.
     const STRIDES: i32 = 8;
     let hint = hint.filter(|hint| *hint > 0.0 && hint.is_finite()).unwrap_or(1.0);
     let stride = |index: i32| powi(1.5, 2_i32.pow(index.unsigned_abs()));
     let inward = |index| hint / stride(index);
-    let mut safe = (0..STRIDES).map(inward).find(|&at| rests(at) == Some(true))?;
+    let mut safe = (0..STRIDES).map(inward).find(|&at| captured(at) == Some(true))?;
     let lost = (0..STRIDES).map(|index| hint * stride(index)).find(|&at| {
-        let answer = rests(at);
+        let answer = captured(at);
         safe = if answer == Some(true) { at } else { safe };
         answer == Some(false)
     });
     let Some(high) = lost else { return Some(Interval::new(safe, f64::INFINITY)) };
     let mut between = |over, counts: fn(Option<bool>) -> Option<bool>| {
-        narrowed(over, [&true, &false], halving, |at| counts(rests(at)))
+        narrowed(over, [&true, &false], halving, |at| counts(captured(at)))
     };
     let over = between(Interval::new(safe, high), |answer| answer);
     // Uncertain values count as not captured for the lower bound, and as captured for the upper.
@@ -209,7 +209,7 @@ mod tests {
     fn a_threshold_far_below_the_hint_takes_few_halvings() {
         for edge in [0.7, 1e-9, 1e9] {
             let mut asked = 0;
-            let found = bounds(Some(1.0), |at| {
+            let found = threshold(Some(1.0), |at| {
                 asked += 1;
                 Some(at < edge)
             });

@@ -145,12 +145,12 @@ impl ProvedMap {
 
 impl Effort {
     /// Runs one field from rest; with a funnel it stops as soon as every motion is faster than the ceiling of that.
-    pub fn run(&mut self, of: &FieldBox, start: Interval, funnel: Option<&Funnel>) -> Passage {
+    pub fn run(&mut self, field: &FieldBox, start: Interval, funnel: Option<&Funnel>) -> Passage {
         if self.steps > MOST_WORK {
             return Passage::Unknown;
         }
         let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
-        let passage = swing_below(of, &StartBox::at_rest(start), ceiling, false);
+        let passage = swing_below(field, &StartBox::at_rest(start), ceiling, false);
         self.swings += 1;
         self.steps += match passage {
             Passage::Arrives(swing) | Passage::Exceeds(swing) => swing.steps,

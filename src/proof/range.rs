@@ -173,8 +173,8 @@ pub(super) fn bracket<T: PartialEq>(
 }
 
 /// The change between the values `at - away abs(at)` and `at + away abs(at)`, if there is one.
-pub fn change_within(of: &ParameterBox, knob: Knob, at: f64, away: f64) -> Option<CountChange> {
-    let mut asked = Inquiry::new(of, knob, MOST_FOR_CHANGE);
+pub fn change_within(base: &ParameterBox, knob: Knob, at: f64, away: f64) -> Option<CountChange> {
+    let mut asked = Inquiry::new(base, knob, MOST_FOR_CHANGE);
     let mut ask = |value: f64| asked.cycles(Interval::point(value));
     let (low, high) = (at - away * at.abs(), at + away * at.abs());
     let (below, above) = (ask(low)?, ask(high)?);

@@ -103,12 +103,12 @@ struct Continuation<'a> {
 const COARSE: usize = 7;
 
 impl<'a> Continuation<'a> {
-    fn new(of: &Parameters, first: &Harmonic, interrupted: &'a dyn Fn() -> bool) -> Self {
+    fn new(parameters: &Parameters, first: &Harmonic, interrupted: &'a dyn Fn() -> bool) -> Self {
         let unit = exponent(first.amplitude);
         let mean = Complex::from(times_power(first.mean, -unit));
         let wave = Complex::from(0.5 * times_power(first.amplitude, -unit));
         let first_order = Ansatz { frequency: 1.0, q: Fourier { coefficients: vec![mean, wave] } };
-        let parameters = of.times_power(-unit);
+        let parameters = parameters.times_power(-unit);
         Continuation { parameters, first: first_order, stable: first.stable, unit, interrupted }
     }
 

@@ -189,14 +189,14 @@ impl<'a> Flow<'a> {
     }
 
     /// Fails where a motion of some size at its start has settled, or turns no more, or has escaped.
-    fn stays(&self, (phase, forward): (Phase, f64), start: f64, end: StepPoint) -> Result<()> {
+    fn stays(&self, (phase, forward): (Phase, f64), started: f64, end: StepPoint) -> Result<()> {
         let size = end.size();
-        let near = if self.follows { NEAR * start } else { f64::INFINITY };
+        let near = if self.follows { NEAR * started } else { f64::INFINITY };
         let settles = size <= near && creeps(phase, self.model.side(phase), end, forward);
-        if settles || size < SETTLED * start {
+        if settles || size < SETTLED * started {
             return Err(Reason::Settles);
         }
-        let escapes = size.is_nan() || size > ESCAPED * start;
+        let escapes = size.is_nan() || size > ESCAPED * started;
         if escapes { Err(Reason::Escapes) } else { Ok(()) }
     }
 

@@ -26,7 +26,7 @@ const RESOLVED: f64 = 1e-9;
 ///
 /// They stop earlier where they accumulate at the edge of the basin. Fails with the `Reason` why a border could
 /// not be computed.
-pub fn bands(of: &Parameters, reach: f64, most: usize, limits: &Limits) -> Result<Bands> {
+pub fn bands(parameters: &Parameters, reach: f64, most: usize, limits: &Limits) -> Result<Bands> {
     let mut bands = Bands::default();
     // Clearance from which a swing on the upper, on the lower side comes to rest exactly this many arrivals
     // later; None once there is none within reach.
@@ -36,7 +36,7 @@ pub fn bands(of: &Parameters, reach: f64, most: usize, limits: &Limits) -> Resul
         for (index, side) in [Side::Upper, Side::Lower].into_iter().enumerate() {
             // A swing of this side hands over to the other side, with one arrival less to come.
             let Some(clearance) = starts[1 - index] else { continue };
-            let arc = Arc::new(of, side, Direction::Backward, clearance, limits)?;
+            let arc = Arc::new(parameters, side, Direction::Backward, clearance, limits)?;
             bands.cost += arc.cost;
             let before = starts[index].map_or(0.0, |start| start.value);
             next[index] = Some(arc.swing.end).filter(|start| {

@@ -90,10 +90,10 @@ struct Chain {
 }
 
 impl Chain {
-    fn of(basin: &Portrait, kicks: &RandomKick, cells: usize, limits: &Limits) -> Result<Self> {
+    fn of(portrait: &Portrait, kicks: &RandomKick, cells: usize, limits: &Limits) -> Result<Self> {
         /// Error of a place of rest that matters to no cell.
         const TOLERANCE: f64 = 1e-7;
-        let mut model = basin.model.clone();
+        let mut model = portrait.model.clone();
         model.tolerance = TOLERANCE;
         let r = model.guide_static;
         let width = 2.0 * r / real(cells);
@@ -108,7 +108,7 @@ impl Chain {
                 return Err(Reason::Interrupted);
             }
             let mut flow = Flow::new(&model);
-            let comes = basin.fate(q, v) == Ok(Fate::Rest);
+            let comes = portrait.fate(q, v) == Ok(Fate::Rest);
             let place =
                 comes.then(|| flow.rest_of(q, model.scaled_velocity(v), limits).ok()).flatten();
             Ok((place, flow.cost()))
@@ -134,7 +134,7 @@ impl Chain {
         }
         let lost = |centre: &f64| {
             let from = RandomKick { q: (kicks.q.0 + centre, kicks.q.1), ..*kicks };
-            Ok(from.lost(basin)?.part)
+            Ok(from.lost(portrait)?.part)
         };
         let lost = centres.iter().map(lost).collect::<Result<Vec<_>>>()?;
         let lost = DVector::from_vec(lost);
