@@ -141,7 +141,8 @@ pub fn half_width(text: &str) -> Result<(Knob, f64), String> {
     let refused =
         || format!("{text:?}: D, D2, D3 and r have half widths, of 0 or more, such as r=0.01");
     let (name, value) = text.split_once('=').ok_or_else(refused)?;
-    let knob = Knob::named(name.trim(), OSCILLATOR.set)?;
+    let knob = Knob::named(name.trim(), OSCILLATOR.set);
+    let knob = knob.map_err(|why| format!("{why}; {}", refused()))?;
     let half_width = Some(knob.parse(value)?);
     let half_width = half_width.filter(|it| knob.is_parameter() && *it >= 0.0);
     Ok((knob, half_width.ok_or_else(refused)?))

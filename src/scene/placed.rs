@@ -108,8 +108,11 @@ impl<'de> Deserializer<'de> for Placed<'de> {
             DeValue::String(text) => visitor.visit_str(&text),
             DeValue::Integer(digits) => match integer(&digits) {
                 Some(value) => visitor.visit_i64(value),
-                // Larger ones can only be meant as real numbers.
-                None => visitor.visit_f64(digits.as_str().parse().map_err(Complaint::custom)?),
+                // Larger ones can only be meant as real numbers, which have decimal digits.
+                None if digits.radix() == 10 => {
+                    visitor.visit_f64(digits.as_str().parse().map_err(Complaint::custom)?)
+                }
+                None => Err(Complaint::custom("a whole number beyond 64 bits")),
             },
             DeValue::Float(digits) => visitor.visit_f64(float(&digits)?),
             DeValue::Boolean(value) => visitor.visit_bool(value),

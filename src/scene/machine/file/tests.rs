@@ -136,6 +136,7 @@ fn what_is_wrong_is_said_with_its_place_and_what_is_allowed() {
         ("\"250 g\"", "-1", "2:5", "m = -1 kg is outside its range 1e-12 .."),
         ("\"250 g\"", "nan", "2:5", "m = NaN kg is outside its range"),
         ("\"250 g\"", "9223372036854775808", "2:5", "is outside its range"),
+        ("\"250 g\"", "0x99999999999999999", "2:5", "a whole number beyond 64 bits"),
         ("\"250 g\"", "1e999", "2:5", "floating-point number overflowed"),
         ("\"250 g\"", "1979-05-27", "2:5", "a date or a time; nothing here is one"),
         ("\"250 g\"", "\"250 gr\"", "2:5", "\"gr\" is not a unit"),
