@@ -151,12 +151,14 @@ impl<N> Outcome<N> {
     }
 
     /// The same outcome in other numbers.
-    pub fn map<M>(self, of: impl Fn(N) -> M) -> Outcome<M> {
+    pub fn map<M>(self, number: impl Fn(N) -> M) -> Outcome<M> {
         match self {
-            Outcome::Captured { tau, q } => Outcome::Captured { tau: of(tau), q: of(q) },
-            Outcome::Moving { tau, q, v } => Outcome::Moving { tau: of(tau), q: of(q), v: of(v) },
-            Outcome::Escaped { tau } => Outcome::Escaped { tau: of(tau) },
-            Outcome::GaveUp { tau, reason } => Outcome::GaveUp { tau: of(tau), reason },
+            Outcome::Captured { tau, q } => Outcome::Captured { tau: number(tau), q: number(q) },
+            Outcome::Moving { tau, q, v } => {
+                Outcome::Moving { tau: number(tau), q: number(q), v: number(v) }
+            }
+            Outcome::Escaped { tau } => Outcome::Escaped { tau: number(tau) },
+            Outcome::GaveUp { tau, reason } => Outcome::GaveUp { tau: number(tau), reason },
         }
     }
 }

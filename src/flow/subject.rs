@@ -30,9 +30,9 @@ impl Subject {
 
     /// A machine or a mode that moves from displacement (m) and velocity (m/s), for some seconds.
     #[must_use]
-    pub fn moving(source: Source, known: Tolerances, (q, v): (f64, f64), until: f64) -> Self {
+    pub fn moving(source: Source, tolerances: Tolerances, (q, v): (f64, f64), until: f64) -> Self {
         let motion = Problem { initial: State { q, v }, until, ..Problem::default() };
-        Subject { source, tolerances: known, motion }
+        Subject { source, tolerances, motion }
     }
 
     /// Displacement (m) and velocity (m/s) at the start.

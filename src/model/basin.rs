@@ -97,12 +97,12 @@ impl<T> Kicks<T> {
     }
 
     /// What follows from that of the displacements, and from that of the impulses.
-    pub fn each<U>(&self, length: impl Fn(&T) -> U, impulse: impl Fn(&T) -> U) -> Kicks<U> {
+    pub fn each<U>(&self, displacement: impl Fn(&T) -> U, impulse: impl Fn(&T) -> U) -> Kicks<U> {
         Kicks {
-            displacement: length(&self.displacement),
+            displacement: displacement(&self.displacement),
             impulse: impulse(&self.impulse),
             from_rest: RestKicks {
-                displacement: length(&self.from_rest.displacement),
+                displacement: displacement(&self.from_rest.displacement),
                 impulse: impulse(&self.from_rest.impulse),
             },
         }

@@ -128,7 +128,7 @@ fn held(session: &Session, index: usize) -> Option<Point> {
 
 /// The asymptotes A1 and A2 (51, 52), their height read out of A0 and A.
 fn asymptotes(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob, height: Height) {
-    let Some(size) = height.ordinate.harmonic() else { return };
+    let Some(size) = height.ordinate.spec().harmonic else { return };
     // Of the mean they are asymptotes of their own, with names of their own (53, 54).
     let names = match height.ordinate {
         Ordinate::Mean => ["asymptote A01", "asymptote A02"],
@@ -158,7 +158,7 @@ fn harmonic(
 ) {
     /// Samples along the amplitude: more than any screen has dots.
     const SAMPLES: u16 = 1000;
-    let Some(size) = height.ordinate.harmonic() else { return };
+    let Some(size) = height.ordinate.spec().harmonic else { return };
     let line = LineStyle::from("first harmonic").of(&shown.variant);
     let own @ Parameters { d2, d3, r, .. } = shown.problem.parameters;
     if abscissa == Knob::D {

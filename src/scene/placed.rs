@@ -43,15 +43,18 @@ impl<'de> Placed<'de> {
 }
 
 /// The entries of a table that are not yet read, and the value whose name was read last.
-struct Entries<'de, I>(I, Option<Placed<'de>>);
+struct Entries<'de, I> {
+    left: I,
+    value: Option<Placed<'de>>,
+}
 
 /// The entries of a table, none of them read.
 fn entries(table: DeTable<'_>) -> impl MapAccess<'_, Error = Complaint> {
-    let entries = table.into_iter().map(|(name, value)| {
+    let left = table.into_iter().map(|(name, value)| {
         let (at, name) = (name.span(), name.into_inner());
         (Placed(Spanned::new(at, DeValue::String(name))), Placed(value))
     });
-    Entries(entries, None)
+    Entries { left, value: None }
 }
 
 impl<'de, I: Iterator<Item = (Placed<'de>, Placed<'de>)>> MapAccess<'de> for Entries<'de, I> {
@@ -61,13 +64,13 @@ impl<'de, I: Iterator<Item = (Placed<'de>, Placed<'de>)>> MapAccess<'de> for Ent
         &mut self,
         seed: S,
     ) -> Result<Option<S::Value>, Complaint> {
-        let Some((name, value)) = self.0.next() else { return Ok(None) };
-        self.1 = Some(value);
+        let Some((name, value)) = self.left.next() else { return Ok(None) };
+        self.value = Some(value);
         name.seeded(seed).map(Some)
     }
 
     fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Complaint> {
-        let value = self.1.take().ok_or_else(|| Complaint::custom("a value without a name"));
+        let value = self.value.take().ok_or_else(|| Complaint::custom("a value without a name"));
         value.and_then(|value| value.seeded(seed))
     }
 }

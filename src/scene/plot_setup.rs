@@ -5,7 +5,6 @@
 //! Most also follow from the first-order harmonic balance; for the others, its curves are not drawn.
 
 use std::f64::consts::{LN_10, TAU};
-use std::sync::LazyLock;
 
 use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize};
@@ -14,7 +13,6 @@ use strum::{IntoStaticStr, VariantArray};
 use super::views::View;
 use super::window::{Span, Window};
 use crate::model::{Group, Knob};
-use crate::numerics::{cells, named};
 use crate::portrait::Cycle;
 
 /// A property of a cycle that the diagram can show.
@@ -58,24 +56,65 @@ pub struct OrdinateSpec {
     pub label: &'static str,
     /// Its label at the axis in units of r; `None` where it is not a length.
     pub ratio: Option<&'static str>,
-    /// Whether a fitted window has an end at zero.
-    pub from_zero: bool,
     /// Explanation in a few words.
     pub meaning: &'static str,
+    /// Computes it for a cycle.
+    pub read: fn(&Cycle) -> f64,
+    /// Computes it for the first-order harmonic answer `q = A0 + A cos(tau)`, from A0 and A; `None` where that
+    /// answer does not determine it.
+    pub harmonic: Option<fn(f64, f64) -> f64>,
+    /// Whether a fitted window has an end at zero.
+    pub from_zero: bool,
 }
 
-/// Every property, in the order in which the key visits them: the lines of `assets/ordinates.txt`.
-pub static ORDINATES: LazyLock<Vec<OrdinateSpec>> = LazyLock::new(|| {
-    include_str!("../../assets/ordinates.txt").lines().filter_map(ordinate).collect()
-});
+impl OrdinateSpec {
+    /// A row without a harmonic answer whose values are no lengths.
+    const fn of(
+        ordinate: Ordinate,
+        name: &'static str,
+        meaning: &'static str,
+        read: fn(&Cycle) -> f64,
+    ) -> Self {
+        let (label, ratio, harmonic) = (name, None, None);
+        OrdinateSpec { ordinate, name, label, ratio, meaning, read, harmonic, from_zero: true }
+    }
 
-/// The property that a line of the file describes; `None` for a comment. A test reads every line.
-fn ordinate(line: &'static str) -> Option<OrdinateSpec> {
-    let [name, label, ratio, end, meaning] = cells(line)?;
-    let ratio = Some(ratio).filter(|ratio| *ratio != "-");
-    let (ordinate, from_zero) = (named(name)?, end == "zero");
-    Some(OrdinateSpec { ordinate, name, label, ratio, from_zero, meaning })
+    /// The same of lengths, with their label in units of r.
+    const fn lengths(self, ratio: &'static str, harmonic: fn(f64, f64) -> f64) -> Self {
+        OrdinateSpec { ratio: Some(ratio), harmonic: Some(harmonic), ..self }
+    }
 }
+
+/// Every property, in the order in which the key visits them.
+pub const ORDINATES: [OrdinateSpec; 7] = [
+    OrdinateSpec::of(Ordinate::QMax, "q_max", "right turning point of the cycles", |it| it.q_max)
+        .lengths("A_q/r", |mean, amplitude| mean + amplitude),
+    OrdinateSpec::of(Ordinate::QMin, "q_min", "left turning point of the cycles", |it| it.q_min)
+        .lengths("q_min/r", |mean, amplitude| mean - amplitude),
+    OrdinateSpec::of(Ordinate::VMax, "v_max", "largest velocity of the cycles", |it| it.v_max)
+        .lengths("A_v/r", |_, amplitude| amplitude),
+    OrdinateSpec {
+        meaning: "half of the distance between the turning points",
+        ..OrdinateSpec::of(Ordinate::Amplitude, "amplitude", "", |it| 0.5 * (it.q_max - it.q_min))
+            .lengths("amplitude/r", |_, amplitude| amplitude)
+    },
+    OrdinateSpec {
+        meaning: "middle between the turning points",
+        from_zero: false,
+        ..OrdinateSpec::of(Ordinate::Mean, "mean", "", |it| 0.5 * (it.q_max + it.q_min))
+            .lengths("mean/r", |mean, _| mean)
+    },
+    OrdinateSpec {
+        harmonic: Some(|_, _| TAU),
+        from_zero: false,
+        ..OrdinateSpec::of(Ordinate::Period, "period", "period of the cycles", |it| it.period)
+    },
+    OrdinateSpec {
+        label: "lg multiplier",
+        meaning: "decimal logarithm of the Floquet multiplier; below 0 stable",
+        ..OrdinateSpec::of(Ordinate::Multiplier, "multiplier", "", |it| it.log_multiplier / LN_10)
+    },
+];
 
 impl Ordinate {
     /// The row of [`ORDINATES`] that describes this property.
@@ -85,29 +124,7 @@ impl Ordinate {
 
     /// The value of this property for a cycle.
     pub fn of(self, cycle: &Cycle) -> f64 {
-        match self {
-            Ordinate::QMax => cycle.q_max,
-            Ordinate::QMin => cycle.q_min,
-            Ordinate::VMax => cycle.v_max,
-            Ordinate::Amplitude => 0.5 * (cycle.q_max - cycle.q_min),
-            Ordinate::Mean => 0.5 * (cycle.q_max + cycle.q_min),
-            Ordinate::Period => cycle.period,
-            Ordinate::Multiplier => cycle.log_multiplier / LN_10,
-        }
-    }
-
-    /// Computes it for the first-order harmonic answer `q = A0 + A cos(tau)`, from A0 and A; `None` where that
-    /// answer does not determine it.
-    pub fn harmonic(self) -> Option<fn(f64, f64) -> f64> {
-        let computed: fn(f64, f64) -> f64 = match self {
-            Ordinate::QMax => |mean, amplitude| mean + amplitude,
-            Ordinate::QMin => |mean, amplitude| mean - amplitude,
-            Ordinate::VMax | Ordinate::Amplitude => |_, amplitude| amplitude,
-            Ordinate::Mean => |mean, _| mean,
-            Ordinate::Period => |_, _| TAU,
-            Ordinate::Multiplier => return None,
-        };
-        Some(computed)
+        (self.spec().read)(cycle)
     }
 }
 
@@ -285,8 +302,7 @@ mod tests {
 
     #[test]
     fn every_ordinate_stands_at_its_own_row_under_the_name_of_scene_files() {
-        assert_eq!(ORDINATES.len(), 7);
-        for row in ORDINATES.iter() {
+        for row in &ORDINATES {
             assert_eq!(row.ordinate.spec().name, row.name);
             assert_eq!(serde_json::to_value(row.ordinate).unwrap(), row.name);
         }
@@ -311,7 +327,7 @@ mod tests {
     #[test]
     fn lengths_are_measured_in_r_and_all_else_is_not() {
         let cycle = cycle();
-        for row in ORDINATES.iter() {
+        for row in &ORDINATES {
             let height = |friction| {
                 let ordinate = row.ordinate;
                 Height { ordinate, unit: Unit::Friction, friction }.of(0.5, &cycle)
@@ -326,9 +342,9 @@ mod tests {
     #[test]
     fn every_ordinate_is_read_out_of_a_cycle() {
         let cycle = cycle();
-        let read: Vec<f64> = ORDINATES.iter().map(|row| row.ordinate.of(&cycle)).collect();
-        assert_eq!(read[..6], [1.0, -3.0, 2.0, 2.0, -1.0, 6.5]);
-        assert!((read[6] + 2.0).abs() < 1e-15);
+        let [lengths @ .., multiplier] = ORDINATES.map(|row| row.ordinate.of(&cycle));
+        assert_eq!(lengths, [1.0, -3.0, 2.0, 2.0, -1.0, 6.5]);
+        assert!((multiplier + 2.0).abs() < 1e-15);
     }
 
     #[test]

@@ -28,10 +28,10 @@ pub struct Units {
 
 impl Units {
     /// Of numbers that have SI units themselves.
-    pub const SI: Units = Units::of([1.0; 2], 1.0, 1.0);
+    pub const SI: Units = Units::of((1.0, 1.0), 1.0, 1.0);
 
     /// Those of a mass on a spring of this stiffness and natural frequency, whose unit of length is given.
-    const fn of([mass, stiffness]: [f64; 2], omega_0: f64, displacement: f64) -> Self {
+    const fn of((mass, stiffness): (f64, f64), omega_0: f64, displacement: f64) -> Self {
         let velocity = omega_0 * displacement;
         let (time, impulse, force) = (1.0 / omega_0, mass * velocity, stiffness * displacement);
         Units { omega_0, displacement, velocity, time, impulse, force }
@@ -92,7 +92,7 @@ impl Belt {
         for knob in Knob::PARAMETERS {
             knob.check(parameters.value(knob)).map_err(Reason::Refused)?;
         }
-        let units = Units::of([mass, stiffness], omega_0, x0);
+        let units = Units::of((mass, stiffness), omega_0, x0);
         Ok(ReducedBelt { parameters, units, mu, sticking_velocity: v0 / units.velocity })
     }
 }

@@ -83,18 +83,18 @@ fn bring_back(session: &mut Session, name: &str, state: EarlierState) {
                 screen_setup.plots.iter().map(|plot| plot.view.spec().title).collect();
             session.inform(format!("{name}: {}", titles.join(", ")));
             set_up(session, screen_setup.arrangement, opened(&screen_setup.plots));
-            own_windows(session);
+            mark_own_windows(session);
         }
         EarlierState::Scene { plots, show } => {
             session.inform(format!("{name}: scene {}", show.scene.name));
             restore(session, *show, opened(&plots));
-            own_windows(session);
+            mark_own_windows(session);
         }
     }
 }
 
-/// Of plots that came back with a window, those whose window is not the scene's: it was fitted or chosen.
-fn own_windows(session: &mut Session) {
+/// Marks the plots that came back with a window of their own, which is not the scene's: it was fitted or chosen.
+fn mark_own_windows(session: &mut Session) {
     for index in 0..session.plots.len() {
         let Plot { view, axes, window, framing, .. } = session.plots[index];
         let of_scene = session.plot_of_scene(index, view);

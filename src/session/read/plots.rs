@@ -93,7 +93,7 @@ impl Session {
         }
         let harmonic = matches!(layer, Layer::Harmonic | Layer::Asymptotes);
         let drawn = |index: usize| {
-            self.shows_in(layer, index) && self.plots[index].axes.ordinate.harmonic().is_some()
+            self.shows_in(layer, index) && self.plots[index].axes.ordinate.spec().harmonic.is_some()
         };
         (harmonic && self.shows(layer) && !self.on_show().any(drawn))
             .then_some("not drawn: the harmonic answer has no multiplier")
