@@ -52,7 +52,7 @@ fn half_swing_plain(bencher: Bencher, case: usize) {
 fn half_swing_certified(bencher: Bencher, case: usize) {
     let [a, b, c, z] = SWINGS[case].map(Interval::point);
     let field = FieldBox { a: a.twice(), b, c };
-    bencher.bench_local(|| swing(&field, &StartBox::at_rest(black_box(z)), false));
+    bencher.bench_local(|| swing(&field, &StartBox::at_rest(black_box(z))));
 }
 
 /// Existence, uniqueness, all bounds and the multiplier of the inner cycle, from a guess of ten digits.
@@ -62,8 +62,8 @@ fn one_cycle_enclosed(bencher: Bencher, case: usize) {
     let guess = inner.clearance * (1.0 + 1e-10);
     let parameters = ParameterBox::from(&CASES[case]);
     bencher.bench_local(|| {
-        let mut map = ProvedMap::new(&parameters);
-        enclose(&mut map, black_box(guess), Interval::around(guess, 0.01 * guess), false)
+        let map = ProvedMap::new(&parameters);
+        enclose(&map, black_box(guess), Interval::around(guess, 0.01 * guess), false)
     });
 }
 

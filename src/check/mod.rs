@@ -127,8 +127,7 @@ impl StepKind {
         let (holds, cycles) = match self {
             StepKind::OneWay => {
                 // For D < 0 < D3 the minimum, at `w^2 = -2 D/(3 D3)`, is positive where `32 D^3 + 27 r^2 D3 > 0`.
-                let least = Interval::point(32.0) * d * d.square()
-                    + Interval::point(27.0) * r.square() * d3;
+                let least = d * 32.0 * d.square() + r.square() * 27.0 * d3;
                 let gains = zero(r) && d.upper() <= 0.0 && d3.upper() <= 0.0;
                 let loses = d.lower() >= 0.0 && d3.lower() >= 0.0;
                 (gains || loses || (positive(d3) && negative(d) && positive(least)), 0)

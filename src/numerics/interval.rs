@@ -158,24 +158,29 @@ impl Interval {
         Interval::new((2.0 * self.lower).min(f64::MAX), (2.0 * self.upper).max(f64::MIN))
     }
 
+    /// An increasing function of all members.
+    fn monotone(self, of: impl Fn(f64) -> Interval) -> Self {
+        Interval::new(of(self.lower).lower, of(self.upper).upper)
+    }
+
     /// `exp` of all members.
     pub fn exp(self) -> Self {
-        Interval::new(exp(self.lower).lower, exp(self.upper).upper)
+        self.monotone(exp)
     }
 
     /// `ln` of all members, which must be positive.
     pub fn ln(self) -> Self {
-        Interval::new(ln(self.lower).lower, ln(self.upper).upper)
+        self.monotone(ln)
     }
 
     /// `exp(x) - 1` of all members.
     pub fn exp_m1(self) -> Self {
-        Interval::new(exp_m1(self.lower).lower, exp_m1(self.upper).upper)
+        self.monotone(exp_m1)
     }
 
     /// `atan` of all members.
     pub fn atan(self) -> Self {
-        Interval::new(atan(self.lower).lower, atan(self.upper).upper)
+        self.monotone(atan)
     }
 
     /// The polynomial with these coefficients, lowest power first, by Horner's rule.
@@ -203,14 +208,14 @@ fn exp(value: f64) -> Interval {
         return Interval::new(0.0, f64::MIN_POSITIVE);
     }
     let high = Interval::point(turns * LN_2_HIGH);
-    let y = Interval::point(value) - high - Interval::point(turns) * LN_2_LOW;
+    let y = Interval::point(value) - high - LN_2_LOW * turns;
     if !(y.magnitude() < 0.36) {
         return Interval::ALL;
     }
-    let sum = nested(y, 1, TERMS) + Interval::new(-REMAINDER, REMAINDER);
+    let sum = nested(y, 1, TERMS).widened(REMAINDER);
     #[expect(clippy::cast_possible_truncation, reason = "a whole number in -1022 ..= 1020")]
     let biased = (turns as i64 + 1023).unsigned_abs();
-    sum * Interval::point(f64::from_bits(biased << 52))
+    sum * f64::from_bits(biased << 52)
 }
 
 /// `ln(value)`. With y near it, `r = value exp(-y)` is near 1, and `ln(value) - y = ln(r)` is between `1 - 1/r`
@@ -221,9 +226,9 @@ fn ln(value: f64) -> Interval {
     }
     let y = elementary::ln(value);
     let one = Interval::point(1.0);
-    let ratio = Interval::point(value) * exp(-y);
+    let ratio = exp(-y) * value;
     let off = Interval::new((one - one / ratio).lower, (ratio - one).upper);
-    Interval::point(y) + off
+    off + y
 }
 
 /// `exp(value) - 1`. Up to 1/2 by its own series; its terms of degree 19 and higher sum to less than
@@ -231,10 +236,10 @@ fn ln(value: f64) -> Interval {
 fn exp_m1(value: f64) -> Interval {
     const REMAINDER: f64 = 1e-22;
     if !(value.abs() <= 0.5) {
-        return exp(value) - Interval::point(1.0);
+        return exp(value) - 1.0;
     }
     let y = Interval::point(value);
-    y * (nested(y, 2, 18) + Interval::new(-REMAINDER, REMAINDER))
+    y * nested(y, 2, 18).widened(REMAINDER)
 }
 
 /// `1 + y/first (1 + y/(first + 1) (1 + ... (1 + y/last)))`, parts of the series of the exponential.
@@ -263,10 +268,10 @@ fn atan(value: f64) -> Interval {
     }
     let (square, mut sum, mut odd) = (y.square(), Interval::point(0.0), 29.0);
     for _ in 0..15 {
-        sum = one / Interval::point(odd) - square * sum;
+        sum = one / odd - square * sum;
         odd -= 2.0;
     }
-    y * (sum + Interval::new(-REMAINDER, REMAINDER)) * Interval::point(8.0)
+    y * sum.widened(REMAINDER) * 8.0
 }
 
 impl Neg for Interval {

@@ -146,7 +146,7 @@ pub fn never_returns(field: &FieldBox, x: f64, v: f64) -> bool {
     if !(field.c.upper() <= 0.0 && m.lower() > 0.0 && v >= 0.0) {
         return false;
     }
-    let [a, b, c] = [field.a, field.b, field.c].map(|it| Interval::point(it.upper()));
+    let FieldBox { a, b, c } = field.strongest();
     let linear = a + 2.0;
     // Coefficients of P in powers of the velocity in excess of v.
     let p0 = m - at * (linear + at * (b + at * c));

@@ -14,7 +14,7 @@
 
 use super::field::ParameterBox;
 use super::range::bracket;
-use super::{Count, MapDirection, ProvedMap, Sign, SignedGap, sign_at};
+use super::{Count, HalfMaps, ProvedMap, Sign, SignedGap, sign_at};
 use crate::model::Knob;
 use crate::numerics::{Interval, powi};
 
@@ -50,25 +50,25 @@ pub fn enclose_fold(
     WIDTHS.into_iter().zip((HALVINGS..).step_by(MORE)).find_map(|(width, halvings)| {
         let gap = Interval::new(clearance * (1.0 - width), clearance * (1.0 + width));
         let value = change(near, |at| {
-            let mut map = ProvedMap::new(&place(Interval::point(at)));
-            let found = (steps < MOST_STEPS).then(|| inside(&mut map, gap, clearance, halvings))?;
-            steps += map.effort.steps;
+            let map = ProvedMap::new(&place(Interval::point(at)));
+            let found = (steps < MOST_STEPS).then(|| inside(&map, gap, clearance, halvings))?;
+            steps += map.effort.steps.get();
             found
         })?;
         let around = place(value);
-        sides(&mut ProvedMap::new(&around), gap)?;
+        sides(&ProvedMap::new(&around), gap)?;
         Some(ProvedFold { value, clearance: touching(&around, gap) })
     })
 }
 
 /// The sign at both ends of a gap, if it is the same.
-fn sides(map: &mut ProvedMap, gap: Interval) -> Option<Sign> {
+fn sides(map: &ProvedMap, gap: Interval) -> Option<Sign> {
     let low = sign_at(map, gap.lower())?;
     (sign_at(map, gap.upper())? == low).then_some(low)
 }
 
 /// Whether a gap contains two cycles, one on either side of `near`, or none; `None` if neither is certain.
-fn inside(map: &mut ProvedMap, gap: Interval, near: f64, halvings: u32) -> Option<bool> {
+fn inside(map: &ProvedMap, gap: Interval, near: f64, halvings: u32) -> Option<bool> {
     if !(map.parameters.r.lower() >= 0.0) {
         return None;
     }
@@ -85,9 +85,9 @@ fn inside(map: &mut ProvedMap, gap: Interval, near: f64, halvings: u32) -> Optio
 fn touching(parameters: &ParameterBox, gap: Interval) -> Interval {
     /// Fractions of the interval to cut off at each end; a smaller one is tried where a larger one is not certain.
     const PARTS: [f64; 4] = [0.3, 0.1, 0.03, 0.01];
-    let mut map = ProvedMap::new(parameters);
-    let mut regular = |lower: f64, upper: f64| {
-        let slope = map.slope(MapDirection::Forward, Interval::new(lower, upper));
+    let map = ProvedMap::new(parameters);
+    let regular = |lower: f64, upper: f64| {
+        let slope = map.forward.slope(Interval::new(lower, upper));
         upper > lower && slope.is_some_and(|slope| !slope.contains(1.0))
     };
     let (mut low, mut high) = (gap.lower(), gap.upper());
@@ -121,13 +121,12 @@ fn returns_from_infinity(parameters: &ParameterBox) -> Option<bool> {
     if d3 != Interval::point(0.0) || !(r.lower() >= 0.0) {
         return None;
     }
-    let ProvedMap { gap, forward, mut effort, .. } = ProvedMap::new(parameters);
-    let funnel = forward[strong].funnel(&mut effort)?;
-    let bounds = [funnel.least(), funnel.greatest()];
-    if !bounds.iter().all(|it| it.is_finite()) {
+    let ProvedMap { gap, forward: HalfMaps(forward), .. } = ProvedMap::new(parameters);
+    let arrivals = forward[strong].funnel()?.arrivals();
+    if !arrivals.is_finite() {
         return None;
     }
-    let next = forward[1 - strong].image(Interval::new(bounds[0], bounds[1]) - gap, &mut effort);
+    let next = forward[1 - strong].image(arrivals - gap);
     if next.lower() == f64::INFINITY {
         return Some(false);
     }

@@ -81,10 +81,9 @@ impl Walk {
     /// The first step: up to where motions still come to rest within a turn, or out of the neighbourhood of a
     /// repelling node.
     fn begin(&mut self, proof: &Proof) -> Result<(), String> {
-        let mut map = ProvedMap::new(&proof.parameters);
-        let before =
-            |at: f64, it: &ProvedHalf| it.image(Interval::point(at), &mut map.effort).lower();
-        let first = map.backward.iter().fold(0.0, before);
+        let map = ProvedMap::new(&proof.parameters);
+        let before = |at: f64, it: &ProvedHalf| it.image(Interval::point(at)).lower();
+        let first = map.backward.0.iter().fold(0.0, before);
         let known = first > 0.0 && first < f64::INFINITY;
         let mut to = if known { 0.95 * first } else { map.gap.upper() };
         for _ in 0..40 {

@@ -7,7 +7,7 @@
 //! differs from 1 throughout (one cycle if the signs differ, none otherwise), or by the distance from the
 //! diagonal in the middle. Otherwise the gap is halved.
 
-use super::{Bound, Enclosure, FieldBox, Funnel, MapDirection, ProvedMap, StartBox, swing_below};
+use super::{Bound, Enclosure, FieldBox, Funnel, HalfMaps, ProvedMap, StartBox, swing_below};
 use crate::numerics::{Interval, pow, times_power};
 
 /// Relative width below which a gap is not halved any more.
@@ -62,7 +62,7 @@ pub struct Count {
 
 impl Count {
     /// Counts the cycles by the return map, as far as it can be bounded.
-    pub fn of(map: &mut ProvedMap) -> Self {
+    pub fn of(map: &ProvedMap) -> Self {
         /// Halvings of the whole range before a gap is left open.
         const HALVINGS: u32 = 60;
         match inner_end(map).and_then(|low| Ok((low, outer_end(map, low.0)?))) {
@@ -71,17 +71,15 @@ impl Count {
                 count.decide(map, SignedGap::between(low, high), HALVINGS);
                 count
             }
-            Err(known) => known,
+            Err(f64::INFINITY) => Count::default(),
+            Err(from) => {
+                Count { cycles: Vec::new(), open: vec![Interval::new(from, f64::INFINITY)] }
+            }
         }
     }
 
-    /// Nothing is known beyond a clearance.
-    fn beyond(clearance: f64) -> Self {
-        Count { cycles: Vec::new(), open: vec![Interval::new(clearance, f64::INFINITY)] }
-    }
-
     /// Decides a gap.
-    pub fn decide(&mut self, map: &mut ProvedMap, gap: SignedGap, halvings: u32) {
+    pub fn decide(&mut self, map: &ProvedMap, gap: SignedGap, halvings: u32) {
         /// The iteration continues while each pass closes this fraction of the gap.
         const WORTH: f64 = 0.25;
         /// Relative width below which a gap with different signs at its ends goes straight to the derivative.
@@ -125,18 +123,18 @@ impl Count {
     }
 
     /// Decides a gap by the derivative of the map or of its inverse; returns whether that succeeded.
-    fn settle(&mut self, map: &mut ProvedMap, gap: SignedGap) -> bool {
-        let mut order = [MapDirection::Forward, MapDirection::Backward];
+    fn settle(&mut self, map: &ProvedMap, gap: SignedGap) -> bool {
+        let mut order = [&map.forward, &map.backward];
         // Near a repelling cycle the inverse contracts, and is known where the map itself is not.
         if gap.low == Sign::Below && gap.high == Sign::Above {
             order.reverse();
         }
-        order.into_iter().any(|direction| self.settle_along(map, direction, gap))
+        order.into_iter().any(|way| self.settle_along(way, gap))
     }
 
-    fn settle_along(&mut self, map: &mut ProvedMap, way: MapDirection, gap: SignedGap) -> bool {
+    fn settle_along(&mut self, way: &HalfMaps, gap: SignedGap) -> bool {
         let SignedGap { over, low, high } = gap;
-        let Some(slope) = map.slope(way, over) else { return false };
+        let Some(slope) = way.slope(over) else { return false };
         if slope.lower() > 1.0 || slope.upper() < 1.0 {
             if low != high {
                 self.cycles.push(ProvedCycle::new(over, low == Sign::Above));
@@ -148,25 +146,25 @@ impl Count {
         }
         // Whether the distance from the diagonal in the middle exceeds any approach towards an end.
         let middle = Interval::point(over.middle());
-        let away = map.image(way, middle) - middle;
-        let sway = (slope - Interval::point(1.0)) * (over - middle);
+        let away = way.image(middle) - middle;
+        let sway = (slope - 1.0) * (over - middle);
         let sum = away + sway;
         sum.lower() > 0.0 || sum.upper() < 0.0
     }
 }
 
 /// A new edge of a gap, the lower or the upper one, in place of this one.
-fn narrowed(map: &mut ProvedMap, (at, sign): GapEnd, which: Bound) -> f64 {
-    let direction = match (which, sign) {
-        (Bound::Lower, Sign::Above) | (Bound::Upper, Sign::Below) => MapDirection::Forward,
-        (Bound::Lower, Sign::Below) | (Bound::Upper, Sign::Above) => MapDirection::Backward,
+fn narrowed(map: &ProvedMap, (at, sign): GapEnd, which: Bound) -> f64 {
+    let way = match (which, sign) {
+        (Bound::Lower, Sign::Above) | (Bound::Upper, Sign::Below) => &map.forward,
+        (Bound::Lower, Sign::Below) | (Bound::Upper, Sign::Above) => &map.backward,
     };
-    let image = map.image_bound(direction, at, which);
+    let image = way.image_bound(at, which);
     if which == Bound::Lower { image.max(at) } else { image.min(at) }
 }
 
 /// A point inside a gap where the sign is certain.
-fn clear_middle(map: &mut ProvedMap, gap: Interval) -> Option<GapEnd> {
+fn clear_middle(map: &ProvedMap, gap: Interval) -> Option<GapEnd> {
     /// Fractions of the gap to try.
     const PARTS: [f64; 6] = [0.5, 0.57, 0.43, 0.64, 0.36, 0.79];
     let (low, high) = (gap.lower(), gap.upper());
@@ -187,49 +185,49 @@ pub enum Sign {
     Below,
 }
 
-/// An end of the search, beyond which no cycle has its clearance; or the count, where there is no cycle at all, or nothing
-/// could be proved.
-type SearchEnd = Result<GapEnd, Count>;
+/// An end of the search, beyond which no cycle has its clearance; or the clearance from which on nothing could be proved,
+/// infinite where there is no cycle at all.
+type SearchEnd = Result<GapEnd, f64>;
 
 /// The inner end of the search.
-fn inner_end(map: &mut ProvedMap) -> SearchEnd {
+fn inner_end(map: &ProvedMap) -> SearchEnd {
     /// Halvings of the trial clearance where the inverse is not known.
     const HALVINGS: i32 = 40;
     // The largest clearances from which the second swing, and both swings, end in the sticking set.
     let mut largest = 0.0;
-    for half in &map.backward {
-        largest = half.image(Interval::point(largest), &mut map.effort).lower();
+    for half in &map.backward.0 {
+        largest = half.image(Interval::point(largest)).lower();
         if largest == f64::INFINITY {
-            return Err(Count::default());
+            return Err(f64::INFINITY);
         }
     }
     if largest > 0.0 {
         return Ok((largest, Sign::Below));
     }
     let gap = map.gap;
-    if map.forward[0].field.a.upper() <= -2.0 {
-        let least = map.forward.each_ref().map(|half| {
-            let end = least_end(&half.field, half.funnel(&mut map.effort).as_ref());
+    if map.forward.0[0].field.a.upper() <= -2.0 {
+        let least = map.forward.0.each_ref().map(|half| {
+            let end = least_end(&half.field, half.funnel().as_ref());
             (Interval::point(end) - gap).lower()
         });
-        let passed = map.forward[1].image(Interval::point(least[0]), &mut map.effort).lower();
+        let passed = map.forward.0[1].image(Interval::point(least[0])).lower();
         let bound = passed.max(least[1]);
         if bound > 0.0 && bound < f64::INFINITY {
             // No image is smaller, provided that every motion returns.
             let returns = map.parameters.d3.lower() > 0.0 && least[0] > 0.0;
             let sign = if returns { Some(Sign::Above) } else { sign_at(map, bound) };
-            return sign.map(|sign| (bound, sign)).ok_or_else(|| Count::beyond(0.0));
+            return sign.map(|sign| (bound, sign)).ok_or(0.0);
         }
         if bound == f64::INFINITY {
-            return Err(Count::default());
+            return Err(f64::INFINITY);
         }
     }
     let mut trials = (0..HALVINGS).map(|halvings| times_power(gap.lower(), -halvings));
     let rests = trials.find(|&at| {
-        let image = map.image(MapDirection::Forward, Interval::point(at));
+        let image = map.forward.image(Interval::point(at));
         image.upper() == f64::NEG_INFINITY
     });
-    rests.map(|at| (at, Sign::Below)).ok_or_else(|| Count::beyond(0.0))
+    rests.map(|at| (at, Sign::Below)).ok_or(0.0)
 }
 
 /// Lower bound of the ends of swings that start next to the centre, for `a <= -2`. The centre is then a
@@ -257,11 +255,11 @@ fn least_end(field: &FieldBox, funnel: Option<&Funnel>) -> f64 {
 }
 
 /// The outer end of the search; `inner` is the clearance at the inner one.
-fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
+fn outer_end(map: &ProvedMap, inner: f64) -> SearchEnd {
     /// How often a clearance is quadrupled in search of an escape.
     const QUADRUPLINGS: i32 = 200;
-    let [first, second] = map.forward.each_ref().map(|half| {
-        let greatest = half.greatest(f64::INFINITY, &mut map.effort);
+    let [first, second] = map.forward.0.each_ref().map(|half| {
+        let greatest = half.greatest(f64::INFINITY);
         if greatest < f64::INFINITY {
             (Interval::point(greatest) - map.gap).upper()
         } else {
@@ -269,27 +267,26 @@ fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
         }
     });
     if first <= 0.0 || second <= 0.0 {
-        return Err(Count::default());
+        return Err(f64::INFINITY);
     }
     let through = if first < f64::INFINITY {
-        map.forward[1].image(Interval::point(first), &mut map.effort).upper()
+        map.forward.0[1].image(Interval::point(first)).upper()
     } else {
         f64::INFINITY
     };
     let bound = second.min(through);
     if bound < inner {
-        return Err(Count::default());
+        return Err(f64::INFINITY);
     }
     if bound < f64::INFINITY {
         // No image is larger: the map is not above the diagonal there, unless the motion never turns again.
         let returns = map.parameters.d3.lower() > 0.0;
         let sign = if returns { Some(Sign::Below) } else { sign_at(map, bound) };
-        return sign.map(|sign| (bound, sign)).ok_or_else(|| Count::beyond(inner));
+        return sign.map(|sign| (bound, sign)).ok_or(inner);
     }
     // The same for the inverse, all of whose images are below its greatest one.
-    let [back, whole] =
-        map.backward.each_ref().map(|half| half.greatest(f64::INFINITY, &mut map.effort));
-    let through = map.backward[1].image(Interval::point(back), &mut map.effort).upper();
+    let [back, whole] = map.backward.0.each_ref().map(|half| half.greatest(f64::INFINITY));
+    let through = map.backward.0[1].image(Interval::point(back)).upper();
     let bound = through.min(whole);
     if bound < f64::INFINITY && bound > inner {
         return Ok((bound, Sign::Above));
@@ -299,13 +296,13 @@ fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     let trials = (1..=QUADRUPLINGS).map(|times| times_power(size, 2 * times));
     let escapes = trials
         .take_while(|at| at.is_finite())
-        .find(|&at| map.image(MapDirection::Forward, Interval::point(at)).lower() == f64::INFINITY);
-    escapes.map(|at| (at, Sign::Above)).ok_or_else(|| Count::beyond(inner))
+        .find(|&at| map.forward.image(Interval::point(at)).lower() == f64::INFINITY);
+    escapes.map(|at| (at, Sign::Above)).ok_or(inner)
 }
 
 /// The side of the diagonal on which the map certainly lies at a clearance.
-pub fn sign_at(map: &mut ProvedMap, clearance: f64) -> Option<Sign> {
-    let image = map.image(MapDirection::Forward, Interval::point(clearance));
+pub fn sign_at(map: &ProvedMap, clearance: f64) -> Option<Sign> {
+    let image = map.forward.image(Interval::point(clearance));
     if image.lower() > clearance {
         Some(Sign::Above)
     } else if image.upper() < clearance {
@@ -325,20 +322,20 @@ mod tests {
     #[test]
     fn cycles_next_to_a_fold_are_told_apart() {
         let [d, d2, d3, r] = [-0.172_784_28, 0.2, 0.5, 0.1].map(Interval::point);
-        let mut map = ProvedMap::new(&ParameterBox { d, d2, d3, r });
+        let map = ProvedMap::new(&ParameterBox { d, d2, d3, r });
         let mut count = Count::default();
         let over = Interval::new(0.414, 0.417);
         let gap = SignedGap { over, low: Sign::Below, high: Sign::Below };
-        count.decide(&mut map, gap, 40);
+        count.decide(&map, gap, 40);
         let cycles = [(0.415_062_415_659, false), (0.416_021_602_729, true)];
         assert!(count.open.is_empty() && count.cycles.len() == 2, "{count:?}");
         // Between them the derivative passes through 1. At both it differs from 1 by only 0.0022, so it decides
         // nothing.
         let both = Interval::new(0.415_06, 0.416_03);
-        for direction in [MapDirection::Forward, MapDirection::Backward] {
+        for way in [&map.forward, &map.backward] {
             let mut settled = Count::default();
             let gap = SignedGap { over: both, ..gap };
-            assert!(!settled.settle_along(&mut map, direction, gap));
+            assert!(!settled.settle_along(way, gap));
         }
         for (found, (clearance, stable)) in count.cycles.iter().zip(cycles) {
             assert!(found.within.contains(clearance) && found.stable == stable, "{count:?}");
@@ -355,7 +352,7 @@ mod tests {
             assert!(least > 0.0, "{coefficients:?}");
             for z in [1e-9, 1e-5, 1e-3, 0.1] {
                 let start = StartBox::at_rest(Interval::point(z));
-                let end = swing(&node, &start, false).arrived().unwrap().end;
+                let end = swing(&node, &start).arrived().unwrap().end;
                 assert!(end.upper() >= least, "{coefficients:?} {z}: {end} {least}");
             }
         }

@@ -59,8 +59,8 @@ impl Proof {
 pub fn prove(parameters: &ParameterBox, hints: &[f64]) -> Proof {
     let (local, unit) = in_own_units(parameters);
     let theorem = theorem(&local);
-    let mut map = ProvedMap::new(&local);
-    let Count { mut cycles, open } = counted(theorem, &mut map);
+    let map = ProvedMap::new(&local);
+    let Count { mut cycles, open } = counted(theorem, &map);
     for cycle in &mut cycles {
         let ProvedCycle { within, stable, .. } = *cycle;
         let middle = if within.is_finite() { within.middle() } else { 1.0 };
@@ -68,24 +68,24 @@ pub fn prove(parameters: &ParameterBox, hints: &[f64]) -> Proof {
         let guess = hints.find(|hint| within.contains(*hint)).unwrap_or(middle);
         let enclosure = match theorem {
             Some(Theorem::Affine) => affine_cycle(&local),
-            _ => enclose(&mut map, guess, within, stable),
+            _ => enclose(&map, guess, within, stable),
         };
         let enclosure = enclosure.filter(|it| it.clearance.intersection(within).is_some());
         cycle.within = scaled(within, unit);
         cycle.enclosure = enclosure.map(|it| it.times_power(unit));
     }
     let open = open.iter().map(|gap| scaled(*gap, unit)).collect();
-    Proof { parameters: *parameters, theorem, cycles, open, swings: map.effort.swings }
+    Proof { parameters: *parameters, theorem, cycles, open, swings: map.effort.swings.get() }
 }
 
 /// Whether each cycle attracts, smallest cycle first, or `None` where their number is not proved; and the
 /// integration steps that it took. This costs a part of [`prove`], as no cycle is enclosed.
 pub(crate) fn stabilities(parameters: &ParameterBox) -> (Option<Vec<bool>>, u32) {
     let (local, _) = in_own_units(parameters);
-    let mut map = ProvedMap::new(&local);
-    let count = counted(theorem(&local), &mut map);
+    let map = ProvedMap::new(&local);
+    let count = counted(theorem(&local), &map);
     let stable = || count.cycles.iter().map(|cycle| cycle.stable).collect();
-    (count.open.is_empty().then(stable), map.effort.steps)
+    (count.open.is_empty().then(stable), map.effort.steps.get())
 }
 
 /// The parameters in units of `2^k`, and k: near the limits of the range of doubles, r is scaled to about 1,
@@ -97,7 +97,7 @@ fn in_own_units(parameters: &ParameterBox) -> (ParameterBox, i32) {
 }
 
 /// Counts cycles by the theorem, or by the return map.
-fn counted(theorem: Option<Theorem>, map: &mut ProvedMap) -> Count {
+fn counted(theorem: Option<Theorem>, map: &ProvedMap) -> Count {
     let everywhere = Interval::new(0.0, f64::INFINITY);
     let one =
         |stable| Count { cycles: vec![ProvedCycle::new(everywhere, stable)], open: Vec::new() };

@@ -2,7 +2,7 @@
 //! its characteristics; or all of them from a closed form.
 
 use super::field::ParameterBox;
-use super::{MapDirection, ProvedMap, ProvedSwing, scaled};
+use super::{HalfMaps, ProvedMap, ProvedSwing, scaled};
 use crate::numerics::Interval;
 use crate::numerics::interval::PI;
 use serde::Serialize;
@@ -45,22 +45,17 @@ impl Enclosure {
 /// Encloses the only cycle with a clearance in `within`, which must exist; `guess` is near it.
 ///
 /// The map is run in the direction in which it contracts: backward for a repelling cycle.
-pub fn enclose(
-    map: &mut ProvedMap,
-    guess: f64,
-    within: Interval,
-    stable: bool,
-) -> Option<Enclosure> {
+pub fn enclose(map: &ProvedMap, guess: f64, within: Interval, stable: bool) -> Option<Enclosure> {
     /// Radii of the interval Newton method, relative to the guess.
     const RADII: [f64; 6] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2];
     /// Steps of the plain Newton method before it, and the relative change after which the next error is at
     /// rounding level.
     const STEPS: usize = 8;
     const SMALL: f64 = 1e-8;
-    let direction = if stable { MapDirection::Forward } else { MapDirection::Backward };
+    let way = if stable { &map.forward } else { &map.backward };
     let mut near = guess;
     for _ in 0..STEPS {
-        let next = polished(map, near, direction);
+        let next = polished(way, near);
         let change = (next - near).abs();
         near = next;
         if change <= SMALL * near {
@@ -69,62 +64,52 @@ pub fn enclose(
     }
     let around = RADII.into_iter().find_map(|radius| {
         let wide = Interval::around(near, radius * near);
-        let inner = newton(map, wide, direction)?;
+        let inner = newton(way, wide)?;
         let is_inside = inner.lower() > wide.lower() && inner.upper() < wide.upper();
         is_inside.then_some((inner, radius))
     });
     // The only cycle in an interval lies in each Newton step from there, whether in its interior or not.
-    let only = |map: &mut ProvedMap| newton(map, within, direction)?.intersection(within);
+    let only = || newton(way, within)?.intersection(within);
     let known = around.map(|(inner, _)| inner);
-    let mut clearance = known.or_else(|| only(map).or(within.is_finite().then_some(within)))?;
+    let mut clearance = known.or_else(|| only().or(within.is_finite().then_some(within)))?;
     // Over the smallest radius the derivative is as accurate as at a point.
     if !around.is_some_and(|(_, radius)| radius <= RADII[0])
-        && let Some(better) = newton(map, clearance, direction)
+        && let Some(better) = newton(way, clearance)
     {
         clearance = better.intersection(clearance)?;
     }
-    describe(map, clearance, direction)
+    describe(map, clearance, stable)
 }
 
 /// One step of the interval Newton method. All fixed points in `over` lie in the result; if the result lies in
 /// the interior of `over`, there is exactly one.
-fn newton(map: &mut ProvedMap, over: Interval, direction: MapDirection) -> Option<Interval> {
+fn newton(way: &HalfMaps, over: Interval) -> Option<Interval> {
     let middle = Interval::point(over.middle());
-    let off = map.image(direction, middle) - middle;
-    let slope = map.slope(direction, over)? - Interval::point(1.0);
+    let off = way.image(middle) - middle;
+    let slope = way.slope(over)? - 1.0;
     let step = off / slope;
     (step.is_finite() && !slope.contains(0.0)).then(|| middle - step)
 }
 
 /// A step of Newton's method in plain numbers.
-fn polished(map: &mut ProvedMap, near: f64, direction: MapDirection) -> f64 {
-    let Some((image, slope)) = map.image_and_slope(direction, Interval::point(near)) else {
-        return near;
-    };
+fn polished(way: &HalfMaps, near: f64) -> f64 {
+    let Some((image, slope)) = way.image_and_slope(Interval::point(near)) else { return near };
     let next = near - (image.middle() - near) / (slope.middle() - 1.0);
     if next > 0.5 * near && next < 2.0 * near { next } else { near }
 }
 
 /// All characteristics of the cycle with this clearance.
-fn describe(
-    map: &mut ProvedMap,
-    clearance: Interval,
-    direction: MapDirection,
-) -> Option<Enclosure> {
-    let ParameterBox { r, .. } = map.parameters;
-    let gap = r.twice();
-    let (halves, effort) = map.halves(direction);
+fn describe(map: &ProvedMap, clearance: Interval, stable: bool) -> Option<Enclosure> {
+    let ProvedMap { parameters: ParameterBox { r, .. }, gap, .. } = *map;
+    let way = if stable { &map.forward } else { &map.backward };
     // The clearance of the left turning point.
-    let left = halves[0].image(clearance, effort);
+    let left = way.0[0].image(clearance);
     if !(left.lower() > 0.0 && left.is_finite()) {
         return None;
     }
-    let [from_right, from_left] = [(&halves[0], clearance), (&halves[1], left)]
-        .map(|(half, clearance)| half.whole_swing(half.start(clearance), effort));
-    let [below, above] = match direction {
-        MapDirection::Forward => [from_right, from_left],
-        MapDirection::Backward => [from_left, from_right],
-    };
+    let [from_right, from_left] = [(&way.0[0], clearance), (&way.0[1], left)]
+        .map(|(half, clearance)| half.whole_swing(half.start(clearance)));
+    let [below, above] = if stable { [from_right, from_left] } else { [from_left, from_right] };
     // The contribution of D2 to the divergence vanishes around a closed curve.
     let cubic = |swing: &ProvedSwing| {
         let c = scaled(scaled(map.parameters.d3, swing.unit), swing.unit);
@@ -142,11 +127,10 @@ fn describe(
     };
     let mut multiplier = multiplier.intersection(positive)?;
     // For a stiff cycle it is known more accurately from the map, which contracts.
-    let stable = direction == MapDirection::Forward;
     if !(multiplier.upper() < 1.0 || multiplier.lower() > 1.0)
-        && let Some(slope) = map.slope(direction, clearance)
+        && let Some(slope) = way.slope(clearance)
     {
-        let over = |bound: f64| Interval::point(1.0) / Interval::point(bound);
+        let over = |bound: f64| Interval::point(1.0) / bound;
         let repelling = Interval::new(over(slope.upper()).lower(), over(slope.lower()).upper());
         let forward = if stable { slope } else { repelling };
         multiplier = multiplier.intersection(forward)?;
@@ -212,14 +196,14 @@ mod tests {
             let damping = Interval::point(d);
             let m = (-PI * damping / ((one + damping) * (one - damping)).sqrt()).exp();
             let exact = Interval::point(2.0 * r) / (m - one);
-            let (at, mut map) = (exact.middle(), map([d, 0.0, 0.0, r]));
+            let (at, map) = (exact.middle(), map([d, 0.0, 0.0, r]));
             // For an affine map one step of Newton's method leads there from anywhere.
             let aside = Interval::new(1.02 * at, 1.03 * at);
-            for direction in [MapDirection::Forward, MapDirection::Backward] {
-                let found = newton(&mut map, aside, direction).unwrap();
+            for way in [&map.forward, &map.backward] {
+                let found = newton(way, aside).unwrap();
                 assert!(found.intersection(exact).is_some(), "{d} {r}: {found} {exact}");
             }
-            let found = enclose(&mut map, at, Interval::new(0.9 * at, 1.1 * at), false).unwrap();
+            let found = enclose(&map, at, Interval::new(0.9 * at, 1.1 * at), false).unwrap();
             assert!(found.multiplier.intersection(m.square()).is_some(), "{}", found.multiplier);
             assert!(found.multiplier.width() < 1e-9 && found.multiplier.lower() > 1.0);
         }
@@ -229,7 +213,7 @@ mod tests {
     #[test]
     fn what_lies_outside_of_the_interval_is_not_believed() {
         let within = Interval::new(0.6, 0.65);
-        let found = enclose(&mut map([-0.2, 0.2, 0.5, 0.1]), 6.2, within, true).unwrap();
+        let found = enclose(&map([-0.2, 0.2, 0.5, 0.1]), 6.2, within, true).unwrap();
         assert!(found.clearance.contains(0.622_333_333_030_272_5), "{}", found.clearance);
     }
 }

@@ -1,5 +1,7 @@
 //! The field of a half plane with coefficients in intervals.
 
+use std::ops::Neg;
+
 pub use crate::model::ParameterBox;
 use crate::model::Side;
 use crate::numerics::{Interval, times_power};
@@ -40,7 +42,12 @@ impl FieldBox {
 
     /// The field of motions run backward, in the frame `y = -x`.
     pub fn reversed(&self) -> Self {
-        FieldBox { a: -self.a, b: -self.b, c: -self.c }
+        self.map(Neg::neg)
+    }
+
+    /// The field with these coefficients, as `of` makes them of its own.
+    pub fn map(&self, of: impl Fn(Interval) -> Interval) -> Self {
+        FieldBox { a: of(self.a), b: of(self.b), c: of(self.c) }
     }
 
     /// The same field for motions in units of `2^k`.
@@ -50,14 +57,12 @@ impl FieldBox {
 
     /// The member with the least damping: of all fields here its motion from a given start is the highest.
     pub fn weakest(&self) -> Self {
-        let least = |it: Interval| Interval::point(it.lower());
-        FieldBox { a: least(self.a), b: least(self.b), c: least(self.c) }
+        self.map(|it| Interval::point(it.lower()))
     }
 
     /// The member with the most damping.
     pub fn strongest(&self) -> Self {
-        let most = |it: Interval| Interval::point(it.upper());
-        FieldBox { a: most(self.a), b: most(self.b), c: most(self.c) }
+        self.map(|it| Interval::point(it.upper()))
     }
 
     /// Whether it is a single field.
@@ -67,12 +72,22 @@ impl FieldBox {
 
     /// All accelerations at a point.
     pub fn acceleration(&self, x: Interval, v: Interval) -> Interval {
-        -x - v * (self.a + v * (self.b + v * self.c))
+        -x - self.force(v)
+    }
+
+    /// All forces of the damping.
+    pub fn force(&self, v: Interval) -> Interval {
+        v * (self.a + v * (self.b + v * self.c))
+    }
+
+    /// The integral of the slope of the damping over time, from the duration, the way and the integral of `v^2`.
+    pub fn damping(&self, duration: Interval, way: Interval, square: Interval) -> Interval {
+        self.a * duration + (self.b * way).twice() + self.c * square * 3.0
     }
 
     /// All damping slopes `a + 2 b v + 3 c v^2`, minus the divergence of the field.
     pub fn slope(&self, v: Interval) -> Interval {
-        v.polynomial(&[self.a, self.b.twice(), self.c * Interval::point(3.0)])
+        v.polynomial(&[self.a, self.b.twice(), self.c * 3.0])
     }
 }
 

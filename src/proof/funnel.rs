@@ -6,6 +6,8 @@
 //! piece of the line `v = speed` (lemma 11), and the motions from the two ends of this piece, which are no
 //! longer stiff, arrive almost together.
 
+use std::cell::Cell;
+
 use super::swing::swing;
 use super::{FieldBox, Passage, ProvedSwing, StartBox, scaled};
 use crate::numerics::{Interval, cbrt, exponent};
@@ -42,16 +44,16 @@ pub struct Funnel {
 
 impl Funnel {
     /// The funnel of a field, if there is one: for `c > 0`, or `b > 0`.
-    pub fn new(field: &FieldBox, swings: &mut u32) -> Option<Self> {
+    pub fn new(field: &FieldBox, swings: &Cell<u32>) -> Option<Self> {
         // In units in which b or c is about 1.
         let (b, c) = (field.b.magnitude(), field.c.magnitude());
         let unit = if b > 0.0 { -exponent(b) } else { -exponent(c) / 2 };
         let local = field.in_units_of(unit);
         let mut funnel = Self::in_units(&local)?;
-        let mut follow = |field: &FieldBox, x: f64| {
-            *swings += 1;
+        let follow = |field: &FieldBox, x: f64| {
+            swings.update(|swings| swings + 1);
             let [x, v] = [x, funnel.speed].map(Interval::point);
-            swing(field, &StartBox { x, v }, false).arrived().map(|it| it.times_power(unit))
+            swing(field, &StartBox { x, v }).arrived().map(|it| it.times_power(unit))
         };
         funnel.low = follow(&local.strongest(), funnel.entry.lower());
         funnel.high = follow(&local.weakest(), funnel.entry.upper());
@@ -76,14 +78,13 @@ impl Funnel {
         let (speed, fastest) = (speed * (1.0 + ROOM), fastest * (1.0 - ROOM));
         let FieldBox { a, b, c } = *field;
         let v = Interval::point(speed);
-        let force = |v: Interval| v * (a + v * (b + v * c));
         let (top, reach) = if c.lower() >= 0.0 {
             // The slope is convex and increases from the speed on.
             let convex = (b + c * 3.0 * v).lower() >= 0.0;
             (if convex { v } else { return None }, f64::INFINITY)
         } else if c.upper() < 0.0 && fastest > speed {
             let top = Interval::point(fastest);
-            (top, force(top).lower())
+            (top, field.force(top).lower())
         } else {
             return None;
         };
@@ -101,7 +102,7 @@ impl Funnel {
             return None;
         }
         let least = Interval::point(field.slope(v).lower());
-        let force = force(v);
+        let force = field.force(v);
         let entry = Interval::new(-force.upper(), (v * 2.0 / least + -force.lower()).upper());
         let rate = Interval::point(a.lower().min(0.0)) / v + b.twice() + c * 3.0 * top;
         let rate = rate.lower().max(0.0);
@@ -149,12 +150,16 @@ impl Funnel {
         high.min(self.beyond_fold.upper())
     }
 
+    /// The arrivals of motions that start at rest, up to `reach` away, and were faster than `speed`.
+    pub fn arrivals(&self) -> Interval {
+        Interval::new(self.least(), self.greatest())
+    }
+
     /// The climb from rest far out, where nothing slows motions down yet (lemma 12).
     pub fn climb_from(&self, field: &FieldBox, start: Interval) -> Option<Climb> {
         let positive = |it: Interval| Interval::point(it.upper().max(0.0));
         let v = Interval::point(self.ceiling);
-        let [a, b, c] = [field.a, field.b, field.c];
-        let drag = v * (positive(a) + v * (positive(b) + v * positive(c)));
+        let drag = field.map(positive).force(v);
         let half = Interval::point(start.lower()) / 2.0;
         let rate = Interval::point((half - drag).lower());
         if !(rate.lower() > 0.0) {
@@ -165,7 +170,8 @@ impl Funnel {
         if !(way.upper() <= half.lower()) {
             return None;
         }
-        let push = positive(-a) + v * (positive(-b).twice() + v * positive(-c) * 3.0);
+        let FieldBox { a, b, c } = field.reversed().map(positive);
+        let push = a + v * (b.twice() + v * c * 3.0);
         self.run_away(field, (way - start.lower()).upper(), (push * time).upper())
     }
 
@@ -211,7 +217,7 @@ impl Funnel {
         if !(start.upper() <= self.reach) {
             return None;
         }
-        let end = Interval::new(self.least(), self.greatest());
+        let end = self.arrivals();
         let after = self.damping_after(field, end).or_else(|| self.damping_beyond_fold(field))?;
         let creep = Interval::point(self.entry.lower()) - climb.position;
         let creep = Interval::point(self.rate) * creep.lower().max(0.0);
@@ -232,7 +238,7 @@ impl Funnel {
             return None;
         }
         let unit = exponent(self.speed);
-        let end = Interval::new(self.least(), self.greatest());
+        let end = self.arrivals();
         let [late, squares] = self.after(field, end, unit)?;
         let FieldBox { a, b, c } = field.in_units_of(unit);
         let [x, v, entry, e] = [fallen.end, fallen.speed, self.entry, Interval::point(self.speed)]
@@ -249,7 +255,7 @@ impl Funnel {
         let duration = fallen.duration + positive(time)? + late;
         let square = fallen.square_in(unit) + positive(square)? + squares;
         let path = scaled(end + start, -unit);
-        let divergence = -(a * duration + (b * path).twice() + c * square * 3.0);
+        let divergence = -field.in_units_of(unit).damping(duration, path, square);
         let speed = Interval::point(0.0);
         Some(ProvedSwing { end, speed, duration, divergence, square, unit, ..*fallen })
     }
@@ -258,34 +264,29 @@ impl Funnel {
     fn damping_after(&self, field: &FieldBox, end: Interval) -> Option<Interval> {
         let unit = exponent(self.speed);
         let [duration, squares] = self.after(field, end, unit)?;
-        let FieldBox { a, b, c } = field.in_units_of(unit);
         let way = scaled(end, -unit) - scaled(self.entry, -unit);
-        Some(a * duration + (b * way).twice() + c * squares * 3.0)
+        Some(field.in_units_of(unit).damping(duration, way, squares))
     }
 
     /// The time from the line `v = speed` on, and the integral of `v^2` in units of `2^(2 unit)`.
     fn after(&self, field: &FieldBox, end: Interval, unit: i32) -> Option<[Interval; 2]> {
         let (low, high) = (self.low?, self.high?);
-        let FieldBox { a, b, c } = field.in_units_of(unit);
         let [end, entry, speed] =
             [end, self.entry, Interval::point(self.speed)].map(|it| scaled(it, -unit));
         // How fast a motion can still be when it has reached the first of the two ends, and for how long.
         let speed_left = (Interval::point(3.0 * end.upper()) * end.width()).sqrt().upper();
         let left = Interval::new(0.0, speed_left);
-        let drag = (left * (a + left * (b + left * c))).magnitude();
+        let drag = field.in_units_of(unit).force(left).magnitude();
         let rate = Interval::point(end.lower()) - drag;
         if !(rate.lower() > 0.0 && drag <= 0.49 * end.upper()) {
             return None;
         }
         let late = (Interval::point(speed_left) / rate.lower()).upper();
-        let late = Interval::new(-late, late);
-        let duration =
-            Interval::new(high.duration.lower(), low.duration.upper().max(high.duration.lower()))
-                + late;
+        let (first, last) = (high.duration.lower(), low.duration.upper());
+        let duration = Interval::new(first, last.max(first)).widened(late);
         let rim = (speed * entry.width()).upper();
         let squares = low.square_in(unit).hull(high.square_in(unit));
-        let squares = squares + Interval::new(-rim, rim);
-        Some([duration, squares])
+        Some([duration, squares.widened(rim)])
     }
 
     /// Lower bound of this integral for motions that fall off a fold.
@@ -322,11 +323,11 @@ fn beyond_fold(field: &FieldBox, entry: Interval, speed: Interval) -> Option<Int
     if !(b.upper() < 0.0 && c.lower() > 0.0 && entry.lower() > 0.0) {
         return None;
     }
-    let pull = Interval::point(a.lower().min(0.0)) * speed;
+    let pull = speed * a.lower().min(0.0);
     // The minimum of b v^2 + c v^3.
     let least = b * 4.0 * b.square() / (c.square() * 27.0);
     let fold = -(least + pull);
-    let last = Interval::point(fold.upper().max(entry.upper())) + speed.twice();
+    let last = speed.twice() + fold.upper().max(entry.upper());
     Some(Interval::new(entry.lower(), last.upper()))
 }
 
@@ -358,7 +359,7 @@ mod tests {
 
     /// The swing from rest, followed to its fall and then continued between the fences.
     fn between_fences(field: &FieldBox, start: Interval) -> ProvedSwing {
-        let funnel = Funnel::new(field, &mut 0).unwrap();
+        let funnel = Funnel::new(field, &Cell::new(0)).unwrap();
         let fallen = swing_below(field, &StartBox::at_rest(start), funnel.speed, true);
         let Passage::Exceeds(fallen) = fallen else { panic!("{field:?}: {fallen:?}") };
         funnel.swing_after(field, start, &fallen).unwrap()
@@ -410,7 +411,7 @@ mod tests {
             ([-1.0, -0.1, 0.5], 100.0),
         ] {
             let (field, start) = (field(coefficients), Interval::point(z));
-            let steps = swing(&field, &StartBox::at_rest(start), false).arrived().unwrap();
+            let steps = swing(&field, &StartBox::at_rest(start)).arrived().unwrap();
             let fences = between_fences(&field, start);
             for (narrow, wide) in [
                 (steps.end, fences.end),
@@ -449,7 +450,7 @@ mod tests {
                 for c in ends(c) {
                     for z in ends(around(z)) {
                         let start = StartBox::at_rest(Interval::point(z));
-                        let one = swing(&field([a, b, c]), &start, false).arrived().unwrap();
+                        let one = swing(&field([a, b, c]), &start).arrived().unwrap();
                         for (one, all) in [
                             (one.end, all.end),
                             (one.duration, all.duration),

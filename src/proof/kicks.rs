@@ -9,7 +9,7 @@
 use super::field::ParameterBox;
 use super::range::narrowed;
 use super::swing::swing;
-use super::{Effort, Passage, Proof, ProvedCycle, ProvedHalf, ProvedMap, StartBox, Theorem};
+use super::{Passage, Proof, ProvedCycle, ProvedHalf, ProvedMap, StartBox, Theorem};
 use crate::model::{Border, Kicks, Margin, RestKicks};
 use crate::numerics::{Interval, powi};
 
@@ -34,41 +34,36 @@ const TURNS: usize = 300;
 
 /// Bounds of the kicks. `proof` is about the cycles for the same parameters; `near` has approximate values.
 pub fn kicks(proof: &Proof, near: &Margin) -> ProvedKicks {
-    let parameters = &proof.parameters;
-    let mut map = ProvedMap::new(parameters);
-    let (edge, clearances) = match border(&mut map, proof, near.displacement) {
-        Ok(found) => found,
+    let (map, r) = (ProvedMap::new(&proof.parameters), proof.parameters.r);
+    let (edge, clearances) = match border(&map, proof, near.displacement) {
+        Ok((edge, Some(clearances))) => (edge, clearances),
+        Ok((edge, None)) => return ProvedKicks { edge, ..ProvedKicks::default() },
         Err(reason) => return ProvedKicks { open: Some(reason), ..ProvedKicks::default() },
     };
-    let Some(clearances) = clearances else {
-        return ProvedKicks { edge, ..ProvedKicks::default() };
-    };
-    let r = parameters.r;
-    let mut at = |x: Interval, hint| {
-        let [one, other] = [0, 1]
-            .map(|half| threshold(hint, |speed| pushed(&mut map, half, x, speed, clearances)));
-        one.zip(other).map(|(one, other)| smaller(one, other))
+    let at = |x: Interval, hint| {
+        let size = |half| threshold(hint, |speed| pushed(&map, half, x, speed, clearances));
+        smaller([0, 1].map(size))
     };
     let impulse = at(r, near.impulse);
     // Over the rest positions the edge is lowest at an end (lemma 22).
-    let ends = [Interval::point(0.0), r + r].map(|x| at(x, near.from_rest.impulse));
-    let rest_impulse = ends[0].zip(ends[1]).map(|(one, other)| smaller(one, other));
-    let [right, left] = clearances;
-    let from_rest = RestKicks { displacement: Some(smaller(right, left)), impulse: rest_impulse };
-    let displacement = Some(smaller(right + r, left + r));
+    let ends = [Interval::point(0.0), r + r];
+    let rest_impulse = smaller(ends.map(|x| at(x, near.from_rest.impulse)));
+    let from_rest =
+        RestKicks { displacement: smaller(clearances.map(Some)), impulse: rest_impulse };
+    let displacement = smaller(clearances.map(|it| Some(it + r)));
     let open = (impulse.is_none() || rest_impulse.is_none()).then_some(NO_EDGE);
     ProvedKicks { edge, sizes: Kicks { displacement, impulse, from_rest }, open }
 }
 
 /// What certainly borders the basin; `hint` is an approximate value of the smallest displacement.
 pub fn edge(proof: &Proof, hint: Option<f64>) -> Option<Border> {
-    border(&mut ProvedMap::new(&proof.parameters), proof, hint).ok()?.0
+    border(&ProvedMap::new(&proof.parameters), proof, hint).ok()?.0
 }
 
 /// What borders the basin, if that is certain, and the clearances of the border to the right and to the left; `None` where
 /// everything comes to rest. Fails with why nothing is known.
 fn border(
-    map: &mut ProvedMap,
+    map: &ProvedMap,
     proof: &Proof,
     hint: Option<f64>,
 ) -> Result<(Option<Border>, Option<[Interval; 2]>), &'static str> {
@@ -105,29 +100,32 @@ fn innermost(proof: &Proof) -> Option<&ProvedCycle> {
     proof.open.iter().all(|gap| gap.lower() >= first.within.upper()).then_some(first)
 }
 
-/// The smaller of two numbers.
-fn smaller(one: Interval, other: Interval) -> Interval {
-    Interval::new(one.lower().min(other.lower()), one.upper().min(other.upper()))
+/// The smaller of two numbers, where both are known.
+fn smaller([one, other]: [Option<Interval>; 2]) -> Option<Interval> {
+    let (one, other) = one.zip(other)?;
+    Some(Interval::new(one.lower().min(other.lower()), one.upper().min(other.upper())))
 }
 
 /// Whether no motion grows beyond all bounds.
-fn is_bounded(map: &mut ProvedMap, proof: &Proof) -> bool {
+fn is_bounded(map: &ProvedMap, proof: &Proof) -> bool {
     let ParameterBox { d2, d3, .. } = proof.parameters;
     // Every motion loses energy, the first integral of lemma 13 for D2 = 0.
     let energy = proof.theorem == Some(Theorem::OneWay) && d2 == Interval::point(0.0);
-    let barred = |it: &ProvedHalf| it.greatest(f64::INFINITY, &mut map.effort) < f64::INFINITY;
-    energy || (d3.lower() > 0.0 && map.forward.iter().all(barred))
+    let barred = |it: &ProvedHalf| it.greatest(f64::INFINITY) < f64::INFINITY;
+    energy || (d3.lower() > 0.0 && map.forward.0.iter().all(barred))
 }
 
 /// Whether a start at rest with this clearance is captured, where that is certain; `half` is its first half swing.
 ///
 /// `known` bounds the edge: starts below it are captured, starts above it are not. The answer updates it.
-fn at_rest(map: &mut ProvedMap, half: usize, from: f64, known: &mut Interval) -> Option<bool> {
+fn at_rest(map: &ProvedMap, half: usize, from: f64, known: &mut Interval) -> Option<bool> {
     let mut at = Interval::point(from);
     for _ in 0..TURNS {
         let before = at;
         for index in [half, 1 - half] {
-            at = map.forward[index].image(at, &mut Effort::default());
+            // Each half swing may take what it takes.
+            map.effort.steps.set(0);
+            at = map.forward.0[index].image(at);
         }
         // A motion that has not come nearer in one turn never will.
         if at.lower() >= from.min(known.upper()) {
@@ -149,14 +147,14 @@ fn at_rest(map: &mut ProvedMap, half: usize, from: f64, known: &mut Interval) ->
 /// the sticking set from which the half swing leads away, `edge` holds the clearances of the edge on the right and on
 /// the left.
 fn pushed(
-    map: &mut ProvedMap,
+    map: &ProvedMap,
     half: usize,
     x: Interval,
     speed: f64,
     edge: [Interval; 2],
 ) -> Option<bool> {
     let start = StartBox { x, v: Interval::point(speed) };
-    let passage = swing(&map.forward[half].field, &start, false);
+    let passage = swing(&map.forward.0[half].field, &start);
     let Passage::Arrives(swing) = passage else {
         return (passage == Passage::Never).then_some(false);
     };

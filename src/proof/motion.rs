@@ -101,14 +101,14 @@ fn followed(
     let mut start = StartBox { x: turned(index, q) + r, v: turned(index, v) };
     let map = ProvedMap::new(parameters);
     while turns.len() < MOST {
-        let field = map.forward[index].field;
+        let field = map.forward.0[index].field;
         let moving = || {
             let time = (until < f64::INFINITY).then(|| Interval::point(until) - tau)?;
             let (x, v) = state_at(&field, &start, time)?;
             let (q, v) = (turned(index, x - r), turned(index, v));
             Some((ProvedFate::Moving, ProvedPoint::of(Interval::point(until), q, v)))
         };
-        let found = match swing(&field, &start, false) {
+        let found = match swing(&field, &start) {
             Passage::Arrives(found) => found,
             Passage::Never => {
                 let escape = blow_up(&field, &start).map(|after| tau + after);
@@ -176,10 +176,9 @@ impl Ball {
         if !never_returns(&self.local.field, x, v) {
             return None;
         }
-        let FieldBox { a, b, c } = self.local.field;
-        let [a, b, c] = [a, b, c].map(|it| Interval::point(it.upper()));
+        let FieldBox { a, b, c } = self.local.field.strongest();
         let at = Interval::point(v);
-        let k0 = -Interval::point(x) - at * (a + at * (b + at * c));
+        let k0 = self.local.field.strongest().acceleration(Interval::point(x), at);
         let k1 = -(a + 1.0 + at * (b * 2.0 + at * c * 3.0));
         let k2 = -(b + at * c * 3.0);
         let k3 = -c;

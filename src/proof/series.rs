@@ -107,15 +107,10 @@ impl<T: SeriesScalar> MotionSeries<T> {
         for k in 1..ORDER {
             // Both sums omit the two outermost products on either side.
             let [among, product] = inner([&self.v, &force], &backward, k);
-            let rest = match k {
-                1 => T::ZERO,
-                2 => v1 * v1,
-                _ => twice * before + among,
-            };
-            let pair = match k {
-                1 => T::ZERO,
-                2 => force1 * v1,
-                _ => force1 * before + force_before * v1,
+            let (rest, pair) = match k {
+                1 => (T::ZERO, T::ZERO),
+                2 => (v1 * v1, force1 * v1),
+                _ => (twice * before + among, force1 * before + force_before * v1),
             };
             let earlier = cubic * rest + (pair + product);
             let acceleration = -(self.x[k] + earlier) - damping * newest;

@@ -71,8 +71,14 @@ impl Norm {
 
     /// Largest rate of growth for damping slopes from `low` to `high`, up to rounding.
     pub(super) fn rate(self, low: f64, high: f64) -> f64 {
+        0.5 * (self.excess(low, high) - self.skew)
+    }
+
+    /// What these slopes add to twice that rate.
+    fn excess(self, low: f64, high: f64) -> f64 {
+        // A negative excess times 1 - k, which is not positive, and a positive one times 1 + k.
         let (k, s) = (self.stretch, self.skew);
-        0.5 * (((s - low) * (1.0 + k)).max((high - s) * (k - 1.0)).max(0.0) - s)
+        ((s - low).max(0.0) * (1.0 + k)).max((high - s).max(0.0) * (k - 1.0))
     }
 }
 
@@ -349,7 +355,7 @@ impl StepField {
         /// Relative upper bound on the roundings of the sums below.
         const ROUNDED: f64 = 1e-15;
         let ([a, b, c], [spread_a, spread_b, spread_c]) = (self.middles, self.spread);
-        let (speed, s, k) = (v.magnitude(), norm.skew, norm.stretch);
+        let speed = v.magnitude();
         let linear = [v.lower(), v.upper()].map(|v| 2.0 * b * v);
         // v^2 + v w + w^2 for v and w in one interval: between 0 (or 3/4 of the larger square) and 3 times that
         // square.
@@ -364,9 +370,8 @@ impl StepField {
         if !(low <= high && blur < f64::INFINITY) {
             return f64::INFINITY;
         }
-        // A negative excess times 1 - k, which is not positive, and a positive one times 1 + k.
-        let part = ((s - low).max(0.0) * (1.0 + k)).max((high - s).max(0.0) * (k - 1.0));
-        0.5 * (part - s) + ROUNDED * (part + s.abs())
+        let excess = norm.excess(low, high);
+        0.5 * (excess - norm.skew) + ROUNDED * (excess + norm.skew.abs())
     }
 }
 
@@ -378,7 +383,7 @@ fn velocities(sums: &Sums, v0: f64, v1: f64, off: f64) -> Interval {
     let away = Interval::around(v0, (sums.after_first + off) * INFLATE);
     let rounded = UNIT * (HORNER[0] * sums.v + HORNER[1] * sums.v_degree);
     let bend = (sums.bend / 8.0 + rounded + off) * INFLATE;
-    let chord = Interval::new(v0.min(v1), v0.max(v1)) + Interval::new(-bend, bend);
+    let chord = Interval::new(v0.min(v1), v0.max(v1)).widened(bend);
     away.intersection(chord).unwrap_or(away)
 }
 

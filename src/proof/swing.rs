@@ -67,8 +67,8 @@ impl Passage {
 ///
 /// Guarantee: the bounds hold for the exact motions, whatever the rounding. The result is `Unknown` where there
 /// are no bounds: for a stiff or a wide motion, or one that arrives within its own error of the centre.
-pub fn swing(field: &FieldBox, start: &StartBox, wants_fastest: bool) -> Passage {
-    swing_below(field, start, f64::INFINITY, wants_fastest)
+pub fn swing(field: &FieldBox, start: &StartBox) -> Passage {
+    swing_below(field, start, f64::INFINITY, false)
 }
 
 /// As [`swing`], but stops as soon as every motion is certainly faster than `ceiling`; where the largest velocity is
@@ -170,15 +170,14 @@ impl SwingRun {
         let x = Interval::around(self.ball.x, off);
         let field = self.ball.local.field;
         let speed = Interval::new(-most, most);
-        let damping = speed * (field.a + speed * (field.b + speed * field.c));
         // Whether the motion continues or is followed back, x only grows.
-        let rate = Interval::point(x.lower()) - Interval::point(damping.magnitude());
+        let rate = Interval::point(x.lower()) - field.force(speed).magnitude();
         if !(rate.lower() > 0.0) {
             return None;
         }
-        let lag = (Interval::point(most) / Interval::point(rate.lower())).upper();
-        let along = (Interval::point(most) * Interval::point(lag)).upper();
-        let last = (Interval::point(x.upper()) + Interval::point(along)).upper();
+        let lag = (Interval::point(most) / rate.lower()).upper();
+        let along = (Interval::point(most) * lag).upper();
+        let last = (Interval::point(x.upper()) + along).upper();
         let end = Interval::new(x.lower(), last);
         let end = if end.lower() > 0.0 { end } else { return None };
         self.finish((end, Interval::point(0.0)), lag)
@@ -219,12 +218,12 @@ impl SwingRun {
 
     /// The swing to its end, which is at most `lag` away from that of the last step, in the units of the question.
     fn finish(&self, (end, velocity): (Interval, Interval), lag: f64) -> Option<ProvedSwing> {
-        let (ball, FieldBox { a, b, c }) = (&self.ball, self.ball.local.field);
+        let ball = &self.ball;
         let duration = ball.elapsed(lag);
         // Beyond the end of the step v stays below its bound there, whose square times the lag bounds the integral.
         let beyond = lag * powi(ball.v.abs() + ball.off(), 2);
         let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);
-        let divergence = -(a * duration + (b * (end - self.start)).twice() + c * square * 3.0);
+        let divergence = -ball.local.field.damping(duration, end - self.start, square);
         let known = duration.is_finite() && divergence.is_finite() && duration.lower() > 0.0;
         let length = |it| scaled(it, ball.unit);
         known.then(|| ProvedSwing {

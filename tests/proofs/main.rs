@@ -22,8 +22,8 @@ use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::proved::proved;
 use hopfscope::proof::bifurcation::{enclose_escape, enclose_fold};
 use hopfscope::proof::field::FieldBox;
-use hopfscope::proof::map::{MapDirection, ProvedMap};
-use hopfscope::proof::swing::{Passage, swing};
+use hopfscope::proof::map::ProvedMap;
+use hopfscope::proof::swing::{Passage, swing, swing_below};
 use hopfscope::proof::{ParameterBox, Proof, StartBox, prove};
 
 /// A number in twice the precision of a double, as a sum of two doubles.
@@ -118,7 +118,7 @@ fn check_half_swings(count: usize) {
         let point = Interval::point;
         let field = FieldBox { a: point(2.0 * d), b: point(d2), c: point(d3) };
         let start = StartBox::at_rest(point(x));
-        let found = match swing(&field, &start, false) {
+        let found = match swing(&field, &start) {
             Passage::Arrives(found) => found,
             Passage::Never | Passage::Exceeds(_) => continue,
             Passage::Unknown => {
@@ -169,7 +169,9 @@ fn half_swings_scale_to_the_last_bit() {
             c: point(0.5 * by(-unit) * by(-unit)),
         };
         let found =
-            swing(&field, &StartBox::at_rest(point(0.75 * by(unit))), true).arrived().unwrap();
+            swing_below(&field, &StartBox::at_rest(point(0.75 * by(unit))), f64::INFINITY, true)
+                .arrived()
+                .unwrap();
         (
             found.end.lower() / by(unit),
             found.end.upper() / by(unit),
@@ -182,7 +184,7 @@ fn half_swings_scale_to_the_last_bit() {
     }
     // So small that only linear damping matters.
     let tiny = FieldBox { a: point(-0.4), b: point(0.3), c: point(0.5) };
-    let swing = swing(&tiny, &StartBox::at_rest(point(1e-300)), false).arrived().unwrap();
+    let swing = swing(&tiny, &StartBox::at_rest(point(1e-300))).arrived().unwrap();
     let growth = exp(std::f64::consts::PI * 0.2 / 0.96_f64.sqrt());
     assert!((swing.end.lower() / 1e-300 / growth - 1.0).abs() < 1e-12, "{swing:?}");
 }
@@ -369,13 +371,13 @@ fn stiff_half_swings_arrive_where_an_implicit_method_says() {
         (-0.25, 1.0, -1e-5, 1e7, 0.867_665_236_647, 1e-8),
     ] {
         // The second half of the map runs above v = 0, where b is D2.
-        let mut map = ProvedMap::new(&exactly(d, d2, d3, 0.0));
-        let found = map.forward[1].image(Interval::point(start), &mut map.effort);
+        let map = ProvedMap::new(&exactly(d, d2, d3, 0.0));
+        let found = map.forward.0[1].image(Interval::point(start));
         let slack = 1e-9 * end;
         assert!(found.lower() <= end + slack && end - slack <= found.upper(), "{found} {end}");
         assert!(found.width() <= within * end, "{d} {d2} {d3} {start}: {found}");
         let one = Interval::new(start, start * (1.0 + 1e-6));
-        let slope = map.slope(MapDirection::Forward, one);
+        let slope = map.forward.slope(one);
         assert!(
             d2 < 0.0 || d3 <= 0.0 || slope.is_some_and(|slope| slope.upper() < 1e-6),
             "{slope:?}"
