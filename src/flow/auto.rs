@@ -73,9 +73,8 @@ pub type KeptStep = Arc<dyn Stepper + Send + Sync>;
 impl AutoStepper {
     /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(tolerance: f64) -> Self {
-        let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
         AutoStepper {
-            field,
+            field: HalfPlane::default(),
             taylor: Taylor::new(tolerance),
             tolerance,
             stiff: None,
@@ -122,9 +121,7 @@ impl AutoStepper {
 
     /// The integral of `v^2` over the last step; nonlinear fields only.
     pub fn square_integral(&self) -> f64 {
-        let Some(stiff) = self.implicit() else { return self.taylor.square_integral() };
-        let [second, _, _] = stiff.powers().into();
-        second
+        self.implicit().map_or_else(|| self.taylor.square_integral(), |stiff| stiff.powers().x)
     }
 
     /// The largest v in the last step, which took this long, if the acceleration changes sign there.

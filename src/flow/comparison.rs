@@ -56,10 +56,6 @@ impl Field for SmoothField {
         });
         self.smooth.divergence(v) - self.r * slope
     }
-
-    fn magnitude(&self, x: f64, v: f64) -> f64 {
-        self.smooth.magnitude(x, v) + self.r
-    }
 }
 
 impl PlaneField for SmoothField {
@@ -69,6 +65,10 @@ impl PlaneField for SmoothField {
             r: times_power(self.r, -k),
             epsilon: self.epsilon.map(|epsilon| times_power(epsilon, -k)),
         }
+    }
+
+    fn magnitude(&self, x: f64, v: f64) -> f64 {
+        self.smooth.magnitude(x, v) + self.r
     }
 
     fn frictionless(&self) -> HalfPlane {

@@ -9,6 +9,7 @@ use crate::numerics::{Hermite, Scalar};
 /// An initial value problem.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[must_use]
 pub struct Problem {
     /// Parameters of the oscillator; a machine has its model in their place.
     pub parameters: Parameters,
@@ -28,7 +29,6 @@ pub struct Problem {
 
 impl Problem {
     /// A motion to ten digits.
-    #[must_use]
     pub fn new(parameters: Parameters, initial: State, until: f64) -> Self {
         let [tolerance, step, epsilon] =
             [Knob::Tolerance, Knob::Step, Knob::Epsilon].map(Knob::usual);
@@ -266,6 +266,7 @@ impl std::ops::AddAssign for Cost {
 
 /// A computed motion, in doubles or in numbers of twice the precision.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct Motion<N = f64> {
     /// The problem that was solved.
     pub problem: Problem,

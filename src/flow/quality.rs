@@ -49,14 +49,12 @@ impl Problem {
     }
 
     /// The same motion by the same method, with another value of [`Problem::setting`].
-    #[must_use]
     pub fn with_setting(mut self, number: f64) -> Self {
         self.set(self.method.dial(), number);
         self
     }
 
     /// The same motion at a named setting, for any method.
-    #[must_use]
     pub fn at(self, quality: &Quality) -> Self {
         let Quality { tolerance, step, epsilon, .. } = *quality;
         Problem { tolerance, step, epsilon, ..self }

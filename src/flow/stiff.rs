@@ -19,7 +19,7 @@ use super::{
     Collocation, Cost, Differences, LONGEST, MOST, Powers, SCHEMES, StageMatrix, Stages, Step,
     StepPoint, Stepper, allowed_error, first_length, powers_of_stages, stopping_time,
 };
-use crate::model::{Field, HalfPlane, Reason, Result};
+use crate::model::{HalfPlane, PlaneField, Reason, Result};
 use crate::numerics::{pow, real, rough_exp2, rough_log2};
 
 /// The tolerance down to which three stages are enough.
@@ -49,7 +49,7 @@ const FORESEEN: f64 = 3.0;
 
 /// The implicit stepper.
 #[derive(Clone, Debug)]
-pub struct StiffStepper<F: Field = HalfPlane> {
+pub struct StiffStepper<F: PlaneField = HalfPlane> {
     scheme: &'static Collocation,
     field: F,
     /// Tolerance of a step for the embedded solution, where damping is not stiff.
@@ -71,7 +71,7 @@ pub struct StiffStepper<F: Field = HalfPlane> {
     cost: Cost,
 }
 
-impl<F: Field> StiffStepper<F> {
+impl<F: PlaneField> StiffStepper<F> {
     /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(field: F, tolerance: f64) -> Self {
         let [three, five, seven] = &*SCHEMES;
@@ -300,7 +300,7 @@ impl<F: Field> StiffStepper<F> {
     }
 }
 
-impl<F: Field> Stepper<F> for StiffStepper<F> {
+impl<F: PlaneField> Stepper<F> for StiffStepper<F> {
     fn begin(&mut self, field: &F) {
         self.field = *field;
         // What is known about the last step belonged to another field.

@@ -79,7 +79,6 @@ impl Subject {
 
 impl Problem {
     /// The motion of the oscillator of the paper, or of a machine in SI units, which is never interrupted.
-    #[must_use]
     pub fn followed(&self, model: Option<&Model>, detail: Detail, limits: &Limits) -> Motion {
         match model {
             Some(model) => follow(model, self, MotionUnits::physical(model), detail),

@@ -75,7 +75,7 @@ impl<N: Scalar> Taylor<N> {
     /// As [`Taylor::new`], with a given order of at most 32.
     pub fn with_order(tolerance: f64, order: usize) -> Self {
         Taylor {
-            field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
+            field: HalfPlane::default(),
             order: order.clamp(4, MOST),
             log_tolerance: rough_log2((AIM * tolerance).max(1e-300)),
             x: [N::default(); LENGTH],

@@ -18,7 +18,6 @@ use crate::numerics::{Scalar, Sum, real, times_power};
 /// Guarantee: the result is one of the typed outcomes, and no number in it is NaN. With the methods that find
 /// events, the place and time of every crossing carry the errors of the previous steps, each of relative size
 /// `tolerance`.
-#[must_use]
 pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Motion {
     let Problem { parameters, tolerance, step, epsilon, .. } = *problem;
     let linear = parameters.is_piecewise_linear();

@@ -65,7 +65,8 @@ impl Side {
 }
 
 /// Damping of one side: the right-hand side without friction, as seen in the side's own frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[must_use]
 pub struct HalfPlane {
     /// Linear damping D.
     pub d: f64,
@@ -77,14 +78,12 @@ pub struct HalfPlane {
 
 impl HalfPlane {
     /// The field on one side of the switching line.
-    #[must_use]
     pub fn new(parameters: &Parameters, side: Side) -> Self {
         HalfPlane { d: parameters.d, d2: side.sign() * parameters.d2, d3: parameters.d3 }
     }
 
     /// The field of motions run backward: with time reversed, `y = -x` obeys the same equation with all
     /// damping of the opposite sign.
-    #[must_use]
     pub fn reversed(&self) -> Self {
         HalfPlane { d: -self.d, d2: -self.d2, d3: -self.d3 }
     }
@@ -103,9 +102,6 @@ pub trait Field: Copy + Debug {
 
     /// Divergence of the field, i.e. the derivative of the acceleration by v; the Jacobian is `[[0, 1], [-1, this]]`.
     fn divergence(&self, v: f64) -> f64;
-
-    /// Sum of the magnitudes of all terms of the acceleration, the scale of its rounding error.
-    fn magnitude(&self, x: f64, v: f64) -> f64;
 }
 
 /// A field of the oscillator: on one side of `v = 0`, or on both with friction that is no longer set-valued.
@@ -113,6 +109,9 @@ pub trait PlaneField: Field {
     /// The same field for a motion measured in units of `2^k`, exactly.
     #[must_use]
     fn in_units(&self, k: i32) -> Self;
+
+    /// Sum of the magnitudes of all terms of the acceleration, the scale of its rounding error.
+    fn magnitude(&self, x: f64, v: f64) -> f64;
 
     /// The field without friction, which alone drives an escape.
     fn frictionless(&self) -> HalfPlane;
@@ -129,11 +128,6 @@ impl Field for HalfPlane {
     fn divergence(&self, v: f64) -> f64 {
         -(2.0 * self.d + v * (2.0 * self.d2 + v * 3.0 * self.d3))
     }
-
-    fn magnitude(&self, x: f64, v: f64) -> f64 {
-        let v = v.abs();
-        x.abs() + v * (2.0 * self.d.abs() + v * (self.d2.abs() + self.d3.abs() * v))
-    }
 }
 
 /// D2 is multiplied by `2^k`, D3 by `2^(2 k)` (the scaling symmetry of equation 4).
@@ -144,6 +138,11 @@ impl PlaneField for HalfPlane {
             d2: times_power(self.d2, k),
             d3: times_power(times_power(self.d3, k), k),
         }
+    }
+
+    fn magnitude(&self, x: f64, v: f64) -> f64 {
+        let v = v.abs();
+        x.abs() + v * (2.0 * self.d.abs() + v * (self.d2.abs() + self.d3.abs() * v))
     }
 
     fn frictionless(&self) -> HalfPlane {

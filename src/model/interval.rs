@@ -31,7 +31,6 @@ impl ParameterBox {
 
     /// The box that reaches from the parameters by these half widths to both sides, within their ranges. Its ends, unlike
     /// a parameter, may be arbitrarily close to 0. The start of a motion has no interval.
-    #[must_use]
     pub fn around(
         parameters: &Parameters,
         half_widths: impl IntoIterator<Item = (Knob, f64)>,
@@ -49,7 +48,6 @@ impl ParameterBox {
     }
 
     /// The parameters halfway.
-    #[must_use]
     pub fn middle(&self) -> Parameters {
         self.map(Interval::middle)
     }

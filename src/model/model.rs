@@ -13,7 +13,7 @@
 use super::{
     Belt, ForceBranch, ForcePiece, Mode, Parameters, Reason, Result, branch, first_below_zero,
 };
-use crate::numerics::powi;
+use crate::numerics::{powi, value};
 
 /// The last terms of a step are this small against the state where nothing else is asked for.
 pub const FINEST: f64 = 1e-17;
@@ -275,7 +275,7 @@ impl Model {
 
     /// The damper's force at a velocity.
     pub(crate) fn damper(&self, y: f64) -> f64 {
-        self.damper.iter().rev().fold(0.0, |sum, coefficient| sum * y + coefficient)
+        value(&self.damper, y)
     }
 
     /// The smallest velocity for which the friction law says something.

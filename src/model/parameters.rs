@@ -8,6 +8,7 @@ use crate::numerics::times_power;
 /// within 1e-150 .. 1e150 in magnitude ([`KNOBS`](super::KNOBS)): beyond that, nothing is promised. They are numbers, or
 /// intervals in which these lie ([`ParameterBox`](super::ParameterBox)).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[must_use]
 pub struct Parameters<N = f64> {
     /// Effective linear damping D; negative means self-excited, `abs(D) < 1` oscillatory.
     #[serde(rename = "D")]
@@ -31,7 +32,6 @@ impl<N> From<[N; 4]> for Parameters<N> {
 
 impl<N> Parameters<N> {
     /// D, D2, D3 and r, as `of` makes them of these.
-    #[must_use]
     pub fn map<M>(self, of: impl Fn(N) -> M) -> Parameters<M> {
         self.numbers().map(of).into()
     }
@@ -62,13 +62,11 @@ impl State {
 
 impl Parameters {
     /// The parameters for which mirrored motions are motions: `D2` changes its sign.
-    #[must_use]
     pub fn mirrored(self) -> Self {
         Parameters { d2: -self.d2, ..self }
     }
 
     /// The parameters for which motions `2^k` times as large are motions (scaling symmetry of equation 4).
-    #[must_use]
     pub fn times_power(self, k: i32) -> Self {
         Parameters {
             d: self.d,
@@ -117,6 +115,7 @@ pub struct Work {
 
 /// Where the energy of a motion comes from and goes, and what remains unaccounted for.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[must_use]
 pub struct Ledger {
     /// Energy at the start.
     pub start: f64,
@@ -130,7 +129,6 @@ pub struct Ledger {
 
 impl Ledger {
     /// The ledger of these works between two energies.
-    #[must_use]
     pub fn new((start, end): (f64, f64), works: Vec<Work>) -> Self {
         let sum: f64 = works.iter().map(|work| work.amount).sum();
         Ledger { start, end, works, residual: (end - start) - sum }
@@ -138,7 +136,6 @@ impl Ledger {
 
     /// The ledger of the works of the terms of equation (4): of `-2 D v`, `-D2 v^2` and `-D3 v^3`, and of dry friction,
     /// which is never positive.
-    #[must_use]
     pub fn of_terms(parameters: &Parameters, energies: (f64, f64), works: [f64; 4]) -> Self {
         let Parameters { d, d2, d3, r } = *parameters;
         let terms = [("linear", d), ("quadratic", d2), ("cubic", d3), ("friction", r)];
@@ -161,7 +158,6 @@ impl Ledger {
     }
 
     /// The same in a unit in which 1 is this much.
-    #[must_use]
     pub fn scaled(mut self, one: f64) -> Self {
         self.works.iter_mut().for_each(|work| work.amount *= one);
         Ledger {

@@ -99,10 +99,7 @@ impl Source {
     /// The mass on a belt, if it is one.
     #[must_use]
     pub fn of_belt(&self) -> Option<&Belt> {
-        match &self.body {
-            Body::Belt(belt) => Some(belt),
-            Body::Paper(_) | Body::Mode(_) => None,
-        }
+        if let Body::Belt(belt) = &self.body { Some(belt) } else { None }
     }
 
     /// Its whole model.
@@ -174,7 +171,6 @@ impl Tolerances {
     }
 
     /// The box of parameters of the oscillator of the paper around these; friction is never negative.
-    #[must_use]
     pub fn around(&self, parameters: &Parameters) -> ParameterBox {
         let half = |knob: Knob| Some((knob, *self.half_widths.get(knob.spec().name)?));
         ParameterBox::around(parameters, Knob::PARAMETERS.into_iter().filter_map(half))

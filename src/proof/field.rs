@@ -8,7 +8,6 @@ use crate::numerics::{Interval, times_power};
 
 impl ParameterBox {
     /// The same parameters with lengths in units of `2^k`.
-    #[must_use]
     pub fn in_units_of(&self, k: i32) -> Self {
         let d3 = scaled(scaled(self.d3, k), k);
         ParameterBox { d: self.d, d2: scaled(self.d2, k), d3, r: scaled(self.r, -k) }

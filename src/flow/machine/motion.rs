@@ -9,6 +9,7 @@ use crate::model::{ContactState, Model, Phase, Reason, Result, State};
 
 /// The units in which a motion of a machine is told. The model itself computes in m and `1/omega_0`.
 #[derive(Clone, Copy, Debug)]
+#[must_use]
 pub struct MotionUnits {
     /// The unit of length, in m.
     length: f64,
@@ -20,13 +21,11 @@ pub struct MotionUnits {
 
 impl MotionUnits {
     /// SI units.
-    #[must_use]
     pub fn physical(model: &Model) -> Self {
         MotionUnits { length: 1.0, omega_0: model.omega_0, energy: 1.0 }
     }
 
     /// Those of the paper's oscillator on a belt.
-    #[must_use]
     pub fn of_paper(model: &Model) -> Self {
         let energy = model.stiffness * model.pull * model.pull;
         MotionUnits { length: model.pull, omega_0: 1.0, energy }
@@ -35,7 +34,6 @@ impl MotionUnits {
 
 /// Follows a motion of a machine, given and told in these units, by a method that
 /// [follows machines](Method::follows_machines).
-#[must_use]
 pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Detail) -> Motion {
     let mut model = model.clone();
     model.tolerance = problem.tolerance;

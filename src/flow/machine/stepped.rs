@@ -24,10 +24,6 @@ impl Field for PhaseField<'_> {
     fn divergence(&self, v: f64) -> f64 {
         self.model.force(self.phase, v).1
     }
-
-    fn magnitude(&self, x: f64, v: f64) -> f64 {
-        x.abs() + self.model.force(self.phase, v).0.abs()
-    }
 }
 
 /// A stepper of a machine's phases.

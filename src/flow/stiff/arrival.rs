@@ -1,13 +1,13 @@
 //! The last step of a half swing: shortened until it ends at `v = 0`.
 
 use crate::flow::{Step, StepPoint, StiffStepper};
-use crate::model::Field;
+use crate::model::PlaneField;
 use crate::numerics::{Bracket, PlaceTolerance, bisect, try_newton};
 
 /// Relative change of the length of the last step below which it counts as settled; this takes about four attempts.
 const SETTLED: f64 = 1e-9;
 
-impl<F: Field> StiffStepper<F> {
+impl<F: PlaneField> StiffStepper<F> {
     /// Shortens the step just kept until it ends at the first `v = 0`; `None` where that fails.
     pub(super) fn arrive(&mut self) -> Option<Step> {
         let (scheme, whole, polynomial) = (self.scheme, self.duration, self.dense[1]);

@@ -8,7 +8,7 @@ use super::super::taylor::Taylor;
 use super::super::trajectory::trajectory;
 use super::super::{Detail, Limits, Method, Outcome, Problem};
 use super::*;
-use crate::model::{Parameters, State};
+use crate::model::{Field, Parameters, State};
 
 fn far_out(tolerance: f64) -> Problem {
     Problem {

@@ -8,7 +8,7 @@ use serde::de::{Deserialize, Deserializer, Error};
 use serde::{Serialize, Serializer};
 
 use super::{Belt, DimensionalNumber, Parameters, State, TolerancedNumber, measured, toleranced};
-use crate::numerics::{Interval, brief, most_similar, shortest};
+use crate::numerics::{Interval, brief, in_unit, most_similar, shortest};
 use table::Access;
 pub use table::{Group, KNOBS, Knob, KnobSpec};
 
@@ -26,7 +26,7 @@ impl fmt::Display for RangeError {
         let RangeError { knob, value } = *self;
         let KnobSpec { min, max, least, unit, .. } = *knob.spec();
         if (min..=max).contains(&value) {
-            let (value, least) = (knob.print(value), with_unit(brief(least), unit));
+            let (value, least) = (knob.print(value), in_unit(&brief(least), unit));
             return write!(
                 out,
                 "{knob} = {value} is too close to 0; allowed: 0, or {least} and more in magnitude"
@@ -56,9 +56,8 @@ impl From<RangeError> for String {
 impl Parameters {
     /// One of the parameters; not a number if the knob is none of them.
     #[must_use]
-    pub fn value(&self, knob: Knob) -> f64 {
-        let mut own = *self;
-        own.part(knob).map_or(f64::NAN, |part| *part)
+    pub fn value(mut self, knob: Knob) -> f64 {
+        self.part(knob).map_or(f64::NAN, |part| *part)
     }
 }
 
@@ -75,7 +74,6 @@ impl<N> Parameters<N> {
     }
 
     /// The same with another value of one of them; a knob that is none of them changes nothing.
-    #[must_use]
     pub fn with(mut self, knob: Knob, value: N) -> Self {
         if let Some(part) = self.part(knob) {
             *part = value;
@@ -161,22 +159,22 @@ impl Knob {
     /// A value with its unit, such that it can be typed in again.
     #[must_use]
     pub fn print(self, value: f64) -> String {
-        with_unit(shortest(value), self.spec().unit)
+        in_unit(&shortest(value), self.spec().unit)
     }
 
     /// What it can be: `0 .. 1e12 N`.
     #[must_use]
     pub fn range(self) -> String {
         let KnobSpec { min, max, unit, .. } = *self.spec();
-        with_unit(format!("{} .. {}", brief(min), brief(max)), unit)
+        in_unit(&format!("{} .. {}", brief(min), brief(max)), unit)
     }
 
     /// That it can be stepped no further.
     #[must_use]
     pub fn at_end(self, value: f64) -> String {
-        let KnobSpec { symbol, max, .. } = *self.spec();
+        let KnobSpec { symbol, max, unit, .. } = *self.spec();
         let end = if value < max { "minimum" } else { "maximum" };
-        format!("{symbol} is at its {end}, {}", with_unit(brief(value), self.spec().unit))
+        format!("{symbol} is at its {end}, {}", in_unit(&brief(value), unit))
     }
 
     /// The value where nothing is said; 0 where something must be.
@@ -225,10 +223,6 @@ pub fn unknown(name: &str, known: &[&str]) -> String {
     let meant = most_similar(name, known).filter(alike);
     let meant = meant.map_or_else(String::new, |meant| format!("did you mean {meant}? "));
     format!("no number {name:?}; {meant}there are {}", known.join(", "))
-}
-
-fn with_unit(text: String, unit: &str) -> String {
-    if unit.is_empty() { text } else { format!("{text} {unit}") }
 }
 
 impl fmt::Display for Knob {
