@@ -132,14 +132,11 @@ impl Trade {
             for rung in rungs.filter(|rung| machine.is_none() || rung.tolerance > FINEST) {
                 let found = rung.followed(machine, Detail::default(), &bounded);
                 let row = TradePoint::new(&found, &reference);
-                let reason = match row.deviation {
-                    Err(NoComparison::GaveUp(reason)) => Some(reason),
-                    _ => None,
-                };
+                let deviation = row.deviation;
                 rows.push(row);
-                match reason {
-                    Some(Reason::Interrupted) => return Err(Reason::Interrupted),
-                    Some(Reason::Budget { .. }) => break,
+                match deviation {
+                    Err(NoComparison::GaveUp(end @ Reason::Interrupted)) => return Err(end),
+                    Err(NoComparison::GaveUp(Reason::Budget { .. })) => break,
                     _ => {}
                 }
             }

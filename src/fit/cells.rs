@@ -14,19 +14,15 @@ const MISSING: [&str; 14] = [
 /// The lines of a text, except empty ones and comments, with their numbers, counted from 1, and without leading and
 /// trailing blanks.
 pub fn lines(text: &str) -> Vec<(usize, &str)> {
-    let mut found = Vec::new();
     let parts = text.split('\n').flat_map(|part| {
         // A carriage return alone also ends a line; before a newline it is part of the line ending.
         part.strip_suffix('\r').unwrap_or(part).split('\r')
     });
-    for (index, text) in parts.enumerate() {
-        let text = text.trim_matches(|char| char == ' ' || char == '\0');
+    let is_row = |(_, text): &(usize, &str)| {
         let blank = text.trim().is_empty() || text.chars().all(|char| ";,\t ".contains(char));
-        if !(blank || text.starts_with(['#', '%'])) {
-            found.push((index + 1, text));
-        }
-    }
-    found
+        !(blank || text.starts_with(['#', '%']))
+    };
+    (1..).zip(parts.map(|text| text.trim_matches([' ', '\0']))).filter(is_row).collect()
 }
 
 /// The sign that separates the cells in the last rows, which are data in every file; `None` for blanks.

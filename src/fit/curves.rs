@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{
     Estimate, Margins, OFFSET, OMEGA0, Q0, Way, autocorrelations, averaged, follow, parameters,
-    range, rate,
+    quantile, range, rate, sorted,
 };
 use crate::model::{Parameters, State};
 use crate::numerics::{real, truncated};
@@ -144,11 +144,9 @@ fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
 fn band(margins: &Margins, amplitudes: &[f64]) -> Vec<PlotPoint> {
     let (mut below, mut above) = (Vec::new(), Vec::new());
     for &a in amplitudes {
-        let mut values: Vec<f64> = margins.draws.iter().map(|draw| averaged(draw, a)).collect();
-        values.sort_by(f64::total_cmp);
-        let Some(last) = values.len().checked_sub(1) else { continue };
-        below.push([a, values[(values.len() / 20).min(last)]]);
-        above.push([a, values[(values.len() * 19 / 20).min(last)]]);
+        let values = sorted(margins.draws.iter().map(|draw| Some(averaged(draw, a))));
+        below.extend(quantile(&values, 0.05).map(|value| [a, value]));
+        above.extend(quantile(&values, 0.95).map(|value| [a, value]));
     }
     above.reverse();
     below.extend(above);

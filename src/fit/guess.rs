@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    D, D2, Extreme, LAST, Noise, OFFSET, OMEGA0, Q0, R, Signal, StartKind, Unknowns,
+    D, D2, Extreme, LAST, Noise, OFFSET, OMEGA0, Q0, R, Signal, StartKind, Unknowns, amplitudes,
     dominant_frequency, least_squares, median, range, rate, regressions, robust_deviation,
     smoothed, turning_points, without_jumps,
 };
@@ -234,10 +234,10 @@ fn excited_again(t: &[f64], x: &[f64], extremes: &[Extreme]) -> Option<usize> {
     const SWINGS: usize = 4;
     /// Before the excitation, a swing must be narrower than the preceding one by this factor to count as decay.
     const NARROWER: f64 = 0.9;
-    /// How near a sample must be to the turning point, as a fraction of the new swing. A rest differs by less
+    /// How near a sample must be to the turning point, as a fraction of half the new swing. A rest differs by less
     /// from the last turning point before it.
-    const NEAR: f64 = 0.1;
-    let widths: Vec<f64> = extremes.windows(2).map(|two| (two[1].x - two[0].x).abs()).collect();
+    const NEAR: f64 = 0.2;
+    let widths = amplitudes(extremes);
     let grows = |swings: &[f64]| {
         let (decay, grown) = swings.split_at(2);
         decay[1] < NARROWER * decay[0]

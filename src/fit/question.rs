@@ -55,9 +55,7 @@ impl StartKind {
     pub fn beginning(self, p: &Unknowns, t: &[f64]) -> (f64, State) {
         match self {
             StartKind::Release => (p[LAST], State { q: p[Q0], v: 0.0 }),
-            StartKind::Moving => {
-                (t.first().copied().unwrap_or(0.0), State { q: p[Q0], v: p[LAST] })
-            }
+            StartKind::Moving => (*t.first().unwrap_or(&0.0), State { q: p[Q0], v: p[LAST] }),
         }
     }
 }

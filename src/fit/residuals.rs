@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::Serialize;
 
+use super::mean_square;
 use crate::numerics::{bisect, cos, integrate, ln, pow, powi, real, sin, truncated};
 
 /// Correlation of the residuals.
@@ -99,11 +100,10 @@ fn is_patchy(residuals: &[f64], samples_per_period: f64) -> bool {
     /// Number of standard deviations that chance does not reach in thousands of half swings.
     const FAR: f64 = 5.0;
     let width = (truncated((0.5 * samples_per_period).min(real(residuals.len())))).max(8);
-    let square = |e: &f64| e * e;
-    let variance = residuals.iter().map(square).sum::<f64>() / real(residuals.len());
+    let variance = mean_square(residuals);
     residuals.chunks_exact(width).any(|part| {
         let mean = part.iter().sum::<f64>() / (real(width) * variance).sqrt();
-        let power = part.iter().map(square).sum::<f64>() / variance - real(width);
+        let power = part.iter().map(|e| e * e).sum::<f64>() / variance - real(width);
         mean.abs() > FAR || power > FAR * (2.0 * real(width)).sqrt()
     })
 }

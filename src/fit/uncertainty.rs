@@ -253,12 +253,9 @@ pub struct ProfileInterval {
 impl ProfileInterval {
     /// The smallest interval that contains both.
     pub fn joined(self, other: ProfileInterval) -> Self {
-        let both = |one: Option<f64>, two: Option<f64>, pick: fn(f64, f64) -> f64| {
-            one.zip(two).map(|(one, two)| pick(one, two))
-        };
         ProfileInterval {
-            lower: both(self.lower, other.lower, f64::min),
-            upper: both(self.upper, other.upper, f64::max),
+            lower: self.lower.zip(other.lower).map(|(one, two)| one.min(two)),
+            upper: self.upper.zip(other.upper).map(|(one, two)| one.max(two)),
             quadratic: false,
         }
     }

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use super::harmonic::{approached, found_fold};
+use super::harmonic::{approached, found_fold, large, small};
 use super::{Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, tends, worst};
 use crate::closed_form::harmonic::mean as harmonic_mean;
 use crate::flow::Result;
@@ -25,13 +25,12 @@ pub(super) const CHECKS: &[Check] = &[
     }),
     worst("A_01", |it| {
         let Parameters { d, d2, r, .. } = **it;
-        let computed = Approximation::relative(harmonic_mean(d2, -2.0 * r / (PI * d)), 1e-15);
+        let computed = Approximation::relative(harmonic_mean(d2, small(it)), 1e-15);
         let evidence = Evidence::equal(2.0 * r * r / PI * d2 / d, computed);
         Ok(evidence.corrected(asymptotes(it)[0]))
     }),
     worst("A_02", |it| {
-        let amplitude = (-8.0 * it.d / (3.0 * it.d3)).sqrt();
-        let computed = Approximation::relative(harmonic_mean(it.d2, amplitude), 1e-15);
+        let computed = Approximation::relative(harmonic_mean(it.d2, large(it)), 1e-15);
         Ok(Evidence::equal(asymptotes(it)[1], computed))
     }),
     tends("asymptotes of the mean", |it| {

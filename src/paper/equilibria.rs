@@ -62,9 +62,9 @@ pub(super) const CHECKS: &[Check] = &[
     }),
     worst("periodic border", |it| {
         let found = it.edge()?;
-        let cycles = f64::from(u8::from(found.value == Border::Cycle));
+        let cycles = f64::from(found.value == Border::Cycle);
         // A basin without a border would need none.
-        let needed = f64::from(u8::from(found.value != Border::None));
+        let needed = f64::from(found.value != Border::None);
         let bounds = found.certain.then_some(Interval::point(cycles));
         Ok(Evidence::equal(needed, Approximation::exact(cycles).within(bounds)))
     }),
@@ -137,15 +137,15 @@ fn crossings(
             side.sign() * field.acceleration(side.position(q, it.r), 0.0)
         };
         let (first, second) = condition(limit(Side::Upper), limit(Side::Lower));
-        printed += f64::from(u8::from(first));
-        corrected += f64::from(u8::from(second));
+        printed += f64::from(first);
+        corrected += f64::from(second);
         // A motion on its way to the place: a little earlier it was a little above or below.
         let from_above = State { q, v: 1e-9 };
         let from_below = State { v: -from_above.v, ..from_above };
         let [above, below] = [from_above, from_below].map(|state| it.captured(state, 1e-3));
         let (above, below) = (above?, below?);
         certain &= above.certain && below.certain;
-        computed += f64::from(u8::from((above.value && below.value) != crosses));
+        computed += f64::from((above.value && below.value) != crosses);
     }
     let computed =
         Approximation::exact(computed).within(certain.then_some(Interval::point(computed)));

@@ -131,10 +131,9 @@ pub(super) const CHECKS: &[Check] = &[
         Ok(Evidence::near(0.6, Approximation::relative(root, 1e-15)))
     }),
     worst("divided equation", |it| {
-        let Parameters { d, d3, r, .. } = **it;
         let root = largest_amplitude(it)?;
-        let computed = Approximation::relative(-2.0 * r / (PI * d), 1e-14);
-        let terms = |factor: f64| root + factor * d3 / d * powi(root, 3);
+        let computed = Approximation::relative(small(it), 1e-14);
+        let terms = |factor: f64| root + factor * it.d3 / it.d * powi(root, 3);
         Ok(Evidence::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0)))
     }),
     worst("A_2", |it| Ok(Evidence::near(large(it), it.largest()?.amplitude()))),
@@ -221,12 +220,12 @@ fn fold_against(it: &ClaimCase) -> Result<Evidence> {
 }
 
 /// (51).
-fn small(parameters: &Parameters) -> f64 {
+pub(super) fn small(parameters: &Parameters) -> f64 {
     -2.0 * parameters.r / (PI * parameters.d)
 }
 
 /// (52).
-fn large(parameters: &Parameters) -> f64 {
+pub(super) fn large(parameters: &Parameters) -> f64 {
     (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt()
 }
 

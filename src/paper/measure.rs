@@ -149,8 +149,8 @@ impl<'a> ClaimCase<'a> {
         (method, tolerance): (Method, f64),
         energy: bool,
     ) -> Result<Motion> {
-        let problem = Problem::new(self.parameters, initial, until);
-        let problem = Problem { method, tolerance, ..problem };
+        let problem =
+            Problem { method, tolerance, ..Problem::new(self.parameters, initial, until) };
         let motion = trajectory(&problem, Detail { energy, ..Detail::default() }, &self.limits);
         motion.outcome.answered().map(|()| motion)
     }

@@ -118,15 +118,15 @@ impl<T: Copy + PartialEq> Conclusion<T> {
     }
 }
 
-/// What is certain about a claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What is certain about a claim; of two cases what is further down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Certainty {
     /// It holds in all cases that were tested.
     Proved,
-    /// It does not hold: in one of these at least.
-    Refuted,
     /// The number with which it is compared is enclosed: to as many digits as that gives, it holds.
     Enclosed,
+    /// It does not hold: in one of these at least.
+    Refuted,
 }
 
 impl Certainty {
@@ -136,15 +136,6 @@ impl Certainty {
             Certainty::Proved => "proved",
             Certainty::Refuted => "refuted",
             Certainty::Enclosed => "enclosed",
-        }
-    }
-
-    /// The mark of a claim about two cases.
-    pub(crate) fn and(one: Option<Certainty>, other: Option<Certainty>) -> Option<Certainty> {
-        match (one?, other?) {
-            (Certainty::Refuted, _) | (_, Certainty::Refuted) => Some(Certainty::Refuted),
-            (Certainty::Proved, Certainty::Proved) => Some(Certainty::Proved),
-            _ => Some(Certainty::Enclosed),
         }
     }
 
@@ -297,11 +288,10 @@ impl Evidence {
         cases: impl IntoIterator<Item = Result<(impl fmt::Display, Conclusion<bool>), E>>,
     ) -> Result<Self, E> {
         let answers = cases.into_iter().collect::<Result<Vec<_>, E>>()?;
-        let (cases, held) =
-            (answers.len(), answers.iter().filter(|(_, answer)| answer.value).count());
-        let failing = answers.iter().find(|(_, answer)| !answer.value);
-        let place = failing.map(|(case, _)| format!("first fails at {case}"));
-        let is_refuted = answers.iter().any(|(_, answer)| answer.certain && !answer.value);
+        let failing: Vec<_> = answers.iter().filter(|(_, answer)| !answer.value).collect();
+        let (cases, held) = (answers.len(), answers.len() - failing.len());
+        let place = failing.first().map(|(case, _)| format!("first fails at {case}"));
+        let is_refuted = failing.iter().any(|(_, answer)| answer.certain);
         let is_proved = answers.iter().all(|(_, answer)| answer.certain);
         let mark = Certainty::decided(is_proved && cases > 0, is_refuted);
         let numbers = Self::new(Sense::Always, real(cases), Approximation::exact(real(held)));
@@ -329,7 +319,7 @@ impl Evidence {
         let all = each.into_iter().collect::<Result<Vec<_>, E>>()?;
         let cases = all.iter().map(|it| it.cases).sum();
         let held = all.iter().map(|it| it.held).sum();
-        let mark = all.iter().map(|it| it.mark).fold(Some(Certainty::Proved), Certainty::and);
+        let mark = all.iter().try_fold(Certainty::Proved, |mark, it| Some(mark.max(it.mark?)));
         let order = |it: &Self| (it.corrected.is_some_and(|at| !it.holds(at)), it.strain());
         let worse = |one: Self, next: Self| if order(&next) > order(&one) { next } else { one };
         let none = || Self::new(Sense::Always, 0.0, Approximation::exact(0.0));

@@ -62,10 +62,9 @@ impl NamedExtreme {
 /// A million half swings of the undamped oscillator, and what they did to its energy.
 fn many_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits) -> NamedExtreme {
     const SWINGS: f64 = 1e6;
-    let undamped = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
     let until = (SWINGS + 0.5) * std::f64::consts::PI;
-    let problem = Problem::new(undamped, State { q: 1.0, v: 0.0 }, until);
-    let problem = Problem { method, tolerance, ..problem };
+    let undamped = Problem::new([0.0; 4].into(), State { q: 1.0, v: 0.0 }, until);
+    let problem = Problem { method, tolerance, ..undamped };
     let measure = ("energy gained or lost", allowed);
     let what = "a million half swings at D = r = 0";
     NamedExtreme::of(what, measure, &problem, limits, |motion| {
@@ -82,8 +81,8 @@ fn blow_up(
     method: Method,
     limits: &Limits,
 ) -> NamedExtreme {
-    let problem = Problem::new(Parameters { d, d2, d3, r: 0.0 }, State { q, v }, UNTIL);
-    let problem = Problem { method, ..problem };
+    let parameters = [d, d2, d3, 0.0].into();
+    let problem = Problem { method, ..Problem::new(parameters, State { q, v }, UNTIL) };
     let measure = ("relative error of its time", 1e-8);
     NamedExtreme::of(what, measure, &problem, limits, |motion| match motion.outcome {
         Outcome::Escaped { tau } => Some((tau / time - 1.0).abs()),
@@ -94,8 +93,7 @@ fn blow_up(
 /// The start from which an explicit method needs a hundred million steps.
 fn far_out(method: Method, limits: &Limits) -> NamedExtreme {
     let parameters = Parameters { d: -0.1, d2: 0.0, d3: 1.0, r: 0.1 };
-    let problem = Problem::new(parameters, State { q: 1e6, v: 0.0 }, 2e4);
-    let problem = Problem { method, ..problem };
+    let problem = Problem { method, ..Problem::new(parameters, State { q: 1e6, v: 0.0 }, 2e4) };
     let what = "far out at q0 = 1e6, D3 = 1, until it rests";
     NamedExtreme::of(what, ("steps", 5_000.0), &problem, limits, |motion| {
         let rests = matches!(motion.outcome, Outcome::Captured { .. });
@@ -106,8 +104,7 @@ fn far_out(method: Method, limits: &Limits) -> NamedExtreme {
 /// One motion in units of every power of two from -240 to 240, and its mirror image in each.
 fn scaled_and_mirrored(method: Method, limits: &Limits) -> NamedExtreme {
     let parameters = Parameters { d: -0.1, d2: 0.3, d3: 0.4, r: 0.05 };
-    let plain = Problem::new(parameters, State { q: 2.0, v: -1.0 }, 20.0);
-    let plain = Problem { method, ..plain };
+    let plain = Problem { method, ..Problem::new(parameters, State { q: 2.0, v: -1.0 }, 20.0) };
     let follow = |problem: &Problem| trajectory(problem, Detail::default(), limits);
     let reference = follow(&plain);
     let mut cost = reference.cost;
@@ -126,7 +123,7 @@ fn scaled_and_mirrored(method: Method, limits: &Limits) -> NamedExtreme {
         for (problem, sign) in [(scaled, 1.0), (mirrored, -1.0)] {
             let motion = follow(&problem);
             cost += motion.cost;
-            different += f64::from(u8::from(!is_image(&motion, &reference, sign, k)));
+            different += f64::from(!is_image(&motion, &reference, sign, k));
         }
     }
     let what = "scaled by 2^k, k = -240 .. 240, and mirrored";

@@ -105,8 +105,8 @@ fn changed(motion: &Motion, part: f64, limits: &Limits) -> Motion {
 }
 
 fn follow(case: &Case, method: Method, tolerance: f64, budget: u64, limits: &Limits) -> Motion {
-    let problem = Problem::new(case.parameters, case.initial, UNTIL);
-    let problem = Problem { method, tolerance, ..problem };
+    let problem =
+        Problem { method, tolerance, ..Problem::new(case.parameters, case.initial, UNTIL) };
     trajectory(&problem, Detail::default(), &limits.up_to(budget))
 }
 
