@@ -159,8 +159,8 @@ impl Reference {
         if self.is_of_machine() && self.turns.len() != other.turns.len() {
             return Err(NoComparison::OtherTurns);
         }
-        let escape = |end| matches!(end, Outcome::Escaped { .. });
-        let escape = escape(self.end) && escape(other.end);
+        let escape =
+            matches!((self.end, other.end), (Outcome::Escaped { .. }, Outcome::Escaped { .. }));
         if self.is_of_machine() && escape && self.turns.is_empty() {
             // Only displacements count, and there are none.
             return Err(NoComparison::NoTurns);

@@ -254,9 +254,6 @@ pub struct Omission {
 
 /// All samples of a record that do not count, in the order of their times; none for a list of peaks.
 pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<Omission> {
-    if estimate.data.has_peaks() {
-        return Vec::new();
-    }
     let counts = estimate.dropped.iter().map(Option::is_none);
     stretches(record.t.iter().copied().zip(counts))
 }

@@ -48,11 +48,11 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
     let mut extremes = Vec::new();
     // Two rounds, since the extremes give a better period.
     for _ in 0..2 {
-        let averaged = samples_within(t, period / 12.0).sqrt();
+        let averaged = samples_within(t, period / 12.0);
         // The range that smoothed noise covers grows with its number of independent values.
-        let chances = (real(t.len()) / samples_within(t, period / 12.0)).max(2.0);
+        let chances = (real(t.len()) / averaged).max(2.0);
         let covered = 1.5 + 2.0 * (2.0 * ln(chances)).sqrt();
-        let hysteresis = (covered * noise.deviation / averaged).max(0.02 * (high - low));
+        let hysteresis = (covered * noise.deviation / averaged.sqrt()).max(0.02 * (high - low));
         extremes = turning_points(t, &cleaned, period, hysteresis);
         period = period_of(&extremes).unwrap_or(period);
     }
@@ -68,13 +68,12 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
     let level_before =
         |begin: f64| median(cleaned[..t.partition_point(|&t| t < begin).max(1)].to_vec());
     let hold = level_before(begin);
-    let struck = is_held.then_some(hold).and_then(|hold| {
-        if is_displacement {
-            struck_at(t, &cleaned, noise, hold, &extremes)
-        } else {
-            Some(t.partition_point(|&t| t < first.t + 0.25 * period))
-        }
-    });
+    let struck = if is_displacement {
+        struck_at(t, &cleaned, noise, hold, &extremes)
+    } else {
+        Some(t.partition_point(|&t| t < first.t + 0.25 * period))
+    };
+    let struck = struck.filter(|_| is_held);
     let tail =
         (6.0 * noise.deviation / samples_within(t, period / 12.0).sqrt()).max(0.02 * (high - low));
     let mut with_rest = extremes.clone();
@@ -124,9 +123,8 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
     if is_held && is_displacement {
         with_rest.insert(0, Extreme { t: begin, x: hold });
     }
-    let extremes = with_rest;
     let is_guessed = beginnings.iter().any(|beginning| !beginning.guesses.is_empty());
-    is_guessed.then_some(Guess { beginnings, extremes, struck, again })
+    is_guessed.then_some(Guess { beginnings, extremes: with_rest, struck, again })
 }
 
 /// Where the mass was held, from the offset. In other signals than the displacement, of which the hold is the first
@@ -151,11 +149,8 @@ fn samples_within(t: &[f64], stretch: f64) -> f64 {
 /// counts for as many half periods as fit.
 pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
     let gaps: Vec<f64> = extremes.windows(2).map(|two| two[1].t - two[0].t).collect();
-    if gaps.is_empty() {
-        return None;
-    }
     let half = median(gaps.clone());
-    let (mut number, mut rows) = (0.0, vec![([1.0, 0.0], extremes[0].t)]);
+    let (mut number, mut rows) = (0.0, vec![([1.0, 0.0], extremes.first()?.t)]);
     for (gap, extreme) in gaps.iter().zip(&extremes[1..]) {
         number += (gap / half).round().max(1.0);
         rows.push(([1.0, number], extreme.t));

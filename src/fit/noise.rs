@@ -174,9 +174,6 @@ fn is_saturated(x: &[f64], limit: f64, noise: &Noise) -> bool {
     const TIMES: usize = 4;
     let from = x.iter().position(|x| *x != limit).unwrap_or(0);
     let to = x.iter().rposition(|x| *x != limit).map_or(0, |last| last + 1);
-    if to <= from {
-        return false;
-    }
     let inner = if noise.is_audible { x } else { &x[from..to] };
     // A converter much finer than the noise hardly ever reads the same twice in a row, except at full scale.
     let is_flat = inner.windows(2).any(|two| two[0] == two[1] && two[0] == limit);

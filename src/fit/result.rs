@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::{
@@ -286,21 +286,18 @@ const LAWS: [Law; 6] = [
 /// known.
 pub fn rows(fitted: &FitResult) -> Vec<EstimatedNumber> {
     let Some((inertia, metres)) = fitted.inertia() else { return Vec::new() };
-    LAWS.iter().map(|law| row(fitted, law, inertia, metres)).collect()
-}
-
-fn row(fitted: &FitResult, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNumber {
-    let estimate = &fitted.estimate;
-    let omega0 = estimate.p[OMEGA0];
-    let [_, length, time] = dimension_of(law.unit).map(i32::from);
-    let constant = law.factor * powi(metres, length) * inertia.times(omega0, -time);
-    let number = law.unknown.map_or(1.0, |unknown| estimate.p[unknown]);
-    let power = f64::from(-time - inertia.power());
-    let mut gradient = vec![(OMEGA0, constant * number * power / omega0)];
-    gradient.extend(law.unknown.map(|unknown| (unknown, constant)));
-    let standard_error = estimate.covariance.error_of(&gradient);
-    let value = constant * number;
-    EstimatedNumber { name: law.name, unknown: law.unknown, value, standard_error, unit: law.unit }
+    let Estimate { p, covariance, .. } = &fitted.estimate;
+    let row = |Law { name, unit, factor, unknown }| {
+        let [_, length, time] = dimension_of(unit).map(i32::from);
+        let constant = factor * powi(metres, length) * inertia.times(p[OMEGA0], -time);
+        let value = constant * unknown.map_or(1.0, |unknown| p[unknown]);
+        let power = f64::from(-time - inertia.power());
+        let mut gradient = vec![(OMEGA0, value * power / p[OMEGA0])];
+        gradient.extend(unknown.map(|unknown| (unknown, constant)));
+        let standard_error = covariance.error_of(&gradient);
+        EstimatedNumber { name, unknown, value, standard_error, unit }
+    };
+    LAWS.map(row).to_vec()
 }
 
 /// A combination of numbers that are not known separately.
@@ -337,7 +334,6 @@ pub fn combination(estimate: &Estimate) -> Option<Combination> {
     let largest = [low, middle, high].map(damping).into_iter().fold(0.0, f64::max);
     let unknown: Vec<(&NameSpec, f64)> = NAMES
         .iter()
-        .filter(|row| estimate.free[row.place])
         .filter_map(|row| Some((row, scale(row.place)?)))
         .filter(|(row, scale)| estimate.covariance.error(row.place) * scale > UNKNOWN * largest)
         .collect();
@@ -355,14 +351,10 @@ fn best_known(estimate: &Estimate, unknown: &[(&'static NameSpec, f64)]) -> Opti
     let information = covariance.lu().try_inverse()?;
     let eigen = information.symmetric_eigen();
     let strongest = eigen.eigenvalues.imax();
-    let direction: DVector<f64> = eigen.eigenvectors.column(strongest).into_owned();
-    let weights: Vec<f64> =
-        direction.iter().zip(unknown).map(|(weight, (_, scale))| weight * scale).collect();
-    let terms: Vec<_> = unknown
-        .iter()
-        .zip(&weights)
-        .map(|((row, _), weight)| (*row, weight / weights[0]))
-        .collect();
+    let direction = eigen.eigenvectors.column(strongest);
+    let weight = |index: usize| direction[index] * unknown[index].1;
+    let rows = unknown.iter().enumerate();
+    let terms: Vec<_> = rows.map(|(index, row)| (row.0, weight(index) / weight(0))).collect();
     let value = terms.iter().map(|(row, weight)| weight * estimate.p[row.place]).sum();
     let weighted: Vec<_> = terms.iter().map(|(row, weight)| (row.place, *weight)).collect();
     Some(Combination { value, standard_error: estimate.covariance.error_of(&weighted), terms })

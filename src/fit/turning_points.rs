@@ -62,8 +62,7 @@ pub fn turning_points(t: &[f64], x: &[f64], period: f64, hysteresis: f64) -> Vec
         let turn = vertex.or_else(|| swing(t, x, corner, period));
         turn.unwrap_or(Extreme { t: t[corner], x: smooth[corner] })
     };
-    let corners = zigzag(&smooth, hysteresis).into_iter();
-    without_bursts(corners.map(refined).collect(), 0.3 * period)
+    without_bursts(zigzag(&smooth, hysteresis).map(refined).collect(), 0.3 * period)
 }
 
 /// Removes pairs of turning points that are closer than `least`: jumps back and forth are not swings.
@@ -81,7 +80,7 @@ fn without_bursts(mut found: Vec<Extreme>, least: f64) -> Vec<Extreme> {
 }
 
 /// Indices of the corners, except for the first, before which the mass may be held.
-fn zigzag(x: &[f64], hysteresis: f64) -> Vec<usize> {
+fn zigzag(x: &[f64], hysteresis: f64) -> impl Iterator<Item = usize> {
     let mut corners = Vec::new();
     let (mut lowest, mut highest) = (0, 0);
     // +1 while rising, -1 while falling, 0 before the first clear movement.
@@ -101,8 +100,7 @@ fn zigzag(x: &[f64], hysteresis: f64) -> Vec<usize> {
             (way, highest) = (1, index);
         }
     }
-    corners.drain(..corners.len().min(1));
-    corners
+    corners.into_iter().skip(1)
 }
 
 /// The turning point of an undamped oscillation through the samples within half a period of a corner, for records
@@ -229,7 +227,7 @@ pub fn middle_of(three: &[Extreme]) -> f64 {
 /// fitted; of a single swing one for each of several intensities of friction. Empty for fewer than two turning points.
 pub fn regressions(extremes: &[Extreme]) -> Vec<Unknowns> {
     let largest = amplitudes(extremes).into_iter().fold(0.0, f64::max);
-    if largest <= 0.0 || extremes.len() < 2 {
+    if largest <= 0.0 {
         return Vec::new();
     }
     if let [one, other] = extremes {
@@ -293,9 +291,6 @@ fn middle(extremes: &[Extreme], d: f64) -> Option<[f64; 2]> {
 /// spoils three decrements.
 pub fn robust<const N: usize>(rows: &[([f64; N], f64)], columns: &[usize]) -> Option<[f64; N]> {
     const ROUNDS: usize = 12;
-    if rows.is_empty() {
-        return None;
-    }
     let mut weights = vec![1.0; rows.len()];
     let mut all = [0.0; N];
     for _ in 0..ROUNDS {

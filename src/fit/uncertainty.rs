@@ -346,7 +346,7 @@ impl Profile<'_> {
         let along = self.covariance.following(&[(self.unknown, 1.0)]);
         let p = self.optimum.p + by * along;
         // Friction cannot be negative: r ends at 0, and unknowns that depend on r have a kink there.
-        if p[R] < 0.0 && self.task.free[R] {
+        if p[R] < 0.0 {
             return false;
         }
         let Some(seen) = self.task.evaluated(&p, false) else { return false };
@@ -385,11 +385,11 @@ impl Profile<'_> {
                 Some(found) => inside = ProfilePoint { step, ..found },
                 None => outside = Some((step, risen)),
             }
-            let root = |risen: f64| risen.sqrt();
+            let root = inside.risen.sqrt();
             step = match outside {
-                None => (step * (1.1 / root(inside.risen).max(0.2))).max(1.2 * step).min(farthest),
+                None => (step * (1.1 / root.max(0.2))).max(1.2 * step).min(farthest),
                 Some((far, high)) if high.is_finite() => {
-                    let part = (1.0 - root(inside.risen)) / (root(high) - root(inside.risen));
+                    let part = (1.0 - root) / (high.sqrt() - root);
                     inside.step + part.clamp(0.1, 0.9) * (far - inside.step)
                 }
                 Some((far, _)) => 0.5 * (inside.step + far),

@@ -10,7 +10,6 @@ use crate::branch::escape_point;
 use crate::flow::{Outcome, Result};
 use crate::model::{Parameters, State};
 use crate::numerics::{Interval, exp};
-use crate::portrait::Portrait;
 use crate::proof::ProvedFate;
 
 pub(super) const CHECKS: &[Check] = &[
@@ -44,7 +43,7 @@ pub(super) const CHECKS: &[Check] = &[
     }),
     always("no return", |it| Ok(returns_to(it, it.more)?.is(false))),
     tends("parabola of escape", |it| {
-        let impulse = Portrait::of_oscillator(it, 10.0, &it.limits)?.margin.impulse;
+        let impulse = it.portrait()?.margin.impulse;
         let impulse = impulse.ok_or(missing("the separatrix"))?;
         Ok(((0.5 / (it.d2 * it.d2)).sqrt(), Approximation::relative(impulse, 1e-12)))
     }),
@@ -56,7 +55,7 @@ pub(super) const CHECKS: &[Check] = &[
         Ok(Conclusion { value, certain: value && fate == ProvedFate::Escaped })
     }),
     worst("end of the cycle", |it| {
-        let computed = it.last_cycle(end_of_cycle(it)?, 1e-12);
+        let computed = it.last_cycle(end_of_cycle(it)?);
         Ok(Evidence::near(-(2.0 / PI).sqrt() * it.d2 * it.r, computed))
     }),
     always("cycles about D_c", |it| {
@@ -86,8 +85,8 @@ fn returns_to(it: &ClaimCase, q: f64) -> Result<Conclusion<bool>> {
 fn return_slope(it: &ClaimCase, cycle: &BoundedCycle) -> Result<Approximation> {
     let q = cycle.q_max;
     let turn = |q: f64| {
-        let [left, _] = it.half_swing(at_rest(q))?;
-        it.half_swing(at_rest(left.value)).map(|[right, _]| right.value)
+        let [left, _] = it.half_swing(q)?;
+        it.half_swing(left.value).map(|[right, _]| right.value)
     };
     let slope = |h: f64| -> Result<f64> {
         let wide = (turn(q + 2.0 * h)? - turn(q - 2.0 * h)?) / (4.0 * h);

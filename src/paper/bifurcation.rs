@@ -93,7 +93,7 @@ fn smooth(it: &ClaimCase) -> Result<f64> {
 
 /// Exponents with which the energy change and its parts grow when the amplitude is doubled.
 fn exponents(it: &ClaimCase) -> Result<[Approximation; 3]> {
-    let works = |q: f64| it.energy_change(at_rest(q), 2.0 * PI);
+    let works = |q: f64| it.energy_change(q, 2.0 * PI);
     let (one, two) = (works(1.0)?, works(2.0)?);
     Ok(std::array::from_fn(|index| {
         let relative = |known: Approximation| known.error / known.value.abs();

@@ -10,7 +10,7 @@ use crate::closed_form::{LinearCycle, lyapunov};
 use crate::flow::{Outcome, Result};
 use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::{Interval, atan, exp, hypot, sin, sin_cos};
-use crate::portrait::{Border, Portrait, proved_kicks};
+use crate::portrait::{Border, proved_kicks};
 use crate::proof::ProvedFate;
 
 pub(super) const CHECKS: &[Check] = &[
@@ -22,8 +22,8 @@ pub(super) const CHECKS: &[Check] = &[
         crossings(it, |upper, lower| (upper * upper < 0.0, upper * lower < 0.0), false)
     }),
     tends("short swings", |it| {
-        let [full, _] = it.half_swing(at_rest(it.more))?;
-        let [simple, _] = it.of(linear(it)).half_swing(at_rest(it.more))?;
+        let [full, _] = it.half_swing(it.more)?;
+        let [simple, _] = it.of(linear(it)).half_swing(it.more)?;
         Ok((simple.plus(it.r).value, full.plus(it.r)))
     }),
     worst("shift of the centre", |it| shifted(it, -1.0)),
@@ -73,7 +73,7 @@ pub(super) const CHECKS: &[Check] = &[
     }),
     worst("circle of radius r", |it| Ok(Evidence::at_most(it.r, least_kick(it)?))),
     worst("duration of a swing", |it| {
-        let [_, tau] = it.half_swing(at_rest(it.more))?;
+        let [_, tau] = it.half_swing(it.more)?;
         Ok(Evidence::equal(0.5 * closed_form(it)?.period, tau))
     }),
     worst("centre with a false sign", |it| shifted(it, 1.0)),
@@ -88,7 +88,7 @@ pub(super) const CHECKS: &[Check] = &[
         Ok(Evidence::equal(formula * exp(-d * tau), velocity).at(at))
     }),
     worst("end of a swing", |it| {
-        let [end, _] = it.half_swing(at_rest(it.more))?;
+        let [end, _] = it.half_swing(it.more)?;
         Ok(Evidence::equal(growth(&closed_form(it)?), end.plus(it.r)))
     }),
     worst("clearance", |it| {
@@ -154,7 +154,7 @@ fn crossings(
 
 /// Where a half swing above `v = 0` ends, if the motion is linear in `q - shift r`.
 fn shifted(it: &ClaimCase, shift: f64) -> Result<Evidence> {
-    let [end, _] = it.half_swing(at_rest(it.more))?;
+    let [end, _] = it.half_swing(it.more)?;
     let growth = exp(-PI * it.d / (1.0 - it.d * it.d).sqrt());
     let around = |centre: f64| centre - (it.more - centre) * growth;
     let evidence = Evidence::equal(around(shift * it.r), end);
@@ -163,7 +163,7 @@ fn shifted(it: &ClaimCase, shift: f64) -> Result<Evidence> {
 
 /// Change of the energy along a motion by (19), with friction's part multiplied by `sign`.
 fn energy(it: &ClaimCase, sign: f64) -> Result<Evidence> {
-    let [change, linear, friction] = it.energy_change(at_rest(it.more), 20.0)?;
+    let [change, linear, friction] = it.energy_change(it.more, 20.0)?;
     let by_rate = |sign: f64| linear.value + sign * friction.value;
     let error = change.error + linear.error + friction.error;
     let evidence = Evidence::equal(by_rate(sign), Approximation { error, ..change });
@@ -179,7 +179,7 @@ fn circle(parameters: &Parameters) -> f64 {
 fn least_kick(it: &ClaimCase) -> Result<Approximation> {
     /// Points on each step of the border, and the relative error of a distance between them.
     const POINTS: (u16, f64) = (200, 1e-5);
-    let basin = Portrait::of_oscillator(it, 10.0, &it.limits)?;
+    let basin = it.portrait()?;
     let border = basin.borders.first().map(|border| border.curve(POINTS.0)).unwrap_or_default();
     let least = border.iter().map(|point| hypot(point.q, point.v)).fold(f64::INFINITY, f64::min);
     // It is at most that of two of its points, where these are enclosed.

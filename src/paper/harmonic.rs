@@ -49,8 +49,8 @@ pub(super) const CHECKS: &[Check] = &[
     }),
     worst("slow change of amplitude", |it| {
         let size = it.more;
-        let [left, _] = it.half_swing(at_rest(size))?;
-        let [right, _] = it.half_swing(at_rest(left.value))?;
+        let [left, _] = it.half_swing(size)?;
+        let [right, _] = it.half_swing(left.value)?;
         let turns = it.enclosed(at_rest(size), 10.0).turns;
         let bounds = turns.get(1).and_then(|turn| Some(turn.q? - Interval::point(size)));
         let computed =
@@ -216,7 +216,7 @@ pub(super) fn found_fold(it: &ClaimCase) -> Result<FoldPoint> {
 /// (48) against the fold of the cycles.
 fn fold_against(it: &ClaimCase) -> Result<Evidence> {
     let found = found_fold(it)?;
-    Ok(Evidence::near(printed_fold(it.d3, it.r), it.last_cycle(found.d, 1e-12)))
+    Ok(Evidence::near(printed_fold(it.d3, it.r), it.last_cycle(found.d)))
 }
 
 /// (51).

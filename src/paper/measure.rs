@@ -169,8 +169,9 @@ impl<'a> ClaimCase<'a> {
         Ok(std::array::from_fn(|index| Approximation::twice(first[index], second[index])))
     }
 
-    /// Place and time of the first arrival at `v = 0`.
-    pub fn half_swing(&self, initial: State) -> Result<[Approximation; 2]> {
+    /// Place and time of the first arrival at `v = 0` from rest.
+    pub fn half_swing(&self, from: f64) -> Result<[Approximation; 2]> {
+        let initial = at_rest(from);
         // Stopping at the arrival needs its time; a first run over one half swing finds it.
         let until = self.omega().map_or(LONG, |omega| 2.0 * std::f64::consts::PI / omega);
         let [q, tau] = self.motions((initial, until), "an arrival at v = 0", |motion| {
@@ -191,8 +192,9 @@ impl<'a> ClaimCase<'a> {
         Ok([q.within(bounds.map(|it| it[0])), v.within(bounds.map(|it| it[1]))])
     }
 
-    /// Change of the energy over a motion, and the works of linear damping and of friction.
-    pub fn energy_change(&self, initial: State, until: f64) -> Result<[Approximation; 3]> {
+    /// Change of the energy over a motion from rest, and the works of linear damping and of friction.
+    pub fn energy_change(&self, from: f64, until: f64) -> Result<[Approximation; 3]> {
+        let initial = at_rest(from);
         let read = |motion: &Motion| {
             let ledger = motion.ledger.as_ref()?;
             Some([ledger.end - ledger.start, ledger.work("linear"), ledger.work("friction")])
@@ -264,9 +266,14 @@ impl<'a> ClaimCase<'a> {
         self.cycles()?.value.last().copied().ok_or(missing("a limit cycle"))
     }
 
+    /// All motions, as far out as any edge asked for here.
+    pub fn portrait(&self) -> Result<Portrait> {
+        Portrait::of_oscillator(self, 10.0, &self.limits)
+    }
+
     /// What borders the basin.
     pub fn edge(&self) -> Result<Conclusion<Border>> {
-        let found = Portrait::of_oscillator(self, 10.0, &self.limits)?;
+        let found = self.portrait()?;
         let proof = prove(&ParameterBox::from(&self.parameters), &[]);
         let proved = kicks::edge(&proof, found.margin.displacement);
         let certain = proved == Some(found.border);
@@ -274,12 +281,12 @@ impl<'a> ClaimCase<'a> {
     }
 
     /// The value of D at which cycles vanish, `found` being where the search says so: enclosed to a thousandth.
-    pub fn last_cycle(&self, found: f64, error: f64) -> Approximation {
+    pub fn last_cycle(&self, found: f64) -> Approximation {
         /// Next to that value proofs take long.
         const AWAY: f64 = 1e-3;
         let known = ParameterBox::from(&self.parameters);
         let between = change_within(&known, Knob::D, found, AWAY);
-        Approximation::relative(found, error).within(between.map(|change| change.between))
+        Approximation::relative(found, 1e-12).within(between.map(|change| change.between))
     }
 
     /// Mean displacement of a cycle over its period: over one turn all forces cancel, those that depend on the velocity

@@ -47,7 +47,7 @@ pub(super) const CHECKS: &[Check] = &[
         Ok(LinearFlow::new(it.d).first_standstill(-1.0, 0.0).is_some().into())
     }),
     worst("sign of friction", |it| {
-        let [end, _] = it.half_swing(at_rest(it.more))?;
+        let [end, _] = it.half_swing(it.more)?;
         let gained = end.times(-1.0).plus(-it.more);
         let fed = 2.0 * it.r;
         Ok(Evidence::equal(fed, gained).corrected(-fed))
@@ -58,14 +58,14 @@ pub(super) const CHECKS: &[Check] = &[
         Ok(printed.corrected((1.0 - it.d * it.d).sqrt()))
     }),
     always("smooth stability", |it| {
-        let [end, _] = it.half_swing(at_rest(-1e-6))?;
+        let [end, _] = it.half_swing(-1e-6)?;
         Ok(end.exceeds(1e-6).is(it.d < 0.0))
     }),
 ];
 
 /// Rate and frequency of small motions.
 fn growth(it: &ClaimCase) -> Result<[Approximation; 2]> {
-    let [end, duration] = it.half_swing(at_rest(-1.0))?;
+    let [end, duration] = it.half_swing(-1.0)?;
     let relative = end.error / end.value + duration.error / duration.value;
     let growth = ln(end.value) / duration.value;
     let frequency = Approximation::relative(std::f64::consts::PI / duration.value, relative)

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::UNTIL;
+use super::verdict::methods;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Crossing, Detail, Limits, Method, Motion, Outcome, Problem};
 use crate::model::{Parameters, State, energy};
@@ -21,10 +22,6 @@ pub struct NamedExtreme {
     pub cost: Cost,
 }
 
-/// The methods that find events and control their error, where the motion is not linear.
-const NONLINEAR: [Method; 5] =
-    [Method::Auto, Method::Taylor, Method::Dop853, Method::Dopri5, Method::Stiff];
-
 /// Motions that run to infinity, and when they get there.
 const BLOW_UPS: &str = include_str!("../../../assets/blow_ups.txt");
 
@@ -36,10 +33,10 @@ pub fn named(limits: &Limits) -> Vec<NamedExtreme> {
     ];
     for [what, numbers @ ..] in BLOW_UPS.lines().filter_map(cells::<7>) {
         let numbers = numbers.map(|number| number.parse().unwrap_or(f64::NAN));
-        all.extend(NONLINEAR.map(|method| blow_up(what, numbers, method, limits)));
+        all.extend(methods(false).map(|method| blow_up(what, numbers, method, limits)));
     }
     all.extend([Method::Auto, Method::Stiff].map(|method| far_out(method, limits)));
-    all.extend(NONLINEAR.map(|method| scaled_and_mirrored(method, limits)));
+    all.extend(methods(false).map(|method| scaled_and_mirrored(method, limits)));
     all
 }
 

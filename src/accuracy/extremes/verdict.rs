@@ -26,6 +26,11 @@ pub const METHODS: [Method; 6] = {
     [Auto, Exact, Taylor, Dop853, Dopri5, Stiff]
 };
 
+/// Those of them that serve a motion.
+pub(super) fn methods(linear: bool) -> impl Iterator<Item = Method> {
+    METHODS.into_iter().filter(move |method| linear || *method != Method::Exact)
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MethodAnswer {
     /// The method that was asked.
@@ -64,11 +69,9 @@ impl MethodsVerdict {
 
 /// Follows a motion by every method that serves its parameters, to a relative `tolerance`.
 pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> MethodsVerdict {
-    let linear = case.parameters.is_piecewise_linear();
     let reference = reference(case, tolerance, limits);
     let digits = |distance: f64| log10(distance / tolerance).max(0.0);
-    let methods = METHODS.iter().filter(|&&method| linear || method != Method::Exact);
-    let answers = methods.map(|&method| {
+    let answers = methods(case.parameters.is_piecewise_linear()).map(|method| {
         let motion = follow(case, method, tolerance, BUDGET, limits);
         let distance = reference.as_ref().and_then(|reference| distance(&motion, reference));
         MethodAnswer {

@@ -77,8 +77,7 @@ impl Cells<'_> {
         if measure == Measure::Outcome {
             return self.motion(&follow(problem.initial));
         }
-        let about = |model| conditions.about(model);
-        let window = model.as_ref().map_or(conditions.window, about);
+        let window = model.as_ref().map_or(conditions.window, |model| conditions.about(model));
         let mut times = Vec::new();
         for start in starts(window) {
             let motion = follow(start);

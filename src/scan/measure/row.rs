@@ -73,22 +73,18 @@ pub fn measure(
             cells.reasons.push(format!("{}: {why}", measure.spec().name));
         }
     }
-    Ok(cells.row())
+    // Columns that were not filled have no value.
+    let columns = |measure: &Measure| {
+        let mut filled = cells.filled.remove(measure).unwrap_or_default();
+        filled.resize(measure.spec().columns.len(), Value::Nothing);
+        filled
+    };
+    let values = measures.iter().flat_map(columns).collect();
+    let reason = (!cells.reasons.is_empty()).then(|| cells.reasons.join("; "));
+    Ok(ScanRow { values, reason, cost: cells.cost })
 }
 
 impl Cells<'_> {
-    /// The row; columns that were not filled have no value.
-    pub fn row(mut self) -> ScanRow {
-        let columns = |measure: &Measure| {
-            let mut cells = self.filled.remove(measure).unwrap_or_default();
-            cells.resize(measure.spec().columns.len(), Value::Nothing);
-            cells
-        };
-        let values = self.measures.iter().flat_map(columns).collect();
-        let reason = (!self.reasons.is_empty()).then(|| self.reasons.join("; "));
-        ScanRow { values, reason, cost: self.cost }
-    }
-
     pub fn asks(&self, measure: Measure) -> bool {
         self.measures.contains(&measure)
     }
