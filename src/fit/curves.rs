@@ -70,7 +70,7 @@ pub fn memory(estimate: &Estimate) -> Vec<PlotPoint> {
     let step = 1.0 / rate(&estimate.data.t);
     let kept: Vec<f64> = estimate.kept_residuals().collect();
     let periods = 2.0 * TAU / estimate.p[OMEGA0];
-    let most = (truncated(periods / step)).clamp(4, (kept.len() / 2).max(4));
+    let most = truncated(periods / step).clamp(4, (kept.len() / 2).max(4));
     let lags: Vec<usize> = (1..most).step_by(most.div_ceil(LAGS)).collect();
     let values = autocorrelations(&kept, &lags);
     lags.iter().zip(values).map(|(lag, rho)| [real(*lag) * step, rho]).collect()

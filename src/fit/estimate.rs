@@ -130,7 +130,7 @@ pub fn judged(task: &Task, found: &[Optimum]) -> Result<Estimate, NoEstimate> {
     let mut found = found.to_vec();
     let mut judged = assessed(&task, &found);
     for _ in 0..LOWER {
-        let Some((_, Some(lower))) = judged.as_mut() else { break };
+        let Some((_, Some(lower))) = &judged else { break };
         found.insert(0, lower.clone());
         found = task.valleys(found);
         judged = assessed(&task, &found);

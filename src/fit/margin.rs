@@ -14,7 +14,7 @@ use super::{
     D2, D3, Draws, Estimate, Inertia, NAMES, OMEGA0, Unknowns, drawn, following, parameters,
 };
 use crate::branch::fold;
-use crate::flow::{Limits, Reason, Result};
+use crate::flow::{Limits, Result};
 use crate::model::{Knob, ParameterBox, Parameters};
 use crate::numerics::{real, truncated};
 use crate::portrait::{Kicks, Margin, Portrait, guaranteed};
@@ -171,7 +171,7 @@ impl Margins {
 /// The distribution of the margins that follows from an estimate.
 ///
 /// # Errors
-/// [`Reason::Interrupted`].
+/// [`Reason::Interrupted`](crate::model::Reason::Interrupted).
 pub fn margins(estimate: &Estimate, question: &MarginQuestion, limits: &Limits) -> Result<Margins> {
     let (smallest, largest) = estimate.amplitudes();
     let ask = |p: &Unknowns| answer(&parameters(p), largest, limits);
@@ -183,9 +183,7 @@ pub fn margins(estimate: &Estimate, question: &MarginQuestion, limits: &Limits) 
         Some((found, sure))
     };
     let computed: Vec<_> = drawn.par_iter().map(compute).collect();
-    if (limits.interrupted)() {
-        return Err(Reason::Interrupted);
-    }
+    limits.go_on()?;
     let sure = computed.iter().map(|it| it.as_ref().map_or(Margin::ZERO, |(_, sure)| *sure));
     let each: Vec<(f64, Margin)> = drawn.iter().map(|p| p[OMEGA0]).zip(sure).collect();
     let known: Vec<MarginOfDraw> = computed.into_iter().flatten().map(|(found, _)| found).collect();

@@ -192,7 +192,7 @@ impl FittedSwing {
 
     /// The half swing from a displacement at time 0, without velocity.
     fn new(parameters: &Parameters, side: Side, q: f64) -> Self {
-        let Parameters { r, .. } = *parameters;
+        let r = parameters.r;
         let at = StepPoint { x: side.position(q, r), v: 0.0 };
         let start = Jet { at, y: Ways::x(), w: Ways::zeros() };
         let [across, tau_by] = [Unknowns::zeros(); 2];

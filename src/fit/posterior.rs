@@ -55,9 +55,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Draws
             .into_par_iter()
             .map(|index| frame.draws(&frame.errors(index), limits))
             .collect();
-        if (limits.interrupted)() {
-            return Err(Reason::Interrupted);
-        }
+        limits.go_on()?;
         for (found, computed) in found {
             points.extend(found);
             motions += computed;
@@ -80,8 +78,8 @@ fn weights(points: &[(Unknowns, f64)]) -> Vec<f64> {
 
 /// The number of equal weights that would carry as much information.
 fn effective(weights: &[f64]) -> f64 {
-    let (sum, squares) =
-        weights.iter().fold((0.0, 0.0), |(sum, squares), it| (sum + it, squares + it * it));
+    let sum: f64 = weights.iter().sum();
+    let squares: f64 = weights.iter().map(|it| it * it).sum();
     if squares > 0.0 { sum * sum / squares } else { 0.0 }
 }
 

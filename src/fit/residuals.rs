@@ -99,7 +99,7 @@ fn short_lags(n: usize) -> Vec<usize> {
 fn is_patchy(residuals: &[f64], samples_per_period: f64) -> bool {
     /// Number of standard deviations that chance does not reach in thousands of half swings.
     const FAR: f64 = 5.0;
-    let width = (truncated((0.5 * samples_per_period).min(real(residuals.len())))).max(8);
+    let width = truncated((0.5 * samples_per_period).min(real(residuals.len()))).max(8);
     let variance = mean_square(residuals);
     residuals.chunks_exact(width).any(|part| {
         let mean = part.iter().sum::<f64>() / (real(width) * variance).sqrt();
@@ -159,9 +159,8 @@ fn swings(residuals: &[f64], short: &[f64], samples_per_period: f64) -> bool {
     const LAGS: usize = 150;
     /// Number of standard deviations beyond chance.
     const FAR: f64 = 5.0;
-    let lag = |periods: f64| {
-        (truncated((periods * samples_per_period).min(real(residuals.len())))).max(1)
-    };
+    let lag =
+        |periods: f64| truncated((periods * samples_per_period).min(real(residuals.len()))).max(1);
     let (from, to) = (lag(1.0 / 6.0).max(ORDERS), lag(2.0).min(residuals.len() / 3));
     if to <= from + 4 {
         return false;

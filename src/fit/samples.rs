@@ -106,14 +106,12 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     let mut sorted = SampleSelection { task, found, dropped, is_due: false };
     sorted.sort_out(&noise, question.loss).ok_or_else(lost)?;
     let estimate = judged(&sorted.task(), &sorted.found)?;
-    let mut estimate = of_part(estimate, 0..x.len(), &within);
+    let estimate = of_part(estimate, 0..x.len(), &within);
     let scale = (signal.as_displacement(estimate.p[OMEGA0]) / factor).abs();
     for extreme in &mut extremes {
         extreme.x *= scale;
     }
-    (estimate.choice, estimate.extremes, estimate.noise) =
-        (question.choice.clone(), extremes, noise);
-    Ok(estimate)
+    Ok(Estimate { choice: question.choice.clone(), extremes, noise, ..estimate })
 }
 
 /// The answer for a range of the samples within the scale as one for the whole record.
@@ -229,7 +227,7 @@ fn alike_at_rest(
     let end = best.seen.turns.last().filter(|_| best.seen.rests);
     let rest =
         end.map_or(t.len(), |turn| t.partition_point(|&t| t < release + turn.tau / best.p[OMEGA0]));
-    let kept = (truncated(enough.ceil().min(1e9))).max(FEWEST);
+    let kept = truncated(enough.ceil()).max(FEWEST);
     let mut dropped = before.to_vec();
     for stretch in [0..held, rest..t.len()] {
         let length = stretch.len();
@@ -284,7 +282,6 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
     }
     let free = held.map(|held| held.is_none());
     let unknowns = free.iter().filter(|free| **free).count();
-    let measured = x.len() + record.t.len();
     let seen_in_x = unknowns - usize::from(free[OMEGA0]) - usize::from(free[LAST]);
     if x.len() < 3 || x.len() <= seen_in_x {
         return Err(NoEstimate::TooFew { measured: x.len(), unknowns: seen_in_x });
@@ -312,9 +309,6 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
     let starts = [Beginning { start: StartKind::Release, certain: true, guesses }];
     let amplitude = 0.5 * (x[1] - x[0]).abs();
     let mut ratio = 1.0 / (omega0 * amplitude);
-    if measured <= unknowns {
-        return Err(NoEstimate::TooFew { measured, unknowns });
-    }
     let mut data = Record { peaks: Some(ratio), ..record.clone() };
     let lost = || runs.ended().unwrap_or(NoEstimate::NoMotion);
     let plain = Task { free, reach: reach(x), ..Task::new(record, runs) };
@@ -330,7 +324,6 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
         Task { data: &data, ..plain }.polish(&mut found).ok_or_else(lost)?;
     }
     let dropped = vec![None; data.residuals()];
-    let mut estimate = judged(&Task { data: &data, dropped: &dropped, ..plain }, &found)?;
-    (estimate.choice, estimate.extremes) = (question.choice.clone(), extremes);
-    Ok(estimate)
+    let estimate = judged(&Task { data: &data, dropped: &dropped, ..plain }, &found)?;
+    Ok(Estimate { choice: question.choice.clone(), extremes, ..estimate })
 }

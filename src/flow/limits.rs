@@ -1,6 +1,6 @@
 //! What a computation may cost, and what becomes of a motion.
 
-use crate::model::Reason;
+use crate::model::{Reason, Result};
 
 /// Bounds on a computation: a budget of evaluations and a means of interruption.
 #[derive(Clone, Copy)]
@@ -22,6 +22,11 @@ impl Limits<'_> {
     #[must_use]
     pub fn up_to(&self, most: u64) -> Self {
         Limits { evaluations: self.evaluations.min(most), ..*self }
+    }
+
+    /// Nothing, unless the computation is to end. Fails with [`Reason::Interrupted`].
+    pub(crate) fn go_on(&self) -> Result<()> {
+        if (self.interrupted)() { Err(Reason::Interrupted) } else { Ok(()) }
     }
 }
 

@@ -335,9 +335,7 @@ impl Portrait {
         let portrait = &*self.followed_to(window.reach())?;
         let velocities: Vec<f64> = (0..rows).map(|row| between(window.v, row, rows)).collect();
         let of_column = |column| {
-            if (limits.interrupted)() {
-                return Err(Reason::Interrupted);
-            }
+            limits.go_on()?;
             let x = between(window.q, column, columns);
             let region = portrait.orders_starts().then(|| portrait.regions_at(x));
             let mut counts = Counts::default();

@@ -260,9 +260,7 @@ fn along_number(
     let source = Source { tolerance, ..Source::from(belt) };
     let values = if rough { (FEW, None) } else { (VALUES, Some(BESIDE.as_slice())) };
     let found = MachineBranch::along(&source, varied, range, values, limits);
-    if (limits.interrupted)() {
-        return Err(Reason::Interrupted);
-    }
+    limits.go_on()?;
     found.map_err(|_| Reason::NotApplicable { needs: "a machine with that number" })
 }
 

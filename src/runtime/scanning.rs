@@ -113,7 +113,7 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
         ControlFlow::Continue(())
     })
     .map_err(|_| Reason::NotApplicable { needs: "threads, and the system gives none" })?;
-    if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(piece) }
+    limits.go_on().map(|()| piece)
 }
 
 /// A row; `None` if the scan is over.

@@ -170,9 +170,7 @@ impl Flow<'_> {
             return Ok(0.0);
         }
         for _ in 0..TURNS {
-            if (limits.interrupted)() {
-                return Err(Reason::Interrupted);
-            }
+            limits.go_on()?;
             let place = self.model.place(x, y);
             match self.turn(place, (x, y), &mut |_| {}) {
                 Ok(turn) if turn.rests => return Ok(turn.x),

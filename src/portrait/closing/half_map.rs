@@ -180,9 +180,7 @@ impl HalfMap {
     ) -> Result<HalfSwing> {
         self.swings += 1;
         // A swing in closed form takes no steps, but thousands of them take time.
-        if (limits.interrupted)() {
-            return Err(Reason::Interrupted);
-        }
+        limits.go_on()?;
         let spent = self.stepper.cost().evaluations + self.swings;
         if spent > limits.evaluations {
             return Err(Reason::Budget { evaluations: spent });

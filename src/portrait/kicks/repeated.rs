@@ -104,9 +104,7 @@ impl Chain {
         let mut steps = DMatrix::zeros(cells, cells);
         // Where the motion from a start comes to rest; `None` where it is lost, or where that takes too long.
         let rest = |q: f64, v: f64| {
-            if (limits.interrupted)() {
-                return Err(Reason::Interrupted);
-            }
+            limits.go_on()?;
             let mut flow = Flow::new(&model);
             let comes = portrait.fate(q, v) == Ok(Fate::Rest);
             let place =

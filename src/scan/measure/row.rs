@@ -5,7 +5,7 @@ use std::error::Error;
 
 use super::table::CYCLES;
 use super::{Conditions, Measure, Value};
-use crate::flow::{Cost, Limits, Motion, Outcome, Reason, Result, Subject};
+use crate::flow::{Cost, Limits, Motion, Outcome, Result, Subject};
 use crate::portrait::{Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 
 /// What was measured at a point.
@@ -38,7 +38,7 @@ pub(super) struct Cells<'a> {
 }
 
 /// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`],
-/// and [`ScanRow::reason`] says why. Fails with [`Reason::Interrupted`], and no other.
+/// and [`ScanRow::reason`] says why. Fails with [`Reason::Interrupted`](crate::model::Reason::Interrupted), and no other.
 pub fn measure(
     subject: &Subject,
     measures: &[Measure],
@@ -53,7 +53,6 @@ pub fn measure(
     {
         wanted.insert(Measure::Cycles);
     }
-    let stops = || if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(()) };
     let mut cells = Cells {
         subject,
         measures,
@@ -66,9 +65,9 @@ pub fn measure(
         portrait: None,
     };
     for measure in wanted {
-        stops()?;
+        limits.go_on()?;
         let computed = cells.compute(measure);
-        stops()?;
+        limits.go_on()?;
         if let Err(why) = computed {
             cells.reasons.push(format!("{}: {why}", measure.spec().name));
         }
