@@ -93,8 +93,7 @@ pub fn branch(
         // Without friction the innermost cycle has shrunk to the steady state: begin just above.
         from = from.max(LEAST_FRICTION * to);
     }
-    let mut curve =
-        CycleCurve::new(parameters, parameter, Side::Upper, to - from, tolerance, limits);
+    let mut curve = CycleCurve::new(parameters, parameter, to - from, tolerance, limits);
     if points == Points::Followed {
         (curve.strides, curve.budget) = (LONG_STRIDES, BUDGET);
     }
@@ -415,8 +414,7 @@ impl CurveTracer<'_> {
                 let other =
                     if self.found.parameter == Knob::R { parameters.d2 } else { parameters.r };
                 let product = escape_product(parameters.d, self.curve.limits)?;
-                let product = self.found.cost.spend(product);
-                let value = product.map(|product| product / other.abs());
+                let value = self.found.cost.spend(product).map(|product| product / other.abs());
                 [value, value.filter(|_| self.found.parameter == Knob::D2).map(|value| -value)]
             }
             _ => [None; 2],

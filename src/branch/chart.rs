@@ -55,16 +55,9 @@ pub fn chart(
 impl Chart {
     /// The places of a boundary on each line, as points (right, up), in runs without a gap.
     pub fn boundary(&self, place: fn(&ChartLine) -> Option<f64>) -> Vec<Vec<(f64, f64)>> {
-        let mut runs: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
-        for line in &self.lines {
-            match (place(line), runs.last_mut()) {
-                (Some(place), Some(run)) => run.push(self.point(line.at, place)),
-                (None, Some(run)) if !run.is_empty() => runs.push(Vec::new()),
-                _ => {}
-            }
-        }
-        runs.retain(|run| !run.is_empty());
-        runs
+        let point = |line: &ChartLine| Some(self.point(line.at, place(line)?));
+        let runs = self.lines.split(|line| place(line).is_none()).filter(|run| !run.is_empty());
+        runs.map(|run| run.iter().filter_map(point).collect()).collect()
     }
 
     /// The point (right, up) at a place on a line.
@@ -76,8 +69,8 @@ impl Chart {
     ///
     /// Between two lines with the same bands their ends are interpolated; else the nearer line counts.
     pub fn regime_at(&self, right: f64, up: f64) -> Option<Regime> {
-        let (at, along) =
-            if self.plane.along() == self.plane.right { (up, right) } else { (right, up) };
+        // Both ways the two change places, or neither.
+        let (at, along) = self.point(right, up);
         let after = self.lines.partition_point(|line| line.at < at);
         let (before, after) = (self.lines.get(after.wrapping_sub(1)), self.lines.get(after));
         let (Some(before), Some(after)) = (before, after) else {
@@ -88,7 +81,7 @@ impl Chart {
             let mut pairs = before.bands.iter().zip(&after.bands);
             let inside =
                 |pair: &(&Band, &Band)| along <= pair.0.to + part * (pair.1.to - pair.0.to);
-            return pairs.find(inside).and_then(|(band, _)| band.regime);
+            return pairs.find(inside)?.0.regime;
         }
         if part < 0.5 { before.regime_at(along) } else { after.regime_at(along) }
     }
@@ -96,14 +89,13 @@ impl Chart {
 
 impl ChartLine {
     fn regime_at(&self, along: f64) -> Option<Regime> {
-        self.bands.iter().find(|band| along <= band.to).and_then(|band| band.regime)
+        self.bands.iter().find(|band| along <= band.to)?.regime
     }
 
     /// Whether the same regimes follow each other.
     fn alike(&self, other: &ChartLine) -> bool {
-        let regimes =
-            |line: &ChartLine| line.bands.iter().map(|band| band.regime).collect::<Vec<_>>();
-        regimes(self) == regimes(other)
+        let others = other.bands.iter().map(|band| band.regime);
+        self.bands.iter().map(|band| band.regime).eq(others)
     }
 }
 

@@ -16,7 +16,7 @@ pub use spread::CurvePlace;
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{hypot, ln, try_bisect};
-use crate::portrait::{Equation, Route, SwingPair};
+use crate::portrait::{Equation, Route, SwingPair, first_side};
 
 /// Tolerance of the integration steps, in units of that of the points.
 const STEP: f64 = 1e-2;
@@ -62,11 +62,10 @@ pub struct CycleCurve<'a> {
 }
 
 impl<'a> CycleCurve<'a> {
-    /// The curve along `symbol` with p measured in units of `scale`; `side` is that of the first swing.
+    /// The curve along `symbol` with p measured in units of `scale`.
     pub fn new(
         parameters: &Parameters,
         symbol: Knob,
-        side: Side,
         scale: f64,
         tolerance: f64,
         limits: &'a Limits<'a>,
@@ -74,7 +73,7 @@ impl<'a> CycleCurve<'a> {
         CycleCurve {
             parameters: *parameters,
             symbol,
-            side,
+            side: first_side(parameters),
             scale,
             tolerance,
             strides: 1.0,
@@ -103,7 +102,7 @@ impl<'a> CycleCurve<'a> {
         let step = STEP * self.tolerance;
         let limits = Limits { evaluations: SWING_BUDGET, ..*self.limits };
         let mut equation = Equation::on_side(&self.parameters_at(p), self.side, step, &limits);
-        equation.want_fastest(true);
+        equation.want_fastest();
         let closing = equation.at(route, u);
         self.cost += equation.cost();
         match closing {
@@ -169,8 +168,7 @@ impl<'a> CycleCurve<'a> {
                 return Ok(None);
             }
             if per_s * change.abs() <= self.tolerance {
-                let log_multiplier = closing.log_multiplier(&self.parameters_at(p));
-                return Ok(Some(CurvePoint { u, p, closing, log_multiplier }));
+                return Ok(Some(CurvePoint::of(closing, p, &self.parameters_at(p))));
             }
             before = Some((s, value));
             s += change;
@@ -242,7 +240,7 @@ impl<'a> CycleCurve<'a> {
             // A bend of more than about 15 degrees a step is taken in smaller steps.
             let next = corrected.map(|next| (next, Tangent::between(&here, &next, self.scale)));
             match next {
-                Some((next, chord)) if chord.dot(tangent) > 0.97 || stride < 1e-6 => {
+                Some((next, (chord, _))) if chord.dot(tangent) > 0.97 || stride < 1e-6 => {
                     let bend = (1.0 - chord.dot(tangent)).max(0.0);
                     tangent = self.tangent_at(&next, chord).unwrap_or(chord);
                     // Where the parameter stands still, or a swing starts at the very end of the sticking set,
@@ -320,8 +318,7 @@ impl<'a> CycleCurve<'a> {
         one: &CurvePoint,
         other: &CurvePoint,
     ) -> Result<Option<CurvePoint>> {
-        let tangent = Tangent::between(one, other, self.scale);
-        let chord = hypot((other.u - one.u) / UNIT_OF_U, (other.p - one.p) / self.scale);
+        let (tangent, chord) = Tangent::between(one, other, self.scale);
         let (tolerance, zero) =
             (self.fineness().max(FOLD_TOLERANCE), self.tolerance.max(LEAST_LOG));
         let mut fine = CycleCurve { tolerance, slope_in_p: None, ..*self };

@@ -13,9 +13,9 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason, Result};
-use crate::model::{Knob, Parameters, Side};
+use crate::model::{Knob, Parameters};
 use crate::numerics::{cbrt, exp, ln, powi};
-use crate::portrait::{Equation, Route, SwingPair, first_side};
+use crate::portrait::{Equation, Route, SwingPair};
 
 /// A fold: the cycle at which two meet.
 #[derive(Clone, Copy, Debug)]
@@ -24,8 +24,6 @@ pub struct FoldCycle {
     pub place: FoldPlace,
     /// The cycle.
     pub closing: SwingPair,
-    /// The side of its first swing.
-    pub side: Side,
 }
 
 /// A place at a fold, or near one.
@@ -96,8 +94,7 @@ pub fn fold_near(
     tolerance: f64,
     limits: &Limits,
 ) -> Result<(Option<FoldCycle>, Cost)> {
-    let side = first_side(&guess.parameters);
-    let mut system = System { guess, symbol, side, limits, cost: Cost::default() };
+    let mut system = System { guess, symbol, limits, cost: Cost::default() };
     let found = system.solve(tolerance)?;
     Ok((found, system.cost))
 }
@@ -116,7 +113,6 @@ struct Values {
 struct System<'a> {
     guess: &'a FoldPlace,
     symbol: Knob,
-    side: Side,
     limits: &'a Limits<'a>,
     cost: Cost,
 }
@@ -133,8 +129,8 @@ impl System<'_> {
         const BUDGET: u64 = 5_000;
         let [u, z] = place.into();
         let limits = Limits { evaluations: BUDGET, ..*self.limits };
-        let mut equation = Equation::on_side(&self.parameters_at(z), self.side, step, &limits);
-        equation.want_fastest(true);
+        let mut equation = Equation::new(&self.parameters_at(z), step, &limits);
+        equation.want_fastest();
         let closing = equation.at(Route::Mixed, u);
         self.cost += equation.cost();
         let Ok(closing) = Reason::tolerated(closing)? else { return Ok(None) };
@@ -181,7 +177,7 @@ impl System<'_> {
                     u: place.x + change.x,
                     slopes: Some((self.symbol, slopes)),
                 };
-                let fold = FoldCycle { place, closing: here.closing, side: self.side };
+                let fold = FoldCycle { place, closing: here.closing };
                 // The inner one of both cycles is unstable there.
                 return Ok((slopes[(1, 0)] < 0.0).then_some(fold));
             }

@@ -22,7 +22,7 @@
 
 use serde::Serialize;
 
-use super::{FoldCycle, FoldPlace, FoldPoint, escape_point, fold_near, highest_cycle};
+use super::{FoldPlace, FoldPoint, escape_point, fold_near, highest_cycle};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
@@ -62,8 +62,7 @@ pub fn fold_within(
     if let Some(guess) = FoldPlace::in_damping(parameters)
         && let Some(found) = cost.spend(fold_near(&guess, Knob::D, tolerance, limits)?)
     {
-        let FoldCycle { place, closing, side } = found;
-        return Ok((Some(FoldPoint::of(&closing, &place.parameters, side)), cost));
+        return Ok((Some(FoldPoint::of(&found.closing, &found.place.parameters)), cost));
     }
     // A rough fold, one of many on a map, need not be found at any cost.
     let thorough = tolerance <= TOLERANCE;
@@ -201,11 +200,11 @@ fn damping(
         *cost += equation.cost();
         way
     };
-    let mut above = (CRITICAL, way(CRITICAL)?.excess);
-    if above.1 > 0.0 {
+    let mut below = (CRITICAL, way(CRITICAL)?.excess);
+    if below.1 > 0.0 {
         return Ok(None);
     }
-    let mut below = (2.0 * CRITICAL, way(2.0 * CRITICAL)?.excess);
+    let mut above = below;
     while below.1 <= 0.0 {
         above = below;
         below = (2.0 * below.0, way(2.0 * below.0)?.excess);

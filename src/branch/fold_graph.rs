@@ -8,7 +8,7 @@ use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{exp, ln, try_maximum};
-use crate::portrait::{Route, first_side};
+use crate::portrait::Route;
 
 /// Finds the cycle of the largest D, to a relative error `tolerance` of its clearance; that of D is the square, to
 /// rounding. Beside it stands the logarithm of its multiplier, which is far from 0 where it is no fold.
@@ -20,18 +20,15 @@ pub fn highest_cycle(
     limits: &Limits,
 ) -> (Result<(FoldPoint, f64)>, Cost) {
     let Some((u, d, stride)) = start(parameters) else { return (Err(LOST), Cost::default()) };
-    let side = first_side(parameters);
-    let curve = CycleCurve::new(parameters, Knob::D, side, 1.0, tolerance, limits);
+    let curve = CycleCurve::new(parameters, Knob::D, 1.0, tolerance, limits);
     let mut graph = Graph { curve, d };
-    let met =
-        graph.meeting(u, stride).map(|CurvePoint { p: d, closing, log_multiplier, .. }| {
-            let parameters = graph.curve.parameters_at(d);
-            (FoldPoint::of(&closing, &parameters, side), log_multiplier)
-        });
+    let met = graph.meeting(u, stride).map(|CurvePoint { p, closing, log_multiplier, .. }| {
+        (FoldPoint::of(&closing, &graph.curve.parameters_at(p)), log_multiplier)
+    });
     (met, graph.curve.cost)
 }
 
-const LOST: Reason = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
+pub(crate) const LOST: Reason = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
 
 /// Where the search begins, and its first stride in u: the harmonic estimate where it is near, else a cycle close to the
 /// sticking set, which lies below the fold.

@@ -216,9 +216,8 @@ impl Family<'_> {
         let extremum = |value: f64| -> Option<Node> {
             steepest(&self.model(value)?, (low * high).sqrt(), ln(high / low))
         };
-        let ends = (extremum(with)?, extremum(without)?);
-        let ends = [(with, ends.0.value), (without, ends.1.value)];
-        let value = zero(&|value| Some(extremum(value)?.value), ends)?;
+        let height = |value| Some(extremum(value)?.value);
+        let value = zero(&height, [(with, height(with)?), (without, height(without)?)])?;
         let q_max = Some(exp(extremum(value)?.at));
         Some(Special { q_max, ..Special::new(SpecialKind::Fold, value, None) })
     }

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::model::{Parameters, Side};
-use crate::portrait::{Cycle, CycleErrors, SwingPair};
+use crate::model::Parameters;
+use crate::portrait::{Cycle, CycleErrors, SwingPair, first_side};
 
 /// What makes a point of a branch special.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -182,9 +182,9 @@ pub struct FoldPoint {
 }
 
 impl FoldPoint {
-    /// The cycle of the largest D, whose first swing is on this side.
-    pub(super) fn of(closing: &SwingPair, parameters: &Parameters, side: Side) -> Self {
-        let (d, cycle) = (parameters.d, closing.describe(parameters, side));
+    /// The cycle of the largest D.
+    pub(super) fn of(closing: &SwingPair, parameters: &Parameters) -> Self {
+        let (d, cycle) = (parameters.d, closing.describe(parameters, first_side(parameters)));
         let grazes = d < -1.0 && cycle.is_stable_beyond_doubt();
         FoldPoint { d, q_max: cycle.q_max, period: cycle.period, grazes }
     }

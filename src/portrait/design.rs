@@ -156,24 +156,25 @@ fn least_friction(
     (first, any): (f64, Option<f64>),
     margin: &mut dyn FnMut(f64) -> Result<Margin>,
 ) -> Result<Option<FrictionNeed>> {
-    // Logarithm of the margin, as a fraction of the one wanted.
-    let mut excess =
-        |r: f64| -> Result<f64> { Ok(ln(kick.margin(&margin(r)?) / wanted).max(f64::MIN)) };
+    let mut at = |r: f64| -> Result<FrictionTrial> {
+        let excess = ln(kick.margin(&margin(r)?) / wanted).max(f64::MIN);
+        Ok(FrictionTrial { r, excess })
+    };
     if let Some(r) = any
-        && excess(r)? >= 0.0
+        && at(r)?.excess >= 0.0
     {
         return Ok(Some(FrictionNeed::Any));
     }
     // A displacement within the sticking set is kept: the first is high enough, or nearly so.
-    let mut high = FrictionTrial { r: first, excess: excess(first)? };
+    let mut high = at(first)?;
     let mut low = high;
     for _ in 0..STEPS {
         if high.excess < 0.0 {
             low = high;
-            high = FrictionTrial { r: 2.0 * high.r, excess: excess(2.0 * high.r)? };
+            high = at(2.0 * high.r)?;
         } else if low.excess >= 0.0 {
             high = low;
-            low = FrictionTrial { r: 0.5 * low.r, excess: excess(0.5 * low.r)? };
+            low = at(0.5 * low.r)?;
         } else {
             break;
         }
@@ -185,8 +186,7 @@ fn least_friction(
     let unit = high.r;
     let ends = [(ln(low.r / unit), low.excess), (0.0, high.excess)];
     let searched = illinois(ends, WIDTH, PlaceTolerance::Absolute(WIDTH), |log| {
-        let r = unit * exp(log);
-        let here = match excess(r) {
+        let here = match at(unit * exp(log)) {
             // The upper end is the safe one, and known: that ends the search where an error would. Next to a fold a
             // search for cycles may as well meet no cycle at all.
             Err(Reason::NoConvergence { .. } | Reason::Escapes)
@@ -196,8 +196,8 @@ fn least_friction(
             }
             here => here.map_err(Some),
         }?;
-        *(if here < 0.0 { &mut low } else { &mut high }) = FrictionTrial { r, excess: here };
-        Ok(here)
+        *(if here.excess < 0.0 { &mut low } else { &mut high }) = here;
+        Ok(here.excess)
     });
     if let Err(Some(error)) = searched {
         return Err(error);

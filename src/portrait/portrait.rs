@@ -109,28 +109,29 @@ impl Portrait {
     /// minimum between its ends, and over a segment it is lowest at an end; the lower half likewise.
     #[must_use]
     pub fn margin_within(&self, farthest: f64, mass: f64) -> Margin {
-        let Some(reach) = self.reach else { return Margin::ENDLESS };
+        let Some(Reach { displacement: (right, left), velocity: (up, down) }) = self.reach else {
+            return Margin::ENDLESS;
+        };
         if !self.has_basin() {
             return Margin::ZERO;
         }
-        let ends = [farthest, -farthest];
-        let (gap, [one, other]) = if let Some(edge) = self.edge() {
+        let (nearest, ends) = (right.min(left), [farthest, -farthest]);
+        let (gap, heights) = if let Some(edge) = self.edge() {
             let left = match edge {
                 // Of a border next to the places of rest, the clearance has digits that its place has not.
                 Edge::Orbit(orbit) => orbit.clearance() - (farthest - self.model.guide),
-                Edge::Curve(_) => reach.displacement.0.min(reach.displacement.1) - farthest,
+                Edge::Curve(_) => nearest - farthest,
             };
             (left.max(0.0), ends.map(|x| self.kept_within(edge, x)))
         } else {
             let [right, left] = ends.map(|x| self.covered(x));
             (right.displacement.0.min(left.displacement.1), [right.velocity, left.velocity])
         };
-        let lowest = one.0.min(one.1).min(other.0).min(other.1);
-        let impulse = if gap > 0.0 { mass * lowest } else { 0.0 };
-        let Reach { displacement: (right, left), velocity: (up, down) } = reach;
+        let [one, other] = heights.map(|(up, down)| up.min(down));
+        let impulse = if gap > 0.0 { mass * one.min(other) } else { 0.0 };
         let finite = |size: &f64| Some(*size).filter(|size| size.is_finite());
         let sizes = Kicks {
-            displacement: right.min(left),
+            displacement: nearest,
             impulse: mass * up.min(down),
             from_rest: RestKicks { displacement: gap, impulse },
         };
@@ -269,8 +270,7 @@ impl Portrait {
     /// Why the portrait is incomplete: the friction law ends before all motions are known.
     #[must_use]
     pub fn incomplete(&self) -> Option<Reason> {
-        let outermost = self.gaps.last().map(|gap| gap.fate);
-        let open = matches!(outermost, Some(Fate::Unknown(_)));
+        let open = matches!(self.gaps.last(), Some(Gap { fate: Fate::Unknown(_), .. }));
         let stop = self.stop.filter(|stop| matches!(stop, Reason::BeyondLaw { .. }));
         let borderless = matches!(self.border, Border::None | Border::Unknown(_));
         stop.filter(|_| open || borderless)

@@ -175,16 +175,11 @@ fn the_general_path_gives_the_piecewise_linear_cycle_to_twelve_digits() {
     let r = 0.5;
     for d in [-0.999_999, -0.999, -0.99, -0.7, -0.1, -1e-3, -1e-6, -1e-12] {
         let parameters = Parameters { d, d2: 0.0, d3: 0.0, r };
-        let series = |field| {
-            let mut map = HalfMap::new(field, f64::EPSILON);
-            map.linear_below = 1e-9;
-            map
-        };
-        let fields = [Side::Upper, Side::Lower].map(|side| HalfPlane::new(&parameters, side));
-        let mut equation = Equation::on_fields(&parameters, Side::Upper, fields, &LIMITS, series);
+        let mut equation = Equation::on_side(&parameters, Side::Upper, f64::EPSILON, &LIMITS);
+        equation.maps.iter_mut().flatten().for_each(|map| map.linear_below = 1e-9);
         let found = closings(&mut equation, usize::MAX, &[]).unwrap();
         assert_eq!(found.len(), 1, "D = {d}");
-        equation.want_fastest(true);
+        equation.want_fastest();
         let route = if d < -0.2 { Route::Backward } else { Route::Mixed };
         let closing = equation.at(route, found[0].node.at).unwrap();
         let cycle = closing.describe(&parameters, Side::Upper);

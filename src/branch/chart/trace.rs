@@ -1,7 +1,9 @@
 //! Drawing the lines of a chart: the boundaries on each, the bands between them, and further lines where a
 //! boundary is bent.
 
-use crate::branch::{FoldPlace, Regime, escape_point, escape_product, fold_near, fold_within};
+use crate::branch::{
+    FoldPlace, LOST, Regime, escape_point, escape_product, fold_near, fold_within,
+};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
@@ -134,10 +136,8 @@ impl Tracer<'_> {
         } else {
             self.boundary_at_d(&here)
         };
-        let (boundary, failure) = match Reason::tolerated(boundary)? {
-            Err(reason) => (None, Some(reason)),
-            Ok(boundary) => (boundary, None),
-        };
+        let found = Reason::tolerated(boundary)?;
+        let (boundary, failure) = (found.unwrap_or_default(), found.err());
         let bands = self.bands(&here, boundary, failure.is_some());
         let boundary = boundary.filter(|boundary| boundary.is_finite());
         if let (Some(fold), Some(harmonic)) = (boundary, harmonic)
@@ -153,8 +153,7 @@ impl Tracer<'_> {
     /// The fold next to a guess, while `symbol` varies.
     fn fold_near(&mut self, guess: &FoldPlace, symbol: Knob) -> Result<Option<Parameters>> {
         let found = fold_near(guess, symbol, self.resolution.tolerance, self.limits)?;
-        let found = self.cost.spend(found);
-        let found = found.map(|found| found.place);
+        let found = self.cost.spend(found).map(|found| found.place);
         self.known = found.or(self.known);
         Ok(found.map(|found| found.parameters))
     }
@@ -167,10 +166,7 @@ impl Tracer<'_> {
             return Ok(found.d);
         }
         let found = fold_within(parameters, self.resolution.tolerance, self.limits)?;
-        self.cost
-            .spend(found)
-            .map(|found| found.d)
-            .ok_or(Reason::NoConvergence { sought: "the fold", change: f64::NAN })
+        self.cost.spend(found).map(|found| found.d).ok_or(LOST)
     }
 
     /// `D_F` or `D_c` on a line along D; minus infinity where it lies below everything that is asked for.
@@ -231,7 +227,6 @@ impl Tracer<'_> {
     fn seek(&mut self, here: &Parameters) -> Result<Option<f64>> {
         /// First stride in the logarithm: the guess is better than this on all lines but the first.
         const STRIDE: f64 = 0.1;
-        let d = here.d;
         let Some(guess) = self.harmonic(here) else { return Ok(None) };
         let guess = guess * self.ratio;
         let near = here.with(self.plane.along(), guess);
@@ -245,12 +240,11 @@ impl Tracer<'_> {
         {
             return Ok(Some(found.value(self.plane.along())));
         }
-        let excess = |tracer: &mut Self, z: f64| -> Result<f64> {
-            let found = tracer.fold(&here.with(tracer.plane.along(), exp(z)))?;
-            Ok(ln(found / d))
-        };
-        root(ln(guess), STRIDE, SLACK * self.resolution.tolerance, |z| excess(self, z))
-            .map(|z| Some(exp(z)))
+        let place = root(ln(guess), STRIDE, SLACK * self.resolution.tolerance, |z| {
+            let found = self.fold(&here.with(self.plane.along(), exp(z)))?;
+            Ok(ln(found / here.d))
+        });
+        place.map(|z| Some(exp(z)))
     }
 
     /// The fold of one harmonic (48) on the line.
@@ -272,12 +266,9 @@ impl Tracer<'_> {
     fn bands(&self, here: &Parameters, boundary: Option<f64>, failed: bool) -> Vec<Band> {
         let (from, to) = self.plane.range(self.plane.along());
         let inside = |value: &f64| *value > from && *value < to;
-        let fixed = match self.plane.along() {
-            Knob::D => vec![-1.0, 0.0],
-            _ => vec![0.0],
-        };
-        let mut ends: Vec<f64> = fixed.into_iter().chain(boundary).filter(inside).collect();
-        ends.extend([from, to]);
+        let critical = (self.plane.along() == Knob::D).then_some(-1.0);
+        let places = [0.0].into_iter().chain(critical).chain(boundary).filter(inside);
+        let mut ends: Vec<f64> = places.chain([from, to]).collect();
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let mut bands: Vec<Band> = Vec::new();

@@ -49,11 +49,11 @@ impl Tangent {
     /// Along p: a correction across it changes only u.
     pub const ACROSS_U: Tangent = Tangent { u: 0.0, p: 1.0 };
 
-    /// From one point to another.
-    pub(crate) fn between(from: &CurvePoint, to: &CurvePoint, scale: f64) -> Self {
+    /// From one point to another, with how far they are apart.
+    pub(crate) fn between(from: &CurvePoint, to: &CurvePoint, scale: f64) -> (Self, f64) {
         let (u, p) = ((to.u - from.u) / UNIT_OF_U, (to.p - from.p) / scale);
         let length = hypot(u, p);
-        Tangent { u: u / length, p: p / length }
+        (Tangent { u: u / length, p: p / length }, length)
     }
 
     pub(crate) fn times(self, factor: f64) -> Self {
@@ -71,8 +71,7 @@ pub fn is_beside([one, other]: [&CurvePoint; 2], (u, p): (f64, f64), scale: f64)
     /// Distance from the chord, as a part of it, and what counts as nothing along it.
     const BULGE: f64 = 0.5;
     const SLACK: f64 = 1e-9;
-    let chord = Tangent::between(one, other, scale);
-    let length = hypot((other.u - one.u) / UNIT_OF_U, (other.p - one.p) / scale);
+    let (chord, length) = Tangent::between(one, other, scale);
     let (u, p) = ((u - one.u) / UNIT_OF_U, (p - one.p) / scale);
     let (along, across) = (u * chord.u + p * chord.p, u * chord.p - p * chord.u);
     (-SLACK..=length + SLACK).contains(&along) && across.abs() <= BULGE * length + SLACK

@@ -77,7 +77,7 @@ impl CycleCurve<'_> {
         near: (f64, f64),
     ) -> Result<Option<CurvePlace>> {
         let [one, other] = pair;
-        let tangent = Tangent::between(one, other, self.scale);
+        let (tangent, _) = Tangent::between(one, other, self.scale);
         let growth = [0, 1].map(|i| 0.5 * (one.closing.growth[i] + other.closing.growth[i]));
         let route = Route::steadiest(growth);
         self.probe_within((other.p - one.p).abs() / self.scale);

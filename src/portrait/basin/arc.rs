@@ -7,7 +7,7 @@
 
 use std::sync::Arc as Shared;
 
-use crate::flow::{Cost, ExactStepper, KeptStep, Limits, Powers, Result, Stepper};
+use crate::flow::{Cost, ExactStepper, KeptStep, Limits, Powers, Result, StepPoint, Stepper};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::{Bracket, PlaceTolerance, newton, times_power};
 use crate::portrait::{Direction, HalfMap, HalfSwing, Length};
@@ -42,8 +42,6 @@ pub struct Arc {
     direction: Direction,
     /// Of the swing (forward), or of the next one (backward).
     pub(super) clearance: Length,
-    /// At which the computation began.
-    length: Length,
     pieces: Vec<ArcStep>,
     /// From where the motion is linear to its end, if it was not followed there.
     rest: Option<ArcStep>,
@@ -83,7 +81,6 @@ impl Arc {
             field,
             direction,
             clearance,
-            length,
             rest: rest(&field, &pieces, map.linear_below),
             pieces,
             swing,
@@ -104,7 +101,7 @@ impl Arc {
                 return Some(speed);
             }
         }
-        if target < -self.length.value {
+        if target < -self.swing.start.value {
             return None;
         }
         let index = self.pieces.partition_point(|piece| piece.end < target);
@@ -123,7 +120,7 @@ impl Arc {
         /// Part of the position below which it is next to nothing, and largest damping force beside it.
         const NEAR: f64 = 1e-10;
         const WEAK: f64 = 1e-3;
-        let end = self.length.value;
+        let end = self.swing.start.value;
         let speed = (2.0 * short).sqrt() * end.sqrt();
         let HalfPlane { d, d2, d3 } = self.field;
         let force = speed * (2.0 * d.abs() + speed * (d2.abs() + speed * d3.abs()));
@@ -161,10 +158,10 @@ impl Arc {
         for piece in &self.pieces {
             let first = u16::from(!points.is_empty());
             for index in first..=count {
-                let point = piece.step.at(piece.duration * f64::from(index) / f64::from(count));
-                let x = self.direction.sense() * times_power(point.x, piece.unit);
-                let v = self.side.sign() * times_power(point.v, piece.unit);
-                points.push(State { q: self.side.displacement(x, self.r), v });
+                let time = piece.duration * f64::from(index) / f64::from(count);
+                let StepPoint { x, v } = piece.step.at(time).times_power(piece.unit);
+                let q = self.side.displacement(self.direction.sense() * x, self.r);
+                points.push(State { q, v: self.side.sign() * v });
             }
         }
         if self.direction == Direction::Backward {
@@ -199,10 +196,9 @@ impl ArcStep {
         let bracket = Bracket::rising(0.0, self.duration);
         let settled = PlaceTolerance::Absolute(1e-12 * self.duration);
         let found = newton(bracket, bracket.middle(), settled, |time| {
-            let point = self.step.at(time);
-            (point.x - target, point.v)
+            let StepPoint { x, v } = self.step.at(time);
+            (x - target, v)
         });
-        let time = found.at;
-        times_power(self.step.at(time).v, self.unit).max(0.0)
+        times_power(self.step.at(found.at).v, self.unit).max(0.0)
     }
 }

@@ -30,7 +30,7 @@ pub fn bands(parameters: &Parameters, reach: f64, most: usize, limits: &Limits) 
     let mut bands = Bands::default();
     // Clearance from which a swing on the upper, on the lower side comes to rest exactly this many arrivals
     // later; None once there is none within reach.
-    let mut starts = [Some(Length { value: 0.0, log: f64::NEG_INFINITY }); 2];
+    let mut starts = [Some(Length::ZERO); 2];
     for _ in 0..most {
         let mut next = [None; 2];
         for (index, side) in [Side::Upper, Side::Lower].into_iter().enumerate() {

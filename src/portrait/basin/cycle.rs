@@ -20,8 +20,8 @@ use crate::flow::{Cost, Flow, Limits, Result};
 use crate::model::{Ledger, Model, Parameters, Side, State};
 use crate::numerics::exp;
 use crate::portrait::{
-    Border, Cycle, CycleErrors, Edge, Equation, Margin, Portrait, STEP, SwingPair, all_closings,
-    first_side, share,
+    Border, Cycle, CycleErrors, Edge, Equation, Errors, Margin, Portrait, STEP, SwingPair,
+    all_closings, first_side, share,
 };
 
 /// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
@@ -125,11 +125,10 @@ impl SwingPair {
         let Parameters { d, d3, r, .. } = *parameters;
         let log_multiplier = self.log_multiplier(parameters);
         let multiplier = exp(log_multiplier);
-        let spread = self.spread();
-        let turning = [(self.first, spread[0].length), (self.second, spread[1].length)];
-        let fastest = [0, 1].map(|index| (self.fastest[index], spread[index].fastest));
-        let duration = spread[0].duration + spread[1].duration;
-        let square = spread[0].square + spread[1].square;
+        let [one, other] = self.spread();
+        let turning = [(self.first, one.length), (self.second, other.length)];
+        let fastest = [(self.fastest[0], one.fastest), (self.fastest[1], other.fastest)];
+        let Errors { duration, square, .. } = one.plus(other, 1.0);
         // The first swing starts on the far side of the half plane that it crosses.
         let ([left, right], [up, down]) = match side {
             Side::Upper => (turning, fastest),

@@ -195,15 +195,21 @@ fn attracting(
 
 /// The ledger of one turn of a cycle, whose border is closed; `residual` is what the works fail to cancel by.
 pub fn works(border: &Orbit, parameters: &Parameters) -> Ledger {
-    let Parameters { d, d2, d3, r } = *parameters;
+    let r = parameters.r;
     let [left, right] = [&border.upper, &border.lower].map(|arc| arc.clearance().value);
     let path = 2.0 * (left + right + 2.0 * r);
     // Below `v = 0` the speed is that of the mirror image.
     let lower = border.lower.powers().component_mul(&Powers::new(1.0, -1.0, 1.0));
-    let [second, third, fourth] = (border.upper.powers() + lower).into();
     let stored = energy(State { q: r + right, v: 0.0 });
+    ledger(parameters, (stored, stored), border.upper.powers() + lower, path)
+}
+
+/// The ledger between these energies, from the integrals of the powers of the velocity and the length of the path.
+fn ledger(parameters: &Parameters, energies: (f64, f64), powers: Powers, path: f64) -> Ledger {
+    let Parameters { d, d2, d3, r } = *parameters;
+    let [second, third, fourth] = powers.into();
     let works = [-2.0 * d * second, -d2 * third, -d3 * fourth, -r * path];
-    Ledger::of_terms(parameters, (stored, stored), works)
+    Ledger::of_terms(parameters, energies, works)
 }
 
 /// The ledger of a motion from its start until a time, by quadrature over its samples.
@@ -211,7 +217,6 @@ pub fn works(border: &Orbit, parameters: &Parameters) -> Ledger {
 /// Between two samples the motion is the cubic through both ([`Motion::at`]); what its works fail to
 /// account for is the residual, as in the ledger of the whole motion, which is exact.
 pub fn works_until(motion: &Motion, until: f64) -> Option<Ledger> {
-    let Parameters { d, d2, d3, r } = motion.problem.parameters;
     let now = motion.at(until)?;
     let mut sum = Powers::zeros();
     let mut path = 0.0;
@@ -229,9 +234,7 @@ pub fn works_until(motion: &Motion, until: f64) -> Option<Ledger> {
         before = end;
     }
     let energies = (energy(motion.problem.initial), energy(now.state()));
-    let [second, third, fourth] = sum.into();
-    let works = [-2.0 * d * second, -d2 * third, -d3 * fourth, -r * path];
-    Some(Ledger::of_terms(&motion.problem.parameters, energies, works))
+    Some(ledger(&motion.problem.parameters, energies, sum, path))
 }
 
 #[cfg(test)]

@@ -65,7 +65,7 @@ pub fn closings(
     }
     let sought = "a limit cycle";
     let low = lower_end(equation)?;
-    equation.want_fastest(true);
+    equation.want_fastest();
     let brackets = match low {
         Some(low) => brackets(equation, low, most, known)?,
         None => Vec::new(),

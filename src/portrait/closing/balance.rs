@@ -10,7 +10,7 @@
 //! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
 
 use super::{Direction, Equation, HalfMap, HalfSwing, Length, SwingPair, UNIT};
-use crate::flow::{Limits, Result, Stepper};
+use crate::flow::{Limits, Result, StepPoint, Stepper};
 use crate::model::{HalfPlane, PlaneField};
 use crate::numerics::{GAUSS, exp, exponent, gauss, ln_1p, times_power};
 
@@ -33,13 +33,13 @@ pub fn weighed_closing(equation: &mut Equation, u: f64) -> Result<Option<(SwingP
     let limits = equation.limits;
     let forward = equation.map(0, Direction::Forward);
     let d2 = times_power(forward.field.d2, unit);
-    let (first, gained_first) = weigh(forward, start, unit, &limits)?;
+    let (first, gained) = weigh(forward, start, unit, &limits)?;
     if !first.arrives() {
         return Ok(None);
     }
     // Run backward, positions and damping change their signs; the work is that of the motion forward.
     let backward = equation.map(1, Direction::Backward);
-    let (second, lost_second) = weigh(backward, start.plus(gap), unit, &limits)?;
+    let (second, lost) = weigh(backward, start.plus(gap), unit, &limits)?;
     if !second.arrives() {
         return Ok(None);
     }
@@ -48,10 +48,9 @@ pub fn weighed_closing(equation: &mut Equation, u: f64) -> Result<Option<(SwingP
         [start.value, second.end.value, gap].map(|length| times_power(length, -unit));
     let taken = friction(second, gap, d2) + friction(start, gap, -d2);
     let target = second + gap;
-    let gained_second = -lost_second;
     let weight = target * target * exp(2.0 * d2 * target);
-    let excess = (gained_first + gained_second - taken) / weight;
-    let noise = UNIT * (gained_first.abs() + gained_second.abs() + taken) / weight;
+    let excess = (gained - lost - taken) / weight;
+    let noise = UNIT * (gained.abs() + lost.abs() + taken) / weight;
     Ok(Some((closing, (ln_1p(excess), noise))))
 }
 
@@ -68,9 +67,7 @@ fn weigh(
     let skipped = std::mem::replace(&mut map.linear_below, 0.0);
     let swing = map.swing_watched(start, true, limits, |stepper, unit, duration| {
         for &(node, weight) in &GAUSS {
-            let point = stepper.at(node * duration);
-            let (x, v) =
-                (times_power(point.x, unit - measure), times_power(point.v, unit - measure));
+            let StepPoint { x, v } = stepper.at(node * duration).times_power(unit - measure);
             let square = v * v;
             gained -= weight * duration * exp(2.0 * d2 * x) * square * (2.0 * d + d3 * square);
         }

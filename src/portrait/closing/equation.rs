@@ -74,7 +74,7 @@ pub struct Equation<'a> {
     /// The side of the first swing.
     pub side: Side,
     /// Those run forward and those run backward, each that of the first swing first.
-    maps: [[HalfMap; 2]; 2],
+    pub maps: [[HalfMap; 2]; 2],
     charged: Cost,
 }
 
@@ -97,12 +97,10 @@ impl<'a> Equation<'a> {
         limits: &Limits<'a>,
     ) -> Self {
         let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
-        let map = |field| HalfMap::new(field, tolerance);
-        Self::on_fields(parameters, side, fields, limits, map)
+        Self::on_fields(parameters, side, fields, tolerance, limits)
     }
 
-    /// The same with half maps made by `map`, and with damping that may differ by side: the fields of the first and of
-    /// the second swing.
+    /// The same with damping that may differ by side: the fields of the first and of the second swing.
     ///
     /// Only the search for brackets, the polish and [`Self::at`] serve an equation whose damping differs; whatever else
     /// takes D2 from its parameters does not.
@@ -110,14 +108,15 @@ impl<'a> Equation<'a> {
         parameters: &Parameters,
         side: Side,
         fields: [HalfPlane; 2],
+        tolerance: f64,
         limits: &Limits<'a>,
-        map: impl Fn(HalfPlane) -> HalfMap,
     ) -> Self {
+        let map = |field| HalfMap::new(field, tolerance);
         Equation {
             parameters: *parameters,
             limits: *limits,
             side,
-            maps: [fields.map(&map), fields.map(|field| map(field.reversed()))],
+            maps: [fields, fields.map(|field| field.reversed())].map(|fields| fields.map(map)),
             charged: Cost::default(),
         }
     }
@@ -125,8 +124,7 @@ impl<'a> Equation<'a> {
     /// The same equation, each integration step within another relative tolerance.
     pub fn again(&self, tolerance: f64) -> Self {
         let fields = [0, 1].map(|index| self.maps[0][index].field);
-        let map = |field| HalfMap::new(field, tolerance);
-        Self::on_fields(&self.parameters, self.side, fields, &self.limits, map)
+        Self::on_fields(&self.parameters, self.side, fields, tolerance, &self.limits)
     }
 
     /// Whether both fields are those of its parameters.
@@ -136,11 +134,9 @@ impl<'a> Equation<'a> {
         own.iter().zip(&self.maps[0]).all(|(own, map)| *own == map.field)
     }
 
-    /// Whether to find the largest speeds.
-    pub fn want_fastest(&mut self, wanted: bool) {
-        for map in self.maps.iter_mut().flatten() {
-            map.fastest = wanted;
-        }
+    /// From now on finds the largest speeds, too.
+    pub fn want_fastest(&mut self) {
+        self.maps.iter_mut().flatten().for_each(|map| map.fastest = true);
     }
 
     /// The map of the first swing, or of the second one, in a direction.
@@ -156,20 +152,13 @@ impl<'a> Equation<'a> {
     /// What all swings so far cost.
     pub fn cost(&self) -> Cost {
         let mut cost = self.charged;
-        for map in self.maps.iter().flatten() {
-            cost += map.cost();
-        }
+        self.maps.iter().flatten().for_each(|map| cost += map.cost());
         cost
     }
 
     /// Adds what was computed elsewhere for the same question.
     pub fn charge(&mut self, cost: Cost) {
         self.charged += cost;
-    }
-
-    /// How many half swings were computed so far.
-    pub fn swings(&self) -> u64 {
-        self.maps.iter().flatten().map(|map| map.swings).sum()
     }
 
     /// A swing of one of the maps. From nowhere, and from beyond all lengths, it leads to the same again.
@@ -268,10 +257,18 @@ impl<'a> Equation<'a> {
             let Place { error, log_gain, .. } = clearances[index];
             [Errors { length: error, ..own }, Errors { length: exp(log_gain), ..gain }]
         });
-        let uncertainty = (node.value.abs() + noise) / node.slope.abs();
-        let lengths = clearances.map(|clearance| clearance.length);
-        let pair = SwingPair::new(node, lengths, swings);
-        SwingPair { growth, noise, uncertainty, errors, ..pair }
+        SwingPair {
+            node,
+            first: clearances[0].length,
+            second: clearances[1].length,
+            duration: swings[0].duration + swings[1].duration,
+            square: swings[0].square + swings[1].square,
+            fastest: swings.map(|swing| swing.fastest),
+            growth,
+            noise,
+            uncertainty: (node.value.abs() + noise) / node.slope.abs(),
+            errors,
+        }
     }
 
     /// The first swing from `start`, or a bound on where it ends: the largest number where that is not known at

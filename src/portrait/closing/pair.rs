@@ -1,6 +1,6 @@
 //! A pair of half swings, whether it closes or not, and the errors of its numbers.
 
-use super::{Errors, HalfSwing, Length, Node, UNIT};
+use super::{Errors, Length, Node, PreciseSwingPair, UNIT};
 use crate::model::Parameters;
 use crate::numerics::{ln, ln_1p};
 
@@ -40,25 +40,11 @@ pub(crate) fn rounding(length: Length) -> f64 {
 }
 
 impl SwingPair {
-    pub(crate) fn new(node: Node, starts: [Length; 2], swings: [HalfSwing; 2]) -> Self {
-        SwingPair {
-            node,
-            first: starts[0],
-            second: starts[1],
-            duration: swings[0].duration + swings[1].duration,
-            square: swings[0].square + swings[1].square,
-            fastest: swings.map(|swing| swing.fastest),
-            growth: [f64::NAN; 2],
-            noise: 0.0,
-            uncertainty: 0.0,
-            errors: Default::default(),
-        }
-    }
-
     /// The same with clearances and duration known to all digits of a double, beyond the relative errors given.
     pub fn sharpened(
         self,
-        (first, second, duration): (f64, f64, f64),
+        first: f64,
+        &PreciseSwingPair { second, duration, .. }: &PreciseSwingPair,
         [uncertainty, passed]: [f64; 2],
     ) -> Self {
         let mut errors = self.errors;
@@ -83,19 +69,25 @@ impl SwingPair {
         square: f64,
         fastest: f64,
     ) -> Self {
-        let node = Node::new(clearances[0].log, 0.0, 0.0, f64::NAN);
-        let (duration, square) = (0.5 * duration, 0.5 * square);
+        let [first, second] = clearances;
         let own = clearances.map(|clearance| Errors {
             length: UNIT + rounding(clearance),
-            duration: UNIT * duration,
-            square: UNIT * square,
+            duration: UNIT * (0.5 * duration),
+            square: UNIT * (0.5 * square),
             fastest: UNIT * fastest,
         });
-        let lost = HalfSwing::between(clearances[0], clearances[1]);
-        let swing = HalfSwing { duration, square, fastest, ..lost };
-        let errors = own.map(|own| [own, Errors::default()]);
-        let uncertainty = own[0].length;
-        SwingPair { uncertainty, errors, ..SwingPair::new(node, clearances, [swing; 2]) }
+        SwingPair {
+            node: Node::new(first.log, 0.0, 0.0, f64::NAN),
+            first,
+            second,
+            duration,
+            square,
+            fastest: [fastest; 2],
+            growth: [f64::NAN; 2],
+            noise: 0.0,
+            uncertainty: own[0].length,
+            errors: own.map(|own| [own, Errors::default()]),
+        }
     }
 
     /// Logarithm of the Floquet multiplier if this closing is a cycle.

@@ -66,7 +66,7 @@ pub fn polish_near(
     let width = if log_multiplier.abs() < 1.0 { WIDTHS.0 } else { WIDTHS.1 };
     let sign = log_multiplier.signum();
     let end = |side| Node::new(u + side * width, sign * side * width, 0.0, sign);
-    equation.want_fastest(true);
+    equation.want_fastest();
     let start = (u, log_multiplier.abs() < FLAT);
     let closing = polish_from(equation, start, (end(-1.0), end(1.0)), sharp)?;
     let moved = (closing.node.at - u).abs();
@@ -233,8 +233,7 @@ fn sharpen(
         let closing = equation.from(route, Length::new(first.value()))?;
         let uncertainty = change.abs() + FINER * closing.noise / slope.abs();
         let passed = FINER * closing.errors[1][0].length;
-        let numbers = (first.value(), found.second, found.duration);
-        return Ok(Some(closing.sharpened(numbers, [uncertainty, passed])));
+        return Ok(Some(closing.sharpened(first.value(), &found, [uncertainty, passed])));
     }
     Ok(None)
 }

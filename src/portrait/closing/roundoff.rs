@@ -66,8 +66,7 @@ impl Roundoff {
     ) -> Self {
         let rounding = UNIT.max(tolerance);
         let unit = exponent(from.size());
-        let scaled = |value| times_power(value, -unit);
-        let from = StepPoint { x: scaled(from.x), v: scaled(from.v) };
+        let from = from.times_power(-unit);
         // The linear field spans `c^2 exp(-2 D t)`.
         let log_size = f64::from(unit) * std::f64::consts::LN_2;
         let area = exp(2.0 * (log_start - field.d * skipped - log_size));
@@ -90,9 +89,8 @@ impl Roundoff {
     pub(super) fn step(&mut self, unit: i32, step: &Step, square: f64, fastest: Option<f64>) {
         let shift = self.unit - unit;
         if shift != 0 {
-            let scaled = |value| times_power(value, shift);
-            self.from = StepPoint { x: scaled(self.from.x), v: scaled(self.from.v) };
-            self.area = self.area.map(|area| scaled(scaled(area)));
+            self.from = self.from.times_power(shift);
+            self.area = self.area.map(|area| times_power(times_power(area, shift), shift));
             self.unit = unit;
         }
         let field = self.field.in_units(unit);

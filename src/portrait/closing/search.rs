@@ -208,8 +208,7 @@ fn beyond_zero<E>(
     };
     let width = PlaceTolerance::Absolute(ROUNDED * high.at.abs().max(1.0));
     match illinois([(low.at, low.slope), (high.at, high.slope)], 0.0, width, slope) {
-        Err(Err(error)) => Err(error),
-        Err(Ok(beyond)) => Ok(Some(beyond)),
+        Err(end) => end.map(Some),
         Ok(_) => Ok(None),
     }
 }

@@ -30,7 +30,7 @@ pub fn guaranteed(
         let (disturbance, friction) = (known.disturbance, corners.belts[0].friction);
         return Ok(Err(NoGuarantee::Disturbance { disturbance, friction, unit: " N" }));
     }
-    let found = if corners.numbers == 0 {
+    let found = if corners.belts.len() == 1 {
         Ok(Portrait::of_belt(&corners.worst(0, 0.0))?)
     } else {
         corners.bounded(belt)?
@@ -65,8 +65,6 @@ struct Corners {
     /// The machines; those next to each other in number k are `3^k` apart.
     belts: Vec<Belt>,
     models: Vec<Model>,
-    /// How many numbers vary.
-    numbers: u32,
     /// What the disturbance leaves of the guide's smallest friction, in N.
     friction: f64,
     /// The same at rest.
@@ -95,9 +93,9 @@ impl Corners {
             .fold(belt.clone(), |worst, (varied, interval)| with(worst, varied, interval.lower()));
         let (moving, at_rest) = (worst.friction, worst.static_guide);
         let mut belts = vec![worst];
-        for (varied, interval) in &others {
+        for (varied, interval) in others {
             let values = [interval.lower(), interval.middle(), interval.upper()].into_iter();
-            let at = |value: f64| belts.iter().map(move |it| with(it.clone(), *varied, value));
+            let at = |value: f64| belts.iter().map(move |it| with(it.clone(), varied, value));
             belts = values.flat_map(at).collect();
         }
         let left = |force: f64| {
@@ -108,7 +106,6 @@ impl Corners {
         Ok(Some(Corners {
             models: belts.iter().map(Model::new).collect::<Result<_, _>>()?,
             belts,
-            numbers: u32::try_from(others.len()).unwrap_or(u32::MAX),
             friction: left(moving),
             at_rest: left(at_rest.unwrap_or(moving)),
             pushed: holds.map_or(0.0, |it| it.upper() - it.lower()) + known.disturbance,
@@ -178,7 +175,7 @@ impl Corners {
 
     /// A bound on how far a smooth function rises between corners above its values there.
     fn bend(&self, at: impl Fn(usize) -> f64) -> f64 {
-        (0..self.numbers)
+        (0..self.models.len().ilog(3))
             .map(|number| {
                 let apart = 3_usize.pow(number);
                 let first = (0..self.models.len()).filter(|corner| corner / apart % 3 == 0);

@@ -15,7 +15,7 @@ use crate::flow::{Fate, Limits, Reason, Result};
 use crate::model::{HalfPlane, Model, ParameterBox, Parameters, Side};
 use crate::numerics::Interval;
 use crate::portrait::{
-    Border, Equation, HalfMap, Margin, NoGuarantee, Orbit, Portrait, RestMargin, STEP, SwingPair,
+    Border, Equation, Margin, NoGuarantee, Orbit, Portrait, RestMargin, STEP, SwingPair,
     centre_fate, has_cycle, innermost_bracket, polish,
 };
 
@@ -98,7 +98,7 @@ impl TwoSidedOscillator {
         let Some(bracket) = innermost_bracket(equation)? else {
             return if has_cycle(&self.upper) { Err(Reason::OutOfRange) } else { Ok(None) };
         };
-        equation.want_fastest(true);
+        equation.want_fastest();
         let closing = polish(equation, bracket)?;
         let error = closing.uncertainty + NOISE / closing.node.slope.abs().min(1.0);
         Ok(Some((closing, error)))
@@ -116,8 +116,7 @@ impl TwoSidedOscillator {
         // How far out a search goes follows from the weaker D2.
         let weaker = fields[0].d2.abs().min(fields[1].d2.abs());
         let parameters = Parameters { d2: weaker, ..self.upper };
-        let map = |field| HalfMap::new(field, STEP);
-        Equation::on_fields(&parameters, first, fields, limits, map)
+        Equation::on_fields(&parameters, first, fields, STEP, limits)
     }
 }
 

@@ -114,12 +114,9 @@ impl RandomKick {
         if !portrait.has_basin() {
             return Ok(Share::exact(1.0));
         }
-        let rate = portrait.model.omega_0;
-        let scaled = RandomKick { v: (self.v.0 / rate, self.v.1 / rate), ..*self };
-        Ok(portrait
-            .followed_to(self.reach())?
-            .edge()
-            .map_or(Share::exact(0.0), |edge| scaled.lost_outside(edge)))
+        let scaled = self.in_units(1.0, portrait.model.omega_0);
+        let portrait = portrait.followed_to(self.reach())?;
+        Ok(portrait.edge().map_or(Share::exact(0.0), |edge| scaled.lost_outside(edge)))
     }
 
     /// The fraction of the kicks that leads out of a border.

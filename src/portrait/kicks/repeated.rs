@@ -136,10 +136,9 @@ impl Chain {
         };
         let lost = centres.iter().map(lost).collect::<Result<Vec<_>>>()?;
         let lost = DVector::from_vec(lost);
-        for (row, lost) in lost.iter().enumerate() {
-            let sum: f64 = steps.row(row).sum();
-            let scale = if sum > 0.0 { (1.0 - lost) / sum } else { 0.0 };
-            steps.row_mut(row).scale_mut(scale);
+        for (mut row, lost) in steps.row_iter_mut().zip(&lost) {
+            let sum: f64 = row.sum();
+            row *= if sum > 0.0 { (1.0 - lost) / sum } else { 0.0 };
         }
         Ok(Chain { steps, lost, half: r, cost })
     }

@@ -4,7 +4,7 @@ use super::{Image, Landmarks};
 use crate::flow::{Flow, MachineCurve, Reason, Result};
 use crate::model::{ContactState, Model, Phase};
 use crate::numerics::{
-    PlaceTolerance, bisect, by_number, exp, exponent, ln, pow, times_power, try_newton,
+    PlaceTolerance, bisect, by_number, exp, exponent, ln, pow, real, times_power, try_newton,
 };
 use crate::portrait::{Bracket, Cycle, Node, Portrait, Ride, RootSearch, places};
 
@@ -331,16 +331,15 @@ impl Flow<'_> {
     pub fn describe(&mut self, x: f64, image: &Image, stable: bool) -> Result<Cycle> {
         let Model { omega_0, guide, .. } = *self.model;
         let sticks = image.sticks_from.is_some();
-        let overtakes = image.overtakes_from.is_some();
-        let (curve, _) = self.around(x, !stable && !sticks && !overtakes)?;
+        let (curve, _) = self.around(x, !stable && image.slips())?;
         let peaks = curve.steps.iter().filter_map(|step| Some(step.at(step.peak?).1));
         let (slowest, fastest) =
             peaks.fold((0.0_f64, 0.0_f64), |(low, high), y| (low.min(y), high.max(y)));
         let duration: f64 = curve.steps.iter().map(|step| step.duration).sum();
-        let rides = || curve.steps.iter().filter(|step| step.place == ContactState::Sticks);
-        let riding: f64 = rides().map(|step| step.duration).sum();
+        let mut rides = curve.steps.iter().filter(|step| step.place == ContactState::Sticks);
+        let riding: f64 = rides.clone().map(|step| step.duration).sum();
         // The last of them, with the time spent on all.
-        let ride = rides().next_back().map(|step| {
+        let ride = rides.next_back().map(|step| {
             let [from, to] = [0.0, step.duration].map(|t| step.at(t).0);
             Ride { from, to, duration: riding / omega_0 }
         });
@@ -357,7 +356,7 @@ impl Flow<'_> {
             clearance: x - guide,
             log_clearance: ln(x - guide),
             ride: ride.filter(|_| sticks),
-            overtakes,
+            overtakes: image.overtakes_from.is_some(),
             ..Cycle::default()
         })
     }
@@ -397,9 +396,7 @@ impl Model {
         for piece in &self.slower.pieces {
             let c = &piece.coefficients;
             if piece.center == 0.0 && c.len() > 2 && c[1] != 0.0 {
-                let knee = |(k, c_k): (usize, &f64)| {
-                    pow((c[1] / c_k).abs(), 1.0 / f64::from(u16::try_from(k - 1).unwrap_or(1)))
-                };
+                let knee = |(k, c_k): (usize, &f64)| pow((c[1] / c_k).abs(), 1.0 / real(k - 1));
                 found.extend(c.iter().enumerate().skip(2).filter(|(_, c)| **c != 0.0).map(knee));
             }
         }
