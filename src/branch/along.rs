@@ -22,7 +22,6 @@
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
-use serde::Serialize;
 
 use super::{
     CurvePlace, CurvePoint, CycleCurve, Special, SpecialKind, Tangent, covers, escape_point,
@@ -33,16 +32,16 @@ use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{by_number, cbrt, ln, pow, powi, real};
 use crate::portrait::{
-    Cycle, Equation, Route, STEP, SwingPair, closings, first_side, polish_near, weak_closing,
+    Cycle, Equation, Route, STEP, SwingPair, closings, first_side, natural_size, polish_near,
+    weak_closing,
 };
 
 /// A cycle and the parameter value at which it lives.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BranchPoint {
     /// Value of the branch's parameter.
     pub value: f64,
     /// The cycle there.
-    #[serde(flatten)]
     pub cycle: Cycle,
 }
 
@@ -281,7 +280,7 @@ impl CurveTracer<'_> {
     /// there, because values of the parameter are known relative to the range.
     fn bounds_of_u(&self) -> (f64, f64) {
         let Parameters { d, d2, d3, r } = self.curve.parameters_at(self.curve.scale);
-        let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
+        let natural = natural_size(d2, d3);
         let natural = if natural.is_finite() { natural } else { r };
         let deepest = match self.points {
             Points::Followed if r > 0.0 => ln(r) - SHALLOW,

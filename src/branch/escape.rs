@@ -20,8 +20,8 @@ use std::f64::consts::PI;
 
 use crate::flow::{Cost, Limits, Result};
 use crate::model::Parameters;
-use crate::numerics::{PlaceTolerance, illinois, ln};
-use crate::portrait::{Equation, Route, weighed_closing};
+use crate::numerics::{PlaceTolerance, illinois};
+use crate::portrait::{Equation, Route, forgotten, weighed_closing};
 
 /// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`); and what it
 /// cost.
@@ -85,12 +85,10 @@ fn where_it_falls(
 /// # Errors
 /// The [`Reason`](crate::model::Reason) why a swing failed.
 fn excess_at_infinity(parameters: &Parameters, limits: &Limits, cost: &mut Cost) -> Result<f64> {
-    /// Clearance, in units of `1/abs(D2)`, from which a swing has forgotten its start to rounding: what
-    /// is left of it decays as `exp(-2 D2 c)`.
-    const FAR: f64 = 40.0;
     /// Excess below which a difference of logarithms has lost digits.
     const NEAR: f64 = 1e-2;
-    let far = ln(FAR / parameters.d2.abs() + 2.0 * parameters.r);
+    // From where a swing has forgotten its start to rounding: what is left of it decays as `exp(-2 D2 c)`.
+    let far = forgotten(parameters, 2.0 * parameters.r).log;
     let mut equation = Equation::new(parameters, f64::EPSILON, limits);
     let plain = equation.at(Route::Mixed, far).map(|found| found.node.value);
     // Weighed as energy, it keeps the digits that the difference loses near `D_c`.

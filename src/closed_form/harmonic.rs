@@ -38,7 +38,7 @@ pub struct Harmonic {
 }
 
 /// The point at which the two amplitudes for `D3 > 0` meet and vanish.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HarmonicFold {
     /// Damping `D_F` (equation 48): for `D > D_F` no amplitude is stationary.
     pub d: f64,
@@ -135,7 +135,7 @@ pub fn discriminant(parameters: &Parameters) -> Option<f64> {
         cube - (9.0 / PI * r) * (9.0 / PI * r)
     };
     let value = scale * scale / 3.0 * bracket;
-    value.is_finite().then_some(value)
+    Some(value).filter(|value| value.is_finite())
 }
 
 /// The roots for `D3 > 0`, `r > 0`, and whether each is stable: none beyond the fold, one at it, else two.

@@ -10,15 +10,13 @@
 //! where they underflow: at `D = -0.999` the clearance is 6.5e-31 r, at `D = -0.999999` it is
 //! `e^(-2221)` r.
 
-use serde::Serialize;
-
 use super::LinearFlow;
 use crate::numerics::{atan2, exp, exp_m1, ln, ln_1p};
 
 /// The unstable cycle that borders the basin of attraction of the sticking set.
 ///
 /// It is symmetric: `q_min = -q_max`, `v_min = -v_max`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearCycle {
     /// Linear damping, between -1 and 0.
     pub d: f64,

@@ -86,9 +86,7 @@ impl Fourier {
                 term = Complex::new(-term.im, term.re) * real(k);
             }
         }
-        if let Some(value) = derivatives.first_mut() {
-            *value += self.mean();
-        }
+        derivatives[0] += self.mean();
         derivatives
     }
 

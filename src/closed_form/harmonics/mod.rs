@@ -23,7 +23,6 @@ pub(crate) use self::{fourier::*, galerkin::*};
 use std::f64::consts::TAU;
 
 use nalgebra::Complex;
-use serde::Serialize;
 
 use super::Harmonic;
 use crate::model::{Parameters, Reason, Result, State};
@@ -33,7 +32,7 @@ use crate::numerics::{exponent, real, times_power};
 pub const MOST: usize = 255;
 
 /// A cycle as N harmonics have it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct HarmonicCycle {
     /// Number N of harmonics.
     pub harmonics: usize,
@@ -59,7 +58,6 @@ pub struct HarmonicCycle {
     /// The most that any Galerkin equation leaves, relative to the largest term in them.
     pub residual: f64,
     /// Displacement over the angle `eta tau`.
-    #[serde(skip)]
     pub displacement: Fourier,
 }
 
@@ -78,14 +76,12 @@ pub fn harmonic_cycle(
     interrupted: &dyn Fn() -> bool,
 ) -> Result<HarmonicCycle> {
     // Where N is too small for the cycle, rounding decides between branches: only one of the mirror images is computed.
-    let mirrored = parameters.d2 < 0.0;
-    let (parameters, first) = if mirrored {
-        (parameters.mirrored(), Harmonic { mean: -first.mean, ..*first })
-    } else {
-        (*parameters, *first)
-    };
-    let cycle = Continuation::new(&parameters, &first, interrupted).cycle(count.clamp(1, MOST))?;
-    Ok(if mirrored { cycle.mirrored() } else { cycle })
+    if parameters.d2 < 0.0 {
+        let first = Harmonic { mean: -first.mean, ..*first };
+        let cycle = harmonic_cycle(&parameters.mirrored(), &first, count, interrupted)?;
+        return Ok(cycle.mirrored());
+    }
+    Continuation::new(parameters, first, interrupted).cycle(count.clamp(1, MOST))
 }
 
 /// The branch of solutions that begins at one first-order answer, in units of a power of two that makes

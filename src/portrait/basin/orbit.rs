@@ -115,9 +115,10 @@ impl Orbit {
     /// The border as a polyline in the order of time, `count` points on each integration step, beginning
     /// with the arc that comes from infinity if one does; a closed one ends with its first point.
     pub fn curve(&self, count: u16) -> Vec<State> {
-        let [upper, lower] = [&self.upper, &self.lower];
-        let comes_first = lower.clearance() == Length::INFINITE;
-        let arcs = if comes_first { [lower, upper] } else { [upper, lower] };
+        let mut arcs = [&self.upper, &self.lower];
+        if self.lower.clearance() == Length::INFINITE {
+            arcs.reverse();
+        }
         let mut points: Vec<State> = arcs.iter().flat_map(|arc| arc.points(count)).collect();
         if self.closed {
             points.extend(points.first().copied());
@@ -140,7 +141,7 @@ impl Orbit {
 
 /// A clearance so far beyond a reach that a motion has forgotten there where it came from: run backward, the one that
 /// goes out along the parabola forever attracts.
-fn forgotten(parameters: &Parameters, reach: f64) -> Length {
+pub fn forgotten(parameters: &Parameters, reach: f64) -> Length {
     /// Such a clearance in units of `1/abs(D2)`.
     const FORGETS: f64 = 40.0;
     Length::new(reach + FORGETS / parameters.d2.abs())

@@ -5,8 +5,8 @@
 //! ([`mod@super::polish`]).
 
 use super::{
-    Bracket, Equation, FINER, Length, Node, RootSearch, Route, SwingPair, VAGUE, has_cycle,
-    is_exact, is_one_way, weak_closing, weighed_closing,
+    Bracket, Direction, Equation, FINER, Length, Node, RootSearch, Route, SwingPair, VAGUE,
+    has_cycle, is_exact, is_one_way, natural_size, weak_closing, weighed_closing,
 };
 use crate::closed_form::LinearCycle;
 use crate::flow::{Reason, Result};
@@ -145,7 +145,9 @@ fn lower_end(equation: &mut Equation) -> Result<Option<f64>> {
     /// A step down in the logarithm that no rounding bridges.
     const CLEARLY: f64 = 0.125;
     let Parameters { d, d2, d3, r } = equation.parameters;
-    let smallest = equation.smallest_clearance()?.log;
+    // The preimage of the far end of the sticking set: no cycle starts with less. It is infinite where no swing of any
+    // clearance passes the set: every motion is captured.
+    let smallest = equation.swing(0, Direction::Backward, Length::new(2.0 * r))?.end.log;
     let beyond_node = d <= -1.0 && r > 0.0;
     let rim = if beyond_node { equation.rim()? } else { f64::NEG_INFINITY };
     if smallest.max(rim) == f64::INFINITY {
@@ -158,8 +160,7 @@ fn lower_end(equation: &mut Equation) -> Result<Option<f64>> {
         // Beyond critical damping a swing passes from any clearance, however small.
         ln(SMALL * f64::EPSILON * r)
     } else {
-        let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
-        ln(SMALL * d.abs().sqrt().min(1.0) * natural)
+        ln(SMALL * d.abs().sqrt().min(1.0) * natural_size(d2, d3))
     }))
 }
 

@@ -12,7 +12,9 @@
 //! The first swing is the one in whose frame `D2 >= 0`, so that with `D3 = 0` neither it nor the
 //! second swing run backward can escape.
 
-use super::{Direction, Errors, HalfMap, HalfSwing, Length, Node, SwingPair, rounding, share};
+use super::{
+    Direction, Errors, HalfMap, HalfSwing, Length, Node, SwingPair, natural_size, rounding, share,
+};
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{HalfPlane, Parameters, Side};
 use crate::numerics::{exp, ln, log10, pow};
@@ -42,12 +44,12 @@ impl Route {
         }
     }
 
-    /// The directions of the first and of the second swing.
-    fn directions(self) -> [Direction; 2] {
+    /// The directions of time of the first and of the second swing.
+    fn senses(self) -> [f64; 2] {
         match self {
-            Route::Mixed => [Direction::Forward, Direction::Backward],
-            Route::Forward => [Direction::Forward; 2],
-            Route::Backward => [Direction::Backward; 2],
+            Route::Mixed => [1.0, -1.0],
+            Route::Forward => [1.0; 2],
+            Route::Backward => [-1.0; 2],
         }
     }
 
@@ -175,15 +177,6 @@ impl<'a> Equation<'a> {
         self.map(index, direction).swing(start, &limits)
     }
 
-    /// The smallest clearance whose first swing passes the sticking set: the preimage of its far end.
-    ///
-    /// No cycle starts with less. It is infinite where no swing of any clearance passes it: every motion is
-    /// captured.
-    pub fn smallest_clearance(&mut self) -> Result<Length> {
-        let end = Length::new(2.0 * self.parameters.r);
-        Ok(self.swing(0, Direction::Backward, end)?.end)
-    }
-
     /// The two swings for `u = ln c0`.
     pub fn at(&mut self, route: Route, u: f64) -> Result<SwingPair> {
         self.from(route, Length::from_log(u))
@@ -248,9 +241,8 @@ impl<'a> Equation<'a> {
         let noise = noise[0] + noise[1];
         // What a swing, run forward, makes of a relative error of its clearance.
         let growth = [0, 1].map(|index| {
-            let sense = route.directions()[index].sense();
             let next = share(clearances[1 - index].length, gap);
-            sense * swings[index].log_elasticity - ln(next)
+            route.senses()[index] * swings[index].log_elasticity - ln(next)
         });
         let errors = [0, 1].map(|index| {
             let [own, gain] = swings[index].errors;
@@ -398,11 +390,10 @@ impl Equation<'_> {
         const LEFT: f64 = 1e-17;
         const FAR: f64 = -60.0;
         let Parameters { d, d2, d3, r } = self.parameters;
-        let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
         let root = (d * d - 1.0).max(0.0).sqrt();
         let unlike = 2.0 * root / (root - d);
         let exponent = (log10(LEFT) / unlike).max(FAR);
-        Length::new(pow(10.0, exponent) * natural.min(r))
+        Length::new(pow(10.0, exponent) * natural_size(d2, d3).min(r))
     }
 }
 

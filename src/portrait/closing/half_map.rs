@@ -70,6 +70,11 @@ impl Length {
     }
 }
 
+/// The size of motions at which the damping by D2 or by D3 is as large as the spring's force.
+pub fn natural_size(d2: f64, d3: f64) -> f64 {
+    (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt())
+}
+
 /// The direction in which a swing is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
@@ -152,7 +157,7 @@ impl HalfMap {
     /// The map of this field, each step within the relative `tolerance`.
     pub fn new(field: HalfPlane, tolerance: f64) -> Self {
         let stepper = AutoStepper::new(tolerance);
-        let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
+        let natural = natural_size(field.d2, field.d3);
         let linear_below = LINEAR_BELOW * tolerance.max(ROUNDING) * natural;
         // A node that repels has no part worth skipping.
         let linear_below = if field.d > -1.0 { linear_below } else { 0.0 };
@@ -252,8 +257,7 @@ impl HalfMap {
                 None => return lost(Length::ZERO),
             }
         };
-        let errors = roundoff.map(|roundoff| roundoff.done(&self.field, end.log, rest));
-        let errors = errors.unwrap_or_default();
+        let errors = roundoff.map(|it| it.done(end.log, rest)).unwrap_or_default();
         let (swing, duration) = (HalfSwing::between(start, end), duration + rest);
         Ok(self.finish(HalfSwing { duration, square, fastest, errors, ..swing }))
     }

@@ -128,9 +128,9 @@ impl Roundoff {
 
     /// The errors at the end, which a closed form reaches after another `rest`: of rounding, and of a
     /// relative error 1 of the start.
-    pub(super) fn done(mut self, field: &HalfPlane, log_end: f64, rest: f64) -> [Errors; 2] {
+    pub(super) fn done(mut self, log_end: f64, rest: f64) -> [Errors; 2] {
         let log_size = f64::from(self.unit) * std::f64::consts::LN_2;
-        let log_growth = 2.0 * (log_size - field.d * rest - log_end);
+        let log_growth = 2.0 * (log_size - self.field.d * rest - log_end);
         for (errors, area) in self.errors.iter_mut().zip(self.area) {
             errors.length = exp(ln(area) + log_growth);
         }

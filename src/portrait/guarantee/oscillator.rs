@@ -49,10 +49,7 @@ impl TwoSidedOscillator {
     }
 
     fn on(&self, side: Side) -> &Parameters {
-        match side {
-            Side::Upper => &self.upper,
-            Side::Lower => &self.lower,
-        }
+        if side == Side::Upper { &self.upper } else { &self.lower }
     }
 
     fn field(&self, side: Side) -> HalfPlane {
@@ -71,18 +68,17 @@ impl TwoSidedOscillator {
         let mut equation = self.equation(limits);
         let (first, second) = (equation.side, equation.side.opposite());
         let own = [self.on(first), self.on(second)];
-        let (border, orbit, error) = if let Some((closing, error)) = self.closing(&mut equation)? {
+        let (border, orbits, error) = if let Some((closing, error)) = self.closing(&mut equation)? {
             let orbit = Orbit::of_closing(own, first, &closing, true, limits)?;
-            (Border::Cycle, Some(orbit), error)
+            (Border::Cycle, vec![orbit], error)
         } else if self.upper.d3 == 0.0 && self.field(second).d2 < 0.0 {
             let orbit = Orbit::from_infinity(own, first, reach, limits)?;
-            (Border::Separatrix, Some(orbit), NOISE)
+            (Border::Separatrix, vec![orbit], NOISE)
         } else {
-            (Border::None, None, 0.0)
+            (Border::None, Vec::new(), 0.0)
         };
-        let orbits: Vec<Orbit> = orbit.into_iter().collect();
-        let outside = orbits.iter().map(|_| Fate::Escapes);
-        let fates = [centre_fate(&self.upper)].into_iter().chain(outside).collect();
+        let mut fates = vec![centre_fate(&self.upper)];
+        fates.extend(orbits.iter().map(|_| Fate::Escapes));
         let model = Model::of_paper(&self.upper)?;
         let blank = Portrait { border, fates, cost: equation.cost(), ..Portrait::blank(&model) };
         Ok((blank.parted(orbits), error))
@@ -107,11 +103,8 @@ impl TwoSidedOscillator {
     /// The closing equation, and with it the side of its first swing: that on which D2 brakes more, because a
     /// swing of the other one, run backward, does not escape.
     fn equation<'a>(&self, limits: &Limits<'a>) -> Equation<'a> {
-        let first = if self.field(Side::Upper).d2 >= self.field(Side::Lower).d2 {
-            Side::Upper
-        } else {
-            Side::Lower
-        };
+        let brakes = self.upper.d2 >= -self.lower.d2;
+        let first = if brakes { Side::Upper } else { Side::Lower };
         let fields = [first, first.opposite()].map(|side| self.field(side));
         // How far out a search goes follows from the weaker D2.
         let weaker = fields[0].d2.abs().min(fields[1].d2.abs());
