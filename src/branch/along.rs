@@ -33,7 +33,7 @@ use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{by_number, cbrt, ln, pow, powi, real};
 use crate::portrait::{
     Cycle, Equation, Route, STEP, SwingPair, closings, first_side, natural_size, polish_near,
-    weak_closing,
+    upper_end, weak_closing,
 };
 
 /// A cycle and the parameter value at which it lives.
@@ -279,7 +279,8 @@ impl CurveTracer<'_> {
     /// Over D3 a cycle goes to infinity at `D3 = 0`: it is followed to within [`NEAREST`] of the range from
     /// there, because values of the parameter are known relative to the range.
     fn bounds_of_u(&self) -> (f64, f64) {
-        let Parameters { d, d2, d3, r } = self.curve.parameters_at(self.curve.scale);
+        let parameters = self.curve.parameters_at(self.curve.scale);
+        let Parameters { d, d2, d3, r } = parameters;
         let natural = natural_size(d2, d3);
         let natural = if natural.is_finite() { natural } else { r };
         let deepest = match self.points {
@@ -287,27 +288,24 @@ impl CurveTracer<'_> {
             _ => DEEPEST,
         };
         if d3 == 0.0 && d2 != 0.0 {
-            // Beyond, swings from any start are one (see the search for cycles).
-            (deepest, ln(60.0 / d2.abs() + 2.0 * r))
-        } else {
-            // Towards a Hopf point D goes to 0 as the square of the amplitude.
-            let smallest = if r > 0.0 { deepest } else { ln(natural) + ln(NEAREST) };
-            if self.found.parameter == Knob::D3 {
-                let least = NEAREST * self.curve.scale;
-                // Sizes there: by linear and cubic damping alone (52), by friction and cubic damping (50),
-                // on the slow manifold by asymmetric and cubic damping; finally those of the cycles that go
-                // through D3 = 0.
-                let sizes = [
-                    (8.0 * d.abs() / (3.0 * least)).sqrt(),
-                    cbrt(16.0 * r / (3.0 * PI * least)),
-                    d2.abs() * powi(d2 / least, 2),
-                    if d == 0.0 { 0.0 } else { 4.0 * r / d.abs() },
-                    if d2 == 0.0 { 0.0 } else { 60.0 / d2.abs() },
-                ];
-                return (smallest, ln(sizes.into_iter().fold(0.0, f64::max)));
-            }
-            (smallest, ln(natural.max(r)) + LOG_FAR)
+            return (deepest, upper_end(&parameters));
         }
+        // Towards a Hopf point D goes to 0 as the square of the amplitude.
+        let smallest = if r > 0.0 { deepest } else { ln(natural) + ln(NEAREST) };
+        if self.found.parameter != Knob::D3 {
+            return (smallest, ln(natural.max(r)) + LOG_FAR);
+        }
+        let least = NEAREST * self.curve.scale;
+        // Sizes there: by linear and cubic damping alone (52), by friction and cubic damping (50), on the slow manifold
+        // by asymmetric and cubic damping; finally those of the cycles that go through D3 = 0.
+        let sizes = [
+            (8.0 * d.abs() / (3.0 * least)).sqrt(),
+            cbrt(16.0 * r / (3.0 * PI * least)),
+            d2.abs() * powi(d2 / least, 2),
+            if d == 0.0 { 0.0 } else { 4.0 * r / d.abs() },
+            if d2 == 0.0 { 0.0 } else { 60.0 / d2.abs() },
+        ];
+        (smallest, ln(sizes.into_iter().fold(0.0, f64::max)))
     }
 
     /// Notes the cycles at `D = 0`: where the curves pass it, and what else there may be.
@@ -414,7 +412,8 @@ impl CurveTracer<'_> {
                     if self.found.parameter == Knob::R { parameters.d2 } else { parameters.r };
                 let product = escape_product(parameters.d, self.curve.limits)?;
                 let value = self.found.cost.spend(product).map(|product| product / other.abs());
-                [value, value.filter(|_| self.found.parameter == Knob::D2).map(|value| -value)]
+                // Friction is never negative.
+                [value, value.map(|value| -value)]
             }
             _ => [None; 2],
         };

@@ -136,13 +136,12 @@ impl<'a> CycleCurve<'a> {
         tangent: Tangent,
         route: Route,
     ) -> Result<Option<CurvePoint>> {
-        // Along the line: u = near.0 + UNIT_OF_U tangent.p s, p = near.1 - scale tangent.u s.
         let scale = self.scale;
-        let place = |s: f64| (near.0 + UNIT_OF_U * tangent.p * s, near.1 - scale * tangent.u * s);
         let per_s = UNIT_OF_U * tangent.p.abs().max(tangent.u.abs());
         let (mut s, mut before) = (0.0, None::<(f64, f64)>);
         for _ in 0..CORRECTIONS {
-            let (u, p) = place(s);
+            // Along the line.
+            let (u, p) = (near.0 + UNIT_OF_U * tangent.p * s, near.1 - scale * tangent.u * s);
             let Some(closing) = self.closing(route, u, p)? else { return Ok(None) };
             let value = closing.node.value;
             // Where a swing begins at the very end of the sticking set the slope in u does not exist,
@@ -235,8 +234,7 @@ impl<'a> CycleCurve<'a> {
             let here = points[points.len() - 1];
             let near = self.ahead(&here, tangent, stride);
             self.probe_within(stride);
-            let route = here.route();
-            let corrected = self.correct(near, tangent, route)?;
+            let corrected = self.correct(near, tangent, here.route())?;
             // A bend of more than about 15 degrees a step is taken in smaller steps.
             let next = corrected.map(|next| (next, Tangent::between(&here, &next, self.scale)));
             match next {

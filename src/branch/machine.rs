@@ -118,14 +118,14 @@ impl Family<'_> {
     fn test_functions(&self, value: f64) -> Option<TestFunctions> {
         let model = self.model(value)?;
         let landmarks = Flow::new(&model).landmarks().ok()?;
-        Some(test_functions(&model, landmarks.as_ref()))
+        Some(test_functions(&model, landmarks))
     }
 
     /// All changes, in the order of these portraits.
     fn all_changes(&self, portraits: &[PortraitPoint]) -> Vec<Change> {
         let places = portraits.par_iter().map(|PortraitPoint { value, found }| {
             let portrait = found.as_ref().ok()?;
-            let functions = test_functions(&portrait.model, portrait.landmarks.as_ref());
+            let functions = test_functions(&portrait.model, portrait.landmarks);
             Some(PortraitPlace { value: *value, portrait, functions })
         });
         let places: Vec<_> = places.collect();
@@ -235,12 +235,12 @@ struct TestFunction {
 type TestFunctions = [Option<TestFunction>; 5];
 
 /// Computes them from the landmarks of the return map.
-fn test_functions(model: &Model, landmarks: Option<&Landmarks>) -> TestFunctions {
+fn test_functions(model: &Model, landmarks: Option<Landmarks>) -> TestFunctions {
     let function =
         |kind, q_max, number: Option<f64>| Some(TestFunction { number: number?, kind, q_max });
     let unheld = model.guide_static <= 0.0;
     let hopf = function(SpecialKind::Hopf, None, unheld.then_some(model.damping));
-    let Some(&Landmarks { lines, touch, grazing, released, low_left, beyond }) = landmarks else {
+    let Some(Landmarks { lines, touch, grazing, released, low_left, beyond }) = landmarks else {
         return [hopf, None, None, None, None];
     };
     let mut flow = Flow::new(model);

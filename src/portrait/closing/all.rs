@@ -165,7 +165,7 @@ fn lower_end(equation: &mut Equation) -> Result<Option<f64>> {
 }
 
 /// Where the search ends if no escape ends it before.
-fn upper_end(parameters: &Parameters) -> f64 {
+pub fn upper_end(parameters: &Parameters) -> f64 {
     let Parameters { d, d2, d3, r } = *parameters;
     if d3 != 0.0 {
         f64::INFINITY

@@ -191,19 +191,15 @@ impl HalfMap {
             return Err(Reason::Budget { evaluations: spent });
         }
         let spiral = Spiral::of(self.field.d);
-        let mut reached = (StepPoint { x: -start.value, v: 0.0 }, 0.0);
-        if self.linear_below > 0.0 && self.field.d < 1.0 {
-            match spiral.grow(start, self.linear_below) {
-                Ok((end, duration)) => {
-                    let fastest = spiral.fastest(start);
-                    let errors = Roundoff::closed(end.log, duration, fastest);
-                    let swing = HalfSwing::between(start, end);
-                    return Ok(self.finish(HalfSwing { duration, fastest, errors, ..swing }));
-                }
-                Err(grown) => reached = grown,
+        let (from, skipped) = match spiral.grow(start, self.linear_below) {
+            Ok((end, duration)) => {
+                let fastest = spiral.fastest(start);
+                let errors = Roundoff::closed(end.log, duration, fastest);
+                let swing = HalfSwing::between(start, end);
+                return Ok(self.finish(HalfSwing { duration, fastest, errors, ..swing }));
             }
-        }
-        let (from, skipped) = reached;
+            Err(reached) => reached,
+        };
         let (mut square, mut fastest) = (0.0, 0.0_f64);
         let begun = (start.log, from, skipped);
         let mut roundoff = self.fastest.then(|| Roundoff::new(self.field, self.tolerance, begun));
@@ -294,7 +290,8 @@ impl Spiral {
         let half_turn = std::f64::consts::PI / self.omega;
         // The spiral scales as e^(-D t); beside this factor it is at most 1 + t in size.
         let room = ln(bound) - start.log - ln_1p(half_turn);
-        if room <= 0.0 {
+        // Overdamped motions, of which omega is no number, do not swing.
+        if room.is_nan() || room <= 0.0 {
             return Err((StepPoint { x: -start.value, v: 0.0 }, 0.0));
         }
         if -self.d * half_turn <= room {

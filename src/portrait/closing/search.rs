@@ -105,14 +105,15 @@ impl RootSearch {
         if !blurred(&low) && !blurred(&high) {
             middle = function(low.at + 0.5 * width, blur == 0.0)?;
         }
-        if [low, middle, high].iter().any(blurred) {
+        let nodes = [low, middle, high];
+        if nodes.iter().any(blurred) {
             let (low, high) = (function(low.at, true)?, function(high.at, true)?);
             return self.between(low, high, 0.0, function);
         }
         let changes = (low.value > 0.0) != (high.value > 0.0);
         let halves = [(low, middle), (middle, high)];
         let foretold = (middle.value - cubic(&low, &high).at(0.5)).abs();
-        if low.is_finite() && high.is_finite() && middle.is_finite() {
+        if nodes.iter().all(Node::is_finite) {
             let error = SAFETY * foretold + blur;
             if !changes && halves.iter().all(|(a, b)| stays_away(a, b, error)) {
                 return Ok(());
@@ -125,8 +126,7 @@ impl RootSearch {
         }
         // If all values have one sign and all slopes another, there is no room for roots, however rough the function.
         let one_way = low.slope * middle.slope > 0.0 && middle.slope * high.slope > 0.0;
-        let least =
-            [low, middle, high].iter().fold(f64::INFINITY, |it, node| it.min(node.value.abs()));
+        let least = nodes.iter().map(|node| node.value.abs()).fold(f64::INFINITY, f64::min);
         let predicted = foretold <= self.nothing.max(PREDICTED * least);
         let trusted = predicted || (one_way && foretold < 0.5 * width);
         let settled = self.nothing > 0.0 && trusted;

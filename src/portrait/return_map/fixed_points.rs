@@ -39,8 +39,7 @@ fn growth_to(u: f64, x: f64, image: &Image) -> Node {
 /// Tells the portrait how far they were sought, what ended the search, and where it did not settle. Fails with [`Reason`]
 /// if even the motions next to rest cannot be followed.
 pub fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<Vec<(f64, Divide)>> {
-    let landmarks = portrait.landmarks;
-    let marks = landmarks.as_ref();
+    let marks = portrait.landmarks;
     let divides = jumps(flow.model, marks).into_iter().map(|x| (x, Divide::Jump)).collect();
     let unit = unit(flow.model, marks);
     let mut search = FixedPointSearch { flow, unit, portrait, divides };
@@ -50,7 +49,7 @@ pub fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<Vec<(f64
 }
 
 /// Jumps of the return map: where a touch becomes a ride, and where the mirror band ends.
-fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
+fn jumps(model: &Model, landmarks: Option<Landmarks>) -> Vec<f64> {
     let Some(marks) = landmarks else { return Vec::new() };
     let mut found: Vec<f64> = marks.touch.into_iter().collect();
     if marks.lines.release > marks.lines.fold {
@@ -61,7 +60,7 @@ fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
 }
 
 /// A power of two beyond all special lengths of the machine, so that results do not depend on their unit.
-fn unit(model: &Model, marks: Option<&Landmarks>) -> f64 {
+fn unit(model: &Model, marks: Option<Landmarks>) -> f64 {
     let marks = marks.into_iter().flat_map(|it| [it.touch, it.released, it.beyond]);
     let lengths = [model.guide_static, model.pull, model.speed].into_iter();
     let lengths = lengths.chain(marks.flatten()).chain(model.velocities());
@@ -93,7 +92,7 @@ impl FixedPointSearch<'_, '_> {
         self.unit * exp(u)
     }
 
-    fn run(&mut self, marks: Option<&Landmarks>) -> Result<()> {
+    fn run(&mut self, marks: Option<Landmarks>) -> Result<()> {
         let held = self.flow.model.guide_static;
         let caught = match self.smallest() {
             // Every motion comes to rest at once, or leaves the law.
@@ -206,9 +205,10 @@ impl FixedPointSearch<'_, '_> {
             search.between(left, right, 0.0, &mut |u, _| self.growth(u))?;
             left = right;
         }
-        let unresolved = search.unresolved.iter();
-        let unresolved = unresolved.map(|(from, to)| (self.turn(*from), self.turn(*to)));
-        self.portrait.unresolved.extend(unresolved.collect::<Vec<_>>());
+        for (from, to) in search.unresolved {
+            let ends = (self.turn(from), self.turn(to));
+            self.portrait.unresolved.push(ends);
+        }
         for bracket in search.found {
             let zero = self.zero(bracket)?;
             let point = self.sharpened(self.turn(zero))?;

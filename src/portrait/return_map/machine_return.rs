@@ -202,7 +202,7 @@ impl Flow<'_> {
         &mut self,
         x: f64,
         jumps: bool,
-        landmarks: Option<&Landmarks>,
+        landmarks: Option<Landmarks>,
     ) -> Result<(MachineCurve, f64)> {
         let speed = self.model.speed;
         let mut curve = MachineCurve::default();
@@ -212,7 +212,7 @@ impl Flow<'_> {
             if jumps && end.x > lines.release {
                 end = self.arc(Phase::Above, (end.x, speed), true, &mut curve.keeper())?;
             }
-            let touches = !jumps || Some(x) == *touch;
+            let touches = !jumps || Some(x) == touch;
             let corner = if touches { lines.fold } else { lines.low };
             curve.steps.push(MachineStep::ride(corner, end.x, speed));
             before = if jumps { curve.steps.len() } else { 0 };

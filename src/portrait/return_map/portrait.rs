@@ -47,7 +47,7 @@ impl Portrait {
             flow.follows = true;
             let (curve, left) = match mark {
                 Divide::Cycle(image) => flow.around(*x, image.slips())?,
-                _ => flow.border(*x, matches!(mark, Divide::Jump), self.landmarks.as_ref())?,
+                _ => flow.border(*x, matches!(mark, Divide::Jump), self.landmarks)?,
             };
             let touches = curve.steps.iter().any(|step| step.place == ContactState::Sticks);
             self.border = match mark {
