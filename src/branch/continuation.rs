@@ -107,8 +107,7 @@ impl<'a> CycleCurve<'a> {
         self.cost += equation.cost();
         match closing {
             Err(Reason::Budget { .. } | Reason::OutOfRange) => Ok(None),
-            Err(reason) => Err(reason),
-            Ok(closing) => Ok(closing.node.value.is_finite().then_some(closing)),
+            closing => Ok(Some(closing?).filter(|it| it.node.value.is_finite())),
         }
     }
 

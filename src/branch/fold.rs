@@ -27,7 +27,7 @@ use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{PlaceTolerance, illinois};
-use crate::portrait::{Equation, STEP, WayFromRim, all_closings, between};
+use crate::portrait::{Equation, STEP, WayFromRim, all_closings, evenly};
 
 /// Maximum number of evaluations of one swing: a cycle that takes more is not followed.
 const BUDGET: u64 = 200_000;
@@ -67,13 +67,13 @@ pub fn fold_within(
     // A rough fold, one of many on a map, need not be found at any cost.
     let thorough = tolerance <= TOLERANCE;
     let grazing = |cost: &mut Cost| -> Result<Option<FoldPoint>> {
-        if !thorough {
-            return Ok(None);
-        }
         Ok(Reason::tolerated(grazing_cycle(parameters, limits, cost))?.unwrap_or_default())
     };
     let strong = harmonic.d < STRONG;
-    if strong && let Some(point) = grazing(&mut cost)? {
+    if thorough
+        && strong
+        && let Some(point) = grazing(&mut cost)?
+    {
         return Ok((Some(point), cost));
     }
     let met = cost.spend(highest_cycle(parameters, tolerance, limits));
@@ -83,7 +83,8 @@ pub fn fold_within(
         }
         Err(reason) => *reason != Reason::Interrupted,
     };
-    if lost
+    if thorough
+        && lost
         && !strong
         && let Some(point) = grazing(&mut cost)?
     {
@@ -137,8 +138,7 @@ pub fn border(
     }
     let mut border =
         Boundary { parameters: *parameters, second, points: Vec::new(), cost: Cost::default() };
-    for index in 0..count {
-        let value = between(range, index, count);
+    for value in evenly(range, count) {
         let here = parameters.with(second, value);
         let found = Reason::tolerated(fold(&here, limits))?;
         let escape = Reason::tolerated(escape_point(&here, limits))?;

@@ -10,7 +10,7 @@ use super::{Jump, JumpEnd, Jumps, Special, SpecialKind};
 use crate::flow::{Cost, Fate, Flow, Limits, Result};
 use crate::model::{ContactState, Knob, Model, Phase, Source};
 use crate::numerics::{PlaceTolerance, by_number, exp, illinois, ln, real, try_bisect};
-use crate::portrait::{Border, Cycle, Landmarks, Node, Portrait, between};
+use crate::portrait::{Border, Cycle, Landmarks, Node, Portrait, evenly};
 
 /// A value of a number, in SI units, and what a machine does there, or why there is no answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,8 +44,7 @@ impl MachineBranch {
         limits: &Limits,
     ) -> Result<Self, String> {
         let family = Family { source, varied, limits };
-        let even = (0..count).map(|index| between(range, index, count)).collect();
-        let mut points = family.portraits(even)?;
+        let mut points = family.portraits(evenly(range, count).collect())?;
         let changes = beside.map_or_else(Vec::new, |_| family.all_changes(&points));
         let special = changes.iter().map(|change| change.special).collect();
         if let Some(beside) = beside.filter(|parts| !parts.is_empty()) {

@@ -77,7 +77,7 @@ impl LinearCycle {
             log_clearance,
             q_max,
             v_max,
-            period: 2.0 * linear.half_period().unwrap_or(f64::INFINITY),
+            period: 2.0 * linear.half_period()?,
             multiplier: multiplier.is_finite().then_some(multiplier),
             log_multiplier: 2.0 * x,
         })

@@ -186,21 +186,15 @@ fn least_friction(
     let unit = high.r;
     let ends = [(ln(low.r / unit), low.excess), (0.0, high.excess)];
     let searched = illinois(ends, WIDTH, PlaceTolerance::Absolute(WIDTH), |log| {
-        let here = match at(unit * exp(log)) {
-            // The upper end is the safe one, and known: that ends the search where an error would. Next to a fold a
-            // search for cycles may as well meet no cycle at all.
-            Err(Reason::NoConvergence { .. } | Reason::Escapes)
-                if high.r - low.r <= BLUR * high.r =>
-            {
-                Err(None)
-            }
-            here => here.map_err(Some),
-        }?;
+        let here = at(unit * exp(log))?;
         *(if here.excess < 0.0 { &mut low } else { &mut high }) = here;
         Ok(here.excess)
     });
-    if let Err(Some(error)) = searched {
-        return Err(error);
+    // The upper end is the safe one, and known, where the search for cycles fails next to a fold; it may as well meet no
+    // cycle at all there.
+    let failed = matches!(searched, Err(Reason::NoConvergence { .. } | Reason::Escapes));
+    if !(failed && high.r - low.r <= BLUR * high.r) {
+        searched?;
     }
     if low.excess >= -WIDTH {
         return Ok(Some(FrictionNeed::Friction { r: low.r }));

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::{
     Border, Counts, Cycle, Edge, Kicks, Landmarks, Margin, Orbit, Reach, Share, StartWindow,
-    between, part_within,
+    evenly, part_within,
 };
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason, Result};
@@ -333,10 +333,9 @@ impl Portrait {
         limits: &Limits,
     ) -> Result<Counts> {
         let portrait = &*self.followed_to(window.reach())?;
-        let velocities: Vec<f64> = (0..rows).map(|row| between(window.v, row, rows)).collect();
-        let of_column = |column| {
+        let velocities: Vec<f64> = evenly(window.v, rows).collect();
+        let of_column = |x| {
             limits.go_on()?;
-            let x = between(window.q, column, columns);
             let region = portrait.orders_starts().then(|| portrait.regions_at(x));
             let mut counts = Counts::default();
             for v in &velocities {
@@ -352,7 +351,8 @@ impl Portrait {
             }
             Ok(counts)
         };
-        let columns = (0..columns).into_par_iter().map(of_column);
+        let displacements: Vec<f64> = evenly(window.q, columns).collect();
+        let columns = displacements.into_par_iter().map(of_column);
         columns.try_reduce(Counts::default, |one, other| Ok(one.and(other)))
     }
 

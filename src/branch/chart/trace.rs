@@ -271,35 +271,28 @@ impl Tracer<'_> {
         let mut ends: Vec<f64> = places.chain([from, to]).collect();
         ends.sort_by(f64::total_cmp);
         ends.dedup();
+        let regime = |value: f64| {
+            let parameters = here.with(self.plane.along(), value);
+            let Parameters { d, d3, r, .. } = parameters;
+            if failed && d < 0.0 && d3 >= 0.0 && r > 0.0 {
+                return None;
+            }
+            if self.plane.along() == Knob::D {
+                return Some(Regime::of(&parameters, boundary));
+            }
+            // A line that crosses the boundary at the given D lies below it in D before it.
+            let beyond = boundary.is_some_and(|boundary| value >= boundary);
+            Some(Regime::of(&parameters, Some(if beyond { f64::NEG_INFINITY } else { 0.0 })))
+        };
         let mut bands: Vec<Band> = Vec::new();
         for pair in ends.windows(2) {
-            let regime = self.regime(here, 0.5 * (pair[0] + pair[1]), boundary, failed);
+            let regime = regime(0.5 * (pair[0] + pair[1]));
             match bands.last_mut() {
                 Some(last) if last.regime == regime => last.to = pair[1],
                 _ => bands.push(Band { from: pair[0], to: pair[1], regime }),
             }
         }
         bands
-    }
-
-    fn regime(
-        &self,
-        here: &Parameters,
-        value: f64,
-        boundary: Option<f64>,
-        failed: bool,
-    ) -> Option<Regime> {
-        let parameters = here.with(self.plane.along(), value);
-        let Parameters { d, d3, r, .. } = parameters;
-        if failed && d < 0.0 && d3 >= 0.0 && r > 0.0 {
-            return None;
-        }
-        if self.plane.along() == Knob::D {
-            return Some(Regime::of(&parameters, boundary));
-        }
-        // A line that crosses the boundary at the given D lies below it in D before it.
-        let beyond = boundary.is_some_and(|boundary| value >= boundary);
-        Some(Regime::of(&parameters, Some(if beyond { f64::NEG_INFINITY } else { 0.0 })))
     }
 }
 

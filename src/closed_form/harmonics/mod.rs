@@ -111,7 +111,7 @@ impl<'a> Continuation<'a> {
     fn cycle(&self, count: usize) -> Result<HarmonicCycle> {
         if count == 1 {
             let residual = BalanceResidual::new(&self.parameters, count, &self.first);
-            return self.describe(count, &residual);
+            return self.describe(&residual);
         }
         let mut solution = match self.strengthened(count.min(COARSE)) {
             // The folds of few and of many harmonics differ a little.
@@ -125,7 +125,7 @@ impl<'a> Continuation<'a> {
                 other => other?,
             };
         }
-        self.describe(count, &solution)
+        self.describe(&solution)
     }
 
     /// Follows the branch from no damping and friction to all of it, with secants as predictors.
@@ -177,13 +177,13 @@ impl<'a> Continuation<'a> {
     }
 
     /// Reads everything out, in the units of the question.
-    fn describe(&self, count: usize, residual: &BalanceResidual) -> Result<HarmonicCycle> {
+    fn describe(&self, residual: &BalanceResidual) -> Result<HarmonicCycle> {
         let sized = |value| times_power(value, self.unit);
         let Ansatz { frequency, q } = &residual.ansatz;
         let (frequency, (q_min, q_max)) = (*frequency, extremes(q));
         let (p_min, p_max) = extremes(&q.derivative());
         let cycle = HarmonicCycle {
-            harmonics: count,
+            harmonics: q.degree(),
             stable: self.stable,
             q_min: sized(q_min),
             q_max: sized(q_max),

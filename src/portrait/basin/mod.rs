@@ -79,11 +79,13 @@ impl Counts {
     }
 }
 
-/// Value number `index` of `count` evenly spaced over a range, both ends included.
-pub(crate) fn between(range: (f64, f64), index: usize, count: usize) -> f64 {
-    if index + 1 == count && count > 1 {
-        return range.1;
-    }
-    let fraction = if count > 1 { real(index) / real(count - 1) } else { 0.5 };
-    range.0 + fraction * (range.1 - range.0)
+/// So many values evenly spaced over a range, both ends included.
+pub(crate) fn evenly((from, to): (f64, f64), count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |index| {
+        if index + 1 == count && count > 1 {
+            return to;
+        }
+        let fraction = if count > 1 { real(index) / real(count - 1) } else { 0.5 };
+        from + fraction * (to - from)
+    })
 }

@@ -128,12 +128,9 @@ fn resolved(equation: &mut Equation, u: f64) -> Result<Node> {
         (value, noise) = (weighed, bound);
     }
     if !decided(value, noise) && FINER * closing.noise < noise {
-        match equation.precisely_at(Route::Mixed, Twofold::from(closing.first.value)) {
-            Ok(found) => value = found.residual,
-            Err(Some(Reason::Interrupted)) => return Err(Reason::Interrupted),
-            // Too stiff, or out of range: doubles have to do.
-            Err(_) => {}
-        }
+        let found = equation.precisely_at(Route::Mixed, Twofold::from(closing.first.value));
+        // Where it is too stiff, or out of range, doubles have to do.
+        value = Reason::tolerated(found)?.map_or(value, |found| found.residual);
     }
     Ok(Node { value, ..node })
 }

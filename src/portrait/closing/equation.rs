@@ -270,11 +270,9 @@ impl<'a> Equation<'a> {
         const LITTLE: u64 = 1_000;
         let map = &mut self.maps[0][0];
         let limits = self.limits.up_to(map.cost().evaluations + map.swings + LITTLE);
-        match map.swing(start, &limits) {
-            Ok(swing) if swing.arrives() => Ok(swing),
-            Err(Reason::Interrupted) => Err(Reason::Interrupted),
-            _ => Ok(HalfSwing::between(start, Length { log: f64::MAX, ..Length::INFINITE })),
-        }
+        let swing = Reason::tolerated(map.swing(start, &limits))?.ok();
+        let far = HalfSwing::between(start, Length { log: f64::MAX, ..Length::INFINITE });
+        Ok(swing.filter(HalfSwing::arrives).unwrap_or(far))
     }
 }
 

@@ -216,11 +216,8 @@ fn sharpen(
     let (mut s, mut last) = (0.0, None);
     for _ in 0..STEPS {
         let first = start + start.times(exp_m1(s));
-        let found = match equation.precisely_at(route, first) {
-            Err(Some(Reason::Interrupted)) => return Err(Reason::Interrupted),
-            Err(_) => break,
-            Ok(found) => found,
-        };
+        let found = Reason::tolerated(equation.precisely_at(route, first))?;
+        let Ok(found) = found else { break };
         if let Some((before, residual)) = last.replace((s, found.residual)) {
             slope = (found.residual - residual) / (s - before);
         }

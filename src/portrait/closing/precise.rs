@@ -6,11 +6,13 @@
 //! on which side of each such place a double lies, and fix the cycle itself to all digits of a double.
 
 use super::{Direction, Equation, Route};
-use crate::flow::{Cost, Grain, Limits, Reason, half_swing};
+use crate::flow::{Cost, Grain, Limits, Reason, Result, half_swing};
 use crate::numerics::{Twofold, ln_1p};
 
 /// Rounding and truncation here, as a fraction of those of a double, with a few digits to spare.
 pub const FINER: f64 = 1e-12;
+
+const LOST: Reason = Reason::OutOfRange;
 
 /// How far two swings are from closing.
 #[derive(Clone, Copy, Debug)]
@@ -24,18 +26,14 @@ pub struct PreciseSwingPair {
 }
 
 impl Equation<'_> {
-    /// The two swings at a clearance of the first one; an error without a reason where one of them escapes or is
-    /// captured. An evaluation counts as a hundred in doubles.
-    pub fn precisely_at(
-        &mut self,
-        route: Route,
-        start: Twofold,
-    ) -> Result<PreciseSwingPair, Option<Reason>> {
+    /// The two swings at a clearance of the first one; [`Reason::OutOfRange`] where one of them escapes or is
+    /// captured, too. An evaluation counts as a hundred in doubles.
+    pub fn precisely_at(&mut self, route: Route, start: Twofold) -> Result<PreciseSwingPair> {
         use Direction::{Backward, Forward};
         let gap = Twofold::from(2.0 * self.parameters.r);
-        let positive = |length: Twofold| Some(length).filter(|it| it.high > 0.0).ok_or(None);
+        let positive = |length: Twofold| Some(length).filter(|it| it.high > 0.0).ok_or(LOST);
         let mut duration = Twofold::default();
-        let mut swing = |index, direction, start| -> Result<Twofold, Option<Reason>> {
+        let mut swing = |index, direction, start| -> Result<Twofold> {
             let (end, time) = self.precise_swing(index, direction, start)?;
             duration = duration + time;
             Ok(end)
@@ -60,16 +58,16 @@ impl Equation<'_> {
         let residual = ln_1p((difference / unit).value());
         let (second, duration) = (second.value(), duration.value());
         let sound = residual.is_finite() && second > 0.0;
-        sound.then_some(PreciseSwingPair { residual, second, duration }).ok_or(None)
+        sound.then_some(PreciseSwingPair { residual, second, duration }).ok_or(LOST)
     }
 
-    /// Where a swing ends, and when; an error without a reason where it escapes.
+    /// Where a swing ends, and when; [`Reason::OutOfRange`] where it escapes.
     fn precise_swing(
         &mut self,
         index: usize,
         direction: Direction,
         start: Twofold,
-    ) -> Result<(Twofold, Twofold), Option<Reason>> {
+    ) -> Result<(Twofold, Twofold)> {
         /// Truncation well below rounding.
         const GRAIN: Grain = Grain { order: 30, tolerance: 1e-29 };
         /// Maximum number of evaluations of one swing, and what one costs in units of one in doubles.
@@ -80,6 +78,6 @@ impl Equation<'_> {
         let mut cost = Cost::default();
         let found = half_swing(field, start, GRAIN, &mut cost, &limits);
         self.charge(Cost { evaluations: COSTLIER * cost.evaluations, ..cost });
-        found.map_err(Some)?.ok_or(None)
+        found?.ok_or(LOST)
     }
 }

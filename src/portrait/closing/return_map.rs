@@ -10,7 +10,7 @@
 use super::{Direction, Equation, Length};
 use crate::flow::{Cost, Limits, Result};
 use crate::model::{Parameters, Side};
-use crate::portrait::between;
+use crate::portrait::evenly;
 
 /// Tolerance of the integration steps.
 const STEP: f64 = 1e-13;
@@ -69,9 +69,7 @@ impl Equation<'_> {
         if near >= far {
             return Ok(Vec::new());
         }
-        let count = usize::from(count.max(2));
-        let even = (0..count).map(|index| between((near, far), index, count));
-        let mut starts: Vec<f64> = even.collect();
+        let mut starts: Vec<f64> = evenly((near, far), usize::from(count.max(2))).collect();
         starts.extend(self.kinks()?.into_iter().filter(|kink| near < *kink && *kink < far));
         starts.sort_by(f64::total_cmp);
         starts.dedup();
