@@ -87,6 +87,13 @@ pub struct Reply {
     pub complete: bool,
 }
 
+impl Reply {
+    /// Counted cost of the answer.
+    pub fn cost(&self) -> Cost {
+        self.result.as_ref().map(Finding::cost).unwrap_or_default()
+    }
+}
+
 /// Why a request has no answer.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum NoAnswer {

@@ -16,7 +16,7 @@ use crate::model::{Group, Knob};
 use crate::portrait::Cycle;
 
 /// A property of a cycle that the diagram can show.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ordinate {
     QMax,
@@ -32,9 +32,7 @@ pub enum Ordinate {
 }
 
 /// The unit of lengths on the ordinate of a diagram.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unit {
     /// The unit of length of the equation.
     #[default]

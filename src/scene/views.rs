@@ -14,7 +14,7 @@ use crate::numerics::{cells, named};
 use crate::question::{TOPICS, Topic};
 
 /// The content of a plot; [`VIEWS`] describes each view.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum View {
     Phase,
@@ -119,7 +119,7 @@ pub struct LayerSpec {
 }
 
 /// A part of a view that can be switched on and off; [`LAYERS`] describes each layer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Layer {
     Trajectory,

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::State;
+use crate::model::{Knob, KnobSpec, State};
 
 /// Largest magnitude of an end: sums and products with a few others stay finite.
 const FARTHEST: f64 = 1e300;
@@ -133,8 +133,9 @@ impl Span {
         Span::new(self.from + by, self.to + by).unwrap_or(self)
     }
 
-    /// The part within `min ..= max`, if that is a valid span.
-    pub fn within(self, min: f64, max: f64) -> Option<Self> {
+    /// The part within the range of a number, if that is a valid span.
+    pub fn allowed(self, knob: Knob) -> Option<Self> {
+        let KnobSpec { min, max, .. } = *knob.spec();
         Span::new(self.from.max(min), self.to.min(max)).ok()
     }
 }

@@ -109,10 +109,10 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("costs", Act(|s| lists::open(s, Cost))),
     ("retry", Act(general::retry)),
     ("save-figure", Act(files::offer_figure)),
-    ("copy-command", Act(|s| s.effects.push(Effect::Copy(copy::command_line(s))))),
+    ("copy-command", Try(|s| s.effect(Effect::Copy(copy::command_line(s))))),
     ("copy-number", Try(copy::number)),
     ("copy-row", Try(copy::row)),
-    ("copy-screen", Act(|s| s.effects.push(Effect::CopyScreen))),
+    ("copy-screen", Try(|s| s.effect(Effect::CopyScreen))),
     ("glyphs", Act(|s| general::turn(s, "glyphs", |it| &mut it.glyphs))),
     ("units", Act(general::units)),
     ("equal", Act(general::equal)),
@@ -142,8 +142,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
 
     ("replay-pasted", Act(general::accept_offer)),
 
-    ("suspend", Act(|s| s.effects.push(Effect::Suspend))),
-    ("repaint", Act(|s| s.effects.push(Effect::Repaint))),
+    ("suspend", Try(|s| s.effect(Effect::Suspend))),
+    ("repaint", Try(|s| s.effect(Effect::Repaint))),
 
     (":set", Line(completion::assignments, values::set)),
     (":method", Line(completion::methods, |s, rest| values::set_row(s, "method", rest))),

@@ -107,9 +107,8 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
             let names = || keymap.commands().map(|row| row.name);
             let found = keymap.named(full_name(name.get_ref()));
             let found = found.ok_or_else(|| unknown(name, "command", names()))?;
-            let mut places = found.keys.iter().map(|(context, _)| *context);
-            if !places.clone().any(|context| context == known) {
-                let places = joined(places.by_ref().map(|context| context.spec().name), ", ");
+            if !found.contexts().any(|context| context == known) {
+                let places = joined(found.contexts().map(|context| context.spec().name), ", ");
                 let message = format!("{} applies in {places}", found.name);
                 return Err(Complaint { at: name.span(), message });
             }
@@ -141,10 +140,10 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
 /// Whether a command's keys for `everywhere` also hold on a walk: by default, both are the same, and the file
 /// gives no keys for the walk.
 fn follows(read: &BTreeMap<Spanned<String>, Keys>, command: &Command) -> bool {
-    let own = |at: Context| command.keys.iter().find(|(context, _)| *context == at);
-    let everywhere = own(Context::Everywhere).map(|(_, keys)| keys);
-    let alike = everywhere.is_some() && everywhere == own(Context::Walk).map(|(_, keys)| keys);
+    let own = |at| command.keys.iter().find(|(context, _)| *context == at).map(|(_, keys)| keys);
+    let everywhere = own(Context::Everywhere);
+    let alike = everywhere.is_some() && everywhere == own(Context::Walk);
     let walk = read.iter().filter(|(context, _)| context.get_ref() == Context::Walk.spec().name);
     let said = walk.flat_map(|(_, commands)| commands.keys());
-    alike && said.into_iter().all(|name| name.get_ref() != command.name)
+    alike && said.map(Spanned::get_ref).all(|name| name != command.name)
 }

@@ -10,7 +10,7 @@ use std::str::FromStr;
 use crate::numerics::most_similar;
 use crate::words::printable::is_printable;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Code {
     /// A printable character, as typed (shift already applied).
     Char(char),
@@ -34,7 +34,7 @@ pub enum Code {
 }
 
 /// A key with its modifiers. Shift is recorded only for keys that are not characters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Key {
     pub code: Code,
     pub control: bool,
@@ -100,10 +100,7 @@ impl Key {
         }
         let written = self.to_string();
         let name = written.trim_start_matches('<').trim_end_matches('>');
-        match self.code {
-            Code::F(number) => name.replace(&format!("f{number}"), &format!("F{number}")),
-            _ => name.to_owned(),
-        }
+        if let Code::F(_) = self.code { name.replace('f', "F") } else { name.to_owned() }
     }
 
     /// Reads the text between angle brackets. Fails with one line, which has the most similar name.
@@ -134,21 +131,17 @@ fn unknown(text: &str, nearest: Option<&str>) -> String {
 }
 
 fn code_named(name: &str) -> Option<Code> {
-    let mut chars = name.chars();
-    if let (Some(char), None) = (chars.next(), chars.next()) {
+    if let Ok(char) = name.parse::<char>() {
         return (!char.is_whitespace() && !char.is_control()).then_some(Code::Char(char));
     }
     let lower = name.to_ascii_lowercase();
-    let named = NAMES
-        .iter()
-        .find(|(_, canonical, others)| *canonical == lower || others.contains(&lower.as_str()))
-        .map(|(code, ..)| *code);
+    let has = |names: &[&str]| names.contains(&lower.as_str());
+    let named = NAMES.iter().find(|(_, name, others)| *name == lower || has(others));
     let function = || lower.strip_prefix('f')?.parse().ok().filter(|it| (1..=LAST_F).contains(it));
     // Any character by its code point, as in `u+1b`.
-    let point = || u32::from_str_radix(lower.strip_prefix("u+")?, 16).ok();
-    named
-        .or_else(|| function().map(Code::F))
-        .or_else(|| point().and_then(char::from_u32).map(Code::Char))
+    let point = || char::from_u32(u32::from_str_radix(lower.strip_prefix("u+")?, 16).ok()?);
+    let named = named.map(|(code, ..)| *code).or_else(|| function().map(Code::F));
+    named.or_else(|| point().map(Code::Char))
 }
 
 /// The names of all keys that are not characters.
@@ -176,13 +169,12 @@ impl fmt::Display for Code {
 impl fmt::Display for Key {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let code = self.code.to_string();
-        let bare = code.chars().count() == 1 && !self.control && !self.alt && !self.shift;
-        if bare {
-            return out.write_str(&code);
-        }
         let modifiers = [(self.control, "C-"), (self.alt, "A-"), (self.shift, "S-")];
         let modifiers: String =
             modifiers.into_iter().filter_map(|(on, prefix)| on.then_some(prefix)).collect();
+        if modifiers.is_empty() && code.chars().count() == 1 {
+            return out.write_str(&code);
+        }
         write!(out, "<{modifiers}{code}>")
     }
 }
@@ -192,10 +184,9 @@ impl FromStr for Key {
 
     /// Reads one key, with its angle brackets if it has a name.
     fn from_str(text: &str) -> Result<Self, String> {
-        let mut chars = text.chars();
-        match (chars.next(), chars.next()) {
-            (Some(char), None) if !matches!(char, '<' | '#') && !char.is_whitespace() => {
-                Ok(Key::new(Code::Char(char), false, false, false))
+        match text.parse() {
+            Ok(char) if !matches!(char, '<' | '#') && !char.is_whitespace() => {
+                Ok(Key::plain(Code::Char(char)))
             }
             _ => match text.strip_prefix('<').and_then(|rest| rest.strip_suffix('>')) {
                 Some(name) => Key::named(name),

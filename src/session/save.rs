@@ -21,6 +21,7 @@ use crate::numerics::shortest;
 use crate::portrait::RandomKick;
 use crate::scene::{FileMistake, Point, Scene, Setting, find, placed};
 use crate::session::act::history::{restore, snapshot};
+use crate::session::act::screen_setup::focus_on;
 use crate::session::read::completion::difference;
 use crate::session::{
     Bookmark, Bookmarks, DisplaySettings, EarlierState, History, Instruction, MOST_HARMONICS, Msg,
@@ -85,7 +86,7 @@ struct SavedSession {
 
 /// The session as the text of a file. Fails with one line if the text cannot be made; no such session is known.
 pub fn text(session: &Session) -> Result<String, String> {
-    let left = session.marks.left.as_ref().map(|mark| mark.setup.clone());
+    let left = session.marks.left.clone().map(|mark| mark.setup);
     let file = SavedSession {
         hopfscope: VERSION,
         selected: session.selected.name().to_owned(),
@@ -100,10 +101,8 @@ pub fn text(session: &Session) -> Result<String, String> {
         plots: session.plots.clone(),
         marks: of_marks(session, |setup| Some(setup.problem)),
         belts: of_marks(session, |setup| setup.setting.clone()),
-        beside: of_marks(session, |setup| {
-            Some(setup.others.clone()).filter(|beside| !beside.is_empty())
-        }),
-        doubts: of_marks(session, |setup| Some(setup.doubt).filter(|doubt| !doubt.is_none())),
+        beside: of_marks(session, |setup| (!setup.others.is_empty()).then(|| setup.others.clone())),
+        doubts: of_marks(session, |setup| (!setup.doubt.is_none()).then_some(setup.doubt)),
         left: left.as_ref().map(|setup| setup.problem),
         left_belt: left.as_ref().and_then(|setup| setup.setting.clone()),
         left_doubt: left.as_ref().map(|setup| setup.doubt).unwrap_or_default(),
@@ -160,7 +159,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let mut opened = Session::new(Arc::clone(&file.present.scene), session.size);
     restore(&mut opened, file.present, file.plots);
     opened.plot = file.plot - 1;
-    opened.focus = Pane::numbered(file.focus);
+    focus_on(&mut opened, Pane::numbered(file.focus));
     (opened.selected, opened.marks) = (selected, marks);
     (opened.enlarged, opened.unfolded) = (file.enlarged, file.unfolded);
     (opened.harmonics, opened.kicks) = (file.harmonics, file.kicks);

@@ -35,8 +35,7 @@ fn copied(session: &mut Session, words: &[String]) -> Done {
     if words.is_empty() {
         return Err("nothing is pointed at: arrows show a cursor".to_owned());
     }
-    session.effects.push(Effect::Copy(words.join(" ")));
-    Ok(())
+    session.effect(Effect::Copy(words.join(" ")))
 }
 
 /// A number, with its name.

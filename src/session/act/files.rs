@@ -16,23 +16,18 @@ const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
 /// Saves the session.
 pub(crate) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
     let content = Content::Text(save::text(session)?);
-    session.effects.push(Effect::Write { path: path.into(), content, replace });
-    Ok(())
+    session.effect(Effect::Write { path: path.into(), content, replace })
 }
 
 /// Writes the recording since the start, without the presses that asked for that.
-#[expect(clippy::unnecessary_wraps, reason = "as the functions of all lines")]
-pub(crate) fn record(session: &mut Session, path: &str, replace: bool) -> Done {
+pub fn record(session: &mut Session, path: &str, replace: bool) -> Done {
     let content = Content::Record { forget: session.chord };
-    session.effects.push(Effect::Write { path: path.into(), content, replace });
-    Ok(())
+    session.effect(Effect::Write { path: path.into(), content, replace })
 }
 
 /// Asks for a file.
-#[expect(clippy::unnecessary_wraps, reason = "as the functions of all lines")]
-pub(crate) fn ask(session: &mut Session, path: &str, purpose: Purpose) -> Done {
-    session.effects.push(Effect::Read { path: path.into(), purpose });
-    Ok(())
+pub fn ask(session: &mut Session, path: &str, purpose: Purpose) -> Done {
+    session.effect(Effect::Read { path: path.into(), purpose })
 }
 
 /// Said where there is no interrupted session.
@@ -59,8 +54,7 @@ pub(crate) fn figure(
         return Err(format!("{} is still being written; {stops}", other.display()));
     }
     session.writing = Some(path.clone());
-    session.effects.push(Effect::Write { path, content: Content::Figure { plot }, replace });
-    Ok(())
+    session.effect(Effect::Write { path, content: Content::Figure { plot }, replace })
 }
 
 /// Offers to write the plot in use: opens the line with a command and a file name, to be edited or accepted.
@@ -95,7 +89,7 @@ pub(crate) fn read(
                 count => session.with_keys(&format!("; {{restore}} lists {count} others")),
             };
             session.inform(format!("the interrupted session is back{others}"));
-            session.effects.push(Effect::PutAside(path.to_owned()));
+            return session.effect(Effect::PutAside(path.to_owned()));
         }
         Purpose::Fit(words) => {
             let options = RecordOptions::of_words(&words).map_err(of_file)?;
@@ -107,7 +101,7 @@ pub(crate) fn read(
         Purpose::Table { .. } => {}
         Purpose::Play => {
             let script = replay::parse(&text).map_err(|error| of_file(error.to_string()))?;
-            session.effects.push(Effect::Play(script));
+            return session.effect(Effect::Play(script));
         }
     }
     Ok(())
@@ -131,8 +125,7 @@ fn open_machine(
     });
     if let Some(table) = wanted {
         let purpose = Purpose::Table { path: path.to_owned(), machine: text };
-        session.effects.push(Effect::Read { path: table, purpose });
-        return Ok(());
+        return session.effect(Effect::Read { path: table, purpose });
     }
     let described = found.map_err(|error| error.to_string())?;
     let machine = Machine::try_from(described).map_err(|why| format!("{file}: {why}"))?;
@@ -179,8 +172,7 @@ pub fn forget_selected(session: &mut Session) -> Done {
     }
     let path = session.interrupted.remove(number).path;
     lists::move_by(session, 0);
-    session.effects.push(Effect::PutAside(path));
-    Ok(())
+    session.effect(Effect::PutAside(path))
 }
 
 /// Stops offering all interrupted sessions.
@@ -200,8 +192,7 @@ pub fn forget(session: &mut Session) -> Done {
 /// Plays the built-in tour, as a test does.
 pub fn tour(session: &mut Session) -> Done {
     let script = replay::parse(TOUR).map_err(|error| format!("the tour: {error}"))?;
-    session.effects.push(Effect::Play(script));
-    Ok(())
+    session.effect(Effect::Play(script))
 }
 
 /// Asks for the record that a line names: `FILE mass=2 kg columns=1,3 peaks`.

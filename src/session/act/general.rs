@@ -14,7 +14,6 @@ pub fn toggle(session: &mut Session, layer: Layer) {
         session.layers.insert(layer);
     }
     let spec = layer.spec();
-    let state = if on { "on" } else { "off" };
     let absent = !session.on_show().any(|plot| session.plots[plot].view == spec.view);
     let text = match session.not_drawn(layer) {
         Some(why) if on => format!("{}: {why}", spec.name),
@@ -22,7 +21,7 @@ pub fn toggle(session: &mut Session, layer: Layer) {
             let title = spec.view.spec().title;
             format!("{}: no plot shows the {title}; {{views}} picks one", spec.name)
         }
-        _ => format!("{} {state}: {}", spec.name, spec.meaning),
+        _ => format!("{} {}: {}", spec.name, if on { "on" } else { "off" }, spec.meaning),
     };
     session.inform_of_keys(&text);
 }
@@ -31,15 +30,13 @@ pub fn toggle(session: &mut Session, layer: Layer) {
 pub fn harmonics(session: &mut Session, more: bool) -> Done {
     let ladder = ladder(MOST_HARMONICS);
     let now = session.harmonics;
-    let next = if more {
-        ladder.iter().find(|count| **count > now)
+    let (next, way) = if more {
+        (ladder.iter().find(|count| **count > now), "more")
     } else {
-        ladder.iter().rev().find(|count| **count < now)
+        (ladder.iter().rfind(|count| **count < now), "fewer")
     };
     session.layers.insert(Layer::Balance);
-    let way = if more { "more" } else { "fewer" };
-    let next = *next.ok_or_else(|| format!("{now} harmonics: there are no {way}"))?;
-    balance(session, next);
+    balance(session, *next.ok_or_else(|| format!("{now} harmonics: there are no {way}"))?);
     Ok(())
 }
 
@@ -108,10 +105,7 @@ pub fn quit(session: &mut Session) {
 
 /// Adds the digit of this key to a count, and waits for more.
 pub fn count(session: &mut Session, key: Key) {
-    let before = match session.pending {
-        Some(PendingInput::Count(before)) => before,
-        _ => 0,
-    };
+    let before = if let Some(PendingInput::Count(before)) = session.pending { before } else { 0 };
     let digit = key.typed().and_then(|char| char.to_digit(10)).unwrap_or(0);
     session.pending = Some(PendingInput::Count((10 * before + digit).min(LARGEST_COUNT)));
 }

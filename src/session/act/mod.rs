@@ -16,7 +16,7 @@ pub mod screen_setup;
 pub mod values;
 pub mod walk;
 
-use crate::session::{Done, Key, Notice, Session};
+use crate::session::{Done, Effect, Key, Notice, Session};
 
 impl Session {
     /// Shows a notice that reports no refusal.
@@ -44,6 +44,12 @@ impl Session {
         if let Err(why) = act(self) {
             self.refuse(why);
         }
+    }
+
+    /// Asks the outer rings for something.
+    pub fn effect(&mut self, effect: Effect) -> Done {
+        self.effects.push(effect);
+        Ok(())
     }
 
     /// Shows what is unlikely about the numbers of the machine that was just read or typed.

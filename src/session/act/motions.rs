@@ -8,7 +8,7 @@ use crate::numerics::{by_number, decimal_sum, shortest};
 use crate::portrait::Drawing;
 use crate::scene::{Layer, Topic};
 use crate::session::act::parameters::put;
-use crate::session::{Done, MOST_MOTIONS, PACES, Pace, Session, Setup};
+use crate::session::{Done, MOST_MOTIONS, PACES, Pace, Playback, Session, Setup};
 use crate::words::counted;
 
 /// Clearance of a start relative to that of the border: near enough to stay close for a while, far enough to be
@@ -67,7 +67,7 @@ pub fn beside_edge(session: &mut Session, factor: f64) -> Done {
 /// The clearance of the border from the sticking set, and the side (1 or -1) of its turning point.
 fn edge(found: &Drawing) -> Option<(f64, f64)> {
     if !found.portrait.border.parts_without_cycle() {
-        return found.cycles.iter().find(|cycle| !cycle.stable).map(|cycle| (cycle.clearance, 1.0));
+        return Some((found.cycles.iter().find(|cycle| !cycle.stable)?.clearance, 1.0));
     }
     // Motions escape to the side where D2 feeds them: for D2 > 0 to the left, from a turning point on the
     // right.
@@ -102,12 +102,13 @@ pub fn play(session: &mut Session) -> Done {
     if !shown || given_up || session.trajectory().is_none() {
         return Err(NO_MOTION.to_owned());
     }
-    let at_end = session.playback.at.is_some_and(|at| at >= session.last_moment());
-    session.playback.playing = !session.playback.playing;
-    if session.playback.at.is_none() || (at_end && session.playback.playing) {
-        session.playback.at = Some(0.0);
+    let end = session.last_moment();
+    let Playback { at, playing, .. } = &mut session.playback;
+    *playing = !*playing;
+    if at.is_none_or(|at| at >= end && *playing) {
+        *at = Some(0.0);
     }
-    let playing = session.playback.playing;
+    let playing = *playing;
     let text = if playing { format!("playing: {}", session.pace()) } else { "held".to_owned() };
     session.inform(text);
     Ok(())

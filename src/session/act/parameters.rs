@@ -1,6 +1,6 @@
 //! Commands of the parameter pane: select, step, reset, and typing a value.
 
-use crate::flow::{METHODS, Method, Problem, QUALITIES};
+use crate::flow::{METHODS, Method, MethodSpec, Problem, QUALITIES};
 use crate::model::unit::measured;
 use crate::model::{Knob, KnobSpec};
 use crate::numerics::{cycled, log10, shortest};
@@ -98,8 +98,7 @@ pub fn step_size(session: &mut Session, by: i32) -> Done {
 /// Resets the selected row to the scene's value and step size.
 pub fn reset_row(session: &mut Session) {
     let row = session.selected;
-    let (of_scene, present) = (Setup::of_scene(&session.scene), session.setup());
-    let mut reset = present;
+    let (of_scene, mut reset) = (Setup::of_scene(&session.scene), session.setup());
     match row {
         Row::Method => reset.problem.method = of_scene.problem.method,
         Row::Tolerance => reset.problem = reset.problem.with_setting(of_scene.problem.setting()),
@@ -124,19 +123,16 @@ pub fn reset_row(session: &mut Session) {
 /// Changes the accuracy to its next stop: draft, normal, fine, reference.
 pub fn dial(session: &mut Session, finer: bool) -> Done {
     session.measuring = true;
-    let quality = session.problem.next_quality(finer);
-    let quality =
-        quality.ok_or_else(|| format!("the accuracy is at its {}", end_of_dial(finer)))?;
+    let quality = session.problem.next_quality(finer).ok_or_else(|| {
+        let [coarsest, .., finest] = QUALITIES.map(|quality| quality.name);
+        let (end, name) = if finer { ("finest", finest) } else { ("coarsest", coarsest) };
+        format!("the accuracy is at its {end}, {name}")
+    })?;
     change(session, session.problem.at(quality));
     let (knob, setting) = (Row::Tolerance.knob_in(&session.problem), session.problem.setting());
     let (name, meaning) = (quality.name, quality.meaning);
     session.inform(format!("{name}: {knob} {}; {meaning}", shortest(setting)));
     Ok(())
-}
-
-fn end_of_dial(finer: bool) -> String {
-    let [coarsest, .., finest] = QUALITIES.map(|quality| quality.name);
-    if finer { format!("finest, {finest}") } else { format!("coarsest, {coarsest}") }
 }
 
 /// Multiplies the number that sets the accuracy by a power of ten.
@@ -155,14 +151,11 @@ pub fn next_method(session: &mut Session, by: isize) {
     // Without a closed form, that method could only give up.
     let nonlinear = session.problem.parameters.d2 != 0.0 || session.problem.parameters.d3 != 0.0;
     let whole = session.draws_whole();
-    let usable = METHODS.iter().filter(|row| {
-        if whole {
-            row.method.follows_machines()
-        } else {
-            !(nonlinear && row.method == Method::Exact)
-        }
-    });
-    let rows: Vec<_> = usable.collect();
+    let usable = |row: &&MethodSpec| match row.method {
+        method if whole => method.follows_machines(),
+        method => !(nonlinear && method == Method::Exact),
+    };
+    let rows: Vec<_> = METHODS.iter().filter(usable).collect();
     let at = rows.iter().position(|row| row.method == session.problem.method).unwrap_or(0);
     let row = rows[cycled(at, by, rows.len())];
     session.measuring = true;
@@ -204,8 +197,8 @@ impl Session {
         (self.setting, self.scaled) = set.or_else(own).unzip();
         // Kicks keep their metres, unless these are too many.
         if let Some((from, to)) = before.zip(units(self)) {
-            let ratios = [to.displacement / from.displacement, to.velocity / from.velocity];
-            let kicks = self.kicks.in_units(ratios[0], ratios[1]).checked();
+            let length = to.displacement / from.displacement;
+            let kicks = self.kicks.in_units(length, to.velocity / from.velocity).checked();
             self.kicks = kicks.unwrap_or(self.kicks);
         }
         // The energy ledger has lines for each motion.
@@ -243,8 +236,8 @@ pub(crate) fn read(
 ) -> Result<Setup, String> {
     let text = text.trim();
     let problem = match row {
-        Row::Number(Knob::Disturbance) => {
-            return session.with(setup, Knob::Disturbance, disturbance(session, setup, text)?);
+        Row::Number(knob @ Knob::Disturbance) => {
+            return session.with(setup, knob, disturbance(session, setup, text)?);
         }
         Row::Number(knob) => return number(session, setup, knob, text),
         Row::Method => {

@@ -32,9 +32,7 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
     let (x, y) = match plot.view {
         View::Phase => (q, v),
         View::Belt => (q, center.y),
-        view @ (View::Diagram | View::BeltDiagram) => {
-            (session.value(plot.axes.right(view)), center.y)
-        }
+        View::Diagram | View::BeltDiagram => (session.value(plot.axes.right(plot.view)), center.y),
         View::TimeSeries => (0.0, q),
         View::EnergyLedger => (0.0, 0.0),
         View::EnergyRate => (v, 0.0),
@@ -136,13 +134,10 @@ pub fn fit(session: &mut Session) {
 
 /// Resets the plot in focus to the scene's window and axes.
 pub fn home(session: &mut Session) {
-    let index = session.plot;
-    let Some(plot) = session.focused() else { return };
-    let fitting = PlotSetup::fitting(plot.view, plot.axes);
-    let plot_setup = session.plot_of_scene(index, plot.view).unwrap_or(fitting);
-    if let Some(plot) = session.focused_mut() {
-        *plot = Plot { cursor: plot.cursor, ..Plot::opened(&plot_setup) };
-    }
+    let Some(&Plot { view, axes, cursor, .. }) = session.focused() else { return };
+    let of_scene = session.plot_of_scene(session.plot, view);
+    let opened = Plot::opened(&of_scene.unwrap_or(PlotSetup::fitting(view, axes)));
+    session.plots[session.plot] = Plot { cursor, ..opened };
 }
 
 /// The cursor of the plot in focus. Fails with a line on how to get one.
@@ -156,10 +151,10 @@ fn cursor(session: &Session) -> Result<Point, String> {
 pub fn use_method(session: &mut Session) -> Done {
     cursor(session)?;
     let row = session.row_under_cursor(session.plot).ok_or("no method is compared here yet")?;
-    let row = row.problem;
-    let taken = Problem { method: row.method, ..session.problem };
+    let taken = Problem { method: row.problem.method, ..session.problem };
+    let taken = taken.with_setting(row.problem.setting());
     session.measuring = true;
-    change(session, taken.with_setting(row.setting()));
+    change(session, taken);
     Ok(())
 }
 
@@ -167,19 +162,19 @@ pub fn use_method(session: &mut Session) -> Done {
 /// the state of the motion at that time, at rest at that displacement, or on that cycle.
 pub fn start_here(session: &mut Session) -> Done {
     let Point { x, y } = cursor(session)?;
-    let initial = match session.focused().map(|plot| plot.view) {
-        Some(View::TimeSeries) => session.state_at(x),
-        Some(View::EnergyLedger) => session.start_of_line(y),
-        Some(View::ReturnMap | View::Belt) => Some(State { q: x, v: 0.0 }),
-        Some(View::EnergyRate) => Some(State { v: x, ..session.problem.initial }),
-        Some(View::Phase) => Some(State { q: x, v: y }),
+    let view = session.view_in_use();
+    let initial = match view {
+        View::TimeSeries => session.state_at(x),
+        View::EnergyLedger => session.start_of_line(y),
+        View::ReturnMap | View::Belt => Some(State { q: x, v: 0.0 }),
+        View::EnergyRate => Some(State { v: x, ..session.problem.initial }),
+        View::Phase => Some(State { q: x, v: y }),
         _ => return Ok(()),
     };
-    let initial = initial.ok_or("there is no motion to start from here")?;
-    let State { q, v } = initial;
+    let initial @ State { q, v } = initial.ok_or("there is no motion to start from here")?;
     // The phase plane shows motions beside each other; from another view, the other motions may be out of
     // sight.
-    if session.focused().is_some_and(|plot| plot.view == View::Phase) {
+    if view == View::Phase {
         start(session, initial);
     } else if change(session, Problem { initial, ..session.problem }) {
         session.inform(format!("q0 = {}, v0 = {}", shortest(q), shortest(v)));
@@ -217,8 +212,7 @@ pub fn next_abscissa(session: &mut Session, upwards: bool) {
         // present point.
         Some(plot) => {
             plot.axes = axes;
-            let family = plot.family;
-            plot.fit_from(PlotSetup { view, axes, window: None, family }.opening());
+            plot.fit_from(PlotSetup::fitting(view, axes).opening());
         }
         None => set_axes(session, axes),
     }
@@ -257,15 +251,17 @@ pub fn next_ordinate(session: &mut Session) {
 
 /// Switches lengths of the cycles between units of r and those of the equation; the branch stays.
 pub fn next_unit(session: &mut Session) -> Done {
-    let plot = &session.plots[session.plot];
-    let (spec, unit) = (plot.axes.ordinate.spec(), plot.axes.unit);
+    let Plot { axes, .. } = session.plots[session.plot];
+    let spec = axes.ordinate.spec();
     if spec.ratio.is_none() {
         return Err(format!("{} is not a length and has no unit", spec.label));
     }
-    let unit = if unit == Unit::One { Unit::Friction } else { Unit::One };
-    let axes = Axes { unit, ..plot.axes };
+    let (unit, units) = match axes.unit {
+        Unit::One => (Unit::Friction, ", in units of r"),
+        Unit::Friction => (Unit::One, ""),
+    };
+    let axes = Axes { unit, ..axes };
     set_axes(session, axes);
-    let units = if unit == Unit::One { "" } else { ", in units of r" };
     session.inform(format!("{}: {}{units}", axes.label(), spec.meaning));
     Ok(())
 }

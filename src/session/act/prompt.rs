@@ -146,8 +146,7 @@ pub fn choose(session: &mut Session) -> Done {
     let Some(Overlay::List(kind, list)) = &session.overlay else { return Ok(()) };
     let rows = session.rows_of(*kind, list);
     let (kind, row) = (*kind, rows.get(list.selected).copied().flatten());
-    let closes = row.is_some() || kind == ListKind::Cost;
-    if closes && kind != ListKind::Layers {
+    if kind == ListKind::Cost || (row.is_some() && kind != ListKind::Layers) {
         session.overlay = None;
     }
     match row {
@@ -167,10 +166,10 @@ pub fn choose(session: &mut Session) -> Done {
 
 /// Opens the scene that shows a claim.
 fn show_claim(session: &mut Session, claim: &Claim) -> Done {
+    let Claim { equation, statement, .. } = claim;
     let scene = claim.scene.and_then(|name| find(name).ok());
-    let scene =
-        scene.ok_or_else(|| format!("no scene shows {}: it is a formula alone", claim.equation))?;
+    let scene = scene.ok_or_else(|| format!("no scene shows {equation}: it is a formula alone"))?;
     open_scene(session, scene);
-    session.inform(format!("{}: {}", claim.equation, claim.statement));
+    session.inform(format!("{equation}: {statement}"));
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Running commands by their keys and their names, and lines of the command line.
 
 use crate::numerics::most_similar;
+use crate::scene::ViewSpec;
 use crate::session::act::general::toggle;
 use crate::session::act::screen_setup::focus_on;
 use crate::session::read::completion::names;
@@ -26,12 +27,9 @@ pub(crate) fn run_where_it_belongs(session: &mut Session, command: &Command, key
 fn missing(session: &Session, place: Context) -> String {
     match place.view() {
         Some(view) => {
-            let spec = view.spec();
-            let heading = spec.heading.to_lowercase();
-            session.with_keys(&format!(
-                "needs the {heading}: {{views}} or :view {} shows it",
-                spec.name
-            ))
+            let ViewSpec { name, heading, .. } = view.spec();
+            let heading = heading.to_lowercase();
+            session.with_keys(&format!("needs the {heading}: {{views}} or :view {name} shows it"))
         }
         None if place == Context::Walk => {
             session.with_keys("needs a branch: {walk} on a diagram takes hold of one")

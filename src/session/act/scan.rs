@@ -9,9 +9,10 @@ use crate::scan::measure::{Conditions, Measure};
 use crate::scan::sweep::Sweep;
 use crate::scene::{Request, Span, View};
 use crate::session::act::parameters::put;
+use crate::session::act::prompt;
 use crate::session::act::screen_setup::{add, focus_on, show};
 use crate::session::{
-    Content, Done, Effect, Overlay, Pane, Plot, Prompt, SCANNING, ScanOnShow, ScanProgress, Session,
+    Content, Done, Effect, Pane, Plot, SCANNING, ScanOnShow, ScanProgress, Session,
 };
 use crate::words::{joined, number::resolved};
 
@@ -24,9 +25,8 @@ pub fn open(session: &mut Session) {
     let groups = session.scanned_groups();
     let has = |scan: &Scan| scan.over().iter().all(|it| groups.contains(&it.symbol.spec().group));
     let last = session.scanned.as_ref().filter(|it| has(&it.scan));
-    let last = last.map(|scanned| typed(&scanned.scan));
-    let line = format!("scan {}", last.unwrap_or_else(|| usual(session)));
-    session.overlay = Some(Overlay::Prompt(Prompt::new(line)));
+    let last = last.map_or_else(|| usual(session), |scanned| typed(&scanned.scan));
+    prompt::open(session, format!("scan {last}"));
 }
 
 /// A scan as it is typed.
@@ -46,8 +46,7 @@ fn usual(session: &Session) -> String {
     let view = if session.draws_whole() { View::BeltDiagram } else { View::Diagram };
     if let Some(diagram) = session.plots.iter().find(|plot| plot.view == view) {
         let symbol = diagram.axes.right(view);
-        let KnobSpec { min, max, .. } = *symbol.spec();
-        if let Some(span) = diagram.window.x.within(min, max) {
+        if let Some(span) = diagram.window.x.allowed(symbol) {
             return over(symbol, span.from(), span.to());
         }
     }
@@ -68,8 +67,7 @@ fn usual(session: &Session) -> String {
 /// Starts a scan and shows it in a plot that already shows scans, otherwise beside the phase plane.
 pub fn start(session: &mut Session, scan: Scan) {
     session.scanned = Some(ScanOnShow::begun(scan));
-    let mut shown = session.on_show().filter(|index| session.plots[*index].view == View::Scan);
-    match shown.next() {
+    match session.on_show().find(|index| session.plots[*index].view == View::Scan) {
         Some(index) => focus_on(session, Pane::Plot(index)),
         None => beside(session),
     }
@@ -189,8 +187,7 @@ pub fn take(session: &mut Session) -> Done {
 pub fn save(session: &mut Session, path: &str) -> Done {
     let ScanOnShow { scan, rows, .. } = scanned(session)?.clone();
     let content = Content::Scan(scan, rows);
-    session.effects.push(Effect::Write { path: path.into(), content, replace: false });
-    Ok(())
+    session.effect(Effect::Write { path: path.into(), content, replace: false })
 }
 
 /// Starts the scan `NAME=FROM:TO:COUNT .. MEASURE,..`. Fails with one line that says what is wrong and what is

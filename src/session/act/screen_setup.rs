@@ -26,17 +26,15 @@ fn record(session: &mut Session) {
 /// The setup of a plot that changes to a view: the scene's setup if no other plot shows the same axes,
 /// otherwise that of another plot with this view, otherwise the usual axes in a fitted window.
 fn plot_setup(session: &Session, plot: usize, view: View) -> PlotSetup {
-    let others: Vec<PlotSetup> = (0..session.plots.len())
-        .filter(|other| *other != plot && session.plots[*other].view == view)
-        .filter_map(|other| session.plot_setup(other))
-        .collect();
-    let absent = |plot_setup: &PlotSetup| others.iter().all(|other| other.axes != plot_setup.axes);
+    let others = (0..session.plots.len()).filter(|other| *other != plot);
+    let others = others.map(|other| session.plot_setup(other)).filter(|other| other.view == view);
+    let others: Vec<PlotSetup> = others.collect();
+    let absent = |setup: &&PlotSetup| others.iter().all(|other| other.axes != setup.axes);
     let here = session.scene.plots.get(plot);
     let of_scene = here.into_iter().chain(&session.scene.plots);
-    let mut of_scene = of_scene.filter(|plot_setup| plot_setup.view == view);
+    let of_scene = of_scene.filter(|setup| setup.view == view).find(absent);
     let axes = session.plots.get(plot).map(|plot| plot.axes).unwrap_or_default();
-    let fitting = PlotSetup::fitting(view, axes);
-    of_scene.find(|plot_setup| absent(plot_setup)).or(others.first()).copied().unwrap_or(fitting)
+    of_scene.or(others.first()).copied().unwrap_or(PlotSetup::fitting(view, axes))
 }
 
 /// Switches on the usual layers of a view if all its layers are off.
@@ -95,7 +93,7 @@ pub fn add(session: &mut Session) -> Done {
     let view = VIEWS.iter().map(|row| row.view).find(absent);
     let plot_setup = match view {
         Some(view) => plot_setup(session, session.plots.len(), view),
-        None => session.plot_setup(index).unwrap_or_else(|| session.scene.plots[0]),
+        None => session.plot_setup(index),
     };
     record(session);
     session.plots.insert(index + 1, Plot::opened(&plot_setup));

@@ -128,9 +128,8 @@ pub fn axes(session: &mut Session, rest: &str) -> Done {
 
 /// Shows the cycles by N harmonics.
 pub fn harmonics(session: &mut Session, rest: &str) -> Done {
-    let most = MOST_HARMONICS;
-    let count = rest.parse().ok().filter(|count| (1..=most).contains(count));
-    let refused = || format!("{rest:?} is not a number of harmonics from 1 to {most}");
+    let count = rest.parse().ok().filter(|count| (1..=MOST_HARMONICS).contains(count));
+    let refused = || format!("{rest:?} is not a number of harmonics from 1 to {MOST_HARMONICS}");
     general::balance(session, count.ok_or_else(refused)?);
     Ok(())
 }
@@ -151,11 +150,8 @@ pub fn kicks(session: &mut Session, rest: &str) -> Done {
 
 /// The letter of a mark.
 pub fn letter(text: &str) -> Result<char, String> {
-    let mut chars = text.chars();
-    match (chars.next(), chars.next()) {
-        (Some(letter @ 'a'..='z'), None) => Ok(letter),
-        _ => Err(format!("{text:?} is not a letter from a to z")),
-    }
+    let letter = text.parse().ok().filter(char::is_ascii_lowercase);
+    letter.ok_or_else(|| format!("{text:?} is not a letter from a to z"))
 }
 
 /// Whether a setting is to be on. Fails with one line if that is not said.

@@ -84,7 +84,7 @@ pub fn take(session: &mut Session) -> Done {
         problem.initial = State { q: cycle.q_max, v: 0.0 };
     }
     change(session, problem);
-    let start = held.cycle.map(|_| ", and the motion starts on its cycle").unwrap_or_default();
+    let start = held.cycle.map_or("", |_| ", and the motion starts on its cycle");
     let label = &shown.variant.label;
     let also = if label.is_empty() { "" } else { ", " };
     session.inform(format!("{abscissa} = {}{also}{label}{start}", shortest(value)));
@@ -99,9 +99,9 @@ pub(crate) fn keep_hold(session: &mut Session) {
     let branches = session.branches(index);
     session.held = if !on_show {
         None
-    } else if !session.is_fresh(Topic::Branch, index) {
-        Some(held).filter(|_| branches.iter().any(|(_, branch)| !branch.pieces.is_empty()))
-    } else {
+    } else if session.is_fresh(Topic::Branch, index) {
         BranchPath::along(&branches).again(&held)
+    } else {
+        Some(held).filter(|_| branches.iter().any(|(_, branch)| !branch.pieces.is_empty()))
     };
 }

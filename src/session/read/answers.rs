@@ -65,7 +65,7 @@ impl Session {
 
     /// The chart over the two parameters of a plot.
     pub fn chart(&self, plot: usize) -> Option<&Chart> {
-        let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
+        let Axes { abscissa, against, .. } = self.plots[plot].axes;
         let found = self.answer(Topic::Regimes, plot)?.try_as_regimes_ref();
         found.filter(|found| (found.plane.right, found.plane.up) == (abscissa, against))
     }

@@ -5,7 +5,9 @@ use crate::model::{Group, Knob};
 use crate::numerics::shortest;
 use crate::scan::measure::MEASURES;
 use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, Window};
-use crate::session::{Command, Completion, Keymap, NamedValue, Row, Session, Setup, choices};
+use crate::session::{
+    Command, Completion, Context, Keymap, NamedValue, Row, Session, Setup, choices,
+};
 use crate::words::{counted, joined};
 
 /// These names as candidates.
@@ -107,7 +109,7 @@ pub fn scan(session: &Session, words: &[&str]) -> Vec<String> {
 
 /// Every name with which a line can begin, in the order of the tables.
 pub fn names(keymap: &Keymap) -> impl Iterator<Item = &'static str> {
-    let typed = |command: &&Command| command.keys.iter().any(|(context, _)| !context.is_overlay());
+    let typed = |command: &&Command| !command.contexts().all(Context::is_overlay);
     let commands = keymap.commands().filter(typed).map(|command| command.name);
     let commands = commands.filter(move |name| keymap.line(name).is_none());
     keymap.lines().map(|line| line.name).chain(commands)

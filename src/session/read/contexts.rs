@@ -86,7 +86,7 @@ impl Session {
                 self.request(Topic::Cycles, plot).filter(|request| self.is_open(request))
             }
             "motion-over-time" => {
-                let over_time = self.plots.get(plot)?.view == View::TimeSeries;
+                let over_time = self.plots[plot].view == View::TimeSeries;
                 over_time.then(|| open(Topic::Trajectory)).flatten()
             }
             "window" => windows::awaited(self, plot),
@@ -193,13 +193,13 @@ pub struct Hint {
 /// missing.
 pub(crate) fn place(session: &Session, command: &Command) -> Result<Option<Pane>, Context> {
     let here = session.contexts();
-    let places: Vec<Context> = command.keys.iter().map(|(context, _)| *context).collect();
-    if places.iter().any(|place| here.contains(place)) {
+    let mut places = command.contexts();
+    if places.clone().any(|place| here.contains(&place)) {
         return Ok(None);
     }
-    let pane = places.iter().copied().find_map(|place| pane(session, place));
-    match (pane, places.first()) {
-        (None, Some(place)) if places.iter().all(|place| lacks(session, *place)) => Err(*place),
+    let pane = places.clone().find_map(|place| pane(session, place));
+    match (pane, places.clone().next()) {
+        (None, Some(place)) if places.all(|place| lacks(session, place)) => Err(place),
         (pane, _) => Ok(pane),
     }
 }

@@ -151,9 +151,9 @@ impl Session {
     /// The context in which keys run a row: that of the pane in focus if it has keys there.
     pub fn place_of(&self, row: PaletteRow) -> Option<Context> {
         let PaletteRow::Command(command) = row else { return None };
-        let mut here = self.contexts_below().iter();
-        let has_keys = |context: &&Context| command.keys.iter().any(|(at, _)| at == *context);
-        here.find(has_keys).copied().or(home(command))
+        let mut here = self.contexts_below().iter().copied();
+        let has_keys = |context: &Context| command.contexts().any(|at| at == *context);
+        here.find(has_keys).or(home(command))
     }
 
     /// The words by which a row is found: its names, its explanation and its keys.
@@ -213,37 +213,24 @@ pub(crate) static SYNONYMS: LazyLock<BTreeMap<&str, Vec<&str>>> = LazyLock::new(
 /// come first, then those with words that begin with it, names before meanings. Without a search, all rows have
 /// the same rank.
 pub(crate) fn rank(search: &str, names: &[&str], meaning: &str) -> usize {
-    let search = PlainText::new(search);
-    let names: Vec<PlainText> = names.iter().map(|name| PlainText::new(name)).collect();
-    let meaning = PlainText::new(meaning);
-    let any = |test: &dyn Fn(&PlainText) -> bool| names.iter().any(test);
+    let names: Vec<String> = names.iter().map(|name| plain(name)).collect();
+    let (search, meaning) = (plain(search), plain(meaning));
+    // Without blanks: `fig 16` is `fig16`.
+    let joined = |text: &str| text.replace(' ', "");
+    let any = |test: &dyn Fn(&String) -> bool| names.iter().any(test);
     let ranks = [
-        any(&|name| name.joined() == search.joined()),
-        any(&|name| name.joined().starts_with(&search.joined())),
-        any(&|name| name.has_at_a_word(&search)),
-        meaning.has_at_a_word(&search),
-        any(&|name| name.0.contains(search.0.trim())),
-        meaning.0.contains(search.0.trim()),
+        any(&|name| joined(name) == joined(&search)),
+        any(&|name| joined(name).starts_with(&joined(&search))),
+        any(&|name| name.contains(&search)),
+        meaning.contains(&search),
+        any(&|name| name.contains(search.trim())),
+        meaning.contains(search.trim()),
     ];
     ranks.iter().position(|holds| *holds).unwrap_or(ranks.len())
 }
 
 /// A text in lower case, with a blank before each word of letters and digits.
-struct PlainText(String);
-
-impl PlainText {
-    fn new(text: &str) -> Self {
-        let words = text.split(|char: char| !char.is_alphanumeric());
-        let words = words.filter(|word| !word.is_empty());
-        PlainText(words.flat_map(|word| [" ".to_owned(), word.to_lowercase()]).collect())
-    }
-
-    /// The text without blanks: `fig 16` becomes `fig16`.
-    fn joined(&self) -> String {
-        self.0.replace(' ', "")
-    }
-
-    fn has_at_a_word(&self, search: &PlainText) -> bool {
-        self.0.contains(&search.0)
-    }
+fn plain(text: &str) -> String {
+    let words = text.split(|char: char| !char.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.flat_map(|word| [" ".to_owned(), word.to_lowercase()]).collect()
 }

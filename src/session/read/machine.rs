@@ -163,11 +163,15 @@ impl Session {
         Ok(setup)
     }
 
+    /// Whether something is uncertain, or a layer shows what is certain.
+    pub(crate) fn asks_for_certainty(&self) -> bool {
+        let asks = |layer| self.layers.contains(layer);
+        !self.doubt.is_certain() || [Layer::Safe, Layer::Lost].iter().any(asks)
+    }
+
     /// Whether a plot states guaranteed margins: something is uncertain, or a layer asks for them.
     pub fn tells_certain(&self, plot: usize) -> bool {
-        let layers = [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it));
-        let phase = self.plots.get(plot).is_some_and(|plot| plot.view == View::Phase);
-        phase && (layers || !self.doubt.is_certain())
+        self.plots[plot].view == View::Phase && self.asks_for_certainty()
     }
 
     /// What moves by the model that is drawn, at these parameters, and the units of its numbers.

@@ -11,7 +11,7 @@ use crate::numerics::{by_number, hypot};
 use crate::scene::{
     Finding, Height, Layer, Needs, PlotSetup, Point, Request, Topic, Variant, View, Window,
 };
-use crate::session::{AnswerState, Framing, Pane, Plot, Row, ScreenSetup, Session};
+use crate::session::{Framing, Pane, Plot, Row, ScreenSetup, Session};
 use crate::words::joined;
 
 impl Session {
@@ -43,8 +43,7 @@ impl Session {
 
     /// Whether a layer is on and belongs to the view of a plot.
     pub fn shows_in(&self, layer: Layer, plot: usize) -> bool {
-        let view = layer.spec().view;
-        self.layers.contains(&layer) && self.plots.get(plot).is_some_and(|plot| plot.view == view)
+        self.layers.contains(&layer) && self.plots[plot].view == layer.spec().view
     }
 
     /// What a view lacks to show anything and which key gives it, by the names of commands; `None` where it
@@ -82,21 +81,24 @@ impl Session {
     /// Why a layer that is on draws nothing, if the reason lies in the axes of every diagram on show or in a
     /// missing mark.
     pub fn not_drawn(&self, layer: Layer) -> Option<&'static str> {
-        if layer == Layer::Ghost {
-            return self.marks.left.is_none().then_some("not drawn: no mark has been visited yet");
-        }
-        if matches!(layer, Layer::Record | Layer::Recorded) {
-            return self.scene.recording.is_none().then_some("not drawn: no record is open");
-        }
-        if matches!(layer, Layer::Belt | Layer::BeltPath | Layer::Whole) {
-            return self.scene.machine.is_none().then_some("not drawn: the scene has no machine");
-        }
-        let harmonic = matches!(layer, Layer::Harmonic | Layer::Asymptotes);
         let drawn = |index: usize| {
             self.shows_in(layer, index) && self.plots[index].axes.ordinate.spec().harmonic.is_some()
         };
-        (harmonic && self.shows(layer) && !self.on_show().any(drawn))
-            .then_some("not drawn: the harmonic answer has no multiplier")
+        let (lacks, text) = match layer {
+            Layer::Ghost => (self.marks.left.is_none(), "not drawn: no mark has been visited yet"),
+            Layer::Record | Layer::Recorded => {
+                (self.scene.recording.is_none(), "not drawn: no record is open")
+            }
+            Layer::Belt | Layer::BeltPath | Layer::Whole => {
+                (self.scene.machine.is_none(), "not drawn: the scene has no machine")
+            }
+            Layer::Harmonic | Layer::Asymptotes => {
+                let lacks = self.shows(layer) && !self.on_show().any(drawn);
+                (lacks, "not drawn: the harmonic answer has no multiplier")
+            }
+            _ => return None,
+        };
+        lacks.then_some(text)
     }
 
     /// The plot in use if it is a diagram, otherwise the first diagram on show.
@@ -124,26 +126,24 @@ impl Session {
     /// view.
     pub fn plot_of_scene(&self, plot: usize, view: View) -> Option<PlotSetup> {
         let plots = &self.scene.plots;
-        let here = plots.get(plot).filter(|plot_setup| plot_setup.view == view);
-        here.or(plots.iter().find(|plot_setup| plot_setup.view == view)).copied()
+        plots.get(plot).into_iter().chain(plots).find(|setup| setup.view == view).copied()
     }
 
     /// The present setup of a plot.
-    pub fn plot_setup(&self, index: usize) -> Option<PlotSetup> {
-        let plot = self.plots.get(index)?;
-        let of_scene = self.plot_of_scene(index, plot.view);
-        let window = match plot.framing {
-            Framing::Scene => of_scene.and_then(|plot_setup| plot_setup.window),
+    pub fn plot_setup(&self, index: usize) -> PlotSetup {
+        let Plot { view, axes, family, window, framing, .. } = self.plots[index];
+        let window = match framing {
+            Framing::Scene => self.plot_of_scene(index, view).and_then(|of| of.window),
             Framing::Fitting => None,
-            Framing::Fitted | Framing::User => Some(plot.window),
+            Framing::Fitted | Framing::User => Some(window),
         };
-        Some(PlotSetup { view: plot.view, axes: plot.axes, window, family: plot.family })
+        PlotSetup { view, axes, window, family }
     }
 
     /// The present setup of all plots.
     pub(crate) fn screen_setup(&self) -> ScreenSetup {
-        let plot_setups = (0..self.plots.len()).filter_map(|index| self.plot_setup(index));
-        ScreenSetup { plots: plot_setups.collect(), arrangement: self.arrangement }
+        let plots = (0..self.plots.len()).map(|index| self.plot_setup(index)).collect();
+        ScreenSetup { plots, arrangement: self.arrangement }
     }
 }
 
@@ -168,8 +168,7 @@ pub struct ShownMotion {
 impl Session {
     /// The variants that a plot shows in place of the present problem, if any.
     pub fn variants(&self, plot: usize) -> Option<&[Variant]> {
-        let family = self.plots.get(plot)?.family?;
-        self.scene.families.get(family).map(Vec::as_slice)
+        self.scene.families.get(self.plots[plot].family?).map(Vec::as_slice)
     }
 
     /// The problems that a plot shows: the present one, or its variants.
@@ -213,9 +212,9 @@ impl Session {
     /// The branches computed last over the parameter of a diagram, stale or not, each with its index among the
     /// problems that the plot shows.
     pub fn branches(&self, plot: usize) -> Vec<(usize, &Branch)> {
-        let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
+        let over = self.plots[plot].axes.abscissa;
         let found = self.found(Topic::Branch, plot, Finding::try_as_branch_ref).into_iter();
-        let found = found.filter(|(_, branch)| Some(branch.parameter) == over);
+        let found = found.filter(|(_, branch)| branch.parameter == over);
         found.map(|(variant, branch)| (variant.index, branch)).collect()
     }
 
@@ -224,13 +223,12 @@ impl Session {
     pub fn height(&self, plot: usize, variant: usize) -> Height {
         let mut asked = self.requests(Topic::Branch, plot).into_iter();
         let asked = asked.find(|(index, _)| *index == variant);
-        let standing = asked.map(|(_, request)| self.answers.standing(&request));
-        let reply = standing.and_then(AnswerState::reply);
+        let reply = asked.and_then(|(_, request)| self.answers.standing(&request).reply());
         let friction = match reply.map(|found| &found.request) {
             Some(Request::Branch { parameters, .. }) => parameters.r,
             _ => self.problem.parameters.r,
         };
-        self.plots.get(plot).map(|plot| plot.axes).unwrap_or_default().height(friction)
+        self.plots[plot].axes.height(friction)
     }
 }
 
@@ -260,7 +258,7 @@ fn text<'a>(held: impl Iterator<Item = (&'a Knob, &'a f64)>) -> String {
 impl Session {
     /// The row that is nearest to the cursor of a plot on the screen.
     pub fn row_under_cursor(&self, plot: usize) -> Option<&TradePoint> {
-        let plot = self.plots.get(plot).filter(|plot| plot.view == View::Trade)?;
+        let plot = Some(&self.plots[plot]).filter(|plot| plot.view == View::Trade)?;
         let Point { x, y } = plot.cursor?;
         let Window { x: across, y: up } = plot.window;
         let distance = |row: &&TradePoint| {

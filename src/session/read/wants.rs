@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::branch::chart::Plane;
-use crate::flow::Problem;
+use crate::flow::{Cost, Problem};
 use crate::model::Knob;
 use crate::numerics::{distinct, exp2, hypot, log2};
 use crate::scene::{Axes, Finding, Layer, Reply, Request, Span, TOPICS, Topic, View, Window};
@@ -136,7 +136,7 @@ impl Session {
         problem: Problem,
     ) -> Option<Request> {
         let Problem { parameters, tolerance, .. } = problem;
-        let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
+        let own = |view: View| Some(&self.plots[plot]).filter(|plot| plot.view == view);
         let motion = || {
             let Problem { initial, until, .. } = self.problem;
             Problem { parameters, initial, until, ..Problem::default() }
@@ -214,8 +214,7 @@ impl Session {
 
 /// The part of a span within the range of a number, by its ends.
 fn within(knob: Knob, span: Span) -> Option<(f64, f64)> {
-    let spec = knob.spec();
-    span.within(spec.min, spec.max).map(|span| span.ends().into())
+    span.allowed(knob).map(|span| span.ends().into())
 }
 
 /// The distance up to which bands of capture are visible, rounded up to a power of two, so that small changes
@@ -298,8 +297,8 @@ impl Session {
 }
 
 fn price(reply: &Reply) -> String {
-    let cost = reply.result.as_ref().map(Finding::cost).unwrap_or_default();
-    let (evaluations, steps) = (count(cost.evaluations), count(cost.steps));
+    let Cost { evaluations, steps, .. } = reply.cost();
+    let (evaluations, steps) = (count(evaluations), count(steps));
     format!("{evaluations:>6} ev {steps:>6} steps {:>8}", duration(reply.seconds))
 }
 

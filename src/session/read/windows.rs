@@ -66,10 +66,9 @@ fn roomy(span: Span) -> Span {
 
 /// The question whose answer the window of a plot waits for, if the plot is on show and is being fitted.
 pub(crate) fn awaited(session: &Session, plot: usize) -> Option<Request> {
-    let fitting = session.plots.get(plot).is_some_and(|plot| plot.framing == Framing::Fitting);
-    let mut asked = session.asked_by(plot).into_iter();
-    let open = asked.find(|request| session.is_open(request));
-    open.filter(|_| fitting && session.on_show().contains(&plot))
+    let fits = session.on_show().contains(&plot) && session.plots[plot].framing == Framing::Fitting;
+    let mut asked = if fits { session.asked_by(plot) } else { Vec::new() }.into_iter();
+    asked.find(|request| session.is_open(request))
 }
 
 /// The same values of the machine's number, and all cycles at these.
@@ -262,9 +261,7 @@ impl Session {
             Some(size) if value == 0.0 => [(-size).max(knob.spec().min), size, 0.0],
             Some(_) => [0.1 * value, 3.0 * value, value],
         };
-        let spec = knob.spec();
-        let span = Span::covering(ends).and_then(|span| span.within(spec.min, spec.max));
-        span.unwrap_or(usual)
+        Span::covering(ends).and_then(|span| span.allowed(knob)).unwrap_or(usual)
     }
 }
 

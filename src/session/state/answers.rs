@@ -32,12 +32,8 @@ pub enum AnswerState<'a> {
 impl<'a> AnswerState<'a> {
     /// The answer that is there, with its question.
     pub fn reply(self) -> Option<&'a Reply> {
-        match self {
-            AnswerState::Fresh(found) | AnswerState::Draft(found) | AnswerState::Stale(found) => {
-                Some(found)
-            }
-            AnswerState::None => None,
-        }
+        use AnswerState::{Draft, Fresh, Stale};
+        if let Fresh(found) | Draft(found) | Stale(found) = self { Some(found) } else { None }
     }
 
     /// What is there to be drawn.
@@ -95,8 +91,7 @@ impl Answers {
     /// if there is none.
     pub fn cost(&self, request: &Request) -> u64 {
         let found = self.nearest(request, |held| held.request.draft().is_some());
-        let cost = found.and_then(|found| found.result.as_ref().ok()).map(Finding::cost);
-        cost.unwrap_or_default().evaluations
+        found.map_or(0, |found| found.cost().evaluations)
     }
 
     /// Why a question has no answer.
@@ -126,12 +121,11 @@ impl Answers {
         let mut steps = 0;
         let fits = |held: &Arc<Reply>| {
             let before = steps;
-            steps += held.result.as_ref().map_or(0, |answer| answer.cost().steps);
+            steps += held.cost().steps;
             before <= MOST_STEPS
         };
-        let mut kept: Vec<_> = others.into_iter().rev().take(MOST).take_while(fits).collect();
-        kept.reverse();
-        self.held = kept.into_iter().chain(used).collect();
+        let kept: Vec<_> = others.into_iter().rev().take(MOST).take_while(fits).collect();
+        self.held = kept.into_iter().rev().chain(used).collect();
     }
 
     /// Forgets all answers to questions that are not asked at present.

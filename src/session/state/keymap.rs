@@ -48,6 +48,11 @@ impl Command {
     pub fn words(&self) -> Option<Candidates> {
         if let CommandAction::Line(words, _) = self.run { Some(words) } else { None }
     }
+
+    /// The contexts where it applies.
+    pub fn contexts(&self) -> impl Iterator<Item = Context> + Clone {
+        self.keys.iter().map(|(context, _)| *context)
+    }
 }
 
 /// How a command is run.
@@ -208,16 +213,13 @@ impl Keymap {
     }
 
     pub fn places(&self, command: &Command) -> Vec<(Context, Vec<Key>)> {
-        let contexts = command.keys.iter().map(|(context, _)| *context);
-        contexts
-            .map(|context| (context, self.keys_in(context, command).collect::<Vec<_>>()))
-            .filter(|(_, keys)| !keys.is_empty())
-            .collect()
+        let bound = |context| (context, self.keys_in(context, command).collect::<Vec<_>>());
+        command.contexts().map(bound).filter(|(_, keys)| !keys.is_empty()).collect()
     }
 }
 
 /// A context in which a key can have a meaning.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, EnumString)]
 #[strum(serialize_all = "lowercase")]
 pub enum Context {
     /// The focus is on the parameter pane.

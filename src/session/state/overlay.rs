@@ -18,7 +18,7 @@ pub enum Overlay {
 }
 
 /// A list over the panes; its keys have the context of its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, EnumString)]
 #[strum(serialize_all = "lowercase")]
 pub enum ListKind {
     /// The scenes, to pick one.

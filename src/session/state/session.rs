@@ -232,9 +232,7 @@ impl Session {
                     || self.scene.machine.as_ref().is_some_and(|it| is_told(&it.machine.belt, knob))
             }
             Row::Number(Knob::Disturbance) => {
-                self.scene.recording.is_some()
-                    || !self.doubt.is_certain()
-                    || [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it))
+                self.scene.recording.is_some() || self.asks_for_certainty()
             }
             Row::Number(knob) => self.scene.declares(knob) || self.value(knob) != 0.0,
         };
@@ -350,7 +348,7 @@ impl BranchStop {
 }
 
 /// A part of the screen that can have the focus.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pane {
     /// The list of parameters, method and tolerance.
     #[default]

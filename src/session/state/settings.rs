@@ -5,7 +5,7 @@ use strum::{IntoStaticStr, VariantArray};
 use crate::words::one_of;
 
 /// The characters that form the dots of plots.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, IntoStaticStr, VariantArray)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, IntoStaticStr, VariantArray)]
 #[strum(serialize_all = "lowercase")]
 pub enum Glyphs {
     /// The best that the terminal and its locale can show.
@@ -21,7 +21,7 @@ pub enum Glyphs {
 }
 
 /// Colour depth.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, IntoStaticStr, VariantArray)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, IntoStaticStr, VariantArray)]
 #[strum(serialize_all = "lowercase")]
 pub enum Colors {
     /// What the terminal says it has; no colours if `NO_COLOR` is set.
@@ -40,7 +40,7 @@ pub enum Colors {
 }
 
 /// A set of colours. Most backgrounds are dark, so that the first step to a light one is visible.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, IntoStaticStr, VariantArray)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, IntoStaticStr, VariantArray)]
 #[strum(serialize_all = "lowercase")]
 pub enum Theme {
     /// The set that suits the background of the terminal.

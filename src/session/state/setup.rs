@@ -114,9 +114,8 @@ impl Uncertainty {
 
     /// Checks that no number is negative or infinite. Fails with one line that names the number.
     fn check(&self) -> Result<(), String> {
-        let mut all = self.half_widths.iter().chain([&self.disturbance]);
-        let wrong = all.find(|it| !(it.is_finite() && **it >= 0.0));
-        wrong.map_or(Ok(()), |value| {
+        let mut all = self.half_widths.into_iter().chain([self.disturbance]);
+        all.find(|value| !(0.0..=f64::MAX).contains(value)).map_or(Ok(()), |value| {
             Err(format!("doubt: {value:?}; half widths and disturbance are 0 or more"))
         })
     }
@@ -185,7 +184,7 @@ impl Uncertainty {
 }
 
 /// A row of the parameter pane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Row {
     /// A number of the motion; or one of a machine, in SI units, which changes D, D2, D3 and r together.
     Number(Knob),

@@ -24,7 +24,7 @@ fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
         seen,
         [(Knob::D2, fitted), (Knob::D3, fitted), (Knob::R, fitted), (Knob::D, Framing::Scene)]
     );
-    assert_eq!(trial.session.plot_setup(1), trial.session.scene.plots.get(1).copied());
+    assert_eq!(trial.session.plot_setup(1), trial.session.scene.plots[1]);
     assert_eq!(trial.session.plots[1].window, scene.window);
 }
 
@@ -35,7 +35,7 @@ fn a_fitted_window_that_is_brought_back_is_not_that_of_the_scene() {
     let fitted = trial.session.plots[1].clone();
     trial.press("Zu");
     assert_eq!(trial.session.plots[1], fitted);
-    assert_eq!(trial.session.plot_setup(1).unwrap().window, Some(fitted.window));
+    assert_eq!(trial.session.plot_setup(1).window, Some(fitted.window));
 }
 
 #[test]
