@@ -15,7 +15,7 @@ use crate::proof::Proof;
 use crate::question::zones::CertainZones;
 use crate::question::{Fit, NoAnswer};
 use crate::scene::{Axes, Finding, Request, Topic};
-use crate::session::{AnswerState, Session, Uncertainty};
+use crate::session::{AnswerState, Session};
 
 /// Why a motion has no measured error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,28 +106,23 @@ impl Session {
     /// The question for the fit with the held numbers, if `drawn` with the distribution of the margin; `None`
     /// if nothing is held, and nothing unsure that a margin is drawn for.
     pub(crate) fn refit_request(&self, drawn: bool) -> Option<Request> {
-        let held =
-            Knob::PARAMETERS.map(|symbol| self.doubt.holds(symbol).then(|| self.value(symbol)));
-        let asks = held.iter().any(Option::is_some) || (drawn && !self.doubt.is_certain());
+        let doubt = self.doubt;
+        let held = Knob::PARAMETERS.map(|symbol| doubt.holds(symbol).then(|| self.value(symbol)));
+        let asks = held.iter().any(Option::is_some) || (drawn && !doubt.is_certain());
         let fit = self.fit_of_all().filter(|_| asks)?.clone();
-        let Uncertainty { half_widths, disturbance, .. } = self.doubt;
         let asked = fit.found().ok().filter(|_| drawn);
-        let drawn = asked.map(|found| found.disturbed(disturbance, half_widths));
+        let drawn = asked.map(|found| found.disturbed(doubt.disturbance, doubt.half_widths));
         Some(Request::Refit { fit, held, drawn })
     }
 
     /// Whether the record on show is being fitted.
     pub fn is_fitting(&self) -> bool {
-        let request = self.request(Topic::Fit, self.plot);
-        request.is_some_and(|request| self.is_open(&request))
+        self.request(Topic::Fit, self.plot).is_some_and(|request| self.is_open(&request))
     }
 
     /// The units of the machine or of the record on show.
     pub fn units(&self) -> Option<Units> {
-        match self.running() {
-            Some(running) => Some(running.reduced.units),
-            None => self.fitted()?.units(),
-        }
+        self.running().map(|it| it.reduced.units).or_else(|| self.fitted()?.units())
     }
 
     /// The state of the answer on this topic for the present problem, as a plot asks it.
@@ -148,8 +143,8 @@ impl Session {
 
     /// Whether there are answers on this topic for all problems that a plot shows.
     pub fn is_fresh(&self, topic: Topic, plot: usize) -> bool {
-        let mut asked = self.requests(topic, plot).into_iter();
-        asked.all(|(_, request)| self.answers.standing(&request).is_fresh())
+        let asked = self.requests(topic, plot);
+        asked.iter().all(|(_, request)| self.answers.standing(request).is_fresh())
     }
 
     /// Whether a question has neither an answer nor a failure.
@@ -172,21 +167,19 @@ impl Session {
 
     /// The error of the motion on show, and its reference, or why there is no error; `None` until both are computed.
     pub fn measured(&self) -> Option<Result<(Deviation, &Reference), NoErrorReason>> {
-        let stale = |topic| self.is_stale(topic, self.plot);
-        if !self.measures() || stale(Topic::Reference) {
-            return None;
-        }
-        let reference = self.answer(Topic::Reference, self.plot)?.try_as_reference_ref()?;
+        let asked = self.measures().then(|| self.standing(Topic::Reference, self.plot))?;
+        let reference = asked.fresh().answer()?.try_as_reference_ref()?;
         let Ok(reference) = reference else { return Some(Err(NoErrorReason::TighterGaveUp)) };
-        let motion = self.trajectory().filter(|_| !stale(Topic::Trajectory))?;
-        Some(match reference.compare(motion) {
-            Ok(deviation) => Ok((deviation, reference)),
-            Err(NoComparison::GaveUp(_)) => Err(NoErrorReason::GaveUp),
+        let motion = self.standing(Topic::Trajectory, self.plot).fresh().answer()?;
+        let motion = motion.try_as_trajectory_ref()?;
+        let compared = reference.compare(motion).map(|deviation| (deviation, &**reference));
+        Some(compared.map_err(|why| match why {
+            NoComparison::GaveUp(_) => NoErrorReason::GaveUp,
             // The rest is said of machines only, whose errors are not measured here.
-            Err(NoComparison::OtherFate | NoComparison::OtherTurns | NoComparison::NoTurns) => {
-                Err(NoErrorReason::OtherFate)
+            NoComparison::OtherFate | NoComparison::OtherTurns | NoComparison::NoTurns => {
+                NoErrorReason::OtherFate
             }
-        })
+        }))
     }
 
     /// The examined claims of the paper; empty until they are there.

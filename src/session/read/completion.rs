@@ -73,9 +73,7 @@ pub fn properties() -> impl Iterator<Item = (String, (Ordinate, Unit))> {
 pub fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
     let word = words.last().copied().unwrap_or_default();
     match word.split_once('=') {
-        Some(("method", _)) => {
-            methods(session, words).iter().map(|name| format!("method={name}")).collect()
-        }
+        Some(("method", _)) => METHODS.iter().map(|row| format!("method={}", row.name)).collect(),
         Some((name, "")) => {
             let row = rows(session).find(|row| row.name() == name);
             row.map(|row| format!("{name}={}", plain_value(session, row))).into_iter().collect()
@@ -101,10 +99,9 @@ pub fn window(session: &Session, _: &[&str]) -> Vec<String> {
 pub fn scan(session: &Session, words: &[&str]) -> Vec<String> {
     let knobs = session.scanned_groups().iter().flat_map(|group| group.knobs());
     let knobs = knobs.filter(|knob| session.has(Row::Number(*knob)));
-    let sweeps = knobs.map(|knob| format!("{knob}="));
     let moved = words.iter().any(|word| word.contains('='));
     let measures = MEASURES.iter().filter(|_| moved).map(|row| row.name.to_owned());
-    sweeps.chain(measures).collect()
+    knobs.map(|knob| format!("{knob}=")).chain(measures).collect()
 }
 
 /// Every name with which a line can begin, in the order of the tables.

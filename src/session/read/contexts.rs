@@ -68,26 +68,21 @@ impl Session {
 
     /// The question that must be answered before a command that is run by name, in the pane where it applies.
     fn awaited_by_command(&self, command: &Command) -> Option<Request> {
-        match place(self, command).ok()?.unwrap_or(self.focus) {
-            Pane::Plot(index) => self.awaited_by(command, index),
-            Pane::Parameters => self.awaited_by(command, self.plot),
-        }
+        let pane = place(self, command).ok()?.unwrap_or(self.focus);
+        self.awaited_by(command, if let Pane::Plot(index) = pane { index } else { self.plot })
     }
 
     fn awaited_by(&self, command: &Command, plot: usize) -> Option<Request> {
         // It must not matter whether a layer asks: the answer may have been computed before the layer was
         // switched off.
+        let is_open = |request: &Request| self.is_open(request);
         let open = |topic| {
-            let mut requests = self.requests(topic, plot).into_iter().map(|(_, request)| request);
-            requests.find(|request| self.is_open(request))
+            self.requests(topic, plot).into_iter().map(|(_, request)| request).find(is_open)
         };
         command.needs.split(' ').find_map(|need| match need {
-            "cycles-at-present" => {
-                self.request(Topic::Cycles, plot).filter(|request| self.is_open(request))
-            }
-            "motion-over-time" => {
-                let over_time = self.plots[plot].view == View::TimeSeries;
-                over_time.then(|| open(Topic::Trajectory)).flatten()
+            "cycles-at-present" => self.request(Topic::Cycles, plot).filter(is_open),
+            "motion-over-time" if self.plots[plot].view == View::TimeSeries => {
+                open(Topic::Trajectory)
             }
             "window" => windows::awaited(self, plot),
             // Of the point that is left, only answers that layers ask for are drawn.
@@ -98,7 +93,7 @@ impl Session {
             }
             "everything" => {
                 let mut wants = self.wants().into_iter();
-                wants.find(|request| !request.is_long() && self.is_open(request))
+                wants.find(|request| !request.is_long() && is_open(request))
             }
             topic => TOPICS.iter().find(|known| known.name() == topic).copied().and_then(open),
         })
@@ -111,11 +106,12 @@ pub fn forgets(message: &Msg) -> bool {
 }
 
 impl Session {
-    /// The contexts that hold at present, the most specific first: one of
-    /// the chains of [`CONTEXTS`](crate::session::state::keymap::CONTEXTS).
+    /// The contexts that hold at present, the most specific first: one of the chains of [`CONTEXTS`](crate::session::state::keymap::CONTEXTS).
     pub fn contexts(&self) -> &'static [Context] {
-        let pending = self.pending.map(PendingInput::context);
-        pending.map_or_else(|| self.contexts_at_rest(), |context| &context.spec().chain)
+        match self.pending {
+            Some(pending) => &pending.context().spec().chain,
+            None => self.contexts_at_rest(),
+        }
     }
 
     /// The contexts that hold when nothing is pending.
@@ -225,8 +221,7 @@ fn pane(session: &Session, context: Context) -> Option<Pane> {
         Context::Plots => Some(Pane::Plot(session.plot)),
         _ => {
             let view = context.view()?;
-            let shows = |index: &usize| session.plots[*index].view == view;
-            session.on_show().find(shows).map(Pane::Plot)
+            session.on_show().find(|index| session.plots[*index].view == view).map(Pane::Plot)
         }
     }
 }

@@ -113,8 +113,8 @@ impl Session {
         let border = self.cycles().map(|found| found.portrait.border);
         match condition {
             TextCondition::Here => {
-                let (own, scene) = (self.problem, self.scene.problem);
-                (own.parameters, own.initial) == (scene.parameters, scene.initial)
+                let numbers = |it: &Problem| (it.parameters, it.initial);
+                numbers(&self.problem) == numbers(&self.scene.problem)
                     && self.setting == Setup::of_scene(&self.scene).setting
             }
             TextCondition::Path => self.is_on_the_belt() == Some(true),
@@ -134,7 +134,7 @@ impl Session {
             TextCondition::Sticks => any(&Cycle::sticks),
             TextCondition::Compares(symbol, bounds) => bounds.contains(&self.value(symbol)),
             TextCondition::Shows(layer) => self.shows(layer),
-            TextCondition::Rests => matches!(self.fate(), Some(End::Rests)),
+            TextCondition::Rests => self.fate() == Some(End::Rests),
             TextCondition::Grows => {
                 matches!(self.fate(), Some(End::Grows | End::Onto { grows: true, .. }))
             }
@@ -171,8 +171,7 @@ impl Session {
     /// What becomes of the motion on show, if that is known of this one.
     fn told(&self) -> Option<(Fate, bool)> {
         let start = self.trajectory()?.problem.initial;
-        let known = self.answers.course.as_ref().filter(|known| known.start == start)?;
-        known.told
+        self.answers.course.as_ref().filter(|known| known.start == start)?.told
     }
 
     /// The fate of the motion that was computed last; `None` until its cycles are known, and for methods
@@ -182,8 +181,10 @@ impl Session {
         if !motion.problem.method.spec().events || self.contact().is_some() {
             return None;
         }
-        let found = self.cycles_beside(motion);
-        let end = found.map_or_else(|| linear(motion), |found| end(found, motion, self.told()));
+        let end = match self.cycles_beside(motion) {
+            Some(found) => end(found, motion, self.told()),
+            None => linear(motion),
+        };
         // A coarse step can end on the wrong side.
         end.filter(|end| match motion.outcome {
             Outcome::Captured { .. } => matches!(end, End::Rests | End::OnTheEdge { .. }),

@@ -48,10 +48,10 @@ impl Session {
             }
         }
         if self.layers.contains(&Layer::MotionWorks) {
-            for (place, found) in
-                self.motions().into_iter().filter(|(place, _)| !whole || *place == 0)
-            {
-                let Some(ledger) = &found.ledger else { continue };
+            for (place, found) in self.motions() {
+                let Some(ledger) = found.ledger.as_ref().filter(|_| !whole || place == 0) else {
+                    continue;
+                };
                 let head = self.head().filter(|_| place == 0 && !whole);
                 let until = head.and_then(|head| works_until(found, head.tau));
                 let owner = Owner::Motion(place, self.number(place));
@@ -64,10 +64,11 @@ impl Session {
     /// The start that a line of the ledger leads to: on its cycle, or that of its motion.
     pub fn start_of_line(&self, height: f64) -> Option<State> {
         let lines = self.ledger().into_iter().zip(0_u32..);
-        let above = lines.filter(|(_, index)| height <= -f64::from(*index));
-        let owner =
-            |(line, _)| if let LedgerLine::Title(owner) = line { Some(owner) } else { None };
-        match above.filter_map(owner).last()? {
+        let owners = lines.filter_map(|(line, index)| match line {
+            LedgerLine::Title(owner) if height <= -f64::from(index) => Some(owner),
+            _ => None,
+        });
+        match owners.last()? {
             Owner::Cycle(cycle) => Some(State { q: cycle.q_max, v: 0.0 }),
             Owner::Motion(place, _) => self.problems().get(place).map(|problem| problem.initial),
         }

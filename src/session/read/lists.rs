@@ -56,8 +56,8 @@ impl PaletteRow {
     /// All of its names.
     fn names(self) -> Vec<&'static str> {
         let [name, other, ..] = self.texts();
-        let own = [name, other].into_iter().filter(|name| !name.is_empty());
-        own.chain(SYNONYMS.get(name).into_iter().flatten().copied()).collect()
+        let synonyms = SYNONYMS.get(name).into_iter().flatten().copied();
+        [name, other].into_iter().filter(|name| !name.is_empty()).chain(synonyms).collect()
     }
 }
 
@@ -73,8 +73,7 @@ impl Session {
         let layers = LAYERS.iter().map(PaletteRow::Layer);
         let claims = claims().map(PaletteRow::Claim);
         let machines = machines().iter().map(PaletteRow::Machine);
-        let all = commands.chain(scenes).chain(views).chain(layers);
-        let all = all.chain(machines).chain(claims);
+        let all = commands.chain(scenes).chain(views).chain(layers).chain(machines).chain(claims);
         let searches = !list.search.trim().is_empty();
         self.matching(list, all, |row| row, |row| if searches { 0 } else { self.distance(row) })
     }
@@ -143,9 +142,9 @@ impl Session {
     /// The distance of a row's context from the pane in focus.
     fn distance(&self, row: PaletteRow) -> usize {
         let Some(place) = self.place_of(row) else { return usize::MAX };
-        let near = self.contexts_below().iter().position(|context| *context == place);
-        let far = || CONTEXTS.iter().position(|row| row.context == place).unwrap_or(0);
-        near.unwrap_or_else(|| self.contexts_below().len() + far())
+        let all = CONTEXTS.iter().map(|row| &row.context);
+        let mut nearest = self.contexts_below().iter().chain(all);
+        nearest.position(|context| *context == place).unwrap_or(usize::MAX)
     }
 
     /// The context in which keys run a row: that of the pane in focus if it has keys there.

@@ -48,10 +48,11 @@ impl Session {
     pub fn machine(&self) -> Option<Belt> {
         let running = self.running()?;
         let mut belt = running.machine.belt.clone();
-        if running.reduced.parameters == self.problem.parameters {
+        let parameters = running.reduced.parameters;
+        if parameters == self.problem.parameters {
             return Some(belt);
         }
-        let own = |symbol: Knob| running.reduced.parameters.value(symbol);
+        let own = |symbol: Knob| parameters.value(symbol);
         if own(Knob::D2) != self.value(Knob::D2) {
             return None;
         }
@@ -68,14 +69,13 @@ impl Session {
 
     /// What D, D3 and r that were changed by hand make of the dampers and the guide of the machine on show.
     pub(crate) fn changed_by_hand(&self) -> Vec<(Knob, f64)> {
-        let (Some(running), Some(now)) = (self.running(), self.machine()) else {
-            return Vec::new();
-        };
-        let values = ON_A_MACHINE.into_iter().filter_map(|(_, knob)| {
-            let value = knob.of_belt(&now)?;
+        let now = self.running().zip(self.machine());
+        let changed = |(_, knob): (Knob, Knob)| {
+            let (running, now) = now.as_ref()?;
+            let value = knob.of_belt(now)?;
             (knob.of_belt(&running.machine.belt) != Some(value)).then_some((knob, value))
-        });
-        values.collect()
+        };
+        ON_A_MACHINE.into_iter().filter_map(changed).collect()
     }
 
     /// Whether the whole model is drawn: the layer is on, and the model can answer for the machine of the
@@ -115,14 +115,13 @@ impl Session {
     /// The unit of r and w, in newtons. Fails with one line if there is no machine and no record with a known
     /// mass.
     pub(crate) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
-        let fitted = self.fitted().and_then(FitResult::units);
-        if let Some(units) = fitted {
-            let known = Some(units.force).filter(|force| force.is_finite());
-            return known.ok_or_else(|| {
-                "no mass is known: :fit FILE mass=2 kg, or stiffness=800 N/m".to_owned()
-            });
+        match self.fitted().and_then(FitResult::units) {
+            Some(units) if units.force.is_finite() => Ok(units.force),
+            Some(_) => {
+                Err("no mass is known: :fit FILE mass=2 kg, or stiffness=800 N/m".to_owned())
+            }
+            None => Ok(self.machine_of(setup)?.reduced.units.force),
         }
-        Ok(self.machine_of(setup)?.reduced.units.force)
     }
 
     /// The machine of the scene with the setting of `setup`. Fails with one line if the scene has no machine, or is
@@ -150,9 +149,9 @@ impl Session {
 
     fn rebuilt(&self, setup: &Setup, knob: Knob, value: f64) -> Result<Setup, String> {
         let from = self.machine_of(setup)?;
+        let mut setup = setup.clone();
         let own = || Setting::of_speed(from.machine.belt.belt_speed);
-        let setting = setup.setting.clone().unwrap_or_else(own);
-        let mut setup = Setup { setting: Some(setting.with(knob, value)), ..setup.clone() };
+        setup.setting = Some(setup.setting.unwrap_or_else(own).with(knob, value));
         let to = self.machine_of(&setup)?;
         let Setup { problem, others, doubt, .. } = &mut setup;
         for start in others {
@@ -176,8 +175,7 @@ impl Session {
 
     /// What moves by the model that is drawn, at these parameters, and the units of its numbers.
     pub(crate) fn source(&self, parameters: &Parameters) -> (Source, Units) {
-        let running = self.running().filter(|_| self.draws_whole());
-        match running.zip(self.machine()) {
+        match self.running().zip(self.machine()).filter(|_| self.draws_whole()) {
             Some((running, belt)) => (Source::from(&belt), running.reduced.units),
             None => (Body::Paper(*parameters).into(), Units::SI),
         }

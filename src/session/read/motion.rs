@@ -24,11 +24,14 @@ impl Session {
             return Some(State { q, v: 0.0 });
         }
         let samples = &found.samples;
-        let after = samples.partition_point(|sample| sample.tau < tau);
-        let beside = [after.checked_sub(1), Some(after)];
-        let candidates = beside.into_iter().flatten().filter_map(|index| samples.get(index));
+        let (before, after) = samples.split_at(samples.partition_point(|it| it.tau < tau));
         let distance = |sample: &&Sample| (sample.tau - tau).abs();
-        candidates.min_by(by_number(distance)).map(Sample::state)
+        before
+            .last()
+            .into_iter()
+            .chain(after.first())
+            .min_by(by_number(distance))
+            .map(Sample::state)
     }
 }
 
@@ -83,9 +86,8 @@ pub fn friction_force(motion: &Motion, end: f64) -> Vec<(f64, f64)> {
 impl Session {
     /// The present motion, followed by the others, the oldest first.
     pub fn problems(&self) -> Vec<Problem> {
-        let others = self.others.iter();
-        let others = others.map(|start| Problem { initial: *start, ..self.problem });
-        std::iter::once(self.problem).chain(others).collect()
+        let starts = std::iter::once(&self.problem.initial).chain(&self.others);
+        starts.map(|start| Problem { initial: *start, ..self.problem }).collect()
     }
 
     /// The number of the motion at this index of [`Session::problems`], counted from 1 in the order in which
@@ -100,13 +102,12 @@ impl Session {
 
     /// The computed motions, stale or not, each with its index.
     pub fn motions(&self) -> Vec<(usize, &Motion)> {
-        let asked = self.problems().into_iter().enumerate();
-        let found = asked.filter_map(|(place, problem)| {
+        let motion = |problem| {
             let request = self.request_for(Topic::Trajectory, self.plot, problem)?;
-            let answer = self.answers.standing(&request).answer()?;
-            Some((place, answer.try_as_trajectory_ref()?))
-        });
-        found.collect()
+            self.answers.standing(&request).answer()?.try_as_trajectory_ref()
+        };
+        let found = self.problems().into_iter().map(motion).enumerate();
+        found.filter_map(|(place, motion)| Some((place, motion?))).collect()
     }
 }
 
@@ -141,8 +142,7 @@ impl Session {
         if self.draws_whole() {
             return None;
         }
-        let sticking = self.running()?.reduced.sticking_velocity;
-        first_at(motion, sticking)
+        first_at(motion, self.running()?.reduced.sticking_velocity)
     }
 
     /// Dimensionless time per second at a pace.
@@ -160,11 +160,9 @@ impl Session {
             (Pace::Period(seconds), None) => format!("a period in {seconds} s"),
             (Pace::Period(seconds), Some(machine)) => {
                 let slower = machine.reduced.units.omega_0 * seconds / TAU;
-                if slower >= 1.0 {
-                    format!("{slower:.1} times slower than real time")
-                } else {
-                    format!("{:.1} times faster than real time", 1.0 / slower)
-                }
+                let (times, way) =
+                    if slower >= 1.0 { (slower, "slower") } else { (1.0 / slower, "faster") };
+                format!("{times:.1} times {way} than real time")
             }
             (Pace::Real, _) => "in real time".to_owned(),
         }

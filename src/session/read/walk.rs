@@ -74,10 +74,8 @@ impl BranchPath {
         let size =
             |stop: &BranchStop| stop.cycle.map(|cycle| ln(cycle.q_max.max(f64::MIN_POSITIVE)));
         let values = (one.value - other.value) / self.extent;
-        match (size(one), size(other)) {
-            (Some(a), Some(b)) => hypot(values, a - b),
-            _ => values.abs(),
-        }
+        let sizes = size(one).zip(size(other));
+        sizes.map_or(values.abs(), |(one, other)| hypot(values, one - other))
     }
 
     /// All stops with their positions.
@@ -89,8 +87,7 @@ impl BranchPath {
 
     /// The stop for which `measure` is smallest.
     pub fn nearest(&self, measure: impl Fn(&BranchStop) -> f64) -> Option<BranchStop> {
-        let stops = self.stops().map(|(_, stop)| *stop);
-        stops.min_by(by_number(measure))
+        self.pieces.iter().flatten().copied().min_by(by_number(measure))
     }
 
     /// The start of a walk at a value of the parameter: the stop beside it on the innermost cycle there, which

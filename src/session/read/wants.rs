@@ -48,18 +48,14 @@ impl Session {
     /// The questions without drafts. The one that a press waits for comes first, whether a layer asks it or
     /// not.
     pub fn asks(&self) -> Vec<Request> {
-        let needed: BTreeSet<(Topic, usize)> = self
-            .on_show()
-            .flat_map(|plot| self.needs(plot).into_iter().map(move |topic| (topic, plot)))
-            .collect();
+        let of_plot = |plot| self.needs(plot).into_iter().map(move |topic| (topic, plot));
+        let needed: BTreeSet<(Topic, usize)> = self.on_show().flat_map(of_plot).collect();
         let claims = matches!(self.overlay, Some(Overlay::List(ListKind::Paper, _)));
         let each = needed.iter().flat_map(|(topic, plot)| self.requests(*topic, *plot));
         let last = self.measures().then(|| self.request(Topic::Reference, self.plot)).flatten();
         let awaited = self.waiting.iter().map(|waiting| waiting.request.clone());
-        let all = awaited
-            .chain(self.refit_request(false))
-            .chain(claims.then_some(Request::Claims))
-            .chain(each.map(|each| each.1));
+        let claims = claims.then_some(Request::Claims);
+        let all = awaited.chain(self.refit_request(false)).chain(claims).chain(each.map(|it| it.1));
         let proof = || self.request(Topic::Proof, self.plot);
         let proof = needed.iter().any(|(topic, _)| *topic == Topic::Cycles).then(proof).flatten();
         // The distribution of the margin is drawn, and the second status line tells of it.
@@ -99,8 +95,8 @@ impl Session {
     pub fn needs(&self, plot: usize) -> BTreeSet<Topic> {
         let shown = |layer: &&Layer| self.shows_in(**layer, plot);
         let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
-        let mut needed: BTreeSet<Topic> = needed.collect();
-        needed.extend(self.tells_certain(plot).then_some(Topic::Zones));
+        let zones = self.tells_certain(plot).then_some(Topic::Zones);
+        let mut needed: BTreeSet<Topic> = needed.chain(zones).collect();
         // What becomes of a motion by the whole model is told by its cycles.
         let whole = needed.contains(&Topic::Trajectory) && self.draws_whole();
         needed.extend(whole.then_some(Topic::Cycles));
@@ -255,13 +251,13 @@ impl Session {
         let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
         let formulas = formulas.map(|it| row("formulas", format!("nothing for {}", names(&it))));
         let is_asked = |request: &Request| present.iter().any(|it| it.request == *request);
-        let topics =
-            |requests: Vec<Request>| requests.iter().map(Request::topic).collect::<Vec<_>>();
         let steps = self.rows().into_iter().map(|row| {
-            let stepped = self.stepped_once(row).requirements();
-            let requests = stepped.into_iter().map(|requirement| requirement.request);
-            let (reused, anew) = requests.partition(is_asked);
-            let text = consequence(&topics(reused), &topics(anew));
+            let (mut reused, mut anew) = (Vec::new(), Vec::new());
+            for Requirement { request, .. } in self.stepped_once(row).requirements() {
+                let topics = if is_asked(&request) { &mut reused } else { &mut anew };
+                topics.push(request.topic());
+            }
+            let text = consequence(&reused, &anew);
             CostRow { name: row.name_in(&self.problem), text, is_step: true }
         });
         let rows = asked.chain(formulas).chain(steps);
@@ -272,8 +268,7 @@ impl Session {
     pub fn requirements(&self) -> Vec<Requirement> {
         let mut found: Vec<Requirement> = Vec::new();
         for plot in self.on_show() {
-            let layers = self.layers.iter().filter(|layer| self.shows_in(**layer, plot));
-            for layer in layers {
+            for layer in self.layers.iter().filter(|layer| self.shows_in(**layer, plot)) {
                 let topic = layer.spec().needs;
                 let each = topic.map(|topic| self.requests(topic, plot)).unwrap_or_default();
                 for (_, request) in each {

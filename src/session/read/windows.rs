@@ -3,8 +3,8 @@
 use crate::accuracy::trade::TradePoint;
 use crate::closed_form::lyapunov;
 use crate::fit::{DropReason, RecordPoint, Signal};
-use crate::flow::{Motion, Outcome};
-use crate::model::{Knob, State, energy};
+use crate::flow::{Motion, Outcome, Problem};
+use crate::model::{Knob, Parameters, State, energy};
 use crate::numerics::{hypot, real, truncated};
 use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window, usual_values};
 use crate::session::state::setup::size;
@@ -75,9 +75,8 @@ pub(crate) fn awaited(session: &Session, plot: usize) -> Option<Request> {
 fn belt_diagram(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
     let points = session.machine_branch(plot)?.points.iter().filter(|it| x.contains(it.value));
-    let cycles = points.flat_map(|it| it.found.iter().flat_map(|found| &found.cycles));
-    let sizes = cycles.map(|cycle| cycle.q_max);
-    let y = Span::covering(sizes.chain([0.0]))?;
+    let cycles = points.flat_map(|it| &it.found).flat_map(|found| &found.cycles);
+    let y = Span::covering(cycles.map(|cycle| cycle.q_max).chain([0.0]))?;
     Some(Window { x, y: y.scaled(0.0, ROOM) })
 }
 
@@ -89,12 +88,10 @@ fn trade(session: &Session) -> Option<Window> {
 
 /// The motions, the cycles and the sticking sets.
 fn phase(session: &Session, plot: usize) -> Option<Window> {
-    let start = session.problem.initial;
     let at = |x, y| Point { x, y };
     let mut points = Vec::new();
-    for shown in session.shown(plot) {
-        let (start, r) = (shown.problem.initial, shown.problem.parameters.r);
-        points.extend([at(start.q, start.v), at(-r, 0.0), at(r, 0.0)]);
+    for Problem { initial, parameters, .. } in session.shown(plot).iter().map(|it| it.problem) {
+        points.extend([initial.into(), at(-parameters.r, 0.0), at(parameters.r, 0.0)]);
     }
     if session.shows_in(Layer::Cycles, plot) {
         let drawn = session.found(Topic::Cycles, plot, Finding::try_as_cycles_ref);
@@ -106,11 +103,11 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         for (_, found) in session.found(Topic::Trajectory, plot, Finding::try_as_trajectory_ref) {
             let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
             let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
-            let samples = samples.map(|sample| Point { x: sample.q, y: sample.v });
+            let samples = samples.map(|sample| at(sample.q, sample.v));
             if let Outcome::Escaped { .. } = found.outcome {
-                let extent = points.iter().map(|point| hypot(point.x, point.y)).fold(0.0, f64::max);
-                let near = |point: &Point| hypot(point.x, point.y) <= ESCAPE * extent;
-                points.extend(samples.filter(near));
+                let far = |point: &Point| hypot(point.x, point.y);
+                let extent = points.iter().map(far).fold(0.0, f64::max);
+                points.extend(samples.filter(|point| far(point) <= ESCAPE * extent));
             } else {
                 points.extend(samples);
             }
@@ -120,7 +117,7 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         let fastest = points.iter().map(|point| point.y.abs()).fold(0.0, f64::max);
         let belt = running.reduced.sticking_velocity;
         if belt <= BELT * fastest {
-            points.push(Point { x: start.q, y: belt });
+            points.push(at(session.problem.initial.q, belt));
         }
     }
     let Window { x, mut y } = Window::around(&points, ROOM)?;
@@ -133,9 +130,9 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
 
 /// The positions of the mass.
 fn belt(session: &Session) -> Option<Window> {
-    let samples = session.trajectory()?.samples.iter();
     let last = session.last_moment();
-    let places = samples.take_while(|sample| sample.tau <= last).map(|sample| sample.q);
+    let samples = session.trajectory()?.samples.iter().take_while(|sample| sample.tau <= last);
+    let places = samples.map(|sample| sample.q);
     let x = Span::covering(places.chain([session.problem.initial.q, 0.0]))?;
     Some(Window { x: x.scaled(x.center(), 1.5 * ROOM), y: View::Belt.spec().window.y })
 }
@@ -143,22 +140,21 @@ fn belt(session: &Session) -> Option<Window> {
 /// The same values of the parameter, and the heights of the branch there.
 fn diagram(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
-    let (found, ordinate) = (session.branches(plot), session.plots[plot].axes.ordinate);
-    let each = found.iter().map(|(variant, branch)| (session.height(plot, *variant), branch));
-    let mut heights: Vec<f64> = Vec::new();
-    let mut special: Vec<f64> = Vec::new();
-    for (height, branch) in each {
+    let (mut heights, mut special) = (Vec::new(), Vec::new());
+    for (variant, branch) in session.branches(plot) {
+        let height = session.height(plot, variant);
         let points = branch.pieces.iter().flatten().filter(|point| x.contains(point.value));
         heights.extend(points.map(|point| height.of(point.value, &point.cycle)));
         let points = branch.special.iter().filter(|point| x.contains(point.value));
         special.extend(points.filter_map(|at| Some(height.of(at.value, &at.cycle?))));
     }
-    heights.retain(|height| height.is_finite());
+    heights.retain(|height: &f64| height.is_finite());
     heights.sort_by(f64::total_cmp);
-    let zero = ordinate.spec().from_zero.then_some(0.0);
-    let ends = [1.0 - QUANTILE, QUANTILE].map(|part| quantile(&heights, part));
-    let fitting = special.into_iter().chain(zero).chain(ends.into_iter().flatten());
-    let span = Span::covering(fitting)?;
+    // The value that this fraction of the heights does not exceed.
+    let quantile = |part| heights.get(truncated(real(heights.len()) * part)).copied();
+    let zero = session.plots[plot].axes.ordinate.spec().from_zero.then_some(0.0);
+    let ends = [1.0 - QUANTILE, QUANTILE].into_iter().filter_map(quantile);
+    let span = Span::covering(special.into_iter().chain(zero).chain(ends))?;
     // A window with an end at zero gets room only at the other end.
     let about = if span.contains(0.0) && zero.is_some() { 0.0 } else { span.center() };
     Some(Window { x, y: span.scaled(about, ROOM) })
@@ -167,18 +163,18 @@ fn diagram(session: &Session, plot: usize) -> Option<Window> {
 /// The time until the motion ends or comes to rest, and the values of the layers until then.
 fn time_series(session: &Session, plot: usize) -> Option<Window> {
     session.trajectory()?;
-    let r = session.problem.parameters.r;
+    let Problem { parameters: Parameters { r, .. }, initial, .. } = session.problem;
     let mut values = vec![0.0];
     let shown = |layer| session.shows_in(layer, plot);
-    for sample in session.motions().into_iter().flat_map(|(_, motion)| &motion.samples) {
+    let motions = session.motions();
+    for sample in motions.iter().flat_map(|(_, motion)| &motion.samples) {
         values.extend(shown(Layer::Position).then_some(sample.q));
         values.extend(shown(Layer::Velocity).then_some(sample.v));
         values.extend(shown(Layer::Energy).then(|| energy(sample.state())));
     }
-    let motions = session.motions();
     if motions.iter().any(|(_, motion)| matches!(motion.outcome, Outcome::Escaped { .. })) {
         // Where values diverge, only their beginning is shown.
-        let extent = ESCAPE * hypot(session.problem.initial.q, session.problem.initial.v).max(r);
+        let extent = ESCAPE * hypot(initial.q, initial.v).max(r);
         values.retain(|value| value.abs() <= extent);
     }
     if shown(Layer::Friction) {
@@ -225,11 +221,11 @@ fn return_map(session: &Session) -> Option<Window> {
 
 /// Velocities around the Lyapunov circle and the start, and the rate of the energy there.
 fn energy_rate(session: &Session) -> Option<Window> {
-    let parameters = session.problem.parameters;
+    let Problem { parameters, initial, .. } = session.problem;
     let radius = lyapunov::radius(&parameters).unwrap_or(0.0);
-    let fastest = radius.max(session.problem.initial.v.abs()).max(parameters.r);
-    let fastest = if fastest > 0.0 { fastest } else { 1.0 };
-    let x = Span::new(-FASTER * fastest, FASTER * fastest).ok()?;
+    let fastest = radius.max(initial.v.abs()).max(parameters.r);
+    let far = FASTER * if fastest > 0.0 { fastest } else { 1.0 };
+    let x = Span::new(-far, far).ok()?;
     let rate = |v: f64| lyapunov::energy_rate(&parameters, State { q: 0.0, v });
     let parts = (0..=RATES).map(|part| rate(x.at(f64::from(part) / f64::from(RATES))));
     let y = Span::covering(parts.chain([0.0]))?;
@@ -263,9 +259,4 @@ impl Session {
         };
         Span::covering(ends).and_then(|span| span.allowed(knob)).unwrap_or(usual)
     }
-}
-
-/// The value that this fraction of the sorted values does not exceed.
-fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
-    sorted.get(truncated(real(sorted.len()) * part)).copied()
 }

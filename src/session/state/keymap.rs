@@ -152,18 +152,18 @@ impl Keymap {
         key: Key,
     ) -> Result<(), String> {
         let chains = CONTEXTS.iter().map(|row| &row.chain);
-        let together = chains.filter(|chain| chain.contains(&context));
-        let contexts: BTreeSet<Context> = together.flatten().copied().collect();
-        if key.typed().is_some() && contexts.iter().any(|context| context.takes_text()) {
+        let together = chains.filter(|chain| chain.contains(&context)).flatten().copied();
+        let together: BTreeSet<Context> = together.collect();
+        if key.typed().is_some() && together.iter().any(|at| at.takes_text()) {
             return Err(format!(
                 "{key} types a character here; use a key that types none, as <f6>"
             ));
         }
-        let taken = contexts.iter().find_map(|at| Some((*at, self.bound(*at, key)?)));
-        if let Some((context, bound)) = taken.filter(|(_, bound)| *bound != command) {
-            let (bound, context) = (bound.name, context.spec().name);
+        let taken = together.into_iter().find_map(|at| Some((at, self.bound(at, key)?)));
+        if let Some((at, bound)) = taken.filter(|(_, bound)| *bound != command) {
+            let (bound, at) = (bound.name, at.spec().name);
             return Err(format!(
-                "{key} already means {bound}; give that other keys in [keys.{context}] first"
+                "{key} already means {bound}; give that other keys in [keys.{at}] first"
             ));
         }
         if self.bound(context, key).is_none() {
@@ -190,8 +190,8 @@ impl Keymap {
 
     /// The first key of the command with this name, for texts that say what to press.
     pub fn key_of(&self, name: &str) -> Option<Key> {
-        let (_, keys) = self.places(self.named(name)?).into_iter().next()?;
-        keys.first().copied()
+        let command = self.named(name)?;
+        command.contexts().find_map(|context| self.keys_in(context, command).next())
     }
 
     /// A sentence in which each `{command}` is replaced by the first key of that command, as `write` names it.
@@ -202,11 +202,8 @@ impl Keymap {
             rest.split_once('{').and_then(|(before, rest)| Some((before, rest.split_once('}')?)))
         {
             filled += before;
-            match self.key_of(name) {
-                Some(key) => filled += &write(key),
-                // A command without a key is found in the palette by its name.
-                None => filled += name,
-            }
+            // A command without a key is found in the palette by its name.
+            filled += &self.key_of(name).map_or_else(|| name.to_owned(), &write);
             rest = after;
         }
         filled + rest
@@ -272,9 +269,11 @@ pub static CONTEXTS: LazyLock<Vec<ContextSpec>> = LazyLock::new(|| {
     let lines = include_str!("../../../assets/contexts.txt").lines();
     let mut all: Vec<ContextSpec> = lines.filter_map(cells).filter_map(described).collect();
     let of_view = |row: &ViewSpec| {
-        // A scan has a cursor and keys of its own.
-        let alone = row.view == View::Scan;
-        let others = if alone { "everywhere always" } else { "plots everywhere always" };
+        let others = match row.view {
+            // A scan has a cursor and keys of its own.
+            View::Scan => "everywhere always",
+            _ => "plots everywhere always",
+        };
         described([row.name, row.heading, others])
     };
     all.splice(1..1, VIEWS.iter().filter_map(of_view));
@@ -309,8 +308,8 @@ impl Context {
 
     /// Whether this context holds only while something is open or awaited.
     pub fn is_overlay(self) -> bool {
-        let of_panes = matches!(self, Context::Parameters | Context::View(_) | Context::Walk);
-        !(of_panes || matches!(self, Context::Plots | Context::Everywhere | Context::Always))
+        use Context::{Always, Everywhere, Parameters, Plots, View, Walk};
+        !matches!(self, Parameters | View(_) | Walk | Plots | Everywhere | Always)
     }
 
     /// The view that must have the focus for this context to hold; `None` if it depends on no view.

@@ -121,7 +121,8 @@ impl List {
 impl Prompt {
     /// A line with this text and the caret at its end.
     pub fn new(text: impl Into<String>) -> Self {
-        Prompt { input: Input::new(text), ..Prompt::default() }
+        let input = Input { before: text.into(), after: String::new() };
+        Prompt { input, ..Prompt::default() }
     }
 
     /// The same for the value of a row.
@@ -138,11 +139,6 @@ pub struct Input {
 }
 
 impl Input {
-    /// A line with this text and the caret at its end.
-    pub fn new(text: impl Into<String>) -> Self {
-        Input { before: text.into(), after: String::new() }
-    }
-
     /// The text typed so far.
     pub fn text(&self) -> String {
         format!("{}{}", self.before, self.after)
@@ -163,8 +159,8 @@ impl Input {
     pub fn move_caret(&mut self, by: isize) {
         let caret = self.before.chars().count().saturating_add_signed(by);
         let text = self.text();
-        (self.before, self.after) =
-            (text.chars().take(caret).collect(), text.chars().skip(caret).collect());
+        self.before = text.chars().take(caret).collect();
+        self.after = text.chars().skip(caret).collect();
     }
 }
 
@@ -181,7 +177,7 @@ mod tests {
             ("é", 0, ""),
             ("", 0, ""),
         ] {
-            let mut input = Input::new(text);
+            let mut input = Prompt::new(text).input;
             input.move_caret(-left);
             let after = input.after.clone();
             input.delete_word();

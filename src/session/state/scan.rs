@@ -79,26 +79,23 @@ impl ScanOnShow {
     /// The height of a point: its value as a number; a word becomes its index in [`WORDS`].
     pub fn height(&self, index: usize) -> Option<f64> {
         match self.value(index)? {
-            Value::Word(word) => {
-                let place = WORDS.iter().position(|known| *known == word)?;
-                u32::try_from(place).ok().map(f64::from)
-            }
+            Value::Word(word) => WORDS.iter().position(|known| *known == word).map(real),
             value => value.number(),
         }
     }
 
     pub fn plots_words(&self) -> bool {
-        let mut values = (0..self.rows.len()).filter_map(|index| self.value(index));
-        values.any(|value| matches!(value, Value::Word(_)))
+        (0..self.rows.len()).any(|index| matches!(self.value(index), Some(Value::Word(_))))
+    }
+
+    fn heights(&self) -> impl Iterator<Item = f64> {
+        (0..self.rows.len()).filter_map(|index| self.height(index))
     }
 
     /// The smallest and the largest value that is plotted.
     pub fn range(&self) -> Option<(f64, f64)> {
-        let heights = (0..self.rows.len()).filter_map(|index| self.height(index));
-        heights.fold(None, |range: Option<(f64, f64)>, height| {
-            let (low, high) = range.unwrap_or((height, height));
-            Some((low.min(height), high.max(height)))
-        })
+        let ends = self.heights().map(|height| (height, height));
+        ends.reduce(|(low, high), (height, _)| (low.min(height), high.max(height)))
     }
 
     /// Coordinate of a value of a sweep on its axis, which is logarithmic if the sweep is.
@@ -115,29 +112,27 @@ impl ScanOnShow {
         /// Factor on the height of a curve, for a margin above and below.
         const ROOM: f64 = 1.1;
         let usual = View::Scan.spec().window;
-        let [across, rest @ ..] = self.scan.over() else { return usual };
+        let over = self.scan.over();
         let along = |sweep: &Sweep, room: f64| {
-            let ends = [0, sweep.count - 1].map(|index| Self::coordinate(sweep, index));
-            let span = Span::covering(ends);
-            let wider = 1.0 + room / real(sweep.count - 1);
-            span.map(|span| span.scaled(span.center(), wider))
+            let last = sweep.count - 1;
+            let span = Span::covering([0, last].map(|index| Self::coordinate(sweep, index)));
+            span.map(|span| span.scaled(span.center(), 1.0 + room / real(last)))
         };
-        if let [upward, ..] = rest {
-            let spans = along(across, 1.0).zip(along(upward, 1.0));
+        if self.is_grid() {
+            let spans = along(&over[0], 1.0).zip(along(&over[1], 1.0));
             return spans.map_or(usual, |(x, y)| Window { x, y });
         }
-        let heights = self.range().and_then(|(low, high)| Span::covering([low, high]));
-        let y = heights.map_or(usual.y, |span| span.scaled(span.center(), ROOM));
-        along(across, 0.0).map_or(usual, |x| Window { x, y })
+        let y = Span::covering(self.heights()).map(|span| span.scaled(span.center(), ROOM));
+        let y = y.unwrap_or(usual.y);
+        along(&over[0], 0.0).map_or(usual, |x| Window { x, y })
     }
 
     /// The position of a point in the plot; `None` where the height of its curve is not known.
     pub fn place(&self, index: usize) -> Option<Point> {
         let over = self.scan.over();
         let place = self.scan.place(index);
-        let coordinate =
-            |which: usize| Some(Self::coordinate(over.get(which)?, *place.get(which)?));
-        let y = if self.is_grid() { coordinate(1)? } else { self.height(index)? };
-        Some(Point { x: coordinate(0)?, y })
+        let coordinate = |which: usize| Self::coordinate(&over[which], place[which]);
+        let y = if self.is_grid() { coordinate(1) } else { self.height(index)? };
+        Some(Point { x: coordinate(0), y })
     }
 }

@@ -208,9 +208,8 @@ impl Session {
 
     /// Whether there is such a number: one of a machine or its friction law is that of the scene's machine.
     pub fn has(&self, row: Row) -> bool {
-        let belt = self.scene.machine.as_ref().map(|scaled| &scaled.machine.belt);
-        let of_belt = |knob: Knob| belt.is_some_and(|belt| knob.of_belt(belt).is_some());
-        row.stepped().filter(|knob| knob.is_of_machine()).is_none_or(of_belt)
+        let of_belt = |knob: Knob| knob.of_belt(&self.scene.machine.as_ref()?.machine.belt);
+        row.stepped().is_none_or(|knob| !knob.is_of_machine() || of_belt(knob).is_some())
     }
 
     /// The rows of the parameter pane: those that the scene declares and those that are not zero, and of a machine those
@@ -218,17 +217,14 @@ impl Session {
     pub fn rows(&self) -> Vec<Row> {
         let stands = |&row: &Row| match row {
             row if !self.has(row) => false,
-            Row::Number(_) if self.unfolded => true,
+            _ if self.unfolded => true,
             Row::Method | Row::Tolerance | Row::Number(Knob::Until) => {
-                let opened = &self.scene.problem;
                 let asked = |it: &Problem| (it.until, it.method, it.setting());
-                let as_opened = asked(&self.problem) == asked(opened);
-                let in_use = self.selected == row || !as_opened;
-                self.unfolded || self.scene.machine.is_none() || in_use
+                let as_opened = asked(&self.problem) == asked(&self.scene.problem);
+                self.scene.machine.is_none() || self.selected == row || !as_opened
             }
             Row::Number(knob) if row.is_of_machine() => {
-                let is_set = self.setting.as_ref().is_some_and(|it| it.get(knob).is_some());
-                is_set
+                self.setting.as_ref().is_some_and(|it| it.get(knob).is_some())
                     || self.scene.machine.as_ref().is_some_and(|it| is_told(&it.machine.belt, knob))
             }
             Row::Number(Knob::Disturbance) => {
@@ -408,7 +404,7 @@ impl Plot {
             axes: plot_setup.axes,
             family: plot_setup.family,
             window: plot_setup.opening(),
-            framing: if plot_setup.window.is_some() { Framing::Scene } else { Framing::Fitting },
+            framing: plot_setup.window.map_or(Framing::Fitting, |_| Framing::Scene),
             cursor: None,
         }
     }
