@@ -250,13 +250,6 @@ pub struct PlotSetup {
     pub family: Option<usize>,
 }
 
-impl From<View> for PlotSetup {
-    /// A view with its usual axes, in a fitted window.
-    fn from(view: View) -> Self {
-        PlotSetup::fitting(view, Axes::default())
-    }
-}
-
 impl PlotSetup {
     /// A view with these axes, in a fitted window. A machine's diagram is over the speed of its belt: the range of its
     /// other numbers depends on the machine.
@@ -271,8 +264,7 @@ impl PlotSetup {
         self.window.unwrap_or(match self.view {
             View::Diagram => Window { x: usual_values(self.axes.abscissa), ..usual },
             View::Regimes => {
-                let Axes { abscissa, against, .. } = self.axes;
-                Window { x: usual_values(abscissa), y: usual_values(against) }
+                Window { x: usual_values(self.axes.abscissa), y: usual_values(self.axes.against) }
             }
             _ => usual,
         })

@@ -61,12 +61,12 @@ pub fn said(text: &str, holds: impl Fn(TextCondition) -> bool) -> String {
             rest = after;
             continue;
         };
+        rest = after;
         if conditions.into_iter().all(&holds) {
             out.push_str(said);
-            rest = after;
-        } else {
+        } else if out.ends_with(' ') || out.is_empty() {
             // Also removes one of the two blanks around the part.
-            rest = if out.ends_with(' ') || out.is_empty() { after.trim_start() } else { after };
+            rest = after.trim_start();
         }
     }
     out.push_str(rest);

@@ -199,7 +199,11 @@ fn command(line: &'static str) -> Option<Command> {
     let run = action(words.next()?)?;
     let mut by = [0; 2];
     for (by, word) in by.iter_mut().zip(words) {
-        *by = steps(word)?;
+        *by = match word {
+            "first" => i32::MIN,
+            "last" => i32::MAX,
+            number => number.parse().ok()?,
+        };
     }
     let hint = if hint == "-" { "" } else { hint };
     let needs = does.get(1).unwrap_or(&"");
@@ -208,15 +212,6 @@ fn command(line: &'static str) -> Option<Command> {
         None => (name, keys(places), ""),
     };
     Some(Command { name, keys, hint, doc, arguments, run, by, needs })
-}
-
-/// How many steps a command moves something, as the file says it.
-fn steps(word: &str) -> Option<i32> {
-    match word {
-        "first" => Some(i32::MIN),
-        "last" => Some(i32::MAX),
-        number => number.parse().ok(),
-    }
 }
 
 /// Contexts by their names, each followed by the keys there.

@@ -88,9 +88,10 @@ fn unknown<'a>(
     what: &str,
     names: impl Iterator<Item = &'a str>,
 ) -> Complaint {
-    let nearest = most_similar(given.get_ref(), names);
+    let name = given.get_ref();
+    let nearest = most_similar(name, names);
     let nearest = nearest.map_or(String::new(), |name| format!("; did you mean {name}?"));
-    Complaint { at: given.span(), message: format!("no {what} {:?}{nearest}", given.get_ref()) }
+    Complaint { at: given.span(), message: format!("no {what} {name:?}{nearest}") }
 }
 
 /// The default keys, changed as the file says. All replaced keys are removed before new ones are added, so that
@@ -100,13 +101,13 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
     let mut given: Vec<Given> = Vec::new();
     let former = |context: &Spanned<String>| FORMER_CONTEXTS.contains(&context.get_ref().as_str());
     for (context, commands) in read.iter().filter(|(context, _)| !former(context)) {
-        let names = || CONTEXTS.iter().map(|row| row.name);
+        let names = CONTEXTS.iter().map(|row| row.name);
         let known = Context::named(context.get_ref());
-        let known = known.ok_or_else(|| unknown(context, "context", names()))?;
+        let known = known.ok_or_else(|| unknown(context, "context", names))?;
         for (name, keys) in commands {
-            let names = || keymap.commands().map(|row| row.name);
+            let names = keymap.commands().map(|row| row.name);
             let found = keymap.named(full_name(name.get_ref()));
-            let found = found.ok_or_else(|| unknown(name, "command", names()))?;
+            let found = found.ok_or_else(|| unknown(name, "command", names))?;
             if !found.contexts().any(|context| context == known) {
                 let places = joined(found.contexts().map(|context| context.spec().name), ", ");
                 let message = format!("{} applies in {places}", found.name);

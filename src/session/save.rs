@@ -126,17 +126,18 @@ fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<
 /// one line that says what is wrong; the session is then unchanged.
 pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let mut file = read(text)?;
+    let SavedSession { focus, plot, harmonics, .. } = file;
     let count = file.plots.len();
-    if file.focus > count {
-        return Err(format!("focus = {}, but there are {count} plots", file.focus));
+    if focus > count {
+        return Err(format!("focus = {focus}, but there are {count} plots"));
     }
-    if !(1..=count).contains(&file.plot) {
-        return Err(format!("plot = {}, but there are {count}", file.plot));
+    if !(1..=count).contains(&plot) {
+        return Err(format!("plot = {plot}, but there are {count}"));
     }
     let selected = Row::all().find(|row| row.name() == file.selected);
     let selected = selected.ok_or_else(|| format!("no row {:?} to select", file.selected))?;
-    if !(1..=MOST_HARMONICS).contains(&file.harmonics) {
-        return Err(format!("harmonics = {}, not 1 to {MOST_HARMONICS}", file.harmonics));
+    if !(1..=MOST_HARMONICS).contains(&harmonics) {
+        return Err(format!("harmonics = {harmonics}, not 1 to {MOST_HARMONICS}"));
     }
     let mark = |problem, others, setting, doubt| {
         let setup = Setup { problem, others, setting, doubt };
@@ -145,9 +146,9 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     };
     let mut marks = Bookmarks::default();
     for (name, problem) in file.marks {
-        let beside = file.beside.get(&name).cloned().unwrap_or_default();
-        let doubt = file.doubts.get(&name).copied().unwrap_or_default();
-        let bookmark = mark(problem, beside, file.belts.get(&name).cloned(), doubt)?;
+        let beside = file.beside.remove(&name).unwrap_or_default();
+        let doubt = file.doubts.remove(&name).unwrap_or_default();
+        let bookmark = mark(problem, beside, file.belts.remove(&name), doubt)?;
         marks.places.insert(name, bookmark);
     }
     if let Some(left) = file.left {
@@ -158,11 +159,11 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
 
     let mut opened = Session::new(Arc::clone(&file.present.scene), session.size);
     restore(&mut opened, file.present, file.plots);
-    opened.plot = file.plot - 1;
-    focus_on(&mut opened, Pane::numbered(file.focus));
+    opened.plot = plot - 1;
+    focus_on(&mut opened, Pane::numbered(focus));
     (opened.selected, opened.marks) = (selected, marks);
     (opened.enlarged, opened.unfolded) = (file.enlarged, file.unfolded);
-    (opened.harmonics, opened.kicks) = (file.harmonics, file.kicks);
+    (opened.harmonics, opened.kicks) = (harmonics, file.kicks);
     opened.lines = file.lines;
     opened.history = History { past: file.past, future: file.future };
     opened.answers = std::mem::take(&mut session.answers);
@@ -179,14 +180,13 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
 pub fn summary(text: &str) -> Result<String, String> {
     let file = read(text)?;
     let Snapshot { scene, setup, .. } = file.present;
-    let changed = difference(&Setup::of_scene(&scene), &setup);
     let marks = match file.marks.len() {
         0 => String::new(),
         count => format!(", {}", counted(count, "mark")),
     };
     let changes = counted(file.past.len(), "change");
-    let with = if changed.is_empty() { changed } else { format!(" {changed}") };
-    Ok(format!("{}{with} ({changes}{marks})", scene.name))
+    let changed = format!("{} {}", scene.name, difference(&Setup::of_scene(&scene), &setup));
+    Ok(format!("{} ({changes}{marks})", changed.trim_end()))
 }
 
 /// Reads the file, if its format is known; its marks are examined where they are used. Fails with one line that says
@@ -216,8 +216,7 @@ fn read(text: &str) -> Result<SavedSession, String> {
 impl Session {
     /// Whether the user made something whose loss would matter: a change, a mark.
     pub fn is_worth_keeping(&self) -> bool {
-        let (past, future) = self.history.depth();
-        past + future > 0
+        self.history.depth() != (0, 0)
             || !self.marks.places.is_empty()
             || matches!(self.overlay, Some(Overlay::Prompt(Prompt { row: Some(_), .. })))
     }
@@ -229,10 +228,9 @@ const CARRIED: &str = "start.toml";
 /// The steps that lead to this session, which must have nothing open. Fails with one line if the session cannot
 /// be saved; no such session is known.
 pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
-    let mut steps: Vec<Instruction> = display_lines(session.display);
+    let mut steps = display_lines(session.display);
     let saved = text(session)?;
-    let new = Session::new(session.scene.clone(), session.size);
-    let is_new = text(&new)? == saved;
+    let is_new = text(&Session::new(session.scene.clone(), session.size))? == saved;
     if let Some((lines, names)) = scene(&session.scene).filter(|_| is_new) {
         steps.extend(lines);
         steps.push(Instruction::Give(Msg::Start(names)));

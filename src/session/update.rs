@@ -69,7 +69,7 @@ fn take_in(session: &mut Session, message: Msg) {
         Msg::Resize { width, height } => session.size = Size { width, height },
         Msg::Answered(reply) => take(session, *reply),
         Msg::Run(line) => {
-            session.price = Price { key: Some(ENTER), recomputed: Vec::new() };
+            session.price = Price { key: Some(ENTER), ..Price::default() };
             (session.overlay, session.pending, session.notice) = (None, None, None);
             session.attempt(|session| run_line(session, &line));
         }
@@ -85,9 +85,7 @@ fn take_in(session: &mut Session, message: Msg) {
         Msg::Read { path, purpose, result } => {
             session.attempt(|session| files::read(session, &path, purpose, result));
         }
-        Msg::Written(notice) => {
-            (session.writing, session.notice) = (None, Some(notice));
-        }
+        Msg::Written(notice) => (session.writing, session.notice) = (None, Some(notice)),
         Msg::Told(notice) => session.notice = Some(notice),
         Msg::Elapsed { seconds } => session.elapse(seconds),
     }
@@ -127,9 +125,7 @@ fn paste(session: &mut Session, text: &str) {
             .refuse("the pasted text names no key such as <right>: it is not a keystroke file");
     }
     match parse(text) {
-        Ok(script) if script.keys() > 0 => {
-            session.overlay = Some(Overlay::Offer(script));
-        }
+        Ok(script) if script.keys() > 0 => session.overlay = Some(Overlay::Offer(script)),
         Ok(_) => session.inform("the pasted text presses no key"),
         Err(error) => session.refuse(format!("the pasted text is not a keystroke file: {error}")),
     }
@@ -139,10 +135,8 @@ fn paste(session: &mut Session, text: &str) {
 fn take(session: &mut Session, reply: Reply) {
     let name = reply.request.topic().name();
     let failure = reply.result.as_ref().err().cloned();
-    let asked = session.take(reply);
-    if let Some(failure) = failure.filter(|_| asked)
-        && failure != NoAnswer::Reason(Reason::Interrupted)
-    {
+    let failure = failure.filter(|why| *why != NoAnswer::Reason(Reason::Interrupted));
+    if let (true, Some(failure)) = (session.take(reply), failure) {
         let again = session.with_keys("{retry} tries again");
         session.refuse(format!("{name}: {failure}; {again}"));
     }
@@ -170,7 +164,7 @@ fn released(session: &mut Session) -> Option<Msg> {
 fn press(session: &mut Session, key: Key) {
     session.notice = None;
     session.measuring = false;
-    session.price = Price { key: Some(key), recomputed: Vec::new() };
+    session.price = Price { key: Some(key), ..Price::default() };
     match session.pending {
         Some(pending) => resolve(session, pending, key),
         None => act(session, key),

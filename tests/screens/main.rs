@@ -16,7 +16,7 @@ use hopfscope::portrait::Return;
 use hopfscope::question::NoAnswer;
 use hopfscope::question::zones::Extent;
 use hopfscope::scene::{
-    Finding, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window, find, library,
+    Axes, Finding, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window, find, library,
 };
 use hopfscope::session::settings::{Colors, Glyphs, Theme, choices};
 use hopfscope::session::{BranchStop, Msg, Notice, PointerTarget, Session, Size, settings, update};
@@ -81,7 +81,7 @@ fn approved() -> Scene {
         ..Problem::default()
     };
     let span = |from, to| Span::new(from, to).unwrap();
-    let plot_setup = |view, window| PlotSetup { window: Some(window), ..PlotSetup::from(view) };
+    let plot_setup = |view, window| PlotSetup { window: Some(window), ..PlotSetup::fitting(view, Axes::default()) };
     Scene {
         name: "approved".into(),
         title: "A scene with a fold".into(),

@@ -118,9 +118,9 @@ impl ScaledMachine {
     /// The terms of the model that the machine needs: D and r always, D2 and D3 where they are not zero.
     pub fn terms(&self) -> BTreeSet<Knob> {
         let parameters = &self.reduced.parameters;
-        let has = |symbol: &Knob| parameters.value(*symbol) != 0.0;
-        let varied = [Knob::D2, Knob::D3].into_iter().filter(has);
-        [Knob::D, Knob::R].into_iter().chain(varied).collect()
+        let needs =
+            |symbol: &Knob| matches!(symbol, Knob::D | Knob::R) || parameters.value(*symbol) != 0.0;
+        Knob::PARAMETERS.into_iter().filter(needs).collect()
     }
 
     /// The start of the machine's motion, in the units at this speed.
@@ -152,8 +152,7 @@ impl ScaledMachine {
     ///
     /// `None` for D2, which no single part of the machine determines.
     pub fn meaning(&self, symbol: Knob, value: f64) -> Option<(Knob, f64)> {
-        let ReducedBelt { mu, .. } = &self.reduced;
-        let force = self.machine.belt.normal_force;
+        let (mu, force) = (&self.reduced.mu, self.machine.belt.normal_force);
         let total = value * self.scale(symbol);
         Some(match symbol {
             Knob::D => (Knob::Damping, rest_of(total, force * mu.first)),
@@ -211,14 +210,11 @@ enum SavedSetting {
 
 impl From<Setting> for SavedSetting {
     fn from(setting: Setting) -> Self {
-        let numbers = setting.0;
-        match numbers.get(&Knob::BeltSpeed) {
-            Some(speed) if numbers.len() == 1 => SavedSetting::Speed(*speed),
-            _ => {
-                let named = numbers.into_iter().map(|(knob, value)| (knob.to_string(), value));
-                SavedSetting::Numbers(named.collect())
-            }
+        if let (1, Some(speed)) = (setting.0.len(), setting.get(Knob::BeltSpeed)) {
+            return SavedSetting::Speed(speed);
         }
+        let named = setting.0.into_iter().map(|(knob, value)| (knob.to_string(), value));
+        SavedSetting::Numbers(named.collect())
     }
 }
 
@@ -230,12 +226,10 @@ impl TryFrom<SavedSetting> for Setting {
             SavedSetting::Speed(speed) => return Ok(Setting::of_speed(speed)),
             SavedSetting::Numbers(numbers) => numbers,
         };
-        let speed = numbers.get("v0").ok_or("a machine without the speed v0 of its belt")?;
-        let mut setting = Setting::of_speed(*speed);
-        for (name, value) in &numbers {
-            setting = setting.with(Knob::named(name, &[Group::Machine, Group::Law])?, *value);
-        }
-        Ok(setting)
+        numbers.get("v0").ok_or("a machine without the speed v0 of its belt")?;
+        let knob = |name: &str| Knob::named(name, &[Group::Machine, Group::Law]);
+        let numbers = numbers.into_iter().map(|(name, value)| Ok((knob(&name)?, value)));
+        numbers.collect::<Result<_, _>>().map(Setting)
     }
 }
 

@@ -4,6 +4,7 @@
 //! modal mass and a damping ratio that depends on velocity.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use serde::Deserialize;
@@ -13,7 +14,7 @@ use toml::de::DeTable;
 
 use super::Description;
 use super::table::table;
-use crate::flow::Subject;
+use crate::flow::{Reason, Subject};
 use crate::model::belt::FrictionLaw;
 use crate::model::{
     Belt, Body, Group, Knob, KnobSpec, Mode, Source, Tolerances, quantity, unknown,
@@ -50,11 +51,11 @@ impl<'a> Section<'a> {
     fn section(&self, name: &str) -> Result<Option<Section<'a>>, Complaint> {
         let Some(given) = self.entries.get(name) else { return Ok(None) };
         let (at, found) = (given.span(), given.get_ref());
-        let Some(entries) = found.as_table() else {
-            let message = format!("{name} is a table, not a value of type {}", found.type_str());
-            return Err(Complaint { at, message });
-        };
-        Ok(Some(Section { entries, at }))
+        if let Some(entries) = found.as_table() {
+            return Ok(Some(Section { entries, at }));
+        }
+        let message = format!("{name} is a table, not a value of type {}", found.type_str());
+        Err(Complaint { at, message })
     }
 
     /// Fails at a name that is not among these.
@@ -69,9 +70,9 @@ impl<'a> Section<'a> {
 
 /// The numbers of a machine without those of its friction, or those of a mode without its damping ratio.
 fn numbers(is_mode: bool) -> impl Iterator<Item = Knob> + Clone {
-    let mode = [Knob::Frequency, Knob::ModalMass, Knob::Friction];
+    let mode = [Knob::Frequency, Knob::ModalMass, Knob::Friction].into_iter();
     let belt = Group::Machine.knobs().filter(move |_| !is_mode);
-    belt.chain(mode.into_iter().filter(move |_| is_mode)).chain([Knob::StaticGuide])
+    belt.chain(mode.filter(move |_| is_mode)).chain([Knob::StaticGuide])
 }
 
 /// The names that are not such numbers.
@@ -120,8 +121,8 @@ pub fn parse(
     read.and_then(described).map_err(|complaint| complaint.in_file(file, text))
 }
 
-fn lacks(message: String) -> Complaint {
-    Complaint { at: 0..0, message }
+fn lacks(message: impl Into<String>) -> Complaint {
+    Complaint { at: 0..0, message: message.into() }
 }
 
 /// What reads a file.
@@ -149,15 +150,13 @@ impl MachineReader<'_> {
             }
         }
         let unfit = |message| Complaint { at: section.clone(), message };
+        let refused = |error: Reason| unfit(error.to_string());
         let period = match &source.body {
-            Body::Belt(belt) => {
-                let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
-                std::f64::consts::TAU * reduced.units.time
-            }
+            Body::Belt(belt) => TAU * belt.reduce().map_err(refused)?.units.time,
             Body::Mode(mode) => 1.0 / mode.frequency,
-            Body::Paper(_) => std::f64::consts::TAU,
+            Body::Paper(_) => TAU,
         };
-        source.model().map_err(|error| unfit(error.to_string()))?;
+        source.model().map_err(refused)?;
         let disturbance = self.number(read, Knob::DisturbingForce)?;
         let mut start = (0.0, 0.0);
         if let Some(given) = read.section("start")? {
@@ -202,10 +201,8 @@ impl MachineReader<'_> {
         if let Some(given) = section.get(name)? {
             return self.read(knob, &given);
         }
-        default.ok_or_else(|| {
-            let such = knob.print(1.0);
-            lacks(format!("{knob} ({meaning}) is missing; such as {knob} = \"{such}\""))
-        })
+        let such = || format!("such as {knob} = \"{}\"", knob.print(1.0));
+        default.ok_or_else(|| lacks(format!("{knob} ({meaning}) is missing; {}", such())))
     }
 
     /// The coefficients of a polynomial in the velocity, the constant one first; each is read as the number of its `name`
@@ -224,10 +221,9 @@ impl MachineReader<'_> {
     /// A mass on a belt with its friction and no other numbers yet, and the place of the friction in the file.
     fn belt(&mut self, read: &Section) -> Result<(Body, Range<usize>), Complaint> {
         let friction = read.section("friction")?;
-        let friction = friction.ok_or_else(|| lacks("friction is missing".to_owned()))?;
-        let at_rest = friction.get("static")?;
+        let friction = friction.ok_or_else(|| lacks("friction is missing"))?;
         let read = |given| self.read(Knob::StaticCoefficient, &given);
-        let static_coefficient = at_rest.map(read).transpose()?;
+        let static_coefficient = friction.get("static")?.map(read).transpose()?;
         let mut belt = Belt { static_coefficient, ..Belt::default() };
         self.set_law(&mut belt, &friction)?;
         Ok((Body::Belt(Box::new(belt)), friction.at))
@@ -236,7 +232,7 @@ impl MachineReader<'_> {
     /// A mode with its damping ratio and no other numbers yet, and the place of the ratio in the file.
     fn mode(&mut self, read: &Section) -> Result<(Body, Range<usize>), Complaint> {
         let ratio = read.get::<Vec<_>>("damping_ratio")?;
-        let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing".to_owned()))?;
+        let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing"))?;
         let damping_ratio = self.polynomial("ratio", ratio.get_ref())?;
         Ok((Body::Mode(Mode { damping_ratio, ..Mode::default() }), ratio.span()))
     }
@@ -310,12 +306,10 @@ impl MachineReader<'_> {
 fn listed(points: &Spanned<Vec<(Number, Number)>>) -> Result<Vec<(f64, f64)>, Complaint> {
     let read = |(v, mu): &(Number, Number)| Ok((v.in_unit("m/s")?, mu.in_unit("")?));
     let point = |(index, point): (usize, &(Number, Number))| {
-        read(point).map_err(|why: String| {
-            let message = format!("point {}: {why}", index + 1);
-            Complaint { at: points.span(), message }
-        })
+        let message = |why: String| format!("point {index}: {why}");
+        read(point).map_err(|why| Complaint { at: points.span(), message: message(why) })
     };
-    points.get_ref().iter().enumerate().map(point).collect()
+    (1..).zip(points.get_ref()).map(point).collect()
 }
 
 #[cfg(test)]

@@ -33,16 +33,16 @@ impl ScaledMachine {
     pub fn milestones(&self) -> Vec<Station> {
         let (slow, fast) = self.speeds();
         let exponents = decade(slow)..=decade(fast) + 1;
-        let of = |digits: &'static [u32]| {
-            let decade = move |exponent: i32| {
+        let mut found = Vec::new();
+        for digits in DIGITS {
+            for exponent in exponents.clone() {
                 // Parsed from decimal, so that it equals the typed number to the last bit.
-                digits.iter().filter_map(move |digit| format!("{digit}e{exponent}").parse().ok())
-            };
-            exponents.clone().flat_map(decade)
-        };
-        let round = DIGITS.into_iter().flat_map(of);
-        let inside = round.filter(|speed: &f64| (slow..=fast).contains(speed));
-        inside.map(|speed| self.station(speed)).collect()
+                let round = digits.iter().filter_map(|it| format!("{it}e{exponent}").parse().ok());
+                let inside = round.filter(|speed| (slow..=fast).contains(speed));
+                found.extend(inside.map(|speed| self.station(speed)));
+            }
+        }
+        found
     }
 
     /// The slowest and the fastest speed of the path.
@@ -54,9 +54,9 @@ impl ScaledMachine {
     }
 
     fn station(&self, speed: f64) -> Station {
-        let reduced = |speed| self.machine.belt.reduce_at(speed).ok();
         let allowed = Knob::BeltSpeed.check(speed).ok();
-        (speed, allowed.and_then(reduced).map(|reduced| reduced.parameters))
+        let reduced = allowed.and_then(|speed| self.machine.belt.reduce_at(speed).ok());
+        (speed, reduced.map(|reduced| reduced.parameters))
     }
 }
 

@@ -17,12 +17,9 @@ pub fn table(file: &str, text: &str) -> Result<Vec<(f64, f64)>, String> {
         }
         let wrong = |what: &str| format!("{file}:{}: {what}", index + 1);
         let separator = [';', '\t'].into_iter().find(|sign| line.contains(*sign));
-        let cell = |text: &str| match separator {
-            Some(_) => text.trim().replace(',', "."),
-            None => text.trim().to_owned(),
-        };
-        let cells: Vec<String> = line.split(separator.unwrap_or(',')).map(cell).collect();
-        let [v, mu] = &cells[..] else {
+        // A comma that separates does not stand in a number.
+        let cells = line.split(separator.unwrap_or(',')).map(|it| it.trim().replace(',', "."));
+        let [v, mu] = &cells.collect::<Vec<String>>()[..] else {
             return Err(wrong(&format!(
                 "{line:?} is not a velocity and a coefficient, such as 0.1, 0.35"
             )));

@@ -100,7 +100,7 @@ impl Session {
 }
 
 /// Sets the numbers that are not held to their values in the fit.
-pub(crate) fn follow_fit(session: &mut Session) {
+pub fn follow_fit(session: &mut Session) {
     if session.scene.recording.is_none() {
         return;
     }
@@ -113,7 +113,7 @@ pub(crate) fn follow_fit(session: &mut Session) {
 }
 
 /// Fits the plots on show that wait for it, once their answers are there.
-pub(crate) fn resolve(session: &mut Session) {
+pub fn resolve(session: &mut Session) {
     for index in session.on_show() {
         let waits = session.plots[index].framing == Framing::Fitting;
         if !waits || awaited(session, index).is_some() {

@@ -1,21 +1,24 @@
 //! Copies: a number or a point, alone or with everything that belongs to it, and the pane in focus as a shell
 //! command.
 
+use std::collections::BTreeSet;
+
 use crate::flow::Problem;
 use crate::model::Knob;
 use crate::numerics::shortest;
 use crate::scan::measure::Value;
 use crate::scene::{Axes, View};
 use crate::session::read::completion::plain_value;
-use crate::session::{Done, Effect, Session};
+use crate::session::{Done, Effect, Plot, Session};
+use crate::words::joined;
 
 /// Number of points of a copied branch: as many as a wide plot has columns.
 const BRANCH_POINTS: usize = 200;
 
 /// Copies the number or the point under consideration.
 pub fn number(session: &mut Session) -> Done {
-    let words: Vec<String> = point(session).into_iter().map(|(_, value)| value).collect();
-    copied(session, &words)
+    let words = point(session).into_iter().map(|(_, value)| value);
+    copied(session, joined(words, " "))
 }
 
 /// Copies the number or the point with everything that belongs to it, in the syntax of `set`.
@@ -24,18 +27,17 @@ pub fn row(session: &mut Session) -> Done {
     if !named.is_empty() {
         named.extend(belonging(session));
     }
-    let mut known = std::collections::BTreeSet::new();
+    let mut known = BTreeSet::new();
     named.retain(|(name, _)| known.insert(name.clone()));
-    let words: Vec<String> =
-        named.into_iter().map(|(name, value)| format!("{name}={value}")).collect();
-    copied(session, &words)
+    let words = named.into_iter().map(|(name, value)| format!("{name}={value}"));
+    copied(session, joined(words, " "))
 }
 
-fn copied(session: &mut Session, words: &[String]) -> Done {
-    if words.is_empty() {
+fn copied(session: &mut Session, text: String) -> Done {
+    if text.is_empty() {
         return Err("nothing is pointed at: arrows show a cursor".to_owned());
     }
-    session.effect(Effect::Copy(words.join(" ")))
+    session.effect(Effect::Copy(text))
 }
 
 /// A number, with its name.
@@ -69,7 +71,7 @@ fn point(session: &Session) -> Vec<NamedNumber> {
     if let (View::Scan, Some(scanned)) = (plot.view, &session.scanned) {
         let column = scanned.scan.measured().get(scanned.column).copied();
         let known = column.zip(scanned.value(scanned.at)).into_iter();
-        return known.map(|(name, value)| (name.to_string(), measured(&value))).collect();
+        return known.map(|(name, value)| (name.to_owned(), measured(&value))).collect();
     }
     let Some(at) = plot.cursor else { return Vec::new() };
     let (x, y) = match plot.view {
@@ -97,9 +99,8 @@ fn belonging(session: &Session) -> Vec<NamedNumber> {
         problem = scanned.scan.problem(scanned.at).unwrap_or(problem);
         let values = scanned.rows.get(scanned.at).into_iter().flat_map(|row| &row.values);
         let columns = scanned.scan.measured();
-        all.extend(
-            columns.iter().zip(values).map(|(name, value)| (name.to_string(), measured(value))),
-        );
+        let columns = columns.into_iter().map(str::to_owned);
+        all.extend(columns.zip(values.map(measured)));
         if scanned.scan.problem(scanned.at).is_none() {
             let inputs = scanned.scan.inputs(scanned.at).into_iter();
             all.extend(inputs.map(|(name, value)| (name, measured(&value))));
@@ -115,17 +116,16 @@ fn belonging(session: &Session) -> Vec<NamedNumber> {
 pub fn command_line(session: &Session) -> String {
     let Problem { until, method, tolerance, step, epsilon, .. } = session.problem;
     let diagram = session.focused().filter(|plot| plot.view == View::Diagram);
-    let abscissa = diagram.map(|plot| plot.axes.abscissa);
     let mut line = format!("hopfscope {}", if diagram.is_some() { "branch" } else { "trajectory" });
+    let is_used = |plot: &Plot, knob: Knob| knob.is_parameter() && knob != plot.axes.abscissa;
     for knob in Knob::MOTION {
-        let unused = !knob.is_parameter() || Some(knob) == abscissa;
-        if !(diagram.is_some() && unused) {
+        if diagram.is_none_or(|plot| is_used(plot, knob)) {
             line += &format!(" --set {knob}={}", shortest(session.value(knob)));
         }
     }
     if let Some(plot) = diagram {
         let [from, to] = plot.window.x.ends().map(shortest);
-        line += &format!(" --over {}={from}:{to}:{BRANCH_POINTS}", plot.axes.abscissa.spec().name);
+        line += &format!(" --over {}={from}:{to}:{BRANCH_POINTS}", plot.axes.abscissa);
     } else {
         line += &format!(" --until {} --method {method}", shortest(until));
     }

@@ -14,7 +14,7 @@ use crate::session::{Content, Done, Effect, ListKind, Overlay, Purpose, Session,
 const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
 
 /// Saves the session.
-pub(crate) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
+pub fn write(session: &mut Session, path: &str, replace: bool) -> Done {
     let content = Content::Text(save::text(session)?);
     session.effect(Effect::Write { path: path.into(), content, replace })
 }
@@ -37,12 +37,7 @@ const NONE_INTERRUPTED: &str = "no session was interrupted";
 const FIGURES: [&str; 4] = ["svg", "png", "csv", "json"];
 
 /// Writes a figure of one plot, or of all.
-pub(crate) fn figure(
-    session: &mut Session,
-    path: &str,
-    plot: Option<usize>,
-    replace: bool,
-) -> Done {
+pub fn figure(session: &mut Session, path: &str, plot: Option<usize>, replace: bool) -> Done {
     let path = PathBuf::from(path);
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     if !FIGURES.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
@@ -65,7 +60,7 @@ pub fn offer_figure(session: &mut Session) {
 }
 
 /// Takes a file in, or says what is wrong with it and changes nothing.
-pub(crate) fn read(
+pub fn read(
     session: &mut Session,
     path: &Path,
     purpose: Purpose,
@@ -146,7 +141,7 @@ pub fn restore(session: &mut Session) -> Done {
 }
 
 /// Continues the selected interrupted session.
-pub(crate) fn restore_selected(session: &mut Session) {
+pub fn restore_selected(session: &mut Session) {
     if let Some(number) = selected(session) {
         restore_number(session, number);
     }

@@ -41,14 +41,14 @@ pub fn harmonics(session: &mut Session, more: bool) -> Done {
 }
 
 /// Shows the cycles by this number of harmonics.
-pub(crate) fn balance(session: &mut Session, harmonics: usize) {
+pub fn balance(session: &mut Session, harmonics: usize) {
     session.harmonics = harmonics;
     session.layers.insert(Layer::Balance);
     session.inform(format!("harmonic balance with N = {harmonics}"));
 }
 
 /// Takes the next value for a setting of the screen.
-pub(crate) fn turn<T: NamedValue>(
+pub fn turn<T: NamedValue>(
     session: &mut Session,
     what: &str,
     setting: fn(&mut DisplaySettings) -> &mut T,
@@ -60,7 +60,7 @@ pub(crate) fn turn<T: NamedValue>(
 }
 
 /// Switches a setting of the screen on or off, and says what it is then.
-pub(crate) fn flip(
+pub fn flip(
     session: &mut Session,
     setting: fn(&mut DisplaySettings) -> &mut bool,
     [on, off]: [&str; 2],

@@ -61,7 +61,7 @@ fn present(session: &Session, other: &EarlierState) -> EarlierState {
 }
 
 /// Everything that a scene determines but its plots, as it is now.
-pub(crate) fn snapshot(session: &Session) -> Snapshot {
+pub fn snapshot(session: &Session) -> Snapshot {
     Snapshot {
         scene: Arc::clone(&session.scene),
         setup: session.setup(),
@@ -111,7 +111,7 @@ fn opened(plots: &[PlotSetup]) -> Vec<Plot> {
 }
 
 /// Makes this the present state.
-pub(crate) fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot>) {
+pub fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot>) {
     session.scene = snapshot.scene;
     session.set_setup(snapshot.setup);
     session.steps = snapshot.steps;
@@ -122,7 +122,7 @@ pub(crate) fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot
 }
 
 /// Opens a scene, as one change that can be undone.
-pub(crate) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
+pub fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     let (plots, before) = (session.screen_setup().plots, snapshot(session));
     let opens = snapshot(&Session::new(scene, session.size));
     if before != opens || plots != opens.scene.plots {
@@ -138,7 +138,7 @@ pub(crate) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
 
 /// Makes the present state the start of a session: its scene opens like this, with these parameters added to
 /// its own, and the history is empty.
-pub(crate) fn begin(session: &mut Session, names: Vec<Knob>) {
+pub fn begin(session: &mut Session, names: Vec<Knob>) {
     let mut scene = Arc::clone(&session.scene);
     let opens = Arc::make_mut(&mut scene);
     opens.problem = session.problem;
@@ -159,7 +159,7 @@ pub fn reset_scene(session: &mut Session) {
 }
 
 /// Marks the present point.
-pub(crate) fn set_mark(session: &mut Session, name: char) {
+pub fn set_mark(session: &mut Session, name: char) {
     session.marks.places.insert(name, bookmark(session));
     let key = session.keymap.key_of("go-to-mark");
     let back = key.map(|key| format!("; {key}{name} comes back")).unwrap_or_default();
@@ -167,14 +167,14 @@ pub(crate) fn set_mark(session: &mut Session, name: char) {
 }
 
 /// Goes to a mark.
-pub(crate) fn go_to_mark(session: &mut Session, name: char) -> Done {
+pub fn go_to_mark(session: &mut Session, name: char) -> Done {
     let mark = session.marks.places.get(&name).cloned();
     go(session, mark.ok_or_else(|| format!("there is no mark {name}"))?);
     Ok(())
 }
 
 /// Goes to the point that was left last.
-pub(crate) fn go_back(session: &mut Session) -> Done {
+pub fn go_back(session: &mut Session) -> Done {
     let mark = session.marks.left.clone();
     go(session, mark.ok_or("no mark has been visited yet")?);
     Ok(())

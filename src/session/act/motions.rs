@@ -22,7 +22,7 @@ pub const OUTSIDE: f64 = 1.05;
 const ONLY: &str = "the only motion cannot be removed";
 
 /// Starts a motion beside the present ones; if there are too many, the oldest is removed.
-pub(crate) fn start(session: &mut Session, initial: State) {
+pub fn start(session: &mut Session, initial: State) {
     let before = session.problem.initial;
     if initial == before {
         return;

@@ -2,7 +2,7 @@
 
 use crate::flow::{METHODS, Method, MethodSpec, Problem, QUALITIES};
 use crate::model::unit::measured;
-use crate::model::{Knob, KnobSpec};
+use crate::model::{Knob, KnobSpec, Parameters};
 use crate::numerics::{cycled, log10, shortest};
 use crate::scene::{Setting, View};
 use crate::session::read::completion::typed;
@@ -13,14 +13,14 @@ use crate::words::one_of;
 
 /// Changes the motion on show, as one change that can be undone; the belt keeps its speed. Returns whether
 /// anything differs.
-pub(crate) fn change(session: &mut Session, problem: Problem) -> bool {
+pub fn change(session: &mut Session, problem: Problem) -> bool {
     put(session, Setup { problem, ..session.setup() })
 }
 
 /// Changes the setup, as one change that can be undone. Returns whether anything differs.
 ///
 /// Of a fitted record, the numbers that a change by hand has moved are held; the fit of all others follows.
-pub(crate) fn put(session: &mut Session, mut setup: Setup) -> bool {
+pub fn put(session: &mut Session, mut setup: Setup) -> bool {
     let before = session.setup();
     // A mark determines what is held.
     if session.scene.recording.is_some() && setup.doubt.held == before.doubt.held {
@@ -50,13 +50,11 @@ pub fn select(session: &mut Session, by: isize) {
 /// Steps the selected value.
 pub fn step(session: &mut Session, count: i32) -> Done {
     match session.selected {
-        Row::Number(knob) => step_number(session, knob, count),
-        Row::Method => {
-            next_method(session, count.signum() as isize);
-            Ok(())
-        }
-        Row::Tolerance => turn(session, count.signum()),
+        Row::Number(knob) => return step_number(session, knob, count),
+        Row::Tolerance => return turn(session, count.signum()),
+        Row::Method => next_method(session, count.signum() as isize),
     }
+    Ok(())
 }
 
 /// Steps a number, within its range. One of the machine leads back onto its belt; out of range it is refused: the
@@ -90,8 +88,7 @@ pub fn half_width(session: &mut Session, count: i32) -> Done {
 pub fn step_size(session: &mut Session, by: i32) -> Done {
     let row = session.selected;
     let knob = row.stepped().ok_or_else(|| format!("{} has no step size", row.name()))?;
-    let size = session.steps.of_mut(knob);
-    *size = size.moved(by);
+    *session.steps.of_mut(knob) = session.steps.of(knob).moved(by);
     Ok(())
 }
 
@@ -149,7 +146,8 @@ fn turn(session: &mut Session, decades: i32) -> Done {
 /// Selects the next method of the list, cycling.
 pub fn next_method(session: &mut Session, by: isize) {
     // Without a closed form, that method could only give up.
-    let nonlinear = session.problem.parameters.d2 != 0.0 || session.problem.parameters.d3 != 0.0;
+    let Parameters { d2, d3, .. } = session.problem.parameters;
+    let nonlinear = d2 != 0.0 || d3 != 0.0;
     let whole = session.draws_whole();
     let usable = |row: &&MethodSpec| match row.method {
         method if whole => method.follows_machines(),
@@ -228,12 +226,7 @@ pub fn begin(session: &mut Session, key: Key) {
 }
 
 /// The setup with the typed value in a row. Fails with one line that says what is allowed.
-pub(crate) fn read(
-    session: &Session,
-    setup: &Setup,
-    row: Row,
-    text: &str,
-) -> Result<Setup, String> {
+pub fn read(session: &Session, setup: &Setup, row: Row, text: &str) -> Result<Setup, String> {
     let text = text.trim();
     let problem = match row {
         Row::Number(knob @ Knob::Disturbance) => {

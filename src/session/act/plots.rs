@@ -45,11 +45,11 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
 
 /// Moves the cursor of the plot in focus; the first move shows it.
 pub fn move_cursor(session: &mut Session, [right, up]: [i32; 2]) {
-    let origin = session.focused().map(|plot| cursor_origin(session, plot));
-    if let Some((plot, origin)) = session.focused_mut().zip(origin) {
-        let Point { x, y } = plot.cursor.unwrap_or(origin);
+    if let Some(plot) = session.focused() {
+        let Point { x, y } = plot.cursor.unwrap_or_else(|| cursor_origin(session, plot));
         let Window { x: across, y: along } = plot.window;
-        plot.cursor = Some(Point { x: moved(across, x, right), y: moved(along, y, up) });
+        let cursor = Point { x: moved(across, x, right), y: moved(along, y, up) };
+        session.plots[session.plot].cursor = Some(cursor);
     }
 }
 
@@ -73,9 +73,8 @@ fn moved(span: Span, value: f64, count: i32) -> f64 {
 /// Handles a click on a point of the plot in focus: in the phase plane it starts a motion there, elsewhere it
 /// moves the cursor there.
 pub fn point_at(session: &mut Session, point: Point) -> Done {
-    let Some(plot) = session.focused_mut() else { return Ok(()) };
-    plot.cursor = Some(point);
-    if plot.view == View::Phase { start_here(session) } else { Ok(()) }
+    session.plots[session.plot].cursor = Some(point);
+    if session.view_in_use() == View::Phase { start_here(session) } else { Ok(()) }
 }
 
 /// Removes the cursor of the plot in focus.
@@ -207,14 +206,14 @@ pub fn next_abscissa(session: &mut Session, upwards: bool) {
     let mut later = all.iter().copied().cycle().skip(place + 1);
     let Some(knob) = later.find(|knob| !(chart && *knob == other)) else { return };
     let axes = if upwards { Axes { against: knob, ..axes } } else { axes.with_right(view, knob) };
-    match session.focused_mut().filter(|_| chart) {
+    if chart {
         // No scene sets a window for these axes: starts from the usual one, which is then fitted to include the
         // present point.
-        Some(plot) => {
-            plot.axes = axes;
-            plot.fit_from(PlotSetup::fitting(view, axes).opening());
-        }
-        None => set_axes(session, axes),
+        let plot = &mut session.plots[session.plot];
+        plot.axes = axes;
+        plot.fit_from(PlotSetup::fitting(view, axes).opening());
+    } else {
+        set_axes(session, axes);
     }
     session.inform(format!("over {}: {}", knob.spec().name, knob.spec().meaning));
 }
@@ -225,13 +224,12 @@ pub fn set_axes(session: &mut Session, axes: Axes) {
     let Some(&Plot { view, window, axes: present, .. }) = session.focused() else { return };
     let knob = axes.right(view);
     let of_scene = session.plot_of_scene(session.plot, view);
-    let opened = of_scene.filter(|it| it.axes.right(view) == knob).map(|it| it.opening().x);
-    let x = if knob == present.right(view) {
-        window.x
-    } else {
-        opened.unwrap_or_else(|| session.values_around(knob))
+    let x = match of_scene {
+        _ if knob == present.right(view) => window.x,
+        Some(of) if of.axes.right(view) == knob => of.opening().x,
+        _ => session.values_around(knob),
     };
-    let Some(plot) = session.focused_mut() else { return };
+    let plot = &mut session.plots[session.plot];
     if let Some(same) = of_scene.filter(|it| it.axes == axes && it.opening().x == x) {
         *plot = Plot::opened(&same);
     } else {
@@ -278,23 +276,18 @@ pub fn toggle_mouse(session: &mut Session) {
 
 /// Handles an action of the mouse. Over an overlay, the wheel moves its list and clicks are ignored.
 pub fn pointed(session: &mut Session, MouseAction { gesture, place }: MouseAction) -> Done {
-    if session.overlay.is_some() {
-        match gesture {
-            Gesture::Click => {}
-            Gesture::Nearer => lists::move_by(session, -NOTCH),
-            Gesture::Farther => lists::move_by(session, NOTCH),
-        }
-        return Ok(());
-    }
-    match place {
-        PointerTarget::Row(index) => {
-            if let (Gesture::Click, Some(row)) = (gesture, session.rows().get(index)) {
+    let covered = session.overlay.is_some();
+    match (place, gesture) {
+        (_, Gesture::Click) if covered => {}
+        (_, Gesture::Nearer) if covered => lists::move_by(session, -NOTCH),
+        (_, Gesture::Farther) if covered => lists::move_by(session, NOTCH),
+        (PointerTarget::Row(index), Gesture::Click) => {
+            if let Some(row) = session.rows().get(index) {
                 session.selected = *row;
                 session.focus = Pane::Parameters;
             }
         }
-        PointerTarget::Plot(index, _) if !session.on_show().contains(&index) => {}
-        PointerTarget::Plot(index, point) => {
+        (PointerTarget::Plot(index, point), _) if session.on_show().contains(&index) => {
             focus_on(session, Pane::Plot(index));
             match gesture {
                 Gesture::Click => return point_at(session, point),
@@ -302,6 +295,7 @@ pub fn pointed(session: &mut Session, MouseAction { gesture, place }: MouseActio
                 Gesture::Farther => zoom_about(session, |_| point, false),
             }
         }
+        _ => {}
     }
     Ok(())
 }

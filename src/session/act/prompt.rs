@@ -73,8 +73,7 @@ fn remember(session: &mut Session, text: &str) {
 
 /// Shows an older or a newer line; the newest is the one that was being typed.
 pub fn recall(session: &mut Session, by: isize) {
-    let lines = session.lines.clone();
-    let Some(Overlay::Prompt(prompt)) = &mut session.overlay else { return };
+    let Session { overlay: Some(Overlay::Prompt(prompt)), lines, .. } = session else { return };
     let back = prompt.back.saturating_add_signed(by).min(lines.len());
     if back == prompt.back {
         return;
@@ -82,21 +81,18 @@ pub fn recall(session: &mut Session, by: isize) {
     if prompt.back == 0 {
         prompt.draft = prompt.input.text();
     }
-    let text = match back {
-        0 => prompt.draft.clone(),
-        back => lines[lines.len() - back].clone(),
-    };
     let draft = std::mem::take(&mut prompt.draft);
-    *prompt = Prompt { back, draft, ..Prompt::new(text) };
+    let text = if back == 0 { &draft } else { &lines[lines.len() - back] };
+    *prompt = Prompt { back, ..Prompt::new(text) };
+    prompt.draft = draft;
 }
 
 /// Completes the word before the caret; pressed again, shows the next candidate.
 pub fn complete(session: &mut Session, by: isize) {
     let Some(Overlay::Prompt(prompt)) = &session.overlay else { return };
     let found = match &prompt.completion {
-        Some(Completion { stem, words, at }) => {
-            let at = cycled(*at, by, words.len());
-            Some(Completion { stem: stem.clone(), words: words.clone(), at })
+        Some(shown) => {
+            Some(Completion { at: cycled(shown.at, by, shown.words.len()), ..shown.clone() })
         }
         None => completion(session, &prompt.input.before),
     };
@@ -106,13 +102,13 @@ pub fn complete(session: &mut Session, by: isize) {
         return;
     };
     let Completion { stem, words, at } = &completion;
-    let mut text = format!("{stem}{}", words[*at]);
+    let Input { before, after } = &mut prompt.input;
+    *before = format!("{stem}{}", words[*at]);
     // A blank follows the only candidate, unless something must follow it directly.
     let only = words.len() == 1;
-    if only && !text.ends_with('=') && !prompt.input.after.starts_with(' ') {
-        text.push(' ');
+    if only && !before.ends_with('=') && !after.starts_with(' ') {
+        before.push(' ');
     }
-    prompt.input.before = text;
     (prompt.refused, prompt.completion) = (None, (!only).then_some(completion));
 }
 

@@ -12,7 +12,7 @@ use crate::words::printable;
 pub(crate) const ENTER: Key = Key::plain(Code::Enter);
 
 /// Runs a command here or in the pane where it applies, which then gets the focus.
-pub(crate) fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) {
+pub fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) {
     match place(session, command) {
         Ok(Some(pane)) => focus_on(session, pane),
         Ok(None) => {}
@@ -39,7 +39,7 @@ fn missing(session: &Session, place: Context) -> String {
 }
 
 /// Runs a command.
-pub(crate) fn run(session: &mut Session, command: &Command, key: Key) {
+pub fn run(session: &mut Session, command: &Command, key: Key) {
     match command.run {
         CommandAction::Act(act) => act(session),
         CommandAction::Press(act) => act(session, key),

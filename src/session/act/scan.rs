@@ -39,29 +39,29 @@ fn typed(scan: &Scan) -> String {
 fn usual(session: &Session) -> String {
     /// Part of a range to which its ends are rounded, so that they are short to read and to change.
     const ROUND: f64 = 1e-3;
-    let over = |knob: Knob, from: f64, to: f64| {
-        let [from, to] = [from, to].map(|end| resolved(end, ROUND * (to - from)));
+    let over = |knob: Knob, ends: [f64; 2]| {
+        let [from, to] = ends.map(|end| resolved(end, ROUND * (ends[1] - ends[0])));
         format!("{knob}={from}:{to}:100 from-rest")
     };
-    let view = if session.draws_whole() { View::BeltDiagram } else { View::Diagram };
+    let whole = session.draws_whole();
+    let view = if whole { View::BeltDiagram } else { View::Diagram };
     if let Some(diagram) = session.plots.iter().find(|plot| plot.view == view) {
         let symbol = diagram.axes.right(view);
         if let Some(span) = diagram.window.x.allowed(symbol) {
-            return over(symbol, span.from(), span.to());
+            return over(symbol, span.ends());
         }
     }
     let symbol = session.selected.knob_in(&session.problem);
-    if session.draws_whole() {
-        let knob = Some(symbol).filter(|knob| knob.is_of_machine()).unwrap_or(Knob::BeltSpeed);
-        let span = session.values_around(knob);
-        return over(knob, span.from(), span.to());
+    if whole {
+        let knob = if symbol.is_of_machine() { symbol } else { Knob::BeltSpeed };
+        return over(knob, session.values_around(knob).ends());
     }
     if !Knob::MOTION.contains(&symbol) {
-        return over(Knob::D, -0.9, 0.0);
+        return over(Knob::D, [-0.9, 0.0]);
     }
     let KnobSpec { min, max, step, .. } = *symbol.spec();
     let (value, reach) = (session.value(symbol), 10.0 * step);
-    over(symbol, (value - reach).max(min), (value + reach).min(max))
+    over(symbol, [(value - reach).max(min), (value + reach).min(max)])
 }
 
 /// Starts a scan and shows it in a plot that already shows scans, otherwise beside the phase plane.
@@ -92,8 +92,7 @@ fn beside(session: &mut Session) {
 
 /// Stops the scan, and keeps the rows so far.
 pub fn stop(session: &mut Session) {
-    let Some(scanned) = &mut session.scanned else { return };
-    if scanned.request().is_some() {
+    if let Some(scanned) = session.scanned.as_mut().filter(|it| it.request().is_some()) {
         scanned.progress = ScanProgress::Stopped;
         let (rows, points) = (scanned.rows.len(), scanned.scan.points());
         let text = format!("stopped: {rows} of {points} rows; {{scan-pause}} continues");
@@ -123,8 +122,7 @@ pub fn pause(session: &mut Session) -> Done {
 /// Plots the next measured column.
 pub fn next_column(session: &mut Session, by: isize) -> Done {
     let scanned = scanned(session)?;
-    let count = scanned.scan.measured().len();
-    scanned.column = cycled(scanned.column, by, count);
+    scanned.column = cycled(scanned.column, by, scanned.scan.measured().len());
     refit(session);
     Ok(())
 }
@@ -137,7 +135,7 @@ pub fn table(session: &mut Session) -> Done {
 }
 
 /// Shows all points so far.
-pub(crate) fn refit(session: &mut Session) {
+pub fn refit(session: &mut Session) {
     let Some(scanned) = &session.scanned else { return };
     let window = scanned.window();
     for plot in session.plots.iter_mut().filter(|plot| plot.view == View::Scan) {
@@ -167,19 +165,16 @@ pub fn go(session: &mut Session, [right, up]: [isize; 2]) -> Done {
 /// Sets the numbers on show to those of the selected point.
 pub fn take(session: &mut Session) -> Done {
     let scanned = scanned(session)?;
-    let (scan, place) = (scanned.scan.clone(), scanned.scan.place(scanned.at));
-    let (mut setup, mut said) = (session.setup(), Vec::new());
+    let sweeps = scanned.scan.over().iter().zip(scanned.scan.place(scanned.at));
+    let taken: Vec<_> = sweeps.map(|(sweep, it)| (sweep.symbol, sweep.value(it))).collect();
+    let mut setup = session.setup();
     // A number of the machine leads back onto its path: what was changed by hand is set there before.
-    for (knob, value) in session.changed_by_hand() {
-        setup = session.with(&setup, knob, value)?;
-    }
-    for (sweep, which) in scan.over().iter().zip(place) {
-        let (knob, value) = (sweep.symbol, sweep.value(which));
-        setup = session.with(&setup, knob, value)?;
-        said.push(format!("{knob} = {}", knob.print(value)));
+    for (knob, value) in session.changed_by_hand().iter().chain(&taken) {
+        setup = session.with(&setup, *knob, *value)?;
     }
     put(session, setup);
-    session.inform(said.join(", "));
+    let said = taken.iter().map(|(knob, value)| format!("{knob} = {}", knob.print(*value)));
+    session.inform(joined(said, ", "));
     Ok(())
 }
 
@@ -211,7 +206,7 @@ fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, 
     let measures = measures.collect::<Result<Vec<_>, _>>()?;
     let plane = session.plots.iter().find(|plot| plot.view == View::Phase);
     let window = plane.map_or(View::Phase.spec().window, |plot| plot.window);
-    let ends = |span: Span, unit: f64| (unit * span.from(), unit * span.to());
+    let ends = |span: Span, unit: f64| span.ends().map(|end| unit * end).into();
     let (source, units) = session.source(&session.problem.parameters);
     let window = basin::StartWindow {
         q: ends(window.x, units.displacement),
@@ -224,10 +219,10 @@ fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, 
     };
     let asks = measures.iter().any(|it| matches!(it, Measure::Guaranteed | Measure::Design));
     let tolerances = asks.then(|| session.doubt.on_machine(running, belt)).transpose()?;
+    let tolerances = tolerances.unwrap_or_default();
     let Problem { initial: State { q, v }, until, .. } = session.problem;
     let start = (q * units.displacement, v * units.velocity);
-    let subject =
-        Subject::moving(source, tolerances.unwrap_or_default(), start, until * units.time);
+    let subject = Subject::moving(source, tolerances, start, until * units.time);
     Scan::new(subject, over, measures, conditions)
 }
 

@@ -6,7 +6,7 @@ use crate::scene::{Arrangement, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::{Done, EarlierState, Pane, Plot, Session, next_of};
 
 /// Replaces the plots and their arrangement.
-pub(crate) fn set_up(session: &mut Session, arrangement: Arrangement, plots: Vec<Plot>) {
+pub fn set_up(session: &mut Session, arrangement: Arrangement, plots: Vec<Plot>) {
     (session.arrangement, session.plots) = (arrangement, plots);
     let last = session.plots.len().saturating_sub(1);
     session.plot = session.plot.min(last);
@@ -147,7 +147,7 @@ pub fn focus(session: &mut Session, by: isize) {
     focus_on(session, Pane::numbered(cycled(session.focus.number(), by, panes)));
 }
 
-pub(crate) fn focus_on(session: &mut Session, pane: Pane) {
+pub fn focus_on(session: &mut Session, pane: Pane) {
     session.focus = pane;
     if let Pane::Plot(index) = pane {
         session.plot = index;

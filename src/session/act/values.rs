@@ -21,8 +21,8 @@ fn row_named(session: &Session, name: &str) -> Result<Row, String> {
 
 /// Whether the value of this name may have a unit.
 fn takes_unit(session: &Session, name: &str) -> bool {
-    row_named(session, name)
-        .is_ok_and(|row| row.is_of_machine() || row == Row::Number(Knob::Disturbance))
+    let takes = |row: Row| row.is_of_machine() || row == Row::Number(Knob::Disturbance);
+    row_named(session, name).is_ok_and(takes)
 }
 
 /// Runs `NAME=VALUE ..` as one change. A word without `=` is the unit of the value before it.
@@ -81,9 +81,8 @@ pub fn layer(session: &mut Session, rest: &str) -> Done {
     let (name, state) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
     let rows = LAYERS.iter().map(|row| (row.name, row.layer));
     let layer = named(name).map_or_else(|| one_of("layer", name, rows), Ok)?;
-    let was_on = session.layers.contains(&layer);
-    let wanted = if state.trim().is_empty() { !was_on } else { is_on(name, state.trim())? };
-    if wanted != was_on {
+    let state = state.trim();
+    if state.is_empty() || is_on(name, state)? != session.layers.contains(&layer) {
         general::toggle(session, layer);
     }
     Ok(())
@@ -155,7 +154,7 @@ pub fn letter(text: &str) -> Result<char, String> {
 }
 
 /// Whether a setting is to be on. Fails with one line if that is not said.
-pub(crate) fn is_on(what: &str, state: &str) -> Result<bool, String> {
+pub fn is_on(what: &str, state: &str) -> Result<bool, String> {
     match state {
         "on" => Ok(true),
         "off" => Ok(false),

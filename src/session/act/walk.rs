@@ -92,7 +92,7 @@ pub fn take(session: &mut Session) -> Done {
 }
 
 /// Keeps the held point when the branch is computed again, and ends the walk when there is no branch any more.
-pub(crate) fn keep_hold(session: &mut Session) {
+pub fn keep_hold(session: &mut Session) {
     let Some(held) = session.held else { return };
     let index = session.plot;
     let on_show = session.focus == Pane::Plot(index) && session.shows_in(Layer::Branch, index);

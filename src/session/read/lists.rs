@@ -65,7 +65,10 @@ impl Session {
     /// All rows that contain all searched words. Without a search, the commands of the pane in focus come
     /// first. Commands that work only inside a list or a line, or with a digit, are left out.
     pub fn palette_rows(&self, list: &List) -> Vec<PaletteRow> {
-        let outside = |command: &&Command| home(command).is_some() && !takes_digit(command);
+        let digit = Key::plain(Code::Char('1'));
+        let outside = |command: &&Command| {
+            home(command).is_some() && !command.keys.iter().any(|(_, keys)| keys.contains(&digit))
+        };
         let keys = self.keymap.commands().filter(outside);
         let commands = keys.chain(self.keymap.lines()).map(PaletteRow::Command);
         let scenes = library().iter().map(PaletteRow::Scene);
@@ -169,17 +172,11 @@ impl Session {
     }
 }
 
-/// Whether a command depends on the digit that runs it.
-fn takes_digit(command: &Command) -> bool {
-    command.keys.iter().any(|(_, keys)| keys.contains(&Key::plain(Code::Char('1'))))
-}
-
 /// The first context outside of lists and lines in which a command has default keys; commands that switch
 /// layers have none.
 fn home(command: &Command) -> Option<Context> {
-    let outside =
-        |(context, keys): &&(Context, Vec<Key>)| !context.is_overlay() && !keys.is_empty();
-    command.keys.iter().find(outside).map(|(context, _)| *context)
+    let with_keys = command.keys.iter().filter(|(_, keys)| !keys.is_empty());
+    with_keys.map(|(context, _)| *context).find(|context| !context.is_overlay())
 }
 
 impl Session {
@@ -202,7 +199,7 @@ impl Session {
 }
 
 /// Synonyms for names of commands, lines, scenes, views and layers.
-pub(crate) static SYNONYMS: LazyLock<BTreeMap<&str, Vec<&str>>> = LazyLock::new(|| {
+pub static SYNONYMS: LazyLock<BTreeMap<&str, Vec<&str>>> = LazyLock::new(|| {
     let lines = include_str!("../../../assets/synonyms.txt").lines();
     let rows = lines.filter_map(|line| line.split_once(": "));
     rows.map(|(name, words)| (name, words.split(", ").collect())).collect()
@@ -211,7 +208,7 @@ pub(crate) static SYNONYMS: LazyLock<BTreeMap<&str, Vec<&str>>> = LazyLock::new(
 /// The rank of a row in a search, by its names and its meaning; 0 is best. Rows whose name is the searched text
 /// come first, then those with words that begin with it, names before meanings. Without a search, all rows have
 /// the same rank.
-pub(crate) fn rank(search: &str, names: &[&str], meaning: &str) -> usize {
+pub fn rank(search: &str, names: &[&str], meaning: &str) -> usize {
     let names: Vec<String> = names.iter().map(|name| plain(name)).collect();
     let (search, meaning) = (plain(search), plain(meaning));
     // Without blanks: `fig 16` is `fig16`.

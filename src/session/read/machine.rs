@@ -4,15 +4,13 @@
 //! A speed of the belt determines all of D, D2, D3 and r. Changing one of these by hand leaves the belt: the
 //! parameters then belong to no belt speed until a speed is set again.
 
-use std::sync::Arc;
-
 use crate::fit::FitResult;
 use crate::flow::Problem;
 use crate::model::belt::Units;
 use crate::model::{Belt, Body, Knob, Parameters, Source};
 use crate::portrait::Margin;
 use crate::scene::machine::unlikely::unlikely;
-use crate::scene::{Layer, Request, ScaledMachine, Setting, Topic, View};
+use crate::scene::{Layer, ScaledMachine, Setting, Topic, View};
 use crate::session::{ON_A_MACHINE, Session, Setup, Uncertainty, symbol_of};
 
 /// The margins of a machine, without units.
@@ -179,16 +177,5 @@ impl Session {
             Some((running, belt)) => (Source::from(&belt), running.reduced.units),
             None => (Body::Paper(*parameters).into(), Units::SI),
         }
-    }
-
-    /// The question for the starts that are certainly safe or lost at these parameters, by the model that is
-    /// drawn. `None` if something uncertain corresponds to no part of the machine.
-    pub(crate) fn zones_request(&self, parameters: &Parameters) -> Option<Request> {
-        let (source, _) = self.source(parameters);
-        let tolerances = match source.of_belt() {
-            Some(belt) => self.doubt.on_machine(self.running()?, belt).ok()?,
-            None => self.doubt.tolerances(),
-        };
-        Some(Request::Zones { source: Arc::new(source), tolerances })
     }
 }

@@ -157,7 +157,15 @@ impl Session {
             // The whole model of a machine has no proof.
             Topic::Proof if self.draws_whole() => return None,
             Topic::Proof => Request::Proof { parameters },
-            Topic::Zones => self.zones_request(&parameters)?,
+            Topic::Zones => {
+                let (source, _) = self.source(&parameters);
+                let tolerances = match source.of_belt() {
+                    // None where something uncertain corresponds to no part of the machine.
+                    Some(belt) => self.doubt.on_machine(self.running()?, belt).ok()?,
+                    None => self.doubt.tolerances(),
+                };
+                Request::Zones { source: Arc::new(source), tolerances }
+            }
             Topic::Kicks => {
                 let (source, units) = self.source(&parameters);
                 let kicks = self.kicks.in_units(1.0 / units.displacement, 1.0 / units.velocity);

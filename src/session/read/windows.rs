@@ -39,7 +39,7 @@ const BELT: f64 = 2.0;
 const QUANTILE: f64 = 0.9;
 
 /// The window that shows the whole content of a plot; `None` if there is none yet.
-pub(crate) fn fitted(session: &Session, index: usize) -> Option<Window> {
+pub fn fitted(session: &Session, index: usize) -> Option<Window> {
     match session.plots[index].view {
         View::Phase => phase(session, index),
         View::Diagram => diagram(session, index),
@@ -65,7 +65,7 @@ fn roomy(span: Span) -> Span {
 }
 
 /// The question whose answer the window of a plot waits for, if the plot is on show and is being fitted.
-pub(crate) fn awaited(session: &Session, plot: usize) -> Option<Request> {
+pub fn awaited(session: &Session, plot: usize) -> Option<Request> {
     let fits = session.on_show().contains(&plot) && session.plots[plot].framing == Framing::Fitting;
     let mut asked = if fits { session.asked_by(plot) } else { Vec::new() }.into_iter();
     asked.find(|request| session.is_open(request))

@@ -22,7 +22,7 @@ pub enum Action {
 ///
 /// The player has no clock: it continues when its driver reports that the session is idle. Until the file says
 /// `<async>`, it waits for that before each step, so that each key finds the picture that its author saw.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Player {
     /// The remaining steps, each with whether it is from another file.
     steps: VecDeque<(ScriptStep, bool)>,
@@ -54,10 +54,9 @@ fn captions(script: &Script) -> usize {
 impl Player {
     /// Plays a file from its beginning.
     pub fn new(script: Script) -> Self {
-        let (said, captions, length) = (0, captions(&script), script.length());
+        let (captions, length) = (captions(&script), script.length());
         let steps = script.steps.into_iter().map(|step| (step, false)).collect();
-        let (asynchronous, files) = (false, BTreeMap::new());
-        Player { steps, place: (1, 1), length, asynchronous, pictures: 0, files, said, captions }
+        Player { steps, place: (1, 1), length, captions, ..Player::default() }
     }
 
     /// Inserts another file before the rest of this one. Fails with [`ScriptError`] if both together have more steps
@@ -119,24 +118,18 @@ impl Player {
                     self.said += 1;
                     return Ok(Action::Give(Msg::Say(text, Some((self.said, self.captions)))));
                 }
-                step => {
-                    if let Some(message) = step.message() {
-                        return Ok(Action::Give(message));
-                    }
-                }
+                Instruction::Key { key, .. } => return Ok(Action::Give(Msg::Key(key))),
+                Instruction::Give(message) => return Ok(Action::Give(message)),
+                Instruction::Wait | Instruction::Expect(_) => {}
             }
         }
     }
 
     /// Moves past the first step, or past one press of it.
     fn advance(&mut self) {
-        if let Some((ScriptStep { step: Instruction::Key { count, .. }, .. }, _)) =
-            self.steps.front_mut()
-            && *count > 1
-        {
-            *count -= 1;
-        } else {
-            self.steps.pop_front();
+        match self.steps.front_mut().map(|(located, _)| &mut located.step) {
+            Some(Instruction::Key { count, .. }) if *count > 1 => *count -= 1,
+            _ => drop(self.steps.pop_front()),
         }
     }
 }

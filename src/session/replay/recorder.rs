@@ -81,8 +81,8 @@ impl Recorder {
         });
         if known.is_none_or(|known| known != text) {
             let at = self.before(presses);
-            self.steps
-                .insert(at, Instruction::File { name: name.to_owned(), text: text.to_owned() });
+            let file = Instruction::File { name: name.to_owned(), text: text.to_owned() };
+            self.steps.insert(at, file);
         }
     }
 
@@ -122,8 +122,7 @@ fn is_press(message: &Msg) -> bool {
 
 /// The comments at the beginning of a recording, without the comment characters.
 pub fn heading(started: &str) -> String {
-    let header = HEADER.trim_start_matches("# ");
-    format!("{header}; `hopfscope replay FILE` plays it.\n{started}")
+    format!("{}; `hopfscope replay FILE` plays it.\n{started}", &HEADER["# ".len()..])
 }
 
 /// The text of a keystroke file of these steps, below a comment.
@@ -141,16 +140,16 @@ pub fn lines(steps: &[Instruction]) -> Vec<(usize, String)> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut length = 0;
     for (index, step) in steps.iter().enumerate() {
-        let step = step.to_string();
-        let added = step.chars().count() + 1;
+        let step = format!("{step}\n");
+        let added = step.chars().count();
         match lines.last_mut() {
             Some((_, line)) if length + added <= LINE + 1 => {
-                line.insert(line.len() - 1, ' ');
-                line.insert_str(line.len() - 1, &step);
+                line.replace_range(line.len() - 1.., " ");
+                line.push_str(&step);
                 length += added;
             }
             _ => {
-                lines.push((index, step + "\n"));
+                lines.push((index, step));
                 length = added;
             }
         }

@@ -87,15 +87,6 @@ impl Instruction {
     pub(super) fn length(&self) -> u64 {
         if let Instruction::Key { count, .. } = self { u64::from(*count) } else { 1 }
     }
-
-    /// The message that a step gives to a session; for a key, that of one press.
-    pub fn message(&self) -> Option<Msg> {
-        match self {
-            Instruction::Key { key, .. } => Some(Msg::Key(*key)),
-            Instruction::Give(message) => Some(message.clone()),
-            _ => None,
-        }
-    }
 }
 
 /// A step and its place in the file, counted from 1.
@@ -191,8 +182,7 @@ fn quoted(text: &str) -> String {
             None => quoted.push(char),
         }
     }
-    quoted.push('"');
-    quoted
+    quoted + "\""
 }
 
 /// Largest width and height that a file may ask for.
@@ -331,10 +321,10 @@ fn keys(name: &str) -> Result<Instruction, String> {
 /// A suggestion if a misspelt directive is more likely than a misspelt key.
 fn nearest_directive(name: &str) -> Option<String> {
     let word = name.split(' ').next().unwrap_or(name);
-    let directives: Vec<_> = DIRECTIVES.iter().map(|row| row.word).collect();
-    let nearest = most_similar(word, directives.iter().copied().chain(key::names()))?;
+    let mut directives = DIRECTIVES.iter().map(|row| row.word);
+    let nearest = most_similar(word, directives.clone().chain(key::names()))?;
     let told = || format!("unknown key <{name}>; did you mean <{nearest}>?");
-    directives.contains(&nearest).then(told)
+    directives.any(|word| word == nearest).then(told)
 }
 
 /// The place that the mouse points at.
