@@ -48,12 +48,11 @@ impl BranchCommand {
         let Some(problem) = case.described.subject.paper() else {
             let source = &case.described.subject.source;
             let (found, seconds) = timed(asked.output.repeat, || followed(source, &over));
-            let found = found.map_err(Failure::Usage)?;
-            return asked.output.print(report::of_machine(&about, symbol, &found, seconds));
+            return asked.output.print(report::of_machine(&about, symbol, &found?, seconds));
         };
         if !symbol.is_parameter() {
             let line = format!("cycles do not depend on {symbol}; allowed: D, D2, D3, r");
-            return Err(Failure::Usage(line));
+            return Err(line.into());
         }
         let (base, tolerance) = (&problem.parameters, problem.tolerance);
         let ends = range_of(&over);
@@ -90,9 +89,10 @@ impl BorderCommand {
         let Sweep { symbol, count, .. } = over;
         // It is located along D and does not depend on the start of a motion.
         if !matches!(symbol, Knob::D2 | Knob::D3 | Knob::R) {
-            return Err(Failure::Usage(format!(
+            return Err(format!(
                 "the border is a value of D over another parameter, not over {symbol}: D2, D3 or r"
-            )));
+            )
+            .into());
         }
         let range = range_of(&over);
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
@@ -112,12 +112,11 @@ impl BorderCommand {
         let along = along.or_else(|| subject.of_belt().map(own));
         let Some(along) = along else {
             let line = "a mode has no belt speed: along what? --along NAME=FROM:TO:COUNT";
-            return Err(Failure::usage(line));
+            return Err(line.into());
         };
         let [first, second] = [&along, over].map(|sweep| sweep.symbol);
         if first == second {
-            let line = format!("{second} is varied twice, by --along and by --over");
-            return Err(Failure::Usage(line));
+            return Err(format!("{second} is varied twice, by --along and by --over").into());
         }
         let row = |index| {
             let value = over.value(index);
@@ -125,9 +124,8 @@ impl BorderCommand {
         };
         let follow = || (0..over.count).map(row).collect::<Result<Vec<_>, String>>();
         let (found, seconds) = timed(output.repeat, follow);
-        let found = found.map_err(Failure::Usage)?;
         let about = case.about().but(&[first, second]);
-        output.print(report::border_of_machine(&about, (first, second), &found, seconds))
+        output.print(report::border_of_machine(&about, (first, second), &found?, seconds))
     }
 }
 

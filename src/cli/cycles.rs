@@ -56,8 +56,7 @@ impl CyclesCommand {
     /// The answer for all parameters in a box.
     fn boxed(&self, known: &ParameterBox) -> Result<Answer, Failure> {
         if self.harmonics.is_some() {
-            let line = "intervals of parameters: --harmonics has no place for them";
-            return Err(Failure::usage(line));
+            return Err("intervals of parameters: --harmonics has no place for them".into());
         }
         let proof = prove(known, &[]);
         self.certify(&proof)?;
@@ -67,10 +66,10 @@ impl CyclesCommand {
     /// Writes the certificate, if asked for.
     fn certify(&self, proof: &Proof) -> Result<(), Failure> {
         let Some(path) = &self.certificate else { return Ok(()) };
-        let unwritten = |why: String| Failure::Unanswered(format!("no certificate: {why}"));
-        let made = certificate(proof).map_err(unwritten)?;
-        let text = text(&made).map_err(|error| unwritten(error.to_string()))?;
-        check(&text).map_err(unwritten)?;
+        const FAILED: &str = "no certificate";
+        let made = certificate(proof).map_err(Failure::unanswered(FAILED))?;
+        let text = text(&made).map_err(Failure::unanswered(FAILED))?;
+        check(&text).map_err(Failure::unanswered(FAILED))?;
         write(path, text.as_bytes(), self.force)?;
         provenance_file::write(path, &provenance_file::of_process())
     }
@@ -78,8 +77,8 @@ impl CyclesCommand {
     /// The cycles, their proof, and the harmonic balance if asked for.
     fn find(&self, parameters: &Parameters) -> Result<(Cycles, Proof, Rungs), Failure> {
         let limits = &Limits::PATIENT;
-        let gave_up = |reason: Reason| Failure::Unanswered(format!("the search gave up: {reason}"));
-        let found = cycles(parameters, limits).map_err(gave_up)?;
+        let gave_up = Failure::unanswered::<Reason>("the search gave up");
+        let found = cycles(parameters, limits).map_err(&gave_up)?;
         let proof = proved(&found).map_err(|wrong| Failure::Unanswered(wrong.to_string()))?;
         let balance = |rung| compare(parameters, &found.cycles, rung, 0, limits);
         let convergence = |most| ladder(most).into_iter().map(balance).collect();
@@ -98,7 +97,7 @@ pub struct CheckCommand {
 impl CheckCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let text = bounded::text(&self.file)?;
-        let refused = |why| Failure::Unanswered(format!("{}: refused, {why}", self.file.display()));
-        print(&certificate_table(&check(&text).map_err(refused)?))
+        let refused = |why| format!("{}: refused, {why}", self.file.display());
+        print(&certificate_table(&check(&text).map_err(refused).map_err(Failure::Unanswered)?))
     }
 }

@@ -64,8 +64,7 @@ impl ExploreCommand {
         let name = named.map_or(PLAIN, String::as_str);
         let scene = if let Some(file) = &self.belt {
             let scene = CommandCase::named(file)?.scene()?;
-            let no_belt = || Failure::Usage(format!("{file}: {NO_BELT}"));
-            self.start.applied(scene.ok_or_else(no_belt)?)?
+            self.start.applied(scene.ok_or_else(|| format!("{file}: {NO_BELT}"))?)?
         } else {
             if self.named.is_some() {
                 find(name).map_err(|_| neither_scene_nor_command(name, commands))?;
@@ -79,7 +78,7 @@ impl ExploreCommand {
         }
         let last = self.last.then(last).transpose()?;
         if let Some(path) = self.open.as_ref().or(last.as_ref()) {
-            let text = Files::read(path).map_err(Failure::Usage)?;
+            let text = Files::read(path)?;
             save::open(&mut session, &text).map_err(|why| Failure::file(path, why))?;
             session.inform(format!("opened {}", path.display()));
         }
@@ -116,15 +115,13 @@ fn session(scene: Arc<Scene>, looks: Looks, config: Config) -> Session {
 /// The file of the last session.
 fn last() -> Result<PathBuf, Failure> {
     let path = Memory::open().map(|memory| memory.last).filter(|path| path.exists());
-    path.ok_or_else(|| {
-        Failure::Usage("there is no last session; a session without changes is not kept".to_owned())
-    })
+    path.ok_or("there is no last session; a session without changes is not kept".into())
 }
 
 /// The steps that play a file. The file is parsed first, so that an error shows before anything runs.
 fn played(path: &Path) -> Result<Vec<Instruction>, Failure> {
     script(path)?;
-    let text = Files::read(path).map_err(Failure::Usage)?;
+    let text = Files::read(path)?;
     let name = path.display().to_string();
     let run = Instruction::Give(Msg::Run(format!("play {name}")));
     Ok(vec![Instruction::File { name, text }, run])
@@ -140,13 +137,13 @@ pub fn go(
     may_play_write: bool,
 ) -> Result<(), Failure> {
     let environment = Environment::of_process();
-    environment.admit().map_err(Failure::Usage)?;
+    environment.admit()?;
     let mut steps = opening(&session).map_err(Failure::Unanswered)?;
     steps.extend(play.iter().cloned());
     let mut recorder = Recorder::new(provenance_file::of_process().command, steps);
     // A file that cannot be written is reported before the session, not after it.
     let record = record.map(|(path, force)| RecordingFile::begin(path, force, &mut recorder));
-    let record = record.transpose().map_err(Failure::Usage)?;
+    let record = record.transpose()?;
     let memory = Memory::open();
     if let Some(memory) = &memory {
         session.interrupted = memory.interrupted().into_iter().map(kept).collect();
@@ -158,8 +155,8 @@ pub fn go(
     let (keep, last) = memory.map(|memory| (memory.keep, memory.last)).unzip();
     let replay = (!play.is_empty()).then(|| Script::of(play.to_vec()));
     let options = Options { replay, recorder, record, keep, last, mouse, files };
-    let ended = explore(session, environment, options)
-        .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))?;
+    let ended =
+        explore(session, environment, options).map_err(Failure::unanswered("the terminal"))?;
     if ended == 0 { Ok(()) } else { Err(Failure::Said(ended)) }
 }
 
@@ -206,11 +203,11 @@ fn neither_scene_nor_command(name: &str, commands: &[&str]) -> Failure {
     let told = |found| if scenes.contains(&found) { found } else { format!("the command {found}") };
     let meant = joined(meant.map(told), " or ");
     let line = format!("there is no scene and no command {name:?}");
-    Failure::Usage(if meant.is_empty() {
-        format!("{line}; hopfscope scenes lists the scenes, hopfscope --help the commands")
+    if meant.is_empty() {
+        format!("{line}; hopfscope scenes lists the scenes, hopfscope --help the commands").into()
     } else {
-        format!("{line}; did you mean {meant}?")
-    })
+        format!("{line}; did you mean {meant}?").into()
+    }
 }
 
 #[cfg(test)]

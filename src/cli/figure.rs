@@ -64,13 +64,13 @@ impl FigureCommand {
     /// The scene to show: that of a machine, or one that is named.
     fn scene(&self) -> Result<Arc<Scene>, Failure> {
         if let Some(case) = self.source.machine()? {
-            return case.checked()?.scene()?.ok_or_else(|| Failure::Usage(NO_BELT.to_owned()));
+            return case.checked()?.scene()?.ok_or_else(|| NO_BELT.into());
         }
         let start = &self.source.start;
         let Some(name) = self.named.as_deref().or(start.scene.as_deref()) else {
-            return Err(Failure::usage(
-                "which figure? Every scene has one, such as fig17; hopfscope scenes lists them",
-            ));
+            let line =
+                "which figure? Every scene has one, such as fig17; hopfscope scenes lists them";
+            return Err(line.into());
         };
         start.scene(Some(name))
     }
@@ -82,7 +82,7 @@ pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>), Failure> {
     let width = width.unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
     let mut session = Session::new(scene, Size { width, height: PANEL.1 });
     complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(topic, reason)| {
-        Failure::Unanswered(format!("{} not computed: {reason}", topic.name()))
+        Failure::unanswered(format!("{} not computed", topic.name()))(reason)
     })?;
     let plots = (0..session.plots.len()).collect();
     Ok((session, plots))

@@ -78,15 +78,15 @@ impl FitCommand {
             write(path, page.as_bytes(), self.force)?;
         }
         self.output.print(forms::fit(&fitted))?;
-        let failure = |line| Err(Failure::Unanswered(format!("{}: {line}", fitted.name)));
-        signed(&fitted).broken().map_or(Ok(()), failure)
+        let failure = Failure::unanswered(&fitted.name);
+        signed(&fitted).broken().map_or(Ok(()), |line| Err(failure(line)))
     }
 
     fn fitted(&self, bytes: &[u8]) -> Result<FitResult, Failure> {
         let name = self.file.display().to_string();
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
         // What contradicts itself is not the fault of the file.
-        self.record.question().map_err(Failure::Usage)?;
+        self.record.question()?;
         let half_widths = half_widths(&self.half_width)?;
         let opened = self.record.opened(&self.file, bytes).map_err(|problem| bad(&problem))?;
         let (inertia, record) = (opened.metric(), &opened.record);
@@ -102,7 +102,7 @@ impl FitCommand {
         line.borrow().end();
         let (estimate, margins) = found.map_err(|reason| match reason {
             NoEstimate::TooFew { .. } | NoEstimate::NotAlternating { .. } => bad(&reason),
-            _ => Failure::Unanswered(format!("{name}: {reason}")),
+            _ => Failure::unanswered(&name)(reason),
         })?;
         let OpenedRecord { name, record, .. } = opened;
         Ok(FitResult { seconds, ..FitResult::new(name, record, estimate, margins) })

@@ -100,8 +100,7 @@ pub fn read<T>(
     text: &str,
     read: impl FnOnce(&str) -> Result<T, String>,
 ) -> Result<T, Failure> {
-    read(text)
-        .map_err(|why| Failure::Usage(format!("invalid value '{text}' for '{option}': {why}")))
+    read(text).map_err(|why| format!("invalid value '{text}' for '{option}': {why}").into())
 }
 
 /// Reads the text of an option if it is given.
@@ -153,7 +152,7 @@ pub fn half_widths(given: &[(Knob, f64)]) -> Result<[f64; 4], Failure> {
     let mut all = [None; 4];
     for (knob, half_width) in given {
         if all[knob.place()].replace(*half_width).is_some() {
-            return Err(Failure::Usage(format!("{knob} has two half widths")));
+            return Err(format!("{knob} has two half widths").into());
         }
     }
     Ok(all.map(Option::unwrap_or_default))

@@ -184,10 +184,11 @@ fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>, Fai
                 Some(Msg::answered(request.clone(), Ok(found), seconds))
             }
             Err(reason) => {
-                failed = Some(format!("scene {}: {}: {reason}", scene.name, topic.name()));
+                let question = format!("scene {}: {}", scene.name, topic.name());
+                failed = Some(Failure::unanswered(question)(reason));
                 None
             }
         }
     });
-    failed.map_or(Ok(answered), |why| Err(Failure::Unanswered(why)))
+    failed.map_or(Ok(answered), Err)
 }

@@ -54,7 +54,7 @@ impl CommandCase {
         }
         let text = text.map_err(|error| {
             let known = joined(machines().iter().map(|machine| &machine.name), ", ");
-            Failure::Usage(format!("{error}; the machines of the program are {known}"))
+            format!("{error}; the machines of the program are {known}")
         })?;
         let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
         let mut sources = vec![provenance_file::source(path, text.as_bytes())];
@@ -64,8 +64,7 @@ impl CommandCase {
             sources.push(provenance_file::source(&beside, text.as_bytes()));
             Ok(text)
         };
-        let described = parse(&title, name, &text, fetch);
-        let described = described.map_err(|error| Failure::Usage(error.to_string()))?;
+        let described = parse(&title, name, &text, fetch).map_err(|error| error.to_string())?;
         Ok(CommandCase { described, sources })
     }
 
@@ -90,7 +89,7 @@ impl CommandCase {
     /// Sets numbers, each with or without a tolerance.
     pub fn set(&mut self, set: &[(Knob, TolerancedNumber)]) -> Result<(), Failure> {
         for &(knob, TolerancedNumber { middle, half_width, .. }) in set {
-            self.described.subject.set(knob, middle.value).map_err(Failure::Usage)?;
+            self.described.subject.set(knob, middle.value)?;
             if knob.spec().group != Group::Course {
                 self.described.subject.tolerances.half_widths.insert(knob.to_string(), half_width);
             }
@@ -102,8 +101,8 @@ impl CommandCase {
     pub fn checked(self) -> Result<Self, Failure> {
         let Subject { source, tolerances, .. } = &self.described.subject;
         match &source.body {
-            Body::Belt(belt) => tolerances.check(belt).map_err(Failure::Usage)?,
-            Body::Mode(_) if !tolerances.is_none() => return Err(Failure::usage(UNCERTAIN_MODE)),
+            Body::Belt(belt) => tolerances.check(belt)?,
+            Body::Mode(_) if !tolerances.is_none() => return Err(UNCERTAIN_MODE.into()),
             Body::Paper(_) | Body::Mode(_) => {}
         }
         if let Some(line) = unlikely(&source.body, self.described.subject.start()) {
@@ -115,7 +114,7 @@ impl CommandCase {
     /// The scene of the machine with its present numbers; `None` for a mode.
     pub fn scene(&self) -> Result<Option<Arc<Scene>>, Failure> {
         let Ok(machine) = Machine::try_from(self.described.clone()) else { return Ok(None) };
-        let refused = |why| Failure::Usage(format!("{}: {why}", self.described.name));
+        let refused = |why| format!("{}: {why}", self.described.name);
         let scaled = ScaledMachine::try_from(machine).map_err(refused)?;
         Ok(Some(Arc::new(scaled.scene())))
     }
@@ -123,11 +122,10 @@ impl CommandCase {
 
 /// Why a machine has no answer; an error in the machine itself counts as bad input.
 pub fn troubled(trouble: Reason) -> Failure {
-    let line = format!("the machine could not be computed: {trouble}");
     if trouble.is_of_the_machine() {
-        Failure::Usage(trouble.to_string())
+        trouble.to_string().into()
     } else {
-        Failure::Unanswered(line)
+        Failure::unanswered("the machine could not be computed")(trouble)
     }
 }
 
@@ -136,8 +134,9 @@ pub fn second(method: Option<Method>) -> Result<Option<Method>, Failure> {
     match method {
         None | Some(Method::Auto | Method::Taylor) => Ok(None),
         Some(method) if method.follows_machines() => Ok(Some(method)),
-        Some(method) => Err(Failure::Usage(format!(
+        Some(method) => Err(format!(
             "--method {method} knows one switching line only; a machine has two: allowed are {ALLOWED}"
-        ))),
+        )
+        .into()),
     }
 }

@@ -47,8 +47,7 @@ impl MergeCommand {
         let recheck = self.check.then_some(&Limits::PATIENT);
         let mut output = None;
         if let Some(path) = &self.output {
-            let file = NewFile::begin(path, Readers::Usual)
-                .map_err(|error| Failure::unwritten(path, error))?;
+            let file = NewFile::begin(path, Readers::Usual).map_err(Failure::unwritten(path))?;
             output = Some((BufWriter::new(file), path));
         }
         // The first line is the heading.
@@ -56,7 +55,7 @@ impl MergeCommand {
         let mut write = |line: &[u8]| {
             checksum = Some(checksum.map_or(Checksum::NONE, |checksum| checksum.and(line)));
             let Some((output, path)) = &mut output else { return Ok(()) };
-            output.write_all(line).map_err(|error| Failure::unwritten(path, error))
+            output.write_all(line).map_err(Failure::unwritten(path))
         };
         let missing = merge(&sources, recheck, &mut write)?;
         if !missing.is_empty() {
@@ -73,7 +72,7 @@ impl MergeCommand {
             let written = output.into_inner().map_err(io::IntoInnerError::into_error);
             let how = Some("--force replaces it");
             let written = written.and_then(|file| file.end(self.force));
-            written.map_err(|error| Failure::not_replaced(path, error, how))?;
+            written.map_err(|error| Failure::not_replaced(path, &error, how))?;
             let command = command(without(&first.arguments, &OWN), first.part.form, path);
             let provenance = Provenance { command, checksum, ..first.provenance.clone() };
             provenance_file::write(path, &provenance)?;
@@ -123,17 +122,16 @@ fn part_of(path: PathBuf) -> Result<PartFile, Failure> {
 
 /// Refuses a part of another scan or from another version.
 fn must_belong_with(own: &PartFile, first: &PartFile) -> Result<(), Failure> {
-    let refused = |what: &str, [here, there]: [&str; 2]| {
+    let refused = |what: &str, of: fn(&Provenance) -> String| {
+        let [here, there] = [own, first].map(|file| of(&file.provenance));
         let (path, first) = (own.path.display(), first.path.display());
-        Err(Failure::Usage(format!("{path} and {first} {what}: {here}, and {there}")))
+        Err(format!("{path} and {first} {what}: {here}, and {there}").into())
     };
-    let builds = [own.provenance.build(), first.provenance.build()];
-    if builds[0] != builds[1] {
-        return refused("are from different versions", [&builds[0], &builds[1]]);
+    if own.provenance.build() != first.provenance.build() {
+        return refused("are from different versions", Provenance::build);
     }
     if own.part.scan != first.part.scan || own.part.form != first.part.form {
-        let commands = [&own.provenance.command, &first.provenance.command];
-        return refused("are parts of different scans", [commands[0], commands[1]]);
+        return refused("are parts of different scans", |it| it.command.clone());
     }
     Ok(())
 }

@@ -77,7 +77,7 @@ fn question<C: Args + 'static>(
 
 /// The options of a command, of those that were given.
 fn parsed<C: Args>(given: &ArgMatches) -> Result<C, Failure> {
-    C::from_arg_matches(given).map_err(|error| Failure::Usage(usage::line(&error)))
+    C::from_arg_matches(given).map_err(|error| usage::line(&error).into())
 }
 
 /// The commands, in the order of the help.
@@ -144,7 +144,7 @@ pub fn main() -> ExitCode {
     let words = settings_last(std::env::args_os().collect());
     let result = match program().try_get_matches_from(words) {
         Ok(given) => run(&given),
-        Err(error) if error.use_stderr() => Err(Failure::Usage(usage::line(&error))),
+        Err(error) if error.use_stderr() => Err(usage::line(&error).into()),
         Err(help) => print(&help.render().to_string()),
     };
     result.map_or_else(|failure| failure.report(), |()| ExitCode::SUCCESS)

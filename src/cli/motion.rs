@@ -80,8 +80,8 @@ impl TrajectoryCommand {
         question.output.print(motion::motion(&asked.about, &found, certified.as_ref(), seconds))?;
         match found.outcome {
             Outcome::GaveUp { tau, reason } if !is_machine => {
-                let until = problem.until;
-                Err(Failure::Unanswered(format!("gave up at tau = {tau:?} of {until:?}: {reason}")))
+                let place = format!("gave up at tau = {tau:?} of {:?}", problem.until);
+                Err(Failure::unanswered(place)(reason))
             }
             outcome => outcome.answered().map_err(troubled),
         }
@@ -103,12 +103,9 @@ impl TradeCommand {
     pub fn run(&self, question: &QuestionOptions) -> Result<(), Failure> {
         let asked = AskedMotion::new(question, self.named.as_deref(), self.until.as_ref())?;
         let machine = asked.model.as_ref();
-        let unmeasured = |reason| {
-            if machine.is_some() {
-                return troubled(reason);
-            }
-            let nothing = "there is nothing to measure errors against";
-            Failure::Unanswered(format!("{nothing}: {reason}"))
+        let unmeasured = |reason| match machine {
+            Some(_) => troubled(reason),
+            None => Failure::unanswered("there is nothing to measure errors against")(reason),
         };
         let found = Trade::of(machine, &asked.problem, &Limits::PATIENT);
         let mut found = found.map_err(unmeasured)?;

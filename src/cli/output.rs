@@ -10,8 +10,7 @@ use clap::Args;
 use super::Failure;
 use crate::flow::Result;
 use crate::report::{Answer, Format};
-use crate::runtime::new_file;
-use crate::runtime::{Readers, provenance_file, standard};
+use crate::runtime::{Readers, new_file, provenance_file, standard};
 use crate::words::printable;
 
 /// How an answer is printed.
@@ -40,8 +39,7 @@ impl Output {
         compute: impl FnMut() -> Result<T>,
     ) -> Result<(T, f64), Failure> {
         let (found, seconds) = timed(self.repeat, compute);
-        let found = found.map_err(|reason| Failure::Unanswered(format!("{failed}: {reason}")))?;
-        Ok((found, seconds))
+        Ok((found.map_err(Failure::unanswered(failed))?, seconds))
     }
 
     /// The width of the terminal in which the answer is shown, if it is shown in one.
@@ -81,7 +79,7 @@ pub const CERTIFY: &str = "Encloses the answer between proved bounds, or says wh
 pub fn print(text: &str) -> Result<(), Failure> {
     match standard::print(text) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::Unanswered(format!("cannot write to standard output: {error}")))
+            Err(Failure::unanswered("cannot write to standard output")(error))
         }
         _ => Ok(()),
     }

@@ -78,7 +78,7 @@ impl RowChoice {
         let rows = self.rows.clone().unwrap_or(0..all);
         if rows.end > all {
             let (first, last) = (rows.start + 1, rows.end);
-            return Err(Failure::usage(format!("--rows {first}:{last}: the scan has {all} rows")));
+            return Err(format!("--rows {first}:{last}: the scan has {all} rows").into());
         }
         Ok(rows)
     }

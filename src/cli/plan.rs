@@ -68,7 +68,7 @@ impl Plan {
     /// Prints or writes the recipe for the scan of this process, with `jobs` threads for each shard.
     pub fn run(&self, jobs: u16, output: Option<&Path>, force: bool) -> Result<(), Failure> {
         let (Some(engine), Some(shards)) = (self.plan, self.shards) else {
-            return Err(Failure::usage("--plan needs --shards"));
+            return Err("--plan needs --shards".into());
         };
         let is_of_rows = |path: &&Path| {
             let ending = path.extension().and_then(OsStr::to_str);
@@ -94,7 +94,7 @@ fn recipe(engine: Engine, shards: usize, jobs: u16, rows: &Path) -> Result<Strin
             "{word:?} has characters that mean something to a batch engine; allowed: letters, \
                             digits and -_=+.,:/%"
         );
-        return Err(Failure::Usage(line));
+        return Err(line.into());
     }
     let parts = format!("{rows}.parts");
     let ending = if Format::of_file(Path::new(&rows)) == Format::Json { "json" } else { "csv" };

@@ -6,8 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::settings::Looks;
 use super::{Failure, StartOptions, input, print};
-use crate::runtime::new_file;
-use crate::runtime::{Readers, bounded, play};
+use crate::runtime::{Readers, bounded, new_file, play};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
 use crate::session::{Session, Size, Theme};
@@ -56,8 +55,7 @@ impl ReplayCommand {
         let light = session.display.theme == Theme::Light;
         let played = play(session, anywhere(), script, self.allow_write);
         if let Some(directory) = &self.screens {
-            std::fs::create_dir_all(directory)
-                .map_err(|error| Failure::unwritten(directory, error))?;
+            std::fs::create_dir_all(directory).map_err(Failure::unwritten(directory))?;
             let paper = if light { Paper::LIGHT } else { Paper::DARK };
             for (name, screen) in &played.kept {
                 let (ending, content) = match self.screen_format {
@@ -70,9 +68,7 @@ impl ReplayCommand {
         }
         print(&screen::text(&played.screen))?;
         let why = played.unmet.map(|unmet| unmet.to_string()).or(played.unwritten);
-        why.map_or(Ok(()), |why| {
-            Err(Failure::Unanswered(format!("{}: {why}", self.file.display())))
-        })
+        why.map_or(Ok(()), |why| Err(Failure::unanswered(self.file.display())(why)))
     }
 }
 

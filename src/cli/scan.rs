@@ -150,9 +150,7 @@ impl ScanCommand {
             ControlFlow::Continue(())
         });
         progress.end();
-        took.map_err(|error| {
-            Failure::Unanswered(format!("cannot start threads for the scan: {error}"))
-        })?;
+        took.map_err(Failure::unanswered("cannot start threads for the scan"))?;
         let lost =
             if given_up > 0 { format!(", {given_up} of them given up") } else { String::new() };
         let tally = format!("{} of {left} rows{lost}", left - file.left());
@@ -164,7 +162,7 @@ impl ScanCommand {
             Some(error) => {
                 let path = self.output.as_ref().map(|path| path.display().to_string());
                 let to = path.unwrap_or_else(|| "standard output".to_owned());
-                Err(Failure::Unanswered(format!("{to}: {error}; {tally}")))
+                Err(Failure::unanswered(to)(format!("{error}; {tally}")))
             }
             None => {
                 let signal = Some(stop.load(Ordering::Relaxed));
@@ -185,7 +183,7 @@ impl ScanCommand {
         let over = self.over.iter();
         let over = over.map(|text| read("--over", text, |text| Sweep::read(text, groups)));
         let over = over.collect::<Result<_, _>>()?;
-        let scan = Scan::new(base, over, measures, conditions).map_err(Failure::Usage)?;
+        let scan = Scan::new(base, over, measures, conditions)?;
         let points = self.part.points(scan.points())?;
         // By default only the first part has a heading, so that `cat` can join the parts.
         let headed = points.start == 0 || self.header == HeaderWhen::Always;
@@ -223,7 +221,7 @@ impl ScanCommand {
                 _ => continue,
             };
             let name = measure.spec().name;
-            return Err(Failure::Usage(format!("{name} of a machine needs {needs}")));
+            return Err(format!("{name} of a machine needs {needs}").into());
         }
         Ok((subject, conditions))
     }
@@ -241,7 +239,7 @@ impl ScanCommand {
         let name = path.display();
         if !self.resume && !self.force && holds_something(path) {
             let line = format!("{name} is not empty; --resume continues it, --force starts over");
-            return Err(Failure::Usage(line));
+            return Err(line.into());
         }
         let provenance = provenance_file::of_process();
         if !self.resume {
@@ -251,7 +249,7 @@ impl ScanCommand {
         let builds = earlier.map(|earlier| (earlier.build(), provenance.build()));
         if let Some((earlier, now)) = builds.filter(|(earlier, now)| earlier != now) {
             let begun = format!("{name} was begun by {earlier}, and this is {now}");
-            return Err(Failure::Usage(format!("{begun}; --force starts over")));
+            return Err(format!("{begun}; --force starts over").into());
         }
         let limits = Limits { interrupted, ..Limits::PATIENT };
         let file = ScanFile::resume(path, part, provenance, &limits)?;
@@ -268,8 +266,7 @@ impl ScanCommand {
         let of_file = || self.output.as_deref().map_or(Format::Csv, Format::of_file);
         let form = self.format.unwrap_or_else(of_file);
         if form == Format::Table && self.resume {
-            let line = "--format table rounds its numbers; --resume needs csv or json";
-            return Err(Failure::usage(line));
+            return Err("--format table rounds its numbers; --resume needs csv or json".into());
         }
         Ok(form)
     }
@@ -293,8 +290,7 @@ fn stop_signal() -> Result<Arc<AtomicI32>, Failure> {
     let came = Arc::new(AtomicI32::new(0));
     let told = Arc::clone(&came);
     let signals = Signals::new([SIGINT, SIGTERM, SIGHUP]);
-    let mut signals = signals
-        .map_err(|error| Failure::Unanswered(format!("cannot listen for signals: {error}")))?;
+    let mut signals = signals.map_err(Failure::unanswered("cannot listen for signals"))?;
     std::thread::spawn(move || {
         for signal in signals.forever() {
             if told.swap(signal, Ordering::Relaxed) != 0 {

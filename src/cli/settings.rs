@@ -30,7 +30,7 @@ impl Settings {
         let is_there = |path: &PathBuf| self.config.is_some() || path.exists();
         let Some(path) = self.path().filter(is_there) else { return Ok(Config::default()) };
         parse(&path.display().to_string(), &bounded::text(&path)?)
-            .map_err(|mistake| Failure::Usage(mistake.to_string()))
+            .map_err(|mistake| mistake.to_string().into())
     }
 
     /// The file that is read, whether it exists or not.

@@ -49,9 +49,9 @@ impl SourceOptions {
             return Ok(None);
         };
         if second(self.start.method)?.is_some() {
-            return Err(Failure::usage(
-                "all motions of a machine are followed by Taylor series: --method auto or taylor",
-            ));
+            let line =
+                "all motions of a machine are followed by Taylor series: --method auto or taylor";
+            return Err(line.into());
         }
         Ok(Some(case.checked()?))
     }
@@ -133,7 +133,7 @@ impl StartOptions {
         for (symbol, value) in self.assigned(&OSCILLATOR)? {
             if !value.ends.is_point() {
                 let why = "only cycles and margin take an interval; this command takes a number";
-                return Err(Failure::Usage(format!("{symbol}: {why}")));
+                return Err(format!("{symbol}: {why}").into());
             }
             problem.set(symbol, value.middle.value);
             if symbol.is_parameter() {
@@ -152,13 +152,13 @@ impl StartOptions {
         let mut known = ParameterBox::from(&self.found(None)?.problem.parameters);
         for (symbol, value) in self.assigned(&OSCILLATOR)? {
             if symbol.is_parameter() {
-                known.set(symbol, value.ends).map_err(Failure::Usage)?;
+                known.set(symbol, value.ends)?;
             }
         }
         Ok(known)
     }
 
     fn found(&self, named: Option<&str>) -> Result<Arc<Scene>, Failure> {
-        find(named.or(self.scene.as_deref()).unwrap_or(PLAIN)).map_err(Failure::Usage)
+        Ok(find(named.or(self.scene.as_deref()).unwrap_or(PLAIN))?)
     }
 }

@@ -7,7 +7,7 @@ use super::{CertainZones, Fit, Request, zones};
 use crate::accuracy::{HarmonicBalance, Reference, Trade, harmonic_balance};
 use crate::branch::Branch;
 use crate::branch::along::{Points, branch};
-use crate::branch::chart::{Chart, Plane, Resolution, chart};
+use crate::branch::chart::{Chart, Resolution, chart};
 use crate::branch::machine::MachineBranch;
 use crate::flow::quality::DRAFT;
 use crate::flow::{
@@ -148,9 +148,14 @@ impl Fineness {
         self.points(if self == Self::SCREEN { 12 } else { 16 })
     }
 
-    /// Largest distance of the borders of a chart from their chords, as a fraction of the range.
-    fn chord(self) -> f64 {
-        if self == Self::SCREEN { f64::INFINITY } else { 4e-4 / f64::from(self.0) }
+    /// How finely a chart is computed, of a few lines if it is a `rough` draft: boundaries are interpolated between the
+    /// evenly spaced lines; the tolerance is the relative error of clearances at boundaries.
+    fn resolution(self, rough: bool) -> Resolution {
+        if rough {
+            return Resolution { lines: 4, chord: f64::INFINITY, tolerance: 1e-3 };
+        }
+        let chord = if self == Self::SCREEN { f64::INFINITY } else { 4e-4 / f64::from(self.0) };
+        Resolution { lines: 40, chord, tolerance: 1e-13 }
     }
 }
 
@@ -176,9 +181,7 @@ pub fn answer_for(request: &Request, fineness: Fineness, limits: &Limits) -> Res
             Finding::Trajectory(motion(problem, machine.as_deref(), points, limits)?)
         }
         Request::Cycles { parameters, machine, whole } => {
-            let machine = machine.as_deref();
-            let (drawn, other) = cycles(parameters, machine, *whole, points, limits)?;
-            Finding::Cycles(drawn, other)
+            cycles(parameters, machine.as_deref(), *whole, points, limits)?
         }
         Request::Zones { source, tolerances } => {
             Finding::Zones(zones(source, tolerances, points, limits)?)
@@ -210,7 +213,7 @@ pub fn answer_for(request: &Request, fineness: Fineness, limits: &Limits) -> Res
             Finding::ReturnMap(return_map(parameters, *range, fineness.points(128), limits)?)
         }
         Request::Regimes { parameters, plane, rough } => {
-            Finding::Regimes(regimes(parameters, *plane, *rough, fineness, limits)?)
+            Finding::Regimes(chart(parameters, *plane, fineness.resolution(*rough), limits)?)
         }
         Request::MachineBranch { belt, varied, range, rough } => {
             Finding::MachineBranch(along_number(belt, *varied, *range, *rough, limits)?)
@@ -231,21 +234,6 @@ pub fn answer_for(request: &Request, fineness: Fineness, limits: &Limits) -> Res
             Finding::Reference(Reason::tolerated(found)?.map(Box::new))
         }
     })
-}
-
-/// The chart over two parameters, of a few lines if it is a `rough` draft.
-fn regimes(
-    parameters: &Parameters,
-    plane: Plane,
-    rough: bool,
-    fineness: Fineness,
-    limits: &Limits,
-) -> Result<Chart> {
-    /// Boundaries are interpolated between the evenly spaced lines; the tolerance is the relative error of clearances
-    /// at boundaries.
-    const DRAFT: Resolution = Resolution { lines: 4, chord: f64::INFINITY, tolerance: 1e-3 };
-    let fine = Resolution { lines: 40, chord: fineness.chord(), tolerance: 1e-13 };
-    chart(parameters, plane, if rough { DRAFT } else { fine }, limits)
 }
 
 /// The cycles of a machine over these values of one of its numbers, and the changes between them unless it is a `rough`
@@ -314,12 +302,16 @@ fn cycles(
     whole: bool,
     points: u16,
     limits: &Limits,
-) -> Result<(Drawing, Option<Margin>)> {
-    let expansion = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
-    let Some(belt) = machine else { return Ok((expansion?.drawn(parameters, points)?, None)) };
-    let found = Portrait::of_belt(belt);
-    let (shown, other) = if whole { (found, expansion) } else { (expansion, found) };
-    let other = other.map(|other| other.in_drawing(&other.margin));
-    let other = other.ok().or(whole.then_some(Margin::ENDLESS));
-    Ok((shown?.drawn(parameters, points)?, other))
+) -> Result<Finding> {
+    let mut shown = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
+    let mut margin = None;
+    if let Some(belt) = machine {
+        let mut other = Portrait::of_belt(belt);
+        if whole {
+            std::mem::swap(&mut shown, &mut other);
+        }
+        let known = other.map(|other| other.in_drawing(&other.margin)).ok();
+        margin = known.or(whole.then_some(Margin::ENDLESS));
+    }
+    Ok(Finding::Cycles(shown?.drawn(parameters, points)?, margin))
 }

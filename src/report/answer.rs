@@ -4,8 +4,7 @@
 use clap::ValueEnum;
 use serde::Serialize;
 
-use super::json;
-use super::{Columns, Document, Quantity, RowsOf, Table};
+use super::{Columns, Document, Quantity, RowsOf, Table, json};
 use crate::flow::Cost;
 use crate::model::{Body, Group, Interval, Knob, ParameterBox, Source};
 use crate::words::provenance::Provenance;

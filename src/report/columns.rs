@@ -7,8 +7,7 @@ use csv::Writer;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::json;
-use super::{Document, Table};
+use super::{Document, Table, json};
 use crate::numerics::{Interval, cells, log10, pow};
 use crate::words::{joined, rounded_down, significant, with_unit};
 
@@ -73,9 +72,6 @@ pub struct Columns<'a, R> {
 /// Adds a field, or several, to the object of a row.
 type Field<'a, R> = Box<dyn Fn(Document, &R) -> Document + 'a>;
 
-/// What a row tells.
-type Part<'a, R, T> = Box<dyn Fn(&R) -> T + 'a>;
-
 /// A column of comma-separated values, which are those of the object of a row.
 struct FileColumn {
     name: String,
@@ -85,7 +81,7 @@ struct FileColumn {
 
 struct TextColumn<'a, R> {
     title: String,
-    cell: Part<'a, R, String>,
+    cell: Box<dyn Fn(&R) -> String + 'a>,
 }
 
 impl<R> Default for Columns<'_, R> {
@@ -101,13 +97,9 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// A field of documents alone.
-    pub fn field<V: Serialize>(self, name: &str, value: impl Fn(&R) -> V + 'a) -> Self {
-        self.told(name, Box::new(move |row| json::value(&value(row))))
-    }
-
-    fn told(mut self, name: &str, value: Part<'a, R, Value>) -> Self {
+    pub fn field<V: Serialize>(mut self, name: &str, value: impl Fn(&R) -> V + 'a) -> Self {
         let name = name.to_owned();
-        self.fields.push(Box::new(move |object, row| object.with_value(&name, value(row))));
+        self.fields.push(Box::new(move |object, row| object.with(&name, value(row))));
         self
     }
 
@@ -123,7 +115,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         self.shown(title, Box::new(move |row| shown(&json::value(&value(row)))))
     }
 
-    fn shown(mut self, title: &str, cell: Part<'a, R, String>) -> Self {
+    fn shown(mut self, title: &str, cell: Box<dyn Fn(&R) -> String + 'a>) -> Self {
         self.texts.push(TextColumn { title: title.to_owned(), cell });
         self
     }
@@ -135,9 +127,8 @@ impl<'a, R: 'a> Columns<'a, R> {
         quantity: Quantity,
         value: impl Fn(&R) -> V + Copy + 'a,
     ) -> Self {
-        self.column(name.to_owned(), [name])
-            .told(name, Box::new(move |row| json::value(&value(row).into())))
-            .shown(title(name), Box::new(move |row| quantity.text(value(row).into())))
+        self.file(name, move |row| value(row).into())
+            .shown(title(name), Box::new(move |row| quantity.text(value(row))))
     }
 
     /// Words, counts or marks, in files and in text.

@@ -18,12 +18,8 @@ impl Document {
     }
 
     /// The document with this field.
-    pub fn with(self, name: &str, value: impl Serialize) -> Self {
-        self.with_value(name, self::value(&value))
-    }
-
-    pub(super) fn with_value(mut self, name: &str, value: Value) -> Self {
-        self.0.insert(name.to_owned(), value);
+    pub fn with(mut self, name: &str, value: impl Serialize) -> Self {
+        self.0.insert(name.to_owned(), self::value(&value));
         self
     }
 

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use crossterm::Command;
 use crossterm::clipboard::CopyToClipboard;
 
-use super::new_file;
-use super::{Readers, bounded};
+use super::{Readers, bounded, new_file};
 use crate::fit::decoded;
 
 /// The destination of copies besides the clipboard: terminals do not report whether they accept a copy.

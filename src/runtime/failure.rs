@@ -23,6 +23,13 @@ pub enum Failure {
     Said(u8),
 }
 
+/// A line that says what is wrong with something is about the input.
+impl<L: Into<String>> From<L> for Failure {
+    fn from(line: L) -> Self {
+        Failure::Usage(line.into())
+    }
+}
+
 /// Errors that say that no file can be made at a path.
 const NO_FILE: [ErrorKind; 5] = [
     ErrorKind::NotFound,
@@ -33,9 +40,9 @@ const NO_FILE: [ErrorKind; 5] = [
 ];
 
 impl Failure {
-    /// Wrong input.
-    pub fn usage(line: impl Into<String>) -> Self {
-        Failure::Usage(line.into())
+    /// By which part of the work there is no answer, and why.
+    pub fn unanswered<E: fmt::Display>(what: impl fmt::Display) -> impl Fn(E) -> Self {
+        move |why| Failure::Unanswered(format!("{what}: {why}"))
     }
 
     /// A file that cannot be read, or holds what it should not.
@@ -44,14 +51,13 @@ impl Failure {
     }
 
     /// Why a file is not written, by the error.
-    pub fn unwritten(path: &Path, error: io::Error) -> Self {
-        Failure::not_replaced(path, error, None)
+    pub fn unwritten(path: &Path) -> impl Fn(io::Error) -> Self + Copy {
+        |error| Failure::not_replaced(path, &error, None)
     }
 
     /// Why a file is not written, by the error: wrong input if no file can be made at this path, or if the file holds
     /// something else; `how` says how that can be replaced.
-    #[expect(clippy::needless_pass_by_value, reason = "as what becomes of errors takes them")]
-    pub fn not_replaced(path: &Path, error: io::Error, how: Option<&str>) -> Self {
+    pub fn not_replaced(path: &Path, error: &io::Error, how: Option<&str>) -> Self {
         let name = path.display();
         let line = format!("{name} not written: {error}");
         match (error.kind(), how) {

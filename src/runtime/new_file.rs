@@ -102,7 +102,7 @@ pub fn write(
 ) -> Result<(), Failure> {
     let written = NewFile::begin(path, readers)
         .and_then(|mut file| file.write_all(content).and_then(|()| file.end(keep.is_none())));
-    written.map_err(|error| Failure::not_replaced(path, error, keep))
+    written.map_err(|error| Failure::not_replaced(path, &error, keep))
 }
 
 /// Opens a device or a pipe for writing, without waiting for a reader of the pipe.

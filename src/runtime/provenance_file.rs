@@ -11,8 +11,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use time::OffsetDateTime;
 
-use super::new_file;
-use super::{Failure, Readers, bounded};
+use super::{Failure, Readers, bounded, new_file};
 use crate::report::page::SourceFile;
 use crate::words::provenance::{Checksum, Provenance};
 
@@ -40,7 +39,7 @@ pub fn write(path: &Path, provenance: &Provenance) -> Result<(), Failure> {
     }
     let path = beside(path);
     let text = serde_json::to_string_pretty(provenance);
-    let text = text.map_err(|error| Failure::unwritten(&path, error.into()))? + "\n";
+    let text = text.map_err(io::Error::from).map_err(Failure::unwritten(&path))? + "\n";
     new_file::write(&path, text.as_bytes(), Readers::Usual, None)
 }
 
@@ -60,7 +59,7 @@ impl RunningChecksum {
         let provenance = Provenance { checksum: Some(checksum), ..provenance };
         write(path, &provenance)?;
         let path = beside(path);
-        let unwritten = |error| Failure::unwritten(&path, error);
+        let unwritten = Failure::unwritten(&path);
         let at = bounded::text(&path)?.rfind(&String::from(checksum));
         let at = at.ok_or_else(|| unwritten(io::ErrorKind::InvalidData.into()))? as u64;
         let file = OpenOptions::new().write(true).open(&path).map_err(unwritten)?;

@@ -6,8 +6,7 @@ use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
 use super::effects::at_home;
-use super::new_file;
-use super::{Files, Readers};
+use super::{Files, Readers, new_file};
 use crate::session::replay::{HEADER, Recorder};
 
 /// The file of a recording.

@@ -48,7 +48,7 @@ impl ScanFile {
     /// writes to it.
     pub fn create(path: &Path, part: ScanPart, provenance: Provenance) -> Result<Self, Failure> {
         let heading = part.heading();
-        let unwritten = |error| Failure::unwritten(path, error);
+        let unwritten = Failure::unwritten(path);
         if !new_file::is_regular(path) {
             let mut file = new_file::device(path).map_err(unwritten)?;
             file.write_all(heading.as_bytes()).map_err(unwritten)?;
@@ -75,7 +75,7 @@ impl ScanFile {
         provenance: Provenance,
         limits: &Limits,
     ) -> Result<Self, Failure> {
-        let unwritten = |error| Failure::unwritten(path, error);
+        let unwritten = Failure::unwritten(path);
         let mut file = opened(path)?;
         let known = provenance_file::read(path).ok().and_then(|earlier| earlier.checksum);
         let reading = file.try_clone().map_err(unwritten)?;
@@ -172,7 +172,7 @@ fn opened(path: &Path) -> Result<File, Failure> {
         return Err(Failure::file(path, "not a file"));
     }
     let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-    let file = file.map_err(|error| Failure::unwritten(path, error))?;
+    let file = file.map_err(Failure::unwritten(path))?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(Failure::file(path, "another scan is writing to it")),
         // Where files cannot be locked, the user must make sure that no other process writes.
@@ -193,7 +193,7 @@ pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String
     let written =
         ScanFile::resume(path, part, provenance, &Limits::PATIENT).and_then(|mut file| {
             for index in file.open().take_while(|index| *index < rows.len()) {
-                file.add(index, &rows[index]).map_err(|error| Failure::unwritten(path, error))?;
+                file.add(index, &rows[index]).map_err(Failure::unwritten(path))?;
             }
             Ok(scan.points() - file.left())
         });

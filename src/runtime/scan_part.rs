@@ -199,7 +199,7 @@ pub fn merge(
         if let Some((other, _)) = reading.insert(index, (rows, row)) {
             let [one, other] = [other.path, path].map(Path::display);
             let row = index + 1;
-            return Err(Failure::Usage(format!("{one} and {other} both hold row {row}")));
+            return Err(format!("{one} and {other} both hold row {row}").into());
         }
     }
     if expected < whole.scan.points() {

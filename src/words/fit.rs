@@ -72,13 +72,11 @@ pub fn left_out(fitted: &FitResult) -> Vec<String> {
 /// `D + 0.069 r`.
 fn formula(combination: &Combination) -> String {
     let term = |(index, (row, weight)): (usize, &(&NameSpec, f64))| {
-        let sign = match (index, *weight < 0.0) {
-            (0, _) => "",
-            (_, true) => " - ",
-            (_, false) => " + ",
-        };
-        let factor = if index == 0 { String::new() } else { significant(weight.abs(), 3) + " " };
-        format!("{sign}{factor}{}", row.name)
+        if index == 0 {
+            return row.name.to_owned();
+        }
+        let sign = if *weight < 0.0 { "-" } else { "+" };
+        format!(" {sign} {} {}", significant(weight.abs(), 3), row.name)
     };
     combination.terms.iter().enumerate().map(term).collect()
 }
@@ -99,16 +97,13 @@ fn bounds(fitted: &FitResult) -> Vec<String> {
     let interval = estimate.intervals[R];
     let is_unseen = estimate.free[R] && interval.lower == Some(0.0);
     let most = interval.upper.filter(|_| is_unseen).map(|upper| significant(upper, 3));
-    let mut said = Vec::new();
-    said.extend(most.map(|most| format!("no friction is shown: r is at most {most} (95 %)")));
+    let most = most.map(|most| format!("no friction is shown: r is at most {most} (95 %)"));
     let is_bent = |place: usize| estimate.free[place] && !estimate.intervals[place].quadratic;
     let bent = NAMES.iter().filter(|row| is_bent(row.place));
     let bent = joined(bent.map(|row| row.name), ", ");
-    if !bent.is_empty() {
-        let why = "by the profile of the likelihood, which is not quadratic there";
-        said.push(format!("intervals of {bent} {why}"));
-    }
-    said
+    let why = "by the profile of the likelihood, which is not quadratic there";
+    let bent = (!bent.is_empty()).then(|| format!("intervals of {bent} {why}"));
+    most.into_iter().chain(bent).collect()
 }
 
 /// The sentence with its numbers.
@@ -240,10 +235,10 @@ fn sentence(fitted: &FitResult, statement: &Statement) -> String {
 /// `a force of at most 0.5 N`.
 fn force(fitted: &FitResult, statement: &Statement) -> Option<String> {
     let Statement { disturbance, units, .. } = statement;
-    let plain = || format!("{} {}", significant(*disturbance, 6), units.disturbance);
+    let length = significant(*disturbance, 6);
     let size = match fitted.inertia() {
         Some(_) => with_unit(*disturbance, 6, "N"),
-        None => plain() + " times the stiffness",
+        None => format!("{length} {} times the stiffness", units.disturbance),
     };
     (*disturbance > 0.0).then(|| format!("a force of at most {size}"))
 }
@@ -281,14 +276,15 @@ fn amplitudes(fitted: &FitResult, reach: Option<f64>) -> Condition {
     let measured = format!("amplitudes measured were {range}");
     let holds = reach.is_some_and(|it| it == 0.0 || (it <= 1.0 && it * high >= low));
     let detail = match (reach, fitted.margins.allowed) {
-        (Some(reach), _) if holds || reach > 1.0 => format!(
-            "motions reach {} times the largest amplitude measured ({range})",
-            significant(reach, 2)
-        ),
-        (Some(reach), _) => format!(
-            "motions reach {} of the smallest amplitude measured ({range})",
-            significant(reach * high / low, 2)
-        ),
+        (Some(reach), _) => {
+            let of_largest = holds || reach > 1.0;
+            let (part, of) = if of_largest {
+                (reach, "times the largest")
+            } else {
+                (reach * high / low, "of the smallest")
+            };
+            format!("motions reach {} {of} amplitude measured ({range})", significant(part, 2))
+        }
         (None, Some(AllowedLoss { name, value, displacement: at })) => format!(
             "{measured}; with {name} = {}, which the record does not exclude, a displacement of {} \
              is not survived, {} times the largest amplitude",

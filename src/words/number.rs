@@ -72,7 +72,7 @@ pub fn remaining(elapsed: f64, done: usize, wanted: usize) -> String {
 const PREFIXES: [(&str, f64); 6] =
     [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("u", 1e-6)];
 
-/// Smallest number written before a prefix of at most 1 (0.25 m, but 25 mm); ten times that for k, M and G.
+/// Smallest number written before a prefix of at most 1 (0.25 m, but 25 mm); it is 1 for k, M and G.
 const LEAST: f64 = 0.1;
 
 /// A value given in an SI unit with at most `digits` significant digits: `5.47 mm`, `27.4 N`.
@@ -84,15 +84,14 @@ pub fn with_unit(value: f64, digits: usize, unit: &str) -> String {
     if unit.is_empty() {
         return plain(value);
     }
-    let fits = |scale: f64| value.abs() >= scale * LEAST;
+    let least = |scale: f64| if scale > 1.0 { scale } else { scale * LEAST };
     let begins_with_power = unit.split(['/', ' ']).next().is_some_and(|first| first.contains('^'));
     let takes_none = unit.starts_with("kg") || begins_with_power;
     let (prefix, scale) = if value == 0.0 || !value.is_finite() || takes_none {
         ("", 1.0)
     } else {
-        let found =
-            PREFIXES.iter().find(|(_, scale)| fits(scale * if *scale > 1.0 { 10.0 } else { 1.0 }));
-        *found.unwrap_or(&PREFIXES[PREFIXES.len() - 1])
+        let found = PREFIXES.into_iter().find(|(_, scale)| value.abs() >= least(*scale));
+        found.unwrap_or(PREFIXES[PREFIXES.len() - 1])
     };
     format!("{} {prefix}{unit}", plain(value / scale))
 }

@@ -18,19 +18,17 @@ pub fn is_printable(char: char) -> bool {
 
 /// A text on one line.
 pub fn line(text: &str) -> Cow<'_, str> {
-    written(text, is_printable, |char, out| out.extend(char.escape_default()))
+    written(text, is_printable, escaped)
 }
 
 /// A text on several lines, which keeps its line feeds.
 pub fn lines(text: &str) -> Cow<'_, str> {
-    let is_kept = |char| char == '\n' || is_printable(char);
-    written(text, is_kept, |char, out| out.extend(char.escape_default()))
+    written(text, is_of_lines, escaped)
 }
 
 /// A JSON document with the same content: what is not printable can only be part of a string, where it is escaped.
 pub fn json(document: &str) -> Cow<'_, str> {
-    let is_kept = |char| char == '\n' || is_printable(char);
-    written(document, is_kept, |char, out| {
+    written(document, is_of_lines, |char, out| {
         for unit in char.encode_utf16(&mut [0; 2]) {
             // Writing to a string cannot fail.
             let _ = write!(out, "\\u{unit:04x}");
@@ -41,6 +39,14 @@ pub fn json(document: &str) -> Cow<'_, str> {
 /// A text on several lines as XML: nothing in it is markup or forbidden there.
 pub fn xml(text: &str) -> String {
     lines(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+fn is_of_lines(char: char) -> bool {
+    char == '\n' || is_printable(char)
+}
+
+fn escaped(char: char, out: &mut String) {
+    out.extend(char.escape_default());
 }
 
 fn written(

@@ -113,13 +113,9 @@ fn unquoted(line: &str) -> Option<Vec<String>> {
         match char {
             ' ' => words.extend(word.take()),
             '\'' => {
-                let word = word.get_or_insert_default();
-                loop {
-                    match chars.next()? {
-                        '\'' => break,
-                        char => word.push(char),
-                    }
-                }
+                let (inside, rest) = chars.as_str().split_once('\'')?;
+                word.get_or_insert_default().push_str(inside);
+                chars = rest.chars();
             }
             '\\' => word.get_or_insert_default().push(chars.next()?),
             char => word.get_or_insert_default().push(char),
