@@ -89,20 +89,20 @@ impl BeltCommand {
         let about = case.about();
         let (found, seconds) =
             timed(self.output.repeat, || self.answer(&case.described.subject, &about, second));
-        let answer = MachineAnswer { seconds, ..found.map_err(troubled)? };
+        let answer = found.map_err(troubled)?;
         if let Some(path) = &self.report {
             let (pictures, provenance) = (pictures(&case)?, provenance_file::of_process());
             let is_mass = answer.expansion.is_some();
             let kind = if is_mass { "A mass on a belt" } else { "A vibration mode" };
-            let page = machine(&answer).page(kind, &pictures, &provenance, &case.sources);
+            let page = machine(&answer, seconds).page(kind, &pictures, &provenance, &case.sources);
             write(path, page.as_bytes(), self.force)?;
         }
-        self.output.print(machine(&answer))?;
+        self.output.print(machine(&answer, seconds))?;
         let incomplete = answer.portrait.incomplete();
         incomplete.map_or(Ok(()), |stop| Err(troubled(stop)))
     }
 
-    /// The answer about the motion and the machine, without its time.
+    /// The answer about the motion and the machine.
     fn answer<'a>(
         &self,
         subject: &'a Subject,
@@ -145,7 +145,6 @@ impl BeltCommand {
             second,
             expansion,
             certain: certain.map(|found| found.map(|(_, margin)| margin)),
-            seconds: 0.0,
         })
     }
 

@@ -176,8 +176,7 @@ fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartFi
     let (from, to) = (piece.start + 1, piece.end);
     let mut arguments = without(&first.arguments, &OWN);
     arguments.extend(["--rows".to_owned(), format!("{from}:{to}")]);
-    let ending = if form == Format::Json { "json" } else { "csv" };
-    let path = first.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
+    let path = first.path.with_file_name(format!("rows-{from}-{to}.{}", form.ending()));
     command(arguments, form, &path)
 }
 
@@ -185,8 +184,7 @@ fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartFi
 fn command(mut arguments: Vec<String>, form: Format, path: &Path) -> String {
     if form != Format::of_file(path) {
         arguments = without(&arguments, &["--format"]);
-        let name = if form == Format::Json { "json" } else { "csv" };
-        arguments.extend(["--format", name].map(str::to_owned));
+        arguments.extend(["--format", form.ending()].map(str::to_owned));
     }
     arguments.extend(["--output".to_owned(), path.to_string_lossy().into_owned()]);
     Provenance::of(&arguments).command

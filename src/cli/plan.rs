@@ -97,7 +97,7 @@ fn recipe(engine: Engine, shards: usize, jobs: u16, rows: &Path) -> Result<Strin
         return Err(line.into());
     }
     let parts = format!("{rows}.parts");
-    let ending = if Format::of_file(Path::new(&rows)) == Format::Json { "json" } else { "csv" };
+    let ending = Format::of_file(Path::new(&rows)).ending();
     let fields = [
         ("@version@", env!("CARGO_PKG_VERSION").to_owned()),
         ("@scan@", Provenance::of(&scan).command),

@@ -180,20 +180,15 @@ impl RecordOptions {
             return Ok(None);
         };
         if record.t.is_empty() {
-            return Err(
-                "without times there is no frequency: leave out --mass and --stiffness".to_owned()
-            );
+            let why = "without times there is no frequency: leave out --mass and --stiffness";
+            return Err(why.to_owned());
         }
+        let wrong = match record.unit.as_deref() {
+            None => "the file names no unit of length".to_owned(),
+            Some(unit) if length_in_metres(unit).is_some() => return Ok(Some(inertia)),
+            Some(unit) => format!("{unit:?} is not a known unit of length"),
+        };
         let known = LENGTHS.map(|it| record.signal.unit(it)).join(", ");
-        let unit = record.unit.as_deref();
-        let unit = unit.ok_or_else(|| {
-            format!("the file names no unit of length; --unit says it, such as {known}")
-        })?;
-        if length_in_metres(unit).is_none() {
-            return Err(format!(
-                "{unit:?} is not a known unit of length; --unit says it, such as {known}"
-            ));
-        }
-        Ok(Some(inertia))
+        Err(format!("{wrong}; --unit says it, such as {known}"))
     }
 }

@@ -110,24 +110,21 @@ pub fn border<'a>(
 ) -> Answer {
     const EXACT: Quantity = Quantity::pure(12);
     const SHORT: Quantity = Quantity::pure(8);
-    let kind =
-        |point: &BoundaryPoint| point.fold.map(|fold| if fold.grazes { "grazing" } else { "fold" });
     let name = found.second.spec().name;
     let proved =
         Columns::default().part("certified", border_columns(), |(_, proof): &BorderRow<'a>| *proof);
     let columns = Columns::default()
         .number(name, Quantity::pure(10), |(point, _): &BorderRow<'a>| point.value)
         .number("D_F", EXACT, |(point, _)| Some(point.fold?.d))
-        .text("is a", move |(point, _)| kind(point))
+        .text("is a", |(point, _)| Some(if point.fold?.grazes { "grazing" } else { "fold" }))
         .number("q_max", SHORT, |(point, _)| Some(point.fold?.q_max))
         .number("period", SHORT, |(point, _)| Some(point.fold?.period))
         .number("D_F_harmonic", SHORT, |(point, _)| point.harmonic_fold)
         .number("D_c", EXACT, |(point, _)| point.escape)
         .file("reason", |(point, _)| point.reason.clone())
         .and(certified.map(|_| proved));
-    let proof = move |index| certified.and_then(|all| all.get(index));
-    let rows = found.points.iter().enumerate();
-    let rows = rows.map(move |(index, point)| (point, proof(index)));
+    let proofs = certified.into_iter().flatten().map(Some).chain(std::iter::repeat(None));
+    let rows = found.points.iter().zip(proofs);
     let given_up = found.points.iter().filter_map(|point| {
         let reason = point.reason.as_ref()?;
         Some(format!("{name} = {}: {reason}", significant(point.value, 10)))

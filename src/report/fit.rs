@@ -162,9 +162,9 @@ impl EstimateRow {
     }
 
     /// What follows from the numbers, from its draws.
-    fn of_draws(name: String, spread: MarginSpread, unit: (f64, &str)) -> Self {
+    fn of_draws(name: &str, spread: MarginSpread, unit: (f64, &str)) -> Self {
         let MarginSpread { median: value, lower, upper, none } = spread;
-        let (none, unit) = (Some(none), (unit.0, unit.1.to_owned()));
+        let (name, none, unit) = (name.to_owned(), Some(none), (unit.0, unit.1.to_owned()));
         EstimateRow { name, value, lower, upper, none, unit, ..EstimateRow::default() }
     }
 
@@ -175,7 +175,7 @@ impl EstimateRow {
         let momentum =
             fitted.kicks(fitted.estimate.p[OMEGA0]).map_or(length, |(_, scale)| (scale, "N s"));
         let row =
-            |name, spread, unit| EstimateRow::of_draws(format!("{lead} {name}"), spread, unit);
+            |name, spread, unit| EstimateRow::of_draws(&format!("{lead} {name}"), spread, unit);
         [
             row("displacement from rest", from_rest.displacement, length),
             row("impulse from rest", from_rest.impulse, momentum),
@@ -229,12 +229,11 @@ fn kick_rows(fitted: &FitResult) -> Vec<EstimateRow> {
 /// The margins and what else follows from the numbers.
 fn margins(fitted: &FitResult) -> Table {
     let Margins { cycle, fold, .. } = fitted.margins;
-    let mut all = kick_rows(fitted);
-    let name = "stable cycle, right turning point".to_owned();
-    all.push(EstimateRow::of_draws(name, cycle, (1.0, fitted.unit())));
-    let name = "D of the fold, above which all is survived".to_owned();
-    all.push(EstimateRow::of_draws(name, fold, (1.0, "")));
-    estimate_columns().table(all).lean()
+    let others = [
+        EstimateRow::of_draws("stable cycle, right turning point", cycle, (1.0, fitted.unit())),
+        EstimateRow::of_draws("D of the fold, above which all is survived", fold, (1.0, "")),
+    ];
+    estimate_columns().table(kick_rows(fitted).into_iter().chain(others)).lean()
 }
 
 /// What was measured, and how the motion goes.

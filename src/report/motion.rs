@@ -246,8 +246,7 @@ pub fn trade(about: &About, trade: &Trade, plot: &str) -> Answer {
         .lines([end, format!("reference: {}", reference(trade))])
         .table(columns_of_trade(trade).table(&answered).unbroken(None))
         .lines(given_up)
-        .lines([format!("*: nothing else is better for less time{in_use}")])
-        .lines([format!("\n{plot}")])
+        .lines([format!("*: nothing else is better for less time{in_use}"), format!("\n{plot}")])
         .table(price(trade));
     let seconds = rows.iter().map(|row| row.seconds).sum();
     if about.is_machine() { answer.cost(known.cost, seconds) } else { answer }

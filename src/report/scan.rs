@@ -30,6 +30,11 @@ pub struct ScanPart {
 }
 
 impl Format {
+    /// The ending of a file of rows, which is also the name of this form.
+    pub fn ending(self) -> &'static str {
+        if self == Format::Json { "json" } else { "csv" }
+    }
+
     /// The form for a file: JSON if its extension is `json` or `jsonl`, else CSV.
     pub fn of_file(path: &std::path::Path) -> Self {
         let ending = path.extension();

@@ -25,14 +25,14 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut file = OpenOptions::new().read(true).custom_flags(flags).open(path)?;
     let kind = file.metadata()?;
     if file.is_terminal() {
-        return Err(refused("a terminal, not a file"));
+        return Err(io::Error::other("a terminal, not a file"));
     }
     let mut held = Vec::new();
     if kind.file_type().is_fifo() {
         // A pipe without a writer is at its end; one whose writer is not ready yet would block.
         let mut first = [0; 1 << 12];
         match file.read(&mut first) {
-            Ok(0) => return Err(refused("nothing is written to this pipe")),
+            Ok(0) => return Err(io::Error::other("nothing is written to this pipe")),
             Ok(length) => held.extend_from_slice(&first[..length]),
             Err(why) if why.kind() == ErrorKind::WouldBlock => {}
             Err(why) => return Err(why),
@@ -44,18 +44,13 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
     }
     if held.len() as u64 > LONGEST || kind.len() > LONGEST {
         let line = format!("longer than {} MB, the most that is read", LONGEST >> 20);
-        return Err(io::Error::new(ErrorKind::FileTooLarge, line));
+        return Err(io::Error::other(line));
     }
     Ok(held)
 }
 
 /// The content of a file as text. Fails like [`bytes`], and if the file is not UTF-8.
 pub fn text(path: &Path) -> Result<String, Failure> {
-    let text = String::from_utf8(bytes(path)?)
-        .map_err(|_| refused("not a text: it holds bytes that are not UTF-8"));
-    text.map_err(|error| Failure::file(path, &error))
-}
-
-fn refused(line: &str) -> io::Error {
-    io::Error::new(ErrorKind::InvalidData, line)
+    let refused = |_| Failure::file(path, "not a text: it holds bytes that are not UTF-8");
+    String::from_utf8(bytes(path)?).map_err(refused)
 }

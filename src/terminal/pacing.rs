@@ -85,8 +85,7 @@ impl Pacing {
     /// In that case, the apparent answer is a key: xterm sends `ESC[1;5R` for Ctrl-F3.
     pub fn answered(&mut self, now: Instant) -> bool {
         let Some(since) = self.owed.pop_front() else { return false };
-        let took = now.saturating_duration_since(since);
-        self.slowest = Some(self.slowest.map_or(took, |slowest| slowest.max(took)));
+        self.slowest = self.slowest.max(Some(now.saturating_duration_since(since)));
         self.unanswered = 0;
         true
     }
@@ -94,12 +93,8 @@ impl Pacing {
     /// Until when to wait for an answer before leaving the terminal, so that the answer does not turn up as
     /// garbage on the shell's command line; `None` if no answer is due.
     pub fn last_wait(&self) -> Option<Instant> {
-        let since = *self.owed.back()?;
-        match self.slowest {
-            Some(slowest) => Some(since + LAST_WAIT.max(2 * slowest)),
-            None if self.unanswered < TRIES => Some(since + LAST_WAIT),
-            None => None,
-        }
+        let slowest = self.slowest.or(self.asks().then_some(Duration::ZERO))?;
+        Some(*self.owed.back()? + LAST_WAIT.max(2 * slowest))
     }
 }
 

@@ -126,7 +126,7 @@ impl StrokeSheet {
                 Some(blanks) => out.push_str(blanks),
                 None => go_to(stroke.start, hand.cursor, size, &mut out),
             }
-            awaited.drawn(stroke);
+            awaited.range(stroke.start, stroke.width).fill(false);
             let present = hand.pen;
             let pen = match (stroke.pen, present) {
                 (Some(pen), _) => pen,
@@ -174,10 +174,6 @@ impl PendingCells {
         let row = usize::from(start.y) * self.width;
         let end = (usize::from(start.x) + usize::from(width)).min(self.width);
         self.cells.get_mut(row + usize::from(start.x)..row + end).unwrap_or_default()
-    }
-
-    fn drawn(&mut self, stroke: &Stroke) {
-        self.range(stroke.start, stroke.width).fill(false);
     }
 
     /// Blanks that lead from the cursor to a position, if they are no longer than a cursor move and all of them
@@ -241,10 +237,8 @@ fn go_to(target: Position, cursor: Option<Cursor>, size: Size, out: &mut String)
         _ => format!("\x1b[{};{}H", y + 1, x + 1),
     };
     let relative = cursor.and_then(|cursor| relative_move(target, cursor, size));
-    match relative {
-        Some(relative) if relative.len() < absolute.len() => out.push_str(&relative),
-        _ => out.push_str(&absolute),
-    }
+    let relative = relative.filter(|relative| relative.len() < absolute.len());
+    out.push_str(&relative.unwrap_or(absolute));
 }
 
 /// The shortest move from a known position, if there is one: down by line feeds or a sequence, left by

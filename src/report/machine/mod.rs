@@ -41,7 +41,6 @@ pub struct MachineAnswer<'a> {
     pub expansion: Option<CubicExpansion<'a>>,
     /// The kicks that are survived for certain, or why none is; `None` if not asked for.
     pub certain: Option<Result<Margin, NoGuarantee>>,
-    pub seconds: f64,
 }
 
 impl MachineAnswer<'_> {
@@ -64,7 +63,7 @@ pub struct DesignAnswer {
 }
 
 /// The whole answer about a machine.
-pub fn machine(found: &MachineAnswer) -> Answer {
+pub fn machine(found: &MachineAnswer, seconds: f64) -> Answer {
     let MachineAnswer { about, portrait, expansion, .. } = found;
     let certain = found.certain.and_then(Result::ok);
     let margins = [("nominal", portrait.margin)].into_iter();
@@ -91,7 +90,7 @@ pub fn machine(found: &MachineAnswer) -> Answer {
         .lines(portrait.cycles.is_empty().then_some(NO_CYCLE))
         .heading("Remarks")
         .lines(text::remarks(found))
-        .cost(portrait.cost, found.seconds)
+        .cost(portrait.cost, seconds)
 }
 
 /// A number of the answer: what it is, its value without units and in its SI unit, and that unit.
