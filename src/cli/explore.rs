@@ -58,7 +58,7 @@ pub struct ExploreCommand {
 
 impl ExploreCommand {
     /// `commands` are the names of the others, for who misspelt one.
-    pub fn run(&self, commands: &[&str]) -> Result<(), Failure> {
+    pub fn run(&self, commands: &[&'static str]) -> Result<(), Failure> {
         let config = self.settings.read()?;
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
@@ -196,11 +196,12 @@ fn welcome(session: &mut Session, memory: &Memory) {
 }
 
 /// The error for a first word that is neither a scene nor a command, with names that are similar.
-fn neither_scene_nor_command(name: &str, commands: &[&str]) -> Failure {
-    let scenes: Vec<String> = names().map(str::to_owned).collect();
-    let commands = commands.iter().map(|&command| command.to_owned());
-    let meant = similar(name, scenes.iter().cloned().chain(commands)).into_iter();
-    let told = |found| if scenes.contains(&found) { found } else { format!("the command {found}") };
+fn neither_scene_nor_command(name: &str, commands: &[&'static str]) -> Failure {
+    let told = |found| {
+        let lead = if names().any(|scene| scene == found) { "" } else { "the command " };
+        lead.to_owned() + found
+    };
+    let meant = similar(name, names().chain(commands.iter().copied())).into_iter();
     let meant = joined(meant.map(told), " or ");
     let line = format!("there is no scene and no command {name:?}");
     if meant.is_empty() {

@@ -130,8 +130,8 @@ fn settings_last(mut words: Vec<OsString>) -> Vec<OsString> {
     });
     let separate = words.get(1).is_some_and(|word| word == "--config");
     let options = if separate { 2 } else { named.count() };
-    let command = words.get(1 + options).map(|word| word.to_string_lossy().into_owned());
-    if command.is_some_and(|command| command_names().contains(&command.as_str())) {
+    let command = words.get(1 + options);
+    if command.is_some_and(|command| command_names().iter().any(|name| command == name)) {
         words[1..=1 + options].rotate_right(1);
     }
     words

@@ -154,22 +154,24 @@ impl ScanCommand {
         let lost =
             if given_up > 0 { format!(", {given_up} of them given up") } else { String::new() };
         let tally = format!("{} of {left} rows{lost}", left - file.left());
+        let (signal, path) = (stop.load(Ordering::Relaxed), self.output.as_ref());
         match broken {
             // A closed pipe is not an error: its reader has seen enough.
-            Some(error) if self.output.is_none() && error.kind() == io::ErrorKind::BrokenPipe => {
-                Ok(())
-            }
+            Some(error) if path.is_none() && error.kind() == io::ErrorKind::BrokenPipe => {}
             Some(error) => {
-                let path = self.output.as_ref().map(|path| path.display().to_string());
+                let path = path.map(|path| path.display().to_string());
                 let to = path.unwrap_or_else(|| "standard output".to_owned());
-                Err(Failure::unanswered(to)(format!("{error}; {tally}")))
+                return Err(Failure::unanswered(to)(format!("{error}; {tally}")));
             }
-            None => {
-                let signal = Some(stop.load(Ordering::Relaxed));
-                let signal = signal.filter(|signal| *signal != 0 && file.left() > 0);
-                self.report(&tally, given_up > 0, signal)
+            None if signal != 0 && file.left() > 0 => {
+                let again = if path.is_some() { "; --resume continues" } else { "" };
+                tell(format!("stopped: {tally}{again}"));
+                return Err(Failure::Said(exit_code(signal)));
             }
+            None if given_up > 0 => tell(format!("note: {tally}; the last column says why")),
+            None => {}
         }
+        Ok(())
     }
 
     /// The scan and the points to compute, after checking the options.
@@ -209,9 +211,9 @@ impl ScanCommand {
         let Subject { tolerances, motion, .. } = &mut case.described.subject;
         motion.until = until.unwrap_or(motion.until);
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
-        let half_widths = Knob::PARAMETERS.into_iter().zip(half_widths(&self.half_width)?);
-        let wide = half_widths.filter(|(_, half_width)| *half_width > 0.0);
-        tolerances.half_widths.extend(wide.map(|(knob, half)| (knob.to_string(), half)));
+        half_widths(&self.half_width)?;
+        let wide = self.half_width.iter().filter(|(_, half)| *half > 0.0);
+        tolerances.half_widths.extend(wide.map(|(knob, half)| (knob.to_string(), *half)));
         let subject = case.checked()?.described.subject;
         let machine = subject.paper().is_none();
         for measure in self.measure.iter().filter(|_| machine) {
@@ -269,19 +271,6 @@ impl ScanCommand {
             return Err("--format table rounds its numbers; --resume needs csv or json".into());
         }
         Ok(form)
-    }
-
-    /// Reports the rows that were given up, or the signal that stopped the scan.
-    fn report(&self, tally: &str, lost: bool, signal: Option<i32>) -> Result<(), Failure> {
-        let Some(signal) = signal else {
-            if lost {
-                tell(format!("note: {tally}; the last column says why"));
-            }
-            return Ok(());
-        };
-        let again = if self.output.is_some() { "; --resume continues" } else { "" };
-        tell(format!("stopped: {tally}{again}"));
-        Err(Failure::Said(exit_code(signal)))
     }
 }
 

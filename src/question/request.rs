@@ -203,20 +203,21 @@ impl Request {
     /// Whether this request's answer may stand in for the `wanted` one until that arrives.
     fn compares(&self, wanted: &Request) -> bool {
         match (self, wanted) {
-            (Request::Branch { parameter, .. }, Request::Branch { parameter: wanted, .. }) => {
-                parameter == wanted
-            }
-            (
-                Request::MachineBranch { varied, .. },
-                Request::MachineBranch { varied: wanted, .. },
-            ) => varied == wanted,
-            (Request::Regimes { plane, .. }, Request::Regimes { plane: wanted, .. }) => {
-                (plane.right, plane.up) == (wanted.right, wanted.up)
-            }
             (Request::Refit { fit, .. }, Request::Refit { fit: wanted, .. }) => fit == wanted,
             // A proof at other parameters proves nothing at these.
             (Request::Proof { .. }, _) => false,
-            _ => self.topic() == wanted.topic(),
+            _ => self.topic() == wanted.topic() && self.varied() == wanted.varied(),
+        }
+    }
+
+    /// The numbers over which it goes.
+    fn varied(&self) -> [Option<Knob>; 2] {
+        match self {
+            Request::Branch { parameter: varied, .. } | Request::MachineBranch { varied, .. } => {
+                [Some(*varied), None]
+            }
+            Request::Regimes { plane, .. } => [plane.right, plane.up].map(Some),
+            _ => [None; 2],
         }
     }
 

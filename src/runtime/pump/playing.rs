@@ -74,7 +74,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             playing.pause = if wished { Pause::Not } else { Pause::Wished };
             let text =
                 if wished { "" } else { "replay held: space continues, esc stops, q leaves" };
-            return self.update(Msg::Told(Notice { error: false, text: text.to_owned() }));
+            return self.tell(Notice { error: false, text: text.to_owned() });
         }
         Ok(())
     }
@@ -209,7 +209,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     fn played(&mut self, error: bool, text: String) -> Step {
         self.playing = None;
         self.update(Msg::Say(String::new(), None))?;
-        self.update(Msg::Told(Notice { error, text }))
+        self.tell(Notice { error, text })
     }
 
     /// Puts held-back input before all other events, once nothing makes it wait.
@@ -234,12 +234,9 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Writes what was recorded since the last call, if there is a file for it.
     pub(super) fn keep_record(&mut self) -> Step {
-        let kept = self.options.keep_record();
-        if let Err(text) = kept {
-            self.options.record = None;
-            self.tell(Notice { error: true, text })?;
-        }
-        Ok(())
+        let Err(text) = self.options.keep_record() else { return Ok(()) };
+        self.options.record = None;
+        self.tell(Notice { error: true, text })
     }
 
     /// Completes the recording when the program ends.
