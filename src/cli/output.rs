@@ -9,6 +9,7 @@ use clap::Args;
 
 use super::Failure;
 use crate::flow::Result;
+use crate::numerics::{real, truncated};
 use crate::report::{Answer, Format};
 use crate::runtime::{Readers, new_file, provenance_file, standard};
 use crate::words::printable;
@@ -163,13 +164,12 @@ fn settled<T>(mut compute: impl FnMut() -> T) -> f64 {
     if cold >= SHORT {
         return cold;
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1000")]
-    let times = (SHORT / cold.max(1e-9)).ceil().min(1000.0) as u32;
+    let times = truncated((SHORT / cold.max(1e-9)).ceil().min(1000.0));
     let started = Instant::now();
     for _ in 0..times {
         black_box(compute());
     }
-    started.elapsed().as_secs_f64() / f64::from(times)
+    started.elapsed().as_secs_f64() / real(times)
 }
 
 /// The median; of an even number of values, the mean of the middle two.

@@ -134,8 +134,8 @@ impl Fineness {
     pub const PRINT: Fineness = Fineness(4);
 
     /// `times` as many points on each curve, for a closer look.
-    pub fn finer(self, times: u16) -> Fineness {
-        Fineness(self.0.saturating_mul(times))
+    pub fn finer(self, times: usize) -> Fineness {
+        Fineness(self.0.saturating_mul(u16::try_from(times).unwrap_or(u16::MAX)))
     }
 
     /// Points on a curve that has so many on the screen.

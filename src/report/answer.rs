@@ -8,7 +8,7 @@ use super::{Columns, Document, Quantity, RowsOf, Table, json};
 use crate::flow::Cost;
 use crate::model::{Body, Group, Interval, Knob, ParameterBox, Source};
 use crate::words::provenance::Provenance;
-use crate::words::{duration, exact, joined, with_unit};
+use crate::words::{duration, joined, shortest, with_unit};
 
 /// The form of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -270,7 +270,7 @@ impl About {
         let number = |(knob, known, _): &(Knob, Interval, bool)| match &self.machine {
             _ if !known.is_point() => interval(&(*knob, *known)),
             Some(_) => format!("{knob} = {}", with_unit(known.lower(), 12, knob.spec().unit)),
-            None => format!("{knob} = {}", exact(known.lower(), 24)),
+            None => format!("{knob} = {}", shortest(known.lower())),
         };
         let shown = self.numbers.iter().filter(|(.., is_shown)| *is_shown);
         joined(shown.map(number), ", ")

@@ -10,7 +10,7 @@ use crate::model::{ContactState, Knob, Ledger, State, Units, Work};
 use crate::numerics::{Interval, log10, pow};
 use crate::proof::{ProvedMotion, ProvedPoint};
 use crate::words::motion::{ended, sentence};
-use crate::words::{Notation, count, duration, exact, significant};
+use crate::words::{Notation, count, duration, shortest, significant};
 
 /// A point of a motion, its start, an arrival at `v = 0` or its end: what it is, `tau`, `q` and `v` as far as they are
 /// known, and what is proved of them.
@@ -45,34 +45,32 @@ pub fn motion(
         Columns::default().part("certified", point_columns(), |row: &MotionRow| row.bounds);
     let columns = columns_of_points(about, digits(problem.tolerance));
     let energy = motion.ledger.as_ref().map(|ledger| energy(ledger, machine));
-    let amounts: Vec<_> = energy.iter().flat_map(Document::numbers).collect();
-    let name = |(name, _): &(String, f64)| name.clone();
-    let works = Columns::default().text("energy", name);
-    let works = works.number("amount", about.quantity("J", 6), |(_, amount)| *amount);
+    let works = Columns::default().text("energy", |(name, _): &(String, f64)| name.clone()).number(
+        "amount",
+        about.quantity("J", 6),
+        |(_, amount)| *amount,
+    );
     let Motion { method, cost: Cost { steps, rejected, .. }, .. } = motion;
-    let tolerance = exact(problem.tolerance, 24);
+    let tolerance = shortest(problem.tolerance);
     let how = format!("method {method}, tolerance {tolerance}: {steps} steps, {rejected} rejected");
-    let (lead, how) = match motion.outcome {
-        _ if !machine => (Some(sentence(motion, Notation::default())), Some(how)),
-        Outcome::GaveUp { reason, .. } => (None, Some(reason.to_string())),
-        _ => (None, None),
-    };
+    let stop = || Some(motion.outcome.answered().err()?.to_string());
+    let how = if machine { stop() } else { Some(how) };
     let outcome = Document::default().and(&motion.outcome);
     let rests = machine && matches!(motion.outcome, Outcome::Captured { .. });
     let answer = if machine { about.answer() } else { about.answer_to(&from(problem)) };
     answer
-        .lines(lead)
+        .lines((!machine).then(|| sentence(motion, Notation::default())))
         .with("initial", problem.initial)
         .with("method", motion.method)
         .with("tolerance", problem.tolerance)
         .with("outcome", outcome.with_any("v", rests.then_some(0.0)))
         .with("events", &motion.crossings)
         .with_any("phases", machine.then(|| phases(&motion.legs, ["tau", "q"])))
-        .with("energy", energy)
+        .with("energy", &energy)
         .with_any("evaluations", machine.then_some(motion.cost.evaluations))
         .with_any("certified", certified.map(followed))
         .rows(&columns.and(certified.map(|_| proved)), &points(motion, certified, machine))
-        .table(works.table(amounts))
+        .table(works.table(energy.iter().flat_map(Document::numbers)))
         .lines(how)
         .cost(motion.cost, seconds)
 }
@@ -100,7 +98,7 @@ fn points(motion: &Motion, certified: Option<&ProvedMotion>, machine: bool) -> V
 /// The start of a motion.
 fn from(problem: &Problem) -> String {
     let State { q, v } = problem.initial;
-    format!("; from q = {}, v = {}", exact(q, 24), exact(v, 24))
+    format!("; from q = {}, v = {}", shortest(q), shortest(v))
 }
 
 /// When and where the mass begins to slip, to stick or to rest, under these names.

@@ -2,6 +2,7 @@
 
 use crate::figure::{FAINT, Figure};
 use crate::flow::{Limits, Reason, Result};
+use crate::numerics::{real, truncated};
 use crate::question::{Fineness, answer_for};
 use crate::scene::{Request, Topic};
 use crate::session::{Msg, Session, update};
@@ -53,9 +54,8 @@ pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure
                 continue;
             }
             // The error of a chord is proportional to the square of its length.
-            let wanted = (f64::from(*times) * (MARGIN * MARGIN * missed / FAINT).sqrt()).ceil();
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 48")]
-            let wanted = wanted.min(MOST) as u16;
+            let wanted = (real(*times) * (MARGIN * MARGIN * missed / FAINT).sqrt()).ceil();
+            let wanted = truncated(wanted.min(MOST));
             if wanted > *times {
                 *times = wanted;
                 finer = true;
@@ -70,7 +70,7 @@ pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure
         }
         figure = Figure::of(session, plots.iter().copied());
     }
-    figure.thinned(times.into_iter().max().map_or(1, usize::from))
+    figure.thinned(times.into_iter().max().unwrap_or(1))
 }
 
 /// Whether answers on this topic have curves.

@@ -28,6 +28,9 @@ pub struct FileRow {
 /// Longest line that is read, in bytes: a row has no more than some thousand.
 const LONGEST: u64 = 1 << 20;
 
+/// Why a row does not stand where the next one is to stand.
+const OTHER: &str = "is of another point";
+
 /// The rows in a file, read one at a time.
 pub struct RowReader<'a> {
     part: &'a ScanPart,
@@ -75,16 +78,11 @@ impl<'a> RowReader<'a> {
         let part = self.part;
         if line.last() != Some(&b'\n') {
             let expected = part.beginning(self.next.min(part.points.end - 1));
-            let common = line.len().min(expected.len());
-            let is_own = line[..common] == expected.as_bytes()[..common];
-            if !is_own {
-                return Err(self.foreign(self.number, "is of another point"));
-            }
-            return Ok(None);
+            let is_own = line.iter().zip(expected.bytes()).all(|(own, other)| *own == other);
+            return if is_own { Ok(None) } else { Err(self.foreign(self.number, OTHER)) };
         }
         let mut left = self.next..part.points.end;
-        let why =
-            if left.is_empty() { "is one more than it has points" } else { "is of another point" };
+        let why = if left.is_empty() { "is one more than it has points" } else { OTHER };
         let own = left.find(|index| line.starts_with(part.beginning(*index).as_bytes()));
         let index = own.ok_or_else(|| self.foreign(self.number, why))?;
         self.next = index + 1;
@@ -117,7 +115,7 @@ impl<'a> RowReader<'a> {
         if row.index < self.part.points.start + self.checksum.rows {
             return Ok(());
         }
-        Err(self.foreign(row.number, "is of another point"))
+        Err(self.foreign(row.number, OTHER))
     }
 
     /// The next line, with its end unless it was cut; one that is longer than `most` bytes is cut there. Fails if it is

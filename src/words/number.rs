@@ -1,6 +1,6 @@
 //! Numbers as text: with a few significant digits, with a prefix and a unit, or exactly, within a given width.
 
-pub use crate::numerics::decimal::{in_unit, resolved, significant, with_error};
+pub use crate::numerics::decimal::{in_unit, resolved, shortest, significant, with_error};
 use crate::numerics::{amount, real};
 use crate::scan::Value;
 
@@ -16,10 +16,9 @@ pub fn rounded_down(value: f64, digits: usize) -> f64 {
 /// Writes `value` so that it reads back as the same number, if that fits into `width` columns; otherwise rounds
 /// it until it fits.
 pub fn exact(value: f64, width: usize) -> String {
-    let full = format!("{value:?}");
-    let full = full.strip_suffix(".0").unwrap_or(&full);
+    let full = shortest(value);
     if full.len() <= width {
-        return full.into();
+        return full;
     }
     let scientific = format!("{value:e}");
     if scientific.len() <= width {
