@@ -65,9 +65,8 @@ pub struct BeltCommand {
 }
 
 fn known() -> String {
-    let known = machines().iter();
-    let known = known.map(|machine| format!("\n  {:9} {}", machine.name, machine.title));
-    format!("Machines of the program:{}", known.collect::<String>())
+    let lead = "Machines of the program:".to_owned();
+    machines().iter().fold(lead, |all, it| format!("{all}\n  {:9} {}", it.name, it.title))
 }
 
 impl BeltCommand {

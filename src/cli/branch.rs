@@ -109,11 +109,9 @@ impl BorderCommand {
             let (from, to) = (0.1 * belt_speed, 3.0 * belt_speed);
             Sweep { symbol: Knob::BeltSpeed, from, to, count: 60, spacing: Spacing::Even }
         };
-        let along = along.or_else(|| subject.of_belt().map(own));
-        let Some(along) = along else {
-            let line = "a mode has no belt speed: along what? --along NAME=FROM:TO:COUNT";
-            return Err(line.into());
-        };
+        let along = along
+            .or_else(|| subject.of_belt().map(own))
+            .ok_or("a mode has no belt speed: along what? --along NAME=FROM:TO:COUNT")?;
         let [first, second] = [&along, over].map(|sweep| sweep.symbol);
         if first == second {
             return Err(format!("{second} is varied twice, by --along and by --over").into());

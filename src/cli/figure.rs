@@ -67,11 +67,9 @@ impl FigureCommand {
             return case.checked()?.scene()?.ok_or_else(|| NO_BELT.into());
         }
         let start = &self.source.start;
-        let Some(name) = self.named.as_deref().or(start.scene.as_deref()) else {
-            let line =
-                "which figure? Every scene has one, such as fig17; hopfscope scenes lists them";
-            return Err(line.into());
-        };
+        let name = self.named.as_deref().or(start.scene.as_deref()).ok_or(
+            "which figure? Every scene has one, such as fig17; hopfscope scenes lists them",
+        )?;
         start.scene(Some(name))
     }
 }
@@ -81,9 +79,7 @@ pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>), Failure> {
     let width = columns().and_then(|width| u16::try_from(width).ok());
     let width = width.unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
     let mut session = Session::new(scene, Size { width, height: PANEL.1 });
-    complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(topic, reason)| {
-        Failure::unanswered(format!("{} not computed", topic.name()))(reason)
-    })?;
+    complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
     let plots = (0..session.plots.len()).collect();
     Ok((session, plots))
 }

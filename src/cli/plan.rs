@@ -67,9 +67,7 @@ impl Plan {
 
     /// Prints or writes the recipe for the scan of this process, with `jobs` threads for each shard.
     pub fn run(&self, jobs: u16, output: Option<&Path>, force: bool) -> Result<(), Failure> {
-        let (Some(engine), Some(shards)) = (self.plan, self.shards) else {
-            return Err("--plan needs --shards".into());
-        };
+        let (engine, shards) = self.plan.zip(self.shards).ok_or("--plan needs --shards")?;
         let is_of_rows = |path: &&Path| {
             let ending = path.extension().and_then(OsStr::to_str);
             ending.is_some_and(|ending| ["csv", "json", "jsonl"].contains(&ending))

@@ -1,24 +1,21 @@
 //! Sessions computed for print, with as many points on their curves as paper can show.
 
+use super::Failure;
 use crate::figure::{FAINT, Figure};
-use crate::flow::{Limits, Reason, Result};
+use crate::flow::{Limits, Result};
 use crate::numerics::{real, truncated};
 use crate::question::{Fineness, answer_for};
 use crate::scene::{Request, Topic};
 use crate::session::{Msg, Session, update};
 
-/// Computes everything on show as finely as print needs. Fails with the request that has no answer, and the
-/// reason.
-pub fn complete(
-    session: &mut Session,
-    fineness: Fineness,
-    limits: &Limits,
-) -> Result<(), (Topic, Reason)> {
+/// Computes everything on show as finely as print needs. Fails with the topic of the request that has no answer, and
+/// the reason.
+pub fn complete(session: &mut Session, fineness: Fineness, limits: &Limits) -> Result<(), Failure> {
     loop {
         let open = session.wants().into_iter().find(|request| session.is_open(request));
         let Some(request) = open else { return Ok(()) };
-        let topic = request.topic();
-        ask(session, request, fineness, limits).map_err(|reason| (topic, reason))?;
+        let failed = format!("{} not computed", request.topic().name());
+        ask(session, request, fineness, limits).map_err(Failure::unanswered(failed))?;
     }
 }
 
