@@ -82,11 +82,10 @@ pub(super) fn with_proof(answer: Answer, rows: &[ProvedRow], proof: &Proof) -> A
     let open = proof.open.iter().map(|gap| ProvedRow { open: Some(*gap), ..Default::default() });
     let open: Vec<_> = open.collect();
     let gap = |gap: &Interval| bounds(*gap).with("reason", proof.why_open(*gap));
-    let is_box = !proof.parameters.is_point();
-    let own = if is_box {
-        Columns::default().file("stable", |row: &ProvedRow| row.stable)
-    } else {
+    let own = if proof.parameters.is_point() {
         cycle_fields(|row: &ProvedRow| row.cycle.copied())
+    } else {
+        Columns::default().file("stable", |row: &ProvedRow| row.stable)
     };
     let kind = |row: &ProvedRow| {
         let is_open = row.cycle.is_some() && row.enclosure.is_none();
@@ -104,22 +103,20 @@ pub(super) fn with_proof(answer: Answer, rows: &[ProvedRow], proof: &Proof) -> A
         .csv(&own.and(bound_columns(proof)), rows.iter().chain(&open))
         .table(number_columns(texts, ProvedRow::text).table(rows))
         .lines(rows.iter().any(is_unknown).then_some(UNKNOWN))
-        .lines(sentences(rows.len(), proof, if is_box { BOX } else { POINT }))
+        .lines(sentences(rows.len(), proof))
 }
 
 /// What `?` means.
 const UNKNOWN: &str =
     "?: no digit of it is certain; bounds of half swings as stiff as these say little of it";
 
-/// For which parameters a proof holds.
-const POINT: &str = "for the parameters as doubles";
-const BOX: &str = "for all of these parameters";
-
 /// `2 cycles, proved ..`, or what is open.
-fn sentences(found: usize, proof: &Proof, parameters: &str) -> Vec<String> {
+fn sentences(found: usize, proof: &Proof) -> Vec<String> {
     let cycles = cycles(found);
     if proof.is_complete() {
-        return vec![format!("{cycles}, proved {parameters}")];
+        let is_point = proof.parameters.is_point();
+        let of = if is_point { "the parameters as doubles" } else { "all of these parameters" };
+        return vec![format!("{cycles}, proved for {of}")];
     }
     let open = proof.open.iter().map(|gap| {
         let (lower, upper) = (significant(gap.lower(), 6), significant(gap.upper(), 6));

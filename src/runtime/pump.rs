@@ -21,6 +21,7 @@ use super::{
 };
 use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script, ScriptError};
+use crate::session::update::is_press;
 use crate::session::{Content, Effect, MouseAction, Msg, Notice};
 use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
@@ -211,7 +212,7 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     fn handle(&mut self, event: Event) -> Step {
         match event {
-            Event::Session(msg) if is_users(&msg) => return self.users(msg),
+            Event::Session(msg) if is_press(&msg) => return self.users(msg),
             Event::Session(msg) => {
                 if let Msg::Written(notice) = &msg {
                     self.writing = false;
@@ -363,11 +364,6 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
         Ok(())
     }
-}
-
-/// Whether a message is input of the user.
-fn is_users(msg: &Msg) -> bool {
-    matches!(msg, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_))
 }
 
 #[cfg(test)]

@@ -36,7 +36,11 @@ pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
                 _ if ending => end_at_once(&guard, signal),
                 _ => {
                     ending = true;
-                    end_after(GRACE, guard.clone(), signal);
+                    let guard = guard.clone();
+                    thread::spawn(move || {
+                        thread::sleep(GRACE);
+                        end_at_once(&guard, signal);
+                    });
                     Event::End(LoopEnd::Ended { signal })
                 }
             };
@@ -50,13 +54,6 @@ pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
 fn end_at_once(guard: &Guard, signal: i32) -> ! {
     guard.leave_at_once();
     std::process::exit(exit_code(signal).into());
-}
-
-fn end_after(time: Duration, guard: Guard, signal: i32) {
-    thread::spawn(move || {
-        thread::sleep(time);
-        end_at_once(&guard, signal);
-    });
 }
 
 /// The exit code of a program that was ended by a signal.

@@ -102,7 +102,7 @@ fn take_in(session: &mut Session, message: Msg) {
 }
 
 /// Whether a message is input of the user.
-fn is_press(message: &Msg) -> bool {
+pub fn is_press(message: &Msg) -> bool {
     matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_))
 }
 

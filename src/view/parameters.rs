@@ -17,7 +17,7 @@ use crate::portrait::{Border, Cycle, Drawing, compare};
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
 use crate::words::motion::Notation;
-use crate::words::{cycles as cycles_in_words, exact, significant, with_unit};
+use crate::words::{cycles as cycles_in_words, exact, fitting, significant, with_unit};
 
 /// Columns up to the end of the values.
 const VALUES: usize = 17;
@@ -236,8 +236,7 @@ fn number(session: &Session, value: f64, width: usize) -> String {
     if session.units().is_none() || text.parse() == Ok(value) {
         return text;
     }
-    let mut rounded = (1..=FOLLOWING).rev().map(|digits| significant(value, digits));
-    rounded.find(|text| text.len() <= width).unwrap_or(text)
+    fitting(value, FOLLOWING, width).unwrap_or(text)
 }
 
 fn meaning(problem: &Problem, row: Row) -> &'static str {

@@ -24,11 +24,13 @@ pub fn exact(value: f64, width: usize) -> String {
     if scientific.len() <= width {
         return scientific;
     }
-    (1..=15)
-        .rev()
-        .map(|digits| significant(value, digits))
-        .find(|text| text.len() <= width)
-        .unwrap_or_else(|| significant(value, 1))
+    fitting(value, 15, width).unwrap_or_else(|| significant(value, 1))
+}
+
+/// Writes a number with as many of its `digits` as fit into `width` columns; `None` if not even one does.
+pub fn fitting(value: f64, digits: usize, width: usize) -> Option<String> {
+    let mut texts = (1..=digits).rev().map(|digits| significant(value, digits));
+    texts.find(|text| text.len() <= width)
 }
 
 /// Writes a count in at most six columns: `950`, `12.4k`, `3.1M`.

@@ -5,7 +5,7 @@ use crate::picture::{Caption, Role, along};
 use crate::scene::Point;
 use crate::view::dots::Covering;
 use crate::view::pane;
-use crate::words::significant;
+use crate::words::fitting;
 
 /// What a text may hide anywhere, the best first.
 const FREE: [Covering; 2] = [Covering::Texture, Covering::Guide];
@@ -148,9 +148,7 @@ impl Canvas<'_> {
             return;
         };
         let room = if right { self.inner.width.saturating_sub(column + 2) } else { column };
-        let texts = (1..=digits).rev().map(|digits| significant(value, digits));
-        let fits = |text: &String| text.len() <= usize::from(room);
-        let Some(text) = texts.into_iter().find(fits) else { return };
+        let Some(text) = fitting(value, digits, room.into()) else { return };
         let start = if right { column + 2 } else { column.saturating_sub(text.len() as u16 + 1) };
         self.letters(start, row, &text, Role::Text);
     }
