@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::figure::completed;
 use super::input::{self, MACHINE, page_file, tolerance};
-use super::{CommandCase, Failure, Output, second, timed, troubled, write};
+use super::{CommandCase, Output, Result, second, timed, troubled, write};
 use crate::figure::panels;
-use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Result, Subject};
+use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Reason, Subject};
 use crate::model::{Knob, TolerancedNumber};
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Kick, Portrait, StartWindow, friction_for};
@@ -71,7 +71,7 @@ fn known() -> String {
 
 impl BeltCommand {
     /// The machine and the motion, with the values set on the command line.
-    fn case(&self) -> Result<CommandCase, Failure> {
+    fn case(&self) -> Result<CommandCase> {
         let mut case = CommandCase::named(&self.machine)?;
         case.set(&self.set)?;
         case.set(&self.start)?;
@@ -80,7 +80,7 @@ impl BeltCommand {
         case.checked()
     }
 
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let second = second(self.method)?;
         let mut case = self.case()?;
         // A second method takes the tolerance for itself.
@@ -107,7 +107,7 @@ impl BeltCommand {
         subject: &'a Subject,
         about: &'a About,
         second: Option<Method>,
-    ) -> Result<MachineAnswer<'a>> {
+    ) -> Result<MachineAnswer<'a>, Reason> {
         let Subject { source, tolerances, .. } = subject;
         let (limits, belt, (x, v)) = (&Limits::PATIENT, source.of_belt(), subject.start());
         let expansion = belt.map(|belt| CubicExpansion::new(belt, limits)).transpose()?;
@@ -128,7 +128,7 @@ impl BeltCommand {
             let tolerance = self.tol.unwrap_or(Knob::Tolerance.usual());
             follow(Problem { method, tolerance, ..problem }, false)
         });
-        let designed = |(kick, wanted)| -> Result<_> {
+        let designed = |(kick, wanted)| -> Result<_, Reason> {
             let (needed, _) = friction_for(source, tolerances, kick, wanted, limits)?;
             Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed }))
         };
@@ -155,7 +155,7 @@ impl BeltCommand {
 }
 
 /// The plots of a mass on a belt in the explorer; none of a mode.
-fn pictures(case: &CommandCase) -> Result<Vec<String>, Failure> {
+fn pictures(case: &CommandCase) -> Result<Vec<String>> {
     let Some(scene) = case.scene()? else { return Ok(Vec::new()) };
     let (mut session, plots) = completed(scene)?;
     Ok(panels(&figure(&mut session, &plots, &Limits::PATIENT)))

@@ -5,7 +5,7 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::input::MACHINE;
-use super::{CERTIFY, CommandCase, Failure, Output, QuestionOptions, given, read, timed};
+use super::{CERTIFY, CommandCase, Output, QuestionOptions, Result, given, read, timed};
 use crate::branch::along::{Points, branch};
 use crate::branch::machine::MachineBranch;
 use crate::branch::{Boundary, BoundaryPoint, border};
@@ -40,7 +40,7 @@ fn followed(subject: &Source, over: &Sweep) -> Result<MachineBranch, String> {
 }
 
 impl BranchCommand {
-    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+    pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let case = asked.source.exact()?;
         let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
         let Sweep { symbol, count, .. } = over;
@@ -80,7 +80,7 @@ pub struct BorderCommand {
 }
 
 impl BorderCommand {
-    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+    pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let case = asked.source.exact()?;
         let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
         let Some(Problem { parameters, .. }) = case.described.subject.paper() else {
@@ -102,7 +102,7 @@ impl BorderCommand {
         asked.output.print(report::border(&about, &found, certified.as_deref(), seconds))
     }
 
-    fn of_machine(&self, case: &CommandCase, over: &Sweep, output: &Output) -> Result<(), Failure> {
+    fn of_machine(&self, case: &CommandCase, over: &Sweep, output: &Output) -> Result<()> {
         let along = given("--along", self.along.as_ref(), |text| MACHINE.over(text))?;
         let subject = &case.described.subject.source;
         let own = |Belt { belt_speed, .. }: &Belt| {

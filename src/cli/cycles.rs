@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Failure, QuestionOptions, input, print, timed, troubled, write};
+use super::{Failure, QuestionOptions, Result, input, print, timed, troubled, write};
 use crate::accuracy::{HarmonicBalance, compare, ladder};
 use crate::check::check;
 use crate::closed_form::MOST;
@@ -34,7 +34,7 @@ pub struct CyclesCommand {
 }
 
 impl CyclesCommand {
-    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+    pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         if let Some(case) = asked.source.portrayed()? {
             // Fails where the friction law ends before all motions are known.
             let (found, seconds) = case.portrait(&asked.output, 0.0)?;
@@ -54,7 +54,7 @@ impl CyclesCommand {
     }
 
     /// The answer for all parameters in a box.
-    fn boxed(&self, known: &ParameterBox) -> Result<Answer, Failure> {
+    fn boxed(&self, known: &ParameterBox) -> Result<Answer> {
         if self.harmonics.is_some() {
             return Err("intervals of parameters: --harmonics has no place for them".into());
         }
@@ -64,7 +64,7 @@ impl CyclesCommand {
     }
 
     /// Writes the certificate, if asked for.
-    fn certify(&self, proof: &Proof) -> Result<(), Failure> {
+    fn certify(&self, proof: &Proof) -> Result<()> {
         let Some(path) = &self.certificate else { return Ok(()) };
         const FAILED: &str = "no certificate";
         let made = certificate(proof).map_err(Failure::unanswered(FAILED))?;
@@ -75,7 +75,7 @@ impl CyclesCommand {
     }
 
     /// The cycles, their proof, and the harmonic balance if asked for.
-    fn find(&self, parameters: &Parameters) -> Result<(Cycles, Proof, Rungs), Failure> {
+    fn find(&self, parameters: &Parameters) -> Result<(Cycles, Proof, Rungs)> {
         let limits = &Limits::PATIENT;
         let gave_up = Failure::unanswered::<Reason>("the search gave up");
         let found = cycles(parameters, limits).map_err(&gave_up)?;
@@ -95,7 +95,7 @@ pub struct CheckCommand {
 }
 
 impl CheckCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let text = bounded::text(&self.file)?;
         let refused = |why| format!("{}: refused, {why}", self.file.display());
         print(&certificate_table(&check(&text).map_err(refused).map_err(Failure::Unanswered)?))

@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::replay::script;
 use super::settings::{Looks, Memory, Settings};
-use super::{CommandCase, Failure, StartOptions};
+use super::{CommandCase, Failure, Result, StartOptions};
 use crate::numerics::similar;
 use crate::runtime::{Files, Options, RecordingFile, explore, provenance_file};
 use crate::scene::library::{PLAIN, names};
@@ -58,7 +58,7 @@ pub struct ExploreCommand {
 
 impl ExploreCommand {
     /// `commands` are the names of the others, for who misspelt one.
-    pub fn run(&self, commands: &[&'static str]) -> Result<(), Failure> {
+    pub fn run(&self, commands: &[&'static str]) -> Result<()> {
         let config = self.settings.read()?;
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
@@ -97,7 +97,7 @@ pub struct TourCommand {
 }
 
 impl TourCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let session = session(plain(), self.looks, self.settings.read()?);
         go(session, &[Instruction::Give(Msg::Run("tour".to_owned()))], None, false)
     }
@@ -113,13 +113,13 @@ fn session(scene: Arc<Scene>, looks: Looks, config: Config) -> Session {
 }
 
 /// The file of the last session.
-fn last() -> Result<PathBuf, Failure> {
+fn last() -> Result<PathBuf> {
     let path = Memory::open().map(|memory| memory.last).filter(|path| path.exists());
     path.ok_or("there is no last session; a session without changes is not kept".into())
 }
 
 /// The steps that play a file. The file is parsed first, so that an error shows before anything runs.
-fn played(path: &Path) -> Result<Vec<Instruction>, Failure> {
+fn played(path: &Path) -> Result<Vec<Instruction>> {
     script(path)?;
     let text = Files::read(path)?;
     let name = path.display().to_string();
@@ -135,7 +135,7 @@ pub fn go(
     play: &[Instruction],
     record: Option<(&Path, bool)>,
     may_play_write: bool,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let environment = Environment::of_process();
     environment.admit()?;
     let mut steps = opening(&session).map_err(Failure::Unanswered)?;

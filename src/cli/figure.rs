@@ -6,7 +6,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::output::columns;
-use super::{Failure, SourceOptions, input, print, write};
+use super::{Failure, Result, SourceOptions, input, print, write};
 use crate::figure::{FigureForm, file};
 use crate::flow::Limits;
 use crate::question::Fineness;
@@ -45,7 +45,7 @@ const PANEL: (u16, u16) = (100, 30);
 const NARROWEST: u16 = 40;
 
 impl FigureCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let (mut session, plots) = completed(self.scene()?)?;
         let (path, form) = self.output.clone().unzip();
         let form = form.unwrap_or(self.format);
@@ -62,7 +62,7 @@ impl FigureCommand {
     }
 
     /// The scene to show: that of a machine, or one that is named.
-    fn scene(&self) -> Result<Arc<Scene>, Failure> {
+    fn scene(&self) -> Result<Arc<Scene>> {
         if let Some(case) = self.source.machine()? {
             return case.checked()?.scene()?.ok_or_else(|| NO_BELT.into());
         }
@@ -75,7 +75,7 @@ impl FigureCommand {
 }
 
 /// A session of a scene with everything on show computed for print, and its plots.
-pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>), Failure> {
+pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>)> {
     let width = columns().and_then(|width| u16::try_from(width).ok());
     let width = width.unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
     let mut session = Session::new(scene, Size { width, height: PANEL.1 });

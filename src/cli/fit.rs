@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 
 use super::progress::{Outlet, StatusLine};
-use super::{Failure, Output, half_widths, input, timed, write};
+use super::{Failure, Output, Result, half_widths, input, timed, write};
 use crate::figure::{self, Figure, FigureForm};
 use crate::fit::{DRAWS, FitResult, Inertia, MarginQuestion, NoEstimate, Record, length_in_metres};
 use crate::flow::Limits;
@@ -60,7 +60,7 @@ fn not_negative(text: &str) -> Result<DimensionalNumber, String> {
 }
 
 impl FitCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let bytes = bounded::bytes(&self.file)?;
         let fitted = self.fitted(&bytes)?;
         let provenance = provenance_file::of_process();
@@ -82,7 +82,7 @@ impl FitCommand {
         signed(&fitted).broken().map_or(Ok(()), |line| Err(failure(line)))
     }
 
-    fn fitted(&self, bytes: &[u8]) -> Result<FitResult, Failure> {
+    fn fitted(&self, bytes: &[u8]) -> Result<FitResult> {
         let name = self.file.display().to_string();
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
         // What contradicts itself is not the fault of the file.

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use clap::Command;
 
-use super::Failure;
+use super::Result;
 use crate::figure::FigureForm;
 use crate::flow::{METHODS, Method, Subject};
 use crate::model::{Group, IMPULSE, Knob, LENGTH, TolerancedNumber, measured};
@@ -99,7 +99,7 @@ pub fn read<T>(
     option: &str,
     text: &str,
     read: impl FnOnce(&str) -> Result<T, String>,
-) -> Result<T, Failure> {
+) -> Result<T> {
     read(text).map_err(|why| format!("invalid value '{text}' for '{option}': {why}").into())
 }
 
@@ -108,12 +108,12 @@ pub fn given<T>(
     option: &str,
     text: Option<&String>,
     of_text: impl FnOnce(&str) -> Result<T, String>,
-) -> Result<Option<T>, Failure> {
+) -> Result<Option<T>> {
     text.map(|text| read(option, text, of_text)).transpose()
 }
 
 /// Reads a number if it is given.
-pub fn number(option: &str, text: Option<&String>, knob: Knob) -> Result<Option<f64>, Failure> {
+pub fn number(option: &str, text: Option<&String>, knob: Knob) -> Result<Option<f64>> {
     given(option, text, |text| knob.parse(text))
 }
 
@@ -148,7 +148,7 @@ pub fn half_width(text: &str) -> Result<(Knob, f64), String> {
 }
 
 /// The half widths of D, D2, D3 and r. Fails if one of them is given twice.
-pub fn half_widths(given: &[(Knob, f64)]) -> Result<[f64; 4], Failure> {
+pub fn half_widths(given: &[(Knob, f64)]) -> Result<[f64; 4]> {
     let mut all = [None; 4];
     for (knob, half_width) in given {
         if all[knob.place()].replace(*half_width).is_some() {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::output::{self, sourced};
 use super::settings::Settings;
-use super::{Failure, Output, input, print, timed};
+use super::{Failure, Output, Result, input, print, timed};
 use crate::accuracy::extremes::verdict::TOLERANCE;
 use crate::accuracy::extremes::{Case, cases, judge, judge_set, named, sets};
 use crate::flow::Limits;
@@ -35,7 +35,7 @@ pub struct ScenesCommand {
 }
 
 impl ScenesCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         if self.cost {
             let measured = library().iter().map(cost_of).collect::<Result<Vec<_>, _>>()?;
             return print(&costs(&measured).told(self.format));
@@ -58,7 +58,7 @@ pub struct KeysCommand {
 type KeyRow = (&'static str, &'static Command, Vec<String>);
 
 impl KeysCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let keymap = self.settings.read()?.keymap;
         let mut rows = Vec::new();
         for &ContextSpec { context, name, .. } in CONTEXTS.iter() {
@@ -91,7 +91,7 @@ pub struct PaperCommand {
 }
 
 impl PaperCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let examine = || examine_all(&Limits::PATIENT);
         let (examined, seconds) = self.output.timed("the examination gave up", examine)?;
         self.output.print(claims::claims(&examined, self.output.width(), seconds))
@@ -118,7 +118,7 @@ pub struct ExtremesCommand {
 }
 
 impl ExtremesCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let (limits, format) = (&Limits::PATIENT, self.format);
         let answer = if self.cycles {
             let sets: Vec<Parameters> = sets(!self.long).collect();
@@ -143,7 +143,7 @@ const TIMES: u32 = 5;
 const QUICK: f64 = 2e-3;
 
 /// What a scene costs: it is opened and stepped as in the explorer, and its questions are timed.
-fn cost_of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
+fn cost_of(scene: &Arc<Scene>) -> Result<SceneCost> {
     let mut session = Session::new(Arc::clone(scene), Size { width: 120, height: 40 });
     let questions = settle(&mut session, scene)?;
     let rows = session.rows().into_iter().filter(|row| *row != Row::Method);
@@ -160,14 +160,12 @@ fn cost_of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
     Ok(SceneCost {
         scene: Arc::clone(scene),
         formulas: session.drawn_by_formulas().iter().map(|layer| layer.spec().name).collect(),
-        asked: std::iter::once(Ok(opening))
-            .chain(rows.map(step))
-            .collect::<Result<_, Failure>>()?,
+        asked: std::iter::once(Ok(opening)).chain(rows.map(step)).collect::<Result<_>>()?,
     })
 }
 
 /// Answers the questions of a session until it asks no more, and returns their costs.
-fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>, Failure> {
+fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>> {
     let mut answered = Vec::new();
     let mut failed = None;
     session::settle(session, |session, request| {

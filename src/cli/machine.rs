@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Failure, Output, timed};
+use super::{Failure, Output, Result, timed};
 use crate::flow::machine::stepped::ALLOWED;
 use crate::flow::{Limits, Method, Problem, Reason, Subject};
 use crate::model::{Body, Group, Knob, TolerancedNumber};
@@ -45,7 +45,7 @@ impl From<Problem> for CommandCase {
 
 impl CommandCase {
     /// The case that a file describes, or a built-in machine.
-    pub fn named(name: &str) -> Result<Self, Failure> {
+    pub fn named(name: &str) -> Result<Self> {
         let path = Path::new(name);
         // Read once: it may be a pipe.
         let text = bounded::text(path);
@@ -76,7 +76,7 @@ impl CommandCase {
 
     /// All of its motions, and the median time to find them; of the oscillator of the paper a border that is not closed is
     /// followed as far as `reach`.
-    pub fn portrait(&self, output: &Output, reach: f64) -> Result<(Portrait, f64), Failure> {
+    pub fn portrait(&self, output: &Output, reach: f64) -> Result<(Portrait, f64)> {
         let subject = &self.described.subject;
         if let Some(Problem { parameters, .. }) = subject.paper() {
             let find = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
@@ -87,7 +87,7 @@ impl CommandCase {
     }
 
     /// Sets numbers, each with or without a tolerance.
-    pub fn set(&mut self, set: &[(Knob, TolerancedNumber)]) -> Result<(), Failure> {
+    pub fn set(&mut self, set: &[(Knob, TolerancedNumber)]) -> Result<()> {
         for &(knob, TolerancedNumber { middle, half_width, .. }) in set {
             self.described.subject.set(knob, middle.value)?;
             if knob.spec().group != Group::Course {
@@ -98,7 +98,7 @@ impl CommandCase {
     }
 
     /// The same if its tolerances are within their ranges; warns of numbers that are hardly those of a machine.
-    pub fn checked(self) -> Result<Self, Failure> {
+    pub fn checked(self) -> Result<Self> {
         let Subject { source, tolerances, .. } = &self.described.subject;
         match &source.body {
             Body::Belt(belt) => tolerances.check(belt)?,
@@ -112,7 +112,7 @@ impl CommandCase {
     }
 
     /// The scene of the machine with its present numbers; `None` for a mode.
-    pub fn scene(&self) -> Result<Option<Arc<Scene>>, Failure> {
+    pub fn scene(&self) -> Result<Option<Arc<Scene>>> {
         let Ok(machine) = Machine::try_from(self.described.clone()) else { return Ok(None) };
         let refused = |why| format!("{}: {why}", self.described.name);
         let scaled = ScaledMachine::try_from(machine).map_err(refused)?;
@@ -130,7 +130,7 @@ pub fn troubled(trouble: Reason) -> Failure {
 }
 
 /// The method that follows a motion in place of Taylor series, if one is asked for.
-pub fn second(method: Option<Method>) -> Result<Option<Method>, Failure> {
+pub fn second(method: Option<Method>) -> Result<Option<Method>> {
     match method {
         None | Some(Method::Auto | Method::Taylor) => Ok(None),
         Some(method) if method.follows_machines() => Ok(Some(method)),

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::input::{self, WINDOW};
 use super::{
-    CERTIFY, CommandCase, Failure, Output, QuestionOptions, given, number, read, timed, troubled,
+    CERTIFY, CommandCase, Output, QuestionOptions, Result, given, number, read, timed, troubled,
 };
 use crate::flow::{Limits, Subject};
 use crate::model::{Knob, Parameters};
@@ -22,7 +22,7 @@ pub struct MarginCommand {
 }
 
 impl MarginCommand {
-    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+    pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let knob = asked.source.numbers().disturbance;
         let bound = number("--disturbance", self.disturbance.as_ref(), knob)?;
         if let Some(mut case) = asked.source.portrayed()? {
@@ -48,7 +48,7 @@ impl MarginCommand {
 }
 
 /// Answers about a machine; what is known exactly has its own margin for certain.
-fn of_machine(case: &CommandCase, output: &Output) -> Result<(), Failure> {
+fn of_machine(case: &CommandCase, output: &Output) -> Result<()> {
     let Subject { source, tolerances, .. } = &case.described.subject;
     let (found, mut seconds) = case.portrait(output, 0.0)?;
     let certain = match source.of_belt().filter(|_| !tolerances.is_none()) {
@@ -80,7 +80,7 @@ pub struct BasinCommand {
 }
 
 impl BasinCommand {
-    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+    pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let numbers = asked.source.numbers();
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
         let case = asked.source.exact()?;
@@ -109,7 +109,7 @@ pub struct KicksCommand {
 }
 
 impl KicksCommand {
-    pub fn run(&self, asked: &QuestionOptions) -> Result<(), Failure> {
+    pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let law = read("--kicks", &self.kicks, |text| asked.source.numbers().kicks(text))?;
         let case = asked.source.exact()?;
         let r = case.described.subject.source.get(Knob::R).unwrap_or(0.0);

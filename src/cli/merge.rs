@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::Failure;
 use super::output::without;
 use super::part::Shard;
 use super::scan::ScanCommand;
+use super::{Failure, Result};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::runtime::{NewFile, PartFile, Readers, merge, provenance_file, tell};
@@ -38,7 +38,7 @@ pub(super) const OWN: [&str; 6] =
 
 impl MergeCommand {
     /// Merges; exit code 1 if rows are missing.
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let (sources, absent) = self.sources()?;
         let first = &sources[0];
         for other in &sources[1..] {
@@ -81,7 +81,7 @@ impl MergeCommand {
     }
 
     /// The parts that exist, at least one, and the paths that do not.
-    fn sources(&self) -> Result<(Vec<PartFile>, Vec<&Path>), Failure> {
+    fn sources(&self) -> Result<(Vec<PartFile>, Vec<&Path>)> {
         let (mut sources, mut absent) = (Vec::new(), Vec::new());
         for path in &self.parts {
             if path.is_dir() {
@@ -104,7 +104,7 @@ impl MergeCommand {
 }
 
 /// A part, with the scan to which it belongs according to its provenance.
-fn part_of(path: PathBuf) -> Result<PartFile, Failure> {
+fn part_of(path: PathBuf) -> Result<PartFile> {
     let unknown = |why: Failure| Failure::file(&path, format!("of which scan is it a part? {why}"));
     let provenance = provenance_file::read(&path).map_err(unknown)?;
     let arguments = provenance.arguments().unwrap_or_default();
@@ -121,7 +121,7 @@ fn part_of(path: PathBuf) -> Result<PartFile, Failure> {
 }
 
 /// Refuses a part of another scan or from another version.
-fn must_belong_with(own: &PartFile, first: &PartFile) -> Result<(), Failure> {
+fn must_belong_with(own: &PartFile, first: &PartFile) -> Result<()> {
     let refused = |what: &str, of: fn(&Provenance) -> String| {
         let [here, there] = [own, first].map(|file| of(&file.provenance));
         let (path, first) = (own.path.display(), first.path.display());

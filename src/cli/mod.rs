@@ -35,7 +35,7 @@ use explore::ExploreCommand;
 use signal_hook::consts::SIGXFSZ;
 use signal_hook::flag;
 
-pub(super) use crate::runtime::failure::Failure;
+pub(super) use crate::runtime::failure::{Failure, Result};
 pub(super) use input::{given, half_widths, number, read, signed};
 pub(super) use machine::{CommandCase, second, troubled};
 pub(super) use output::{CERTIFY, Output, in_turn, print, timed, write};
@@ -43,14 +43,8 @@ pub(super) use source::{QuestionOptions, SourceOptions, StartOptions};
 
 use crate::words::usage;
 
-/// What the program is about, for the help text.
-const LONG_ABOUT: &str = include_str!("../../assets/about.txt");
-
-/// Commands for a first try, below the help text.
-const EXAMPLES: &str = include_str!("../../assets/examples.txt");
-
 /// Runs a command with the options that were given.
-type Run = Box<dyn Fn(&ArgMatches) -> Result<(), Failure>>;
+type Run = Box<dyn Fn(&ArgMatches) -> Result<()>>;
 
 /// A command that needs no terminal.
 struct Subcommand {
@@ -60,7 +54,7 @@ struct Subcommand {
     run: Run,
 }
 
-fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<(), Failure>) -> Subcommand {
+fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<()>) -> Subcommand {
     let run = move |given: &ArgMatches| run(&parsed(given)?);
     Subcommand { name, options: C::augment_args, run: Box::new(run) }
 }
@@ -68,7 +62,7 @@ fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<(), Failure>
 /// A command that puts a question to an oscillator or a machine.
 fn question<C: Args + 'static>(
     name: &'static str,
-    run: fn(&C, &QuestionOptions) -> Result<(), Failure>,
+    run: fn(&C, &QuestionOptions) -> Result<()>,
 ) -> Subcommand {
     let options = |command| C::augment_args(QuestionOptions::augment_args(command));
     let run = move |given: &ArgMatches| run(&parsed(given)?, &parsed(given)?);
@@ -76,7 +70,7 @@ fn question<C: Args + 'static>(
 }
 
 /// The options of a command, of those that were given.
-fn parsed<C: Args>(given: &ArgMatches) -> Result<C, Failure> {
+fn parsed<C: Args>(given: &ArgMatches) -> Result<C> {
     C::from_arg_matches(given).map_err(|error| usage::line(&error).into())
 }
 
@@ -113,8 +107,8 @@ fn program() -> Command {
     let program = signed(ExploreCommand::augment_args(Command::new("hopfscope")))
         .version(env!("CARGO_PKG_VERSION"))
         .about("Explorer of one oscillator: dry friction and the Hopf bifurcation")
-        .long_about(LONG_ABOUT.trim_end())
-        .after_help(EXAMPLES.trim_end())
+        .long_about(include_str!("../../assets/about.txt").trim_end())
+        .after_help(include_str!("../../assets/examples.txt").trim_end())
         .args_conflicts_with_subcommands(true);
     commands()
         .into_iter()
@@ -151,7 +145,7 @@ pub fn main() -> ExitCode {
 }
 
 /// Runs the command that was given.
-fn run(given: &ArgMatches) -> Result<(), Failure> {
+fn run(given: &ArgMatches) -> Result<()> {
     let named = given.subcommand().and_then(|(name, options)| {
         Some((commands().into_iter().find(|row| row.name == name)?, options))
     });

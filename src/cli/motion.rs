@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{CERTIFY, Failure, QuestionOptions, in_turn, number, second, timed, troubled};
+use super::{CERTIFY, Failure, QuestionOptions, Result, in_turn, number, second, timed, troubled};
 use crate::accuracy::Trade;
 use crate::flow::{Detail, Limits, Motion, Outcome, Problem};
 use crate::model::{Knob, Model};
@@ -27,7 +27,7 @@ impl AskedMotion {
         QuestionOptions { source, output }: &QuestionOptions,
         named: Option<&str>,
         until: Option<&String>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let mut case = source.case(named)?;
         let motion = &mut case.described.subject.motion;
         let end = number("--until", until, source.numbers().until)?;
@@ -62,7 +62,7 @@ pub struct TrajectoryCommand {
 }
 
 impl TrajectoryCommand {
-    pub fn run(&self, question: &QuestionOptions) -> Result<(), Failure> {
+    pub fn run(&self, question: &QuestionOptions) -> Result<()> {
         let asked = AskedMotion::new(question, None, self.until.as_ref())?;
         let (problem, is_machine) = (&asked.problem, asked.model.is_some());
         let (mut found, seconds) =
@@ -100,7 +100,7 @@ pub struct TradeCommand {
 }
 
 impl TradeCommand {
-    pub fn run(&self, question: &QuestionOptions) -> Result<(), Failure> {
+    pub fn run(&self, question: &QuestionOptions) -> Result<()> {
         let asked = AskedMotion::new(question, self.named.as_deref(), self.until.as_ref())?;
         let machine = asked.model.as_ref();
         let unmeasured = |reason| match machine {

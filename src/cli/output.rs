@@ -7,8 +7,8 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::Failure;
-use crate::flow::Result;
+use super::{Failure, Result};
+use crate::flow::Reason;
 use crate::numerics::{real, truncated};
 use crate::report::{Answer, Format};
 use crate::runtime::{Readers, new_file, provenance_file, standard};
@@ -37,8 +37,8 @@ impl Output {
     pub fn timed<T>(
         &self,
         failed: &str,
-        compute: impl FnMut() -> Result<T>,
-    ) -> Result<(T, f64), Failure> {
+        compute: impl FnMut() -> Result<T, Reason>,
+    ) -> Result<(T, f64)> {
         let (found, seconds) = timed(self.repeat, compute);
         Ok((found.map_err(Failure::unanswered(failed))?, seconds))
     }
@@ -50,7 +50,7 @@ impl Output {
 
     /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other
     /// file.
-    pub fn print(&self, answer: Answer) -> Result<(), Failure> {
+    pub fn print(&self, answer: Answer) -> Result<()> {
         let content = sourced(answer, self.format);
         let Some(path) = &self.write else { return print(&content) };
         let keep = Some("--write replaces nothing");
@@ -77,7 +77,7 @@ pub fn columns() -> Option<usize> {
 pub const CERTIFY: &str = "Encloses the answer between proved bounds, or says what remains open";
 
 /// Prints an answer in printable characters. A closed pipe is not an error: its reader has seen enough.
-pub fn print(text: &str) -> Result<(), Failure> {
+pub fn print(text: &str) -> Result<()> {
     match standard::print(text) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Failure::unanswered("cannot write to standard output")(error))
@@ -87,7 +87,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
 }
 
 /// Writes a whole file. Fails without `force` if the file has other content.
-pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
+pub fn write(path: &Path, content: &[u8], force: bool) -> Result<()> {
     new_file::write(path, content, Readers::Usual, (!force).then_some("--force replaces it"))
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use clap::Args;
 
-use super::Failure;
+use super::Result;
 use super::input::pair;
 
 /// The options that choose rows; at most one of them is given.
@@ -71,7 +71,7 @@ impl RowChoice {
     }
 
     /// The points to compute, of `all` in the scan.
-    pub fn points(&self, all: usize) -> Result<Range<usize>, Failure> {
+    pub fn points(&self, all: usize) -> Result<Range<usize>> {
         if let Some(shard) = self.shard() {
             return Ok(shard.points(all));
         }

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::output::without;
 use super::part::MOST;
-use super::{Failure, input, print, write};
+use super::{Result, input, print, write};
 use crate::report::Format;
 use crate::runtime::provenance_file;
 use crate::words::provenance::{Provenance, quoted};
@@ -66,7 +66,7 @@ impl Plan {
     }
 
     /// Prints or writes the recipe for the scan of this process, with `jobs` threads for each shard.
-    pub fn run(&self, jobs: u16, output: Option<&Path>, force: bool) -> Result<(), Failure> {
+    pub fn run(&self, jobs: u16, output: Option<&Path>, force: bool) -> Result<()> {
         let (engine, shards) = self.plan.zip(self.shards).ok_or("--plan needs --shards")?;
         let is_of_rows = |path: &&Path| {
             let ending = path.extension().and_then(OsStr::to_str);
@@ -82,7 +82,7 @@ impl Plan {
 }
 
 /// The template of an engine, filled in for the scan of this process.
-fn recipe(engine: Engine, shards: usize, jobs: u16, rows: &Path) -> Result<String, Failure> {
+fn recipe(engine: Engine, shards: usize, jobs: u16, rows: &Path) -> Result<String> {
     let scan = without(&provenance_file::arguments(), &OWN);
     let rows = rows.to_string_lossy().into_owned();
     let special =

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::settings::Looks;
-use super::{Failure, StartOptions, input, print};
+use super::{Failure, Result, StartOptions, input, print};
 use crate::runtime::{Readers, bounded, new_file, play};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
@@ -46,7 +46,7 @@ enum ScreenFormat {
 }
 
 impl ReplayCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let script = script(&self.file)?;
         let (width, height) = self.size;
         let mut session = Session::new(self.start.scene(None)?, Size { width, height });
@@ -82,6 +82,6 @@ fn anywhere() -> Environment {
 }
 
 /// A keystroke file, parsed completely before anything runs.
-pub fn script(file: &Path) -> Result<Script, Failure> {
+pub fn script(file: &Path) -> Result<Script> {
     parse(&bounded::text(file)?).map_err(|error| Failure::file(file, error))
 }

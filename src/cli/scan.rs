@@ -15,7 +15,7 @@ use super::output::holds_something;
 use super::part::RowChoice;
 use super::plan::Plan;
 use super::progress::{Outlet, StatusLine, message};
-use super::{Failure, SourceOptions, given, half_widths, number, print, read, signed};
+use super::{Failure, Result, SourceOptions, given, half_widths, number, print, read, signed};
 use crate::flow::{Limits, Subject};
 use crate::model::Knob;
 use crate::report::Format;
@@ -120,7 +120,7 @@ impl ScanCommand {
     }
 
     /// Computes and writes rows until all are done or a signal stops it.
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let part = self.asked()?;
         if self.plan.is_wanted() {
             return self.plan.run(self.jobs.unwrap_or(1), self.output.as_deref(), self.force);
@@ -175,7 +175,7 @@ impl ScanCommand {
     }
 
     /// The scan and the points to compute, after checking the options.
-    pub fn asked(&self) -> Result<ScanPart, Failure> {
+    pub fn asked(&self) -> Result<ScanPart> {
         let (base, conditions) = self.subject()?;
         let mut measures = self.measure.clone();
         if self.certify && !measures.contains(&Measure::Proved) {
@@ -193,7 +193,7 @@ impl ScanCommand {
     }
 
     /// What is scanned, and what its measures depend on beside it.
-    fn subject(&self) -> Result<(Subject, Conditions), Failure> {
+    fn subject(&self) -> Result<(Subject, Conditions)> {
         let numbers = self.source.numbers();
         let until = number("--until", self.until.as_ref(), numbers.until)?;
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
@@ -229,11 +229,7 @@ impl ScanCommand {
     }
 
     /// Where the rows go, with those that are already there.
-    fn opened(
-        &self,
-        part: ScanPart,
-        interrupted: &(dyn Fn() -> bool + Sync),
-    ) -> Result<ScanFile, Failure> {
+    fn opened(&self, part: ScanPart, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<ScanFile> {
         let Some(path) = &self.output else {
             print(&part.heading())?;
             return Ok(ScanFile::standard(part));
@@ -264,7 +260,7 @@ impl ScanCommand {
         Ok(file)
     }
 
-    fn form(&self) -> Result<Format, Failure> {
+    fn form(&self) -> Result<Format> {
         let of_file = || self.output.as_deref().map_or(Format::Csv, Format::of_file);
         let form = self.format.unwrap_or_else(of_file);
         if form == Format::Table && self.resume {
@@ -275,7 +271,7 @@ impl ScanCommand {
 }
 
 /// The signal that asked the process to stop, 0 if none has; a second signal ends it at once.
-fn stop_signal() -> Result<Arc<AtomicI32>, Failure> {
+fn stop_signal() -> Result<Arc<AtomicI32>> {
     let came = Arc::new(AtomicI32::new(0));
     let told = Arc::clone(&came);
     let signals = Signals::new([SIGINT, SIGTERM, SIGHUP]);

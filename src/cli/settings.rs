@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use clap::Args;
 
-use super::Failure;
+use super::Result;
 use crate::runtime::bounded;
 use crate::session::config::{Config, parse};
 use crate::session::{Colors, DisplaySettings, Glyphs, NamedValue, Theme, choices, named};
@@ -26,7 +26,7 @@ pub struct Settings {
 
 impl Settings {
     /// The content of the file. The user's own file need not exist; a file named on the command line must.
-    pub fn read(&self) -> Result<Config, Failure> {
+    pub fn read(&self) -> Result<Config> {
         let is_there = |path: &PathBuf| self.config.is_some() || path.exists();
         let Some(path) = self.path().filter(is_there) else { return Ok(Config::default()) };
         parse(&path.display().to_string(), &bounded::text(&path)?)

@@ -7,7 +7,7 @@ use clap::Args;
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use super::{Failure, print, program, write};
+use super::{Failure, Result, print, program, write};
 use crate::words::wrapped;
 
 /// Date of the manual pages, that of the version.
@@ -22,7 +22,7 @@ pub struct CompletionsCommand {
 }
 
 impl CompletionsCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut program(), "hopfscope", &mut script);
         print(&String::from_utf8_lossy(&script))
@@ -41,7 +41,7 @@ pub struct ManualCommand {
 }
 
 impl ManualCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    pub fn run(&self) -> Result<()> {
         if !self.folder.is_dir() {
             return Err(Failure::file(&self.folder, "no such directory"));
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::input::{self, MACHINE, Numbers, OSCILLATOR};
-use super::{CommandCase, Failure, Output, read, second};
+use super::{CommandCase, Output, Result, read, second};
 use crate::flow::{METHODS, Method};
 use crate::model::{Knob, ParameterBox, TolerancedNumber};
 use crate::runtime::tell;
@@ -41,7 +41,7 @@ impl SourceOptions {
 
     /// The machine to which a question about all motions is put, if it is about one. These are followed by Taylor series
     /// alone.
-    pub fn portrayed(&self) -> Result<Option<CommandCase>, Failure> {
+    pub fn portrayed(&self) -> Result<Option<CommandCase>> {
         let Some(case) = self.machine()? else {
             if self.start.method.is_some() {
                 tell("note: cycles are always followed by one method; --method is ignored");
@@ -57,12 +57,12 @@ impl SourceOptions {
     }
 
     /// What a question about all motions that takes no intervals is put to.
-    pub fn exact(&self) -> Result<CommandCase, Failure> {
+    pub fn exact(&self) -> Result<CommandCase> {
         self.portrayed()?.map_or_else(|| self.case(None), Ok)
     }
 
     /// The motion of the scene with this name, or what the options name, with the values set on the command line.
-    pub fn case(&self, named: Option<&str>) -> Result<CommandCase, Failure> {
+    pub fn case(&self, named: Option<&str>) -> Result<CommandCase> {
         match self.machine()? {
             Some(case) => Ok(case),
             None => Ok(self.start.scene(named)?.problem.into()),
@@ -70,7 +70,7 @@ impl SourceOptions {
     }
 
     /// The machine with the values set on the command line, if it is about one.
-    pub fn machine(&self) -> Result<Option<CommandCase>, Failure> {
+    pub fn machine(&self) -> Result<Option<CommandCase>> {
         let Some(name) = &self.machine else { return Ok(None) };
         let mut case = CommandCase::named(name)?;
         case.set(&self.start.assigned(&MACHINE)?)?;
@@ -117,18 +117,18 @@ fn methods_help() -> String {
 
 impl StartOptions {
     /// The scene with this name, or of the option, with the values set on the command line.
-    pub fn scene(&self, named: Option<&str>) -> Result<Arc<Scene>, Failure> {
+    pub fn scene(&self, named: Option<&str>) -> Result<Arc<Scene>> {
         self.applied(self.found(named)?)
     }
 
     /// The numbers that are set.
-    fn assigned(&self, numbers: &Numbers) -> Result<Vec<(Knob, TolerancedNumber)>, Failure> {
+    fn assigned(&self, numbers: &Numbers) -> Result<Vec<(Knob, TolerancedNumber)>> {
         let one = |text: &String| read("--set", text, |text| numbers.assignment(text));
         self.set.iter().map(one).collect()
     }
 
     /// A scene with the values set on the command line; a parameter set there is part of the scene.
-    pub fn applied(&self, mut scene: Arc<Scene>) -> Result<Arc<Scene>, Failure> {
+    pub fn applied(&self, mut scene: Arc<Scene>) -> Result<Arc<Scene>> {
         let Scene { problem, terms, .. } = Arc::make_mut(&mut scene);
         for (symbol, value) in self.assigned(&OSCILLATOR)? {
             if !value.ends.is_point() {
@@ -148,7 +148,7 @@ impl StartOptions {
     }
 
     /// The parameters, each as the interval in which it was given.
-    pub fn known(&self) -> Result<ParameterBox, Failure> {
+    pub fn known(&self) -> Result<ParameterBox> {
         let mut known = ParameterBox::from(&self.found(None)?.problem.parameters);
         for (symbol, value) in self.assigned(&OSCILLATOR)? {
             if symbol.is_parameter() {
@@ -158,7 +158,7 @@ impl StartOptions {
         Ok(known)
     }
 
-    fn found(&self, named: Option<&str>) -> Result<Arc<Scene>, Failure> {
+    fn found(&self, named: Option<&str>) -> Result<Arc<Scene>> {
         Ok(find(named.or(self.scene.as_deref()).unwrap_or(PLAIN))?)
     }
 }

@@ -5,9 +5,6 @@ use super::{Answer, Part, Table};
 use crate::words::printable::xml;
 use crate::words::provenance::Provenance;
 
-/// How the page looks on a screen, on a phone and on A4.
-const STYLE: &str = include_str!("../../assets/report.css");
-
 /// A file that an answer was computed from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceFile {
@@ -41,7 +38,8 @@ impl Answer {
             kind = xml(kind),
             name = name,
             subject = subject,
-            style = STYLE,
+            // How the page looks on a screen, on a phone and on A4.
+            style = include_str!("../../assets/report.css"),
             sections = sections,
             origin = origin(provenance, sources),
         )

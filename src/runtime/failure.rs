@@ -9,6 +9,9 @@ use thiserror::Error;
 
 use super::tell;
 
+/// The answer of a command, or why there is none.
+pub type Result<T, E = Failure> = std::result::Result<T, E>;
+
 /// Why a command has no answer.
 #[derive(Debug, Error)]
 pub enum Failure {

@@ -9,14 +9,12 @@ use std::sync::Arc;
 
 use crossbeam_channel::unbounded;
 use ratatui::layout::Size;
+use signal_hook::consts::SIGHUP;
 
 use super::signals::{self, exit_code};
 use super::{Application, Compute, Files, LoopEnd, Options, Pump, Readers, input, panics, tell};
 use crate::session::Notice;
 use crate::terminal::{Guard, Screen};
-
-/// The signal that a process receives when its terminal goes away.
-const HANG_UP: i32 = signal_hook::consts::SIGHUP;
 
 /// Runs an application in the terminal at standard input and output; [`crate::terminal::Environment::admit`]
 /// says whether there is one. Returns the exit code: 0 if the user quit, 128 + n after signal n.
@@ -54,7 +52,8 @@ pub fn launch(
     }
     match end {
         LoopEnd::Ended { signal } => Ok(exit_code(signal)),
-        LoopEnd::Closed => Ok(exit_code(HANG_UP)),
+        // The signal that a process receives when its terminal goes away.
+        LoopEnd::Closed => Ok(exit_code(SIGHUP)),
         LoopEnd::Broken(why) => Err(io::Error::other(why)),
         _ => Ok(0),
     }

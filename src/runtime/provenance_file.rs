@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use time::OffsetDateTime;
 
-use super::{Failure, Readers, bounded, new_file};
+use super::failure::{Failure, Result};
+use super::{Readers, bounded, new_file};
 use crate::report::page::SourceFile;
 use crate::words::provenance::{Checksum, Provenance};
 
@@ -33,7 +34,7 @@ pub fn beside(path: &Path) -> PathBuf {
 }
 
 /// Writes the provenance of a file, unless it is a device or a pipe. Fails if it cannot be written.
-pub fn write(path: &Path, provenance: &Provenance) -> Result<(), Failure> {
+pub fn write(path: &Path, provenance: &Provenance) -> Result<()> {
     if !new_file::is_regular(path) {
         return Ok(());
     }
@@ -55,7 +56,7 @@ pub struct RunningChecksum {
 
 impl RunningChecksum {
     /// Writes the provenance of a file whose rows have this checksum. Fails if it cannot be written.
-    pub fn begin(path: &Path, provenance: Provenance, checksum: Checksum) -> Result<Self, Failure> {
+    pub fn begin(path: &Path, provenance: Provenance, checksum: Checksum) -> Result<Self> {
         let provenance = Provenance { checksum: Some(checksum), ..provenance };
         write(path, &provenance)?;
         let path = beside(path);
@@ -74,13 +75,13 @@ impl RunningChecksum {
 }
 
 /// Reads the provenance of a file. Fails if there is none, or it cannot be read or understood.
-pub fn read(path: &Path) -> Result<Provenance, Failure> {
+pub fn read(path: &Path) -> Result<Provenance> {
     let path = beside(path);
     serde_json::from_slice(&bounded::bytes(&path)?).map_err(|error| Failure::file(&path, error))
 }
 
 /// The files in a folder that have a file of provenance, sorted by name. Fails if the folder cannot be read.
-pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).map_err(|error| Failure::file(folder, &error))?;
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let mut found: Vec<_> = paths.filter(|path| path.is_file() && beside(path).is_file()).collect();

@@ -12,10 +12,11 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use super::effects::at_home;
+use super::failure::{Failure, Result};
 use super::journal::Journal;
 use super::new_file;
 use super::provenance_file::{self, RunningChecksum};
-use super::{Failure, FileRow, Readers, RowReader, standard};
+use super::{FileRow, Readers, RowReader, standard};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
@@ -46,7 +47,7 @@ impl ScanFile {
 
     /// A file with nothing but the heading, if there is to be one. Fails if it cannot be written, or another scan
     /// writes to it.
-    pub fn create(path: &Path, part: ScanPart, provenance: Provenance) -> Result<Self, Failure> {
+    pub fn create(path: &Path, part: ScanPart, provenance: Provenance) -> Result<Self> {
         let heading = part.heading();
         let unwritten = Failure::unwritten(path);
         if !new_file::is_regular(path) {
@@ -74,7 +75,7 @@ impl ScanFile {
         part: ScanPart,
         provenance: Provenance,
         limits: &Limits,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let unwritten = Failure::unwritten(path);
         let mut file = opened(path)?;
         let known = provenance_file::read(path).ok().and_then(|earlier| earlier.checksum);
@@ -145,11 +146,7 @@ impl ScanFile {
 
 /// The valid beginning of a file, up to the last row of the `known` checksum: its length in bytes, and the checksum of
 /// its rows, of which the first and the last are computed again. A file that is shorter than that is taken as it is.
-fn kept(
-    mut rows: RowReader,
-    known: Option<Checksum>,
-    limits: &Limits,
-) -> Result<(u64, Checksum), Failure> {
+fn kept(mut rows: RowReader, known: Option<Checksum>, limits: &Limits) -> Result<(u64, Checksum)> {
     let mut kept = (rows.bytes, Checksum::NONE);
     let mut last: Option<FileRow> = None;
     while let Some(row) = rows.row()? {
@@ -167,7 +164,7 @@ fn kept(
 }
 
 /// Opens a file for one scan at a time, without changing its content.
-fn opened(path: &Path) -> Result<File, Failure> {
+fn opened(path: &Path) -> Result<File> {
     if !new_file::is_regular(path) {
         return Err(Failure::file(path, "not a file"));
     }

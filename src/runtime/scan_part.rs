@@ -10,7 +10,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::Failure;
+use super::failure::{Failure, Result};
 use crate::flow::{Limits, Reason};
 use crate::report::scan::ScanPart;
 use crate::words::provenance::{Checksum, Provenance};
@@ -56,7 +56,7 @@ impl<'a> RowReader<'a> {
         path: &'a Path,
         file: File,
         known: Option<Checksum>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self> {
         let (file, next, checksum) = (BufReader::new(file), part.points.start, Checksum::NONE);
         let mut this = RowReader { part, path, file, known, number: 0, next, checksum, bytes: 0 };
         let heading = part.heading();
@@ -73,7 +73,7 @@ impl<'a> RowReader<'a> {
 
     /// The next row, which may be of a later point than the one after the last row; `None` at the end of the file.
     /// Fails if it is not a row of the part, or the rows up to it have another checksum than those that were written.
-    pub fn row(&mut self) -> Result<Option<FileRow>, Failure> {
+    pub fn row(&mut self) -> Result<Option<FileRow>> {
         let line = self.line(LONGEST)?;
         let part = self.part;
         if line.last() != Some(&b'\n') {
@@ -96,7 +96,7 @@ impl<'a> RowReader<'a> {
     }
 
     /// Computes a row again and compares it: the same program writes the same line for the same scan.
-    pub fn check(&self, row: &FileRow, limits: &Limits) -> Result<(), Failure> {
+    pub fn check(&self, row: &FileRow, limits: &Limits) -> Result<()> {
         let again = self.part.scan.row(row.index, limits);
         let again = again.map_err(|_: Reason| Failure::file(self.path, "interrupted"))?;
         if self.part.line(row.index, &again).as_bytes() == row.line {
@@ -111,7 +111,7 @@ impl<'a> RowReader<'a> {
     }
 
     /// Refuses the row that was read last if a point before its own has no row.
-    pub fn in_turn(&self, row: &FileRow) -> Result<(), Failure> {
+    pub fn in_turn(&self, row: &FileRow) -> Result<()> {
         if row.index < self.part.points.start + self.checksum.rows {
             return Ok(());
         }
@@ -120,7 +120,7 @@ impl<'a> RowReader<'a> {
 
     /// The next line, with its end unless it was cut; one that is longer than `most` bytes is cut there. Fails if it is
     /// longer than any row.
-    fn line(&mut self, most: u64) -> Result<Vec<u8>, Failure> {
+    fn line(&mut self, most: u64) -> Result<Vec<u8>> {
         let mut line = Vec::new();
         let read = (&mut self.file).take(most.min(LONGEST)).read_until(b'\n', &mut line);
         read.map_err(|error| Failure::file(self.path, &error))?;
@@ -156,8 +156,8 @@ pub struct PartFile {
 pub fn merge(
     parts: &[PartFile],
     recheck: Option<&Limits>,
-    write: &mut dyn FnMut(&[u8]) -> Result<(), Failure>,
-) -> Result<Vec<Range<usize>>, Failure> {
+    write: &mut dyn FnMut(&[u8]) -> Result<()>,
+) -> Result<Vec<Range<usize>>> {
     let whole = ScanPart { headed: true, ..parts[0].part.clone() };
     let mut parts: Vec<&PartFile> = parts.iter().collect();
     parts.sort_by_key(|file| file.part.points.start);
