@@ -100,13 +100,13 @@ fn damping(estimate: &Estimate, margins: &Margins, farthest: f64) -> Damping {
     let amplitudes: Vec<f64> =
         (1..=POINTS).map(|i| to * f64::from(i) / f64::from(POINTS)).collect();
     let x: Vec<f64> = estimate.extremes.iter().map(|extreme| extreme.x).collect();
-    let measured: Vec<[f64; 3]> = x
-        .windows(4)
-        .filter_map(pair)
-        .map(|[a, delta]| [a, delta, error_of_decrement(estimate, a)])
-        .collect();
+    // Each half peak-to-peak value has the error of two turning points, each of which is read from the samples of about a
+    // sixth of a period.
+    let read = (estimate.data.samples_per_period(estimate.p[OMEGA0]) / 6.0).max(1.0);
+    let error = |a: f64| estimate.covariance.deviation / read.sqrt() / (TAU * a);
+    let pairs = x.windows(4).filter_map(pair);
+    let measured: Vec<[f64; 3]> = pairs.map(|[a, delta]| [a, delta, error(a)]).collect();
     let exact: Vec<PlotPoint> = amplitudes.iter().filter_map(|&a| exact(&parameters, a)).collect();
-    let own = |a: f64| averaged(&parameters, a);
     let computed = exact.iter().filter(|it| it[0] >= smallest && it[1].is_finite()).map(|it| it[1]);
     let [low, high] =
         covering(&computed.collect::<Vec<_>>(), measured.iter().map(|it| it[1]).collect());
@@ -114,7 +114,7 @@ fn damping(estimate: &Estimate, margins: &Margins, farthest: f64) -> Damping {
     Damping {
         measured,
         exact,
-        averaged: amplitudes.iter().map(|&a| [a, own(a)]).collect(),
+        averaged: amplitudes.iter().map(|&a| [a, averaged(&parameters, a)]).collect(),
         band: band(margins, &amplitudes),
         extent: [0.0, to, low - room, high + room],
     }
@@ -131,13 +131,6 @@ fn covering(computed: &[f64], mut measured: Vec<f64>) -> [f64; 2] {
     let far = high - low;
     measured.retain(|it| (low - far..=high + far).contains(it));
     range(&[&[low, high], &measured[..]].concat()).into()
-}
-
-/// The standard error of a measured decrement. Each half peak-to-peak value has the error of two turning points,
-/// each of which is read from the samples of about a sixth of a period.
-fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
-    let read = (estimate.data.samples_per_period(estimate.p[OMEGA0]) / 6.0).max(1.0);
-    estimate.covariance.deviation / read.sqrt() / (TAU * a)
 }
 
 /// The outline of the averaged damping of 90 % of the draws.

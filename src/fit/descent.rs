@@ -62,14 +62,10 @@ impl Task<'_> {
         self.solve_within(self.unit(0.01), FEW, guess)
     }
 
-    fn solve_within(&self, enough: f64, most: usize, guess: Unknowns) -> Option<Optimum> {
+    fn solve_within(&self, enough: f64, most: usize, mut p: Unknowns) -> Option<Optimum> {
         // A descent may not leave its region.
         let permits = |seen: &Misfit| self.within.is_none_or(|region| region == seen.region);
-        let mut p = guess;
-        let mut seen = self.evaluated(&p, true)?;
-        if !permits(&seen) {
-            return None;
-        }
+        let mut seen = self.evaluated(&p, true).filter(permits)?;
         let mut cost = self.cost(&seen);
         let mut model = LinearModel::of(self, &seen);
         let (mut damping, mut grow) = (1e-4, 2.0);
@@ -81,8 +77,8 @@ impl Task<'_> {
                     break None;
                 };
                 let trial = p + step;
-                let found = self.evaluated(&trial, false);
-                let found = found.filter(permits).map(|seen| self.cost(&seen));
+                let found = self.evaluated(&trial, false).filter(permits);
+                let found = found.map(|seen| self.cost(&seen));
                 let gain = found.map_or(-1.0, |found| (cost - found) / predicted);
                 if let Some(found) = found.filter(|found| *found < cost) {
                     let bend = 1.0 - powi(2.0 * gain - 1.0, 3);
@@ -97,7 +93,7 @@ impl Task<'_> {
                 }
             };
             let Some((trial, found)) = taken else { break };
-            let settled = (cost - found) <= enough * cost;
+            let settled = cost - found <= enough * cost;
             (p, cost) = (trial, found);
             seen = self.evaluated(&p, true)?;
             if settled {
@@ -153,12 +149,14 @@ impl LinearModel {
             let free = bounds.iter().filter(|bound| !fixed.contains(bound));
             let worst = free.min_by(|one, other| short(one).total_cmp(&short(other)));
             let worst = worst.filter(|bound| short(bound) < 0.0 && fixed.len() < self.free);
-            if let Some(bound) = worst {
-                fixed.push(*bound);
-                continue;
-            }
-            let LinearResiduals { upper, turned, .. } = &self.residuals;
-            return Some((step, turned.norm_squared() - (upper * step - turned).norm_squared()));
+            let Some(bound) = worst else {
+                let LinearResiduals { upper, turned, .. } = &self.residuals;
+                return Some((
+                    step,
+                    turned.norm_squared() - (upper * step - turned).norm_squared(),
+                ));
+            };
+            fixed.push(*bound);
         }
     }
 

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::{
     BEND, Choice, Covariance, DropReason, Extreme, FittedDrift, HIDDEN, LeftDrift, NAMES, NameSpec,
     NoEstimate, Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE,
-    StartKind, Task, UNKNOWNS, Unknowns, Whiteness, amplitudes, left_over, whiteness,
+    StartKind, Task, UNKNOWNS, Unknowns, Whiteness, amplitudes, whiteness,
 };
 use crate::model::State;
 use crate::numerics::sin_cos;
@@ -153,8 +153,7 @@ fn assessed(task: &Task, found: &[Optimum]) -> Option<(Estimate, Option<Optimum>
         (whiteness.white, whiteness.autocorrelation) = (true, Vec::new());
     }
     let directions = task.directions(&best.seen);
-    let left_over = |noise: &[f64], lags: usize| left_over(&directions, noise, lags);
-    let restored = whiteness.clone().restored(&kept, samples_per_period, left_over);
+    let restored = whiteness.clone().restored(&kept, samples_per_period, &directions);
     let covariance = |of: &Whiteness| {
         Covariance::at(task, best, &of.autocorrelation).filter(Covariance::is_possible)
     };

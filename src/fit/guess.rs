@@ -114,12 +114,12 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
         };
         guesses.flat_map(at).collect()
     };
-    let beginning = |(start, certain): (StartKind, bool)| {
+    let beginning = |start, certain| {
         let guesses = if start == StartKind::Release { released() } else { moving() };
         Beginning { start, certain, guesses }
     };
     let other = if is_held { StartKind::Moving } else { StartKind::Release };
-    let beginnings = vec![beginning((start, certain)), beginning((other, false))];
+    let beginnings = vec![beginning(start, certain), beginning(other, false)];
     if is_held && is_displacement {
         with_rest.insert(0, Extreme { t: begin, x: hold });
     }

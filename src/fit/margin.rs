@@ -241,14 +241,14 @@ fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Margin
 }
 
 /// In ascending order, infinite where there is none.
-pub(super) fn sorted(values: impl Iterator<Item = Option<f64>>) -> Vec<f64> {
+pub fn sorted(values: impl Iterator<Item = Option<f64>>) -> Vec<f64> {
     let mut values: Vec<f64> = values.map(|it| it.unwrap_or(f64::INFINITY)).collect();
     values.sort_by(f64::total_cmp);
     values
 }
 
 /// The value below which at most this part of the sorted ones lies.
-pub(super) fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
+pub fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
     let index = truncated(part * real(sorted.len()));
     sorted.get(index.min(sorted.len().saturating_sub(1))).copied().filter(|it| it.is_finite())
 }

@@ -49,7 +49,7 @@ pub struct MotionPoint {
 
 impl MotionPoint {
     /// A mass at rest.
-    fn resting(q: f64, by: Unknowns, signal: Signal) -> Self {
+    pub fn resting(q: f64, by: Unknowns, signal: Signal) -> Self {
         let point = MotionPoint { q, ..MotionPoint::default() };
         if signal.is_displacement() { MotionPoint { signal: q, by, ..point } } else { point }
     }

@@ -78,13 +78,10 @@ impl Noise {
         let told = || least_squares(x.windows(3).map(|it| ([1.0, it[1], it[0]], it[2])));
         let few = samples_per_period < FEW;
         let [level, one, two] = few.then(told).flatten().unwrap_or([0.0, 2.0, -1.0]);
-        let mut second: Vec<f64> = x
-            .windows(3)
-            .map(|three| (three[2] - one * three[1] - two * three[0] - level).abs())
-            .collect();
+        let off = |it: &[f64]| (it[2] - one * it[1] - two * it[0] - level).abs();
+        let mut second: Vec<f64> = x.windows(3).map(off).collect();
         let steps = x.windows(2).map(|two| (two[1] - two[0]).abs()).filter(|step| *step > 0.0);
-        let least = steps.fold(f64::INFINITY, f64::min);
-        let step = if least.is_finite() { least } else { 0.0 };
+        let step = steps.min_by(f64::total_cmp).unwrap_or(0.0);
         let quantised = step / 12.0_f64.sqrt();
         second.sort_by(f64::total_cmp);
         let at = |tenths: usize| second.get(second.len() * tenths / 10).copied().unwrap_or(0.0);
@@ -146,13 +143,12 @@ pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
     let mut within = vec![true; x.len()];
     for limit in [low, high] {
         if is_saturated(x, limit, noise) {
-            let clear = CLEAR * noise.deviation;
             // Where the motion turns just before the limit, chance decides whether a sample reaches it.
             for (within, around) in within[AROUND..].iter_mut().zip(x.windows(2 * AROUND + 1)) {
                 let mean = around.iter().sum::<f64>() / real(around.len());
                 *within &= (mean - limit).abs() > CLOSE * noise.deviation;
             }
-            let near = |x: &f64| (x - limit).abs() <= clear;
+            let near = |x: &f64| (x - limit).abs() <= CLEAR * noise.deviation;
             let mut from = 0;
             for stretch in x.chunk_by(|one, next| near(one) && near(next)) {
                 let to = from + stretch.len();

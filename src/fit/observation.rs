@@ -7,8 +7,8 @@
 //! record shows a drift. Turning points, with or without times, are the same motion observed only where `v = 0`.
 
 use super::{
-    BEND, FittedTurn, LAST, LostMotion, OFFSET, OMEGA0, Q0, R, Record, SLOPE, StartKind, Unknowns,
-    Way, direction, follow, parameters, rate,
+    BEND, FittedTurn, LAST, LostMotion, MotionPoint, OFFSET, OMEGA0, Q0, R, Record, SLOPE,
+    StartKind, Unknowns, Way, direction, follow, parameters, rate,
 };
 use crate::model::State;
 use crate::numerics::real;
@@ -130,31 +130,27 @@ impl Record {
         // Before the motion begins the mass is held.
         let (origin, start) = begin.beginning(p, t);
         let held = t.partition_point(|&t| t < origin);
-        let times: Vec<f64> = t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect();
+        let times: Vec<f64> = t.iter().map(|t| p[OMEGA0] * (t - origin)).collect();
         let order = way.signal.order();
         let scale = way.signal.scale(p[OMEGA0]);
         let mut residuals = Vec::with_capacity(x.len());
-        let mut push = |index: usize, at: State, mut by: Unknowns, motion: f64| {
+        let mut see = |index: usize, point: MotionPoint| {
             let drift = drift(t, t[index]);
-            (by[OFFSET], by[SLOPE], by[BEND]) = (1.0, drift[0], drift[1]);
-            residuals.push(Residual { value: x[index] - zero(p, drift) - motion, at, by });
-        };
-        let still = if way.signal.is_displacement() { 1.0 } else { 0.0 };
-        for index in 0..held {
-            let at = State { q: p[Q0], v: 0.0 };
-            push(index, at, still * direction(Q0), still * p[Q0]);
-        }
-        let moving = begin == StartKind::Moving;
-        let followed = follow(&parameters(p), start, &times, way, |index, point| {
             let mut by = scale * point.by;
+            (by[OFFSET], by[SLOPE], by[BEND]) = (1.0, drift[0], drift[1]);
             let passed = times[index] / p[OMEGA0];
             by[OMEGA0] = scale * (point.rate * passed + real(order) * point.signal / p[OMEGA0]);
-            if !moving {
+            if begin == StartKind::Release {
                 by[LAST] = -scale * p[OMEGA0] * point.rate;
             }
             let at = State { q: point.q, v: point.v };
-            push(held + index, at, by, scale * point.signal);
-        })?;
+            let value = x[index] - zero(p, drift) - scale * point.signal;
+            residuals.push(Residual { value, at, by });
+        };
+        let still = MotionPoint::resting(p[Q0], direction(Q0), way.signal);
+        (0..held).for_each(|index| see(index, still));
+        let followed =
+            follow(&parameters(p), start, &times[held..], way, |index, at| see(held + index, at))?;
         let region = followed.rests.then_some(followed.turns.len());
         Ok(Misfit { residuals, turns: followed.turns, rests: followed.rests, region })
     }

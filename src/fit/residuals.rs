@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::Serialize;
 
-use super::mean_square;
+use super::{Unknowns, left_over, mean_square};
 use crate::numerics::{bisect, cos, integrate, ln, pow, powi, real, sin, truncated};
 
 /// Correlation of the residuals.
@@ -62,12 +62,12 @@ impl Whiteness {
     }
 
     /// The same for the noise before the fit absorbed a part of it. This is the noise whose residuals after a
-    /// fit, as computed by `left_over`, have the observed autocorrelations.
+    /// fit, with the rows of its `directions`, have the observed autocorrelations.
     pub fn restored(
         self,
         residuals: &[f64],
         samples_per_period: f64,
-        left_over: impl Fn(&[f64], usize) -> Vec<f64>,
+        directions: &[Unknowns],
     ) -> Self {
         /// Each round leaves only a part of the error of the preceding round.
         const ROUNDS: usize = 6;
@@ -77,7 +77,7 @@ impl Whiteness {
         let seen = autocorrelations(residuals, &short_lags(residuals.len()));
         let mut noise = self.autocorrelation.clone();
         for _ in 0..ROUNDS {
-            let expected = left_over(&noise, seen.len());
+            let expected = left_over(directions, &noise, seen.len());
             let at = |lag: usize| noise.get(lag).copied().unwrap_or(0.0);
             let rho = seen.iter().zip(expected).enumerate();
             let rho: Vec<f64> = rho

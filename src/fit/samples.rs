@@ -5,6 +5,7 @@
 //! sensor follows a jump. So the samples next to the jumps of an acceleration are left out.
 
 use std::f64::consts::TAU;
+use std::iter::{repeat, repeat_n};
 use std::ops::Range;
 
 use super::{
@@ -64,8 +65,9 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
         Record { t, x, signal, unit: record.unit.clone(), ..Record::default() }
     };
     let part = |range: Range<usize>| {
-        let found = samples(&cut(range.clone()), question, runs).ok();
-        found.filter(|it| !it.whiteness.systematic).map(|it| of_part(it, range, &within))
+        let from = range.start;
+        let found = samples(&cut(range), question, runs).ok();
+        found.filter(|it| !it.whiteness.systematic).map(|it| of_part(it, from, &within))
     };
     let struck = struck.map(|from| from..x.len());
     let at_once = struck.clone().filter(|_| signal.is_displacement());
@@ -106,7 +108,7 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     let mut sorted = SampleSelection { task, found, dropped, is_due: false };
     sorted.sort_out(&noise, question.loss).ok_or_else(lost)?;
     let estimate = judged(&sorted.task(), &sorted.found)?;
-    let estimate = of_part(estimate, 0..x.len(), &within);
+    let estimate = of_part(estimate, 0, &within);
     let scale = (signal.as_displacement(estimate.p[OMEGA0]) / factor).abs();
     for extreme in &mut extremes {
         extreme.x *= scale;
@@ -114,17 +116,14 @@ fn samples(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate
     Ok(Estimate { choice: question.choice.clone(), extremes, noise, ..estimate })
 }
 
-/// The answer for a range of the samples within the scale as one for the whole record.
-fn of_part(found: Estimate, range: Range<usize>, within: &[bool]) -> Estimate {
-    let mut inner = found.dropped.into_iter();
-    let mut number = 0..;
-    let mut why = |within: &bool| match within.then(|| number.next()).flatten() {
-        None => Some(DropReason::Saturated),
-        Some(index) if index < range.start => Some(DropReason::Before),
-        Some(index) if index >= range.end => Some(DropReason::After),
-        Some(_) => inner.next().flatten(),
-    };
-    Estimate { dropped: within.iter().map(&mut why).collect(), ..found }
+/// The answer for some of the samples within the scale, from this one on, as one for the whole record.
+fn of_part(found: Estimate, from: usize, within: &[bool]) -> Estimate {
+    let before = repeat_n(Some(DropReason::Before), from);
+    let after = repeat(Some(DropReason::After));
+    let mut inner = before.chain(found.dropped).chain(after);
+    let saturated = Some(DropReason::Saturated);
+    let why = |within: &bool| if *within { inner.next().flatten() } else { saturated };
+    Estimate { dropped: within.iter().map(why).collect(), ..found }
 }
 
 /// Seeks minima again with the residuals that now count. `None` if the computation has ended, or if the motion is lost.

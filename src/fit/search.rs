@@ -149,8 +149,7 @@ impl Task<'_> {
     }
 
     /// Descends on a growing part of the record, with a robust loss that tolerates samples that are still far off.
-    fn growing(&self, guess: Unknowns) -> Option<Optimum> {
-        let mut p = guess;
+    fn growing(&self, mut p: Unknowns) -> Option<Optimum> {
         let t = &self.data.t;
         if self.data.has_peaks() {
             return self.solve(p);
@@ -168,8 +167,7 @@ impl Task<'_> {
             }
             p = Task { horizon, ..robust }.solve_roughly(p)?.p;
         }
-        let rough = robust.solve_roughly(p)?;
-        self.solve(rough.p)
+        self.solve(robust.solve_roughly(p)?.p)
     }
 }
 

@@ -16,7 +16,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::{D, D2, D3, OFFSET, R, Unknowns, least_squares, median, robust_deviation};
 use crate::model::Parameters;
-use crate::numerics::{atan2, hypot, powi, real, sin_cos};
+use crate::numerics::{atan2, by_number, hypot, powi, real, sin_cos};
 
 /// A turning point read from a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,8 +150,7 @@ const MOST: usize = 1 << 14;
 /// hold or rest, or a drift, would dominate. `None` for fewer than eight samples or no duration.
 pub fn dominant_frequency(t: &[f64], x: &[f64]) -> Option<f64> {
     let count = t.len().next_power_of_two().clamp(64, MOST);
-    let (first, last) = (*t.first()?, *t.last()?);
-    let span = last - first;
+    let span = t.last()? - t.first()?;
     if t.len() < 8 || span <= 0.0 {
         return None;
     }
@@ -165,7 +164,7 @@ pub fn dominant_frequency(t: &[f64], x: &[f64]) -> Option<f64> {
     let spectrum = transform(&values, &(0..count / 2).map(root).collect::<Vec<_>>());
     let power = |k: usize| powi(real(k), 2) * spectrum[k].norm_sqr();
     // Zero padding would locate the peak more accurately, but the extremes do so later anyway.
-    let best = (1..count / 2).max_by(|&one, &other| power(one).total_cmp(&power(other)))?;
+    let best = (1..count / 2).max_by(by_number(|k: &usize| power(*k)))?;
     let around = (best.saturating_sub(1).max(1)..=best + 1).map(|k| (real(k), power(k)));
     let (weighted, weight) =
         around.fold((0.0, 0.0), |sum, (k, power)| (sum.0 + k * power, sum.1 + power));
