@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use super::{
     D, D2, Extreme, LAST, Noise, OFFSET, OMEGA0, Q0, R, Signal, StartKind, Unknowns, amplitudes,
-    dominant_frequency, least_squares, median, range, rate, regressions, robust_deviation,
-    smoothed, turning_points, without_jumps,
+    dominant_frequency, index_at, least_squares, median, range, rate, regressions,
+    robust_deviation, smoothed, turning_points, without_jumps,
 };
 use crate::numerics::{ln, real, sin_cos};
 
@@ -65,13 +65,12 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
     let is_held = start == StartKind::Release;
     let certain = is_clear && (is_held || is_displacement);
     let begin = first.t - lead * period;
-    let level_before =
-        |begin: f64| median(cleaned[..t.partition_point(|&t| t < begin).max(1)].to_vec());
+    let level_before = |begin: f64| median(cleaned[..index_at(t, begin).max(1)].to_vec());
     let hold = level_before(begin);
     let struck = if is_displacement {
         struck_at(t, &cleaned, noise, hold, &extremes)
     } else {
-        Some(t.partition_point(|&t| t < first.t + 0.25 * period))
+        Some(index_at(t, first.t + 0.25 * period))
     };
     let struck = struck.filter(|_| is_held);
     let tail =
@@ -162,8 +161,8 @@ pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
 /// The level of a flat end of the record, as a last extreme; `None` if the record does not end flat.
 fn rest(t: &[f64], x: &[f64], extremes: &[Extreme], period: f64, tail: f64) -> Option<Extreme> {
     let last = extremes.last()?;
-    let from = t.partition_point(|&t| t < last.t + 0.55 * period);
-    if t.last()? - last.t < 1.2 * period || from >= t.len() {
+    let from = index_at(t, last.t + 0.55 * period);
+    if t.last()? - last.t < 1.2 * period {
         return None;
     }
     let smooth = smoothed(&t[from..], &x[from..], period / 12.0);
@@ -187,7 +186,7 @@ fn begins(
     /// Fewest samples that show a hold.
     const FEWEST: usize = 5;
     let natural = (first.t - t[0]) / period;
-    let begin = &x[..t.partition_point(|&time| time < first.t - (0.05 + lead) * period)];
+    let begin = &x[..index_at(t, first.t - (0.05 + lead) * period)];
     let level = median(begin.to_vec());
     let spread = robust_deviation(begin.iter().map(|x| x - level));
     match natural {
@@ -214,7 +213,7 @@ fn struck_at(
     const OFF: f64 = 6.0;
     let [first, second, ..] = extremes else { return None };
     let part = (hold - first.x) / (second.x - first.x);
-    let moving = t.partition_point(|&t| t < first.t);
+    let moving = index_at(t, first.t);
     let near = |x: &f64| (x - hold).abs() <= OFF * noise.deviation.max(noise.step);
     let from = x[..moving].iter().rposition(near)? + 2;
     BETWEEN.contains(&part).then_some(from.min(moving))
@@ -241,7 +240,7 @@ fn excited_again(t: &[f64], x: &[f64], extremes: &[Extreme]) -> Option<usize> {
     };
     let index = 2 + widths.windows(2 + SWINGS).position(grows)?;
     let (last, next) = (extremes[index], extremes[index + 1]);
-    let [from, to] = [last, next].map(|extreme| t.partition_point(|&t| t < extreme.t));
+    let [from, to] = [last, next].map(|extreme| index_at(t, extreme.t));
     let near = |x: &f64| (x - last.x).abs() <= NEAR * widths[index];
     Some(from + x[from..to].iter().rposition(near)?)
 }

@@ -8,7 +8,7 @@
 
 use super::{
     BEND, FittedTurn, LAST, LostMotion, MotionPoint, OFFSET, OMEGA0, Q0, R, Record, SLOPE,
-    StartKind, Unknowns, Way, direction, follow, parameters, rate,
+    StartKind, Unknowns, Way, direction, follow, index_at, parameters, rate,
 };
 use crate::model::State;
 use crate::numerics::real;
@@ -129,7 +129,7 @@ impl Record {
         let Record { t, x, .. } = self;
         // Before the motion begins the mass is held.
         let (origin, start) = begin.beginning(p, t);
-        let held = t.partition_point(|&t| t < origin);
+        let held = index_at(t, origin);
         let times: Vec<f64> = t.iter().map(|t| p[OMEGA0] * (t - origin)).collect();
         let order = way.signal.order();
         let scale = way.signal.scale(p[OMEGA0]);

@@ -11,8 +11,8 @@ use std::ops::Range;
 use super::{
     BEND, Beginning, DropReason, Estimate, Extreme, Guess, IMPOSSIBLE, LAST, Loss, LossName,
     NoEstimate, Noise, OFFSET, OMEGA0, Optimum, Q0, Question, R, Record, Runs, SLOPE, Signal,
-    StartKind, Task, dominant_frequency, drift_of_swings, guess, judged, mean_square, period_of,
-    placed, rate, ratio_of_kinds, reach, regressions, released_before, robust_deviation,
+    StartKind, Task, dominant_frequency, drift_of_swings, guess, index_at, judged, mean_square,
+    period_of, placed, rate, ratio_of_kinds, reach, regressions, released_before, robust_deviation,
     within_scale, without_drift,
 };
 use crate::numerics::{real, truncated};
@@ -222,10 +222,9 @@ fn alike_at_rest(
     const FEWEST: usize = 2;
     let t = &task.data.t;
     let (release, _) = best.start.beginning(&best.p, t);
-    let held = t.partition_point(|&t| t < release);
+    let held = index_at(t, release);
     let end = best.seen.turns.last().filter(|_| best.seen.rests);
-    let rest =
-        end.map_or(t.len(), |turn| t.partition_point(|&t| t < release + turn.tau / best.p[OMEGA0]));
+    let rest = end.map_or(t.len(), |turn| index_at(t, release + turn.tau / best.p[OMEGA0]));
     let kept = truncated(enough.ceil()).max(FEWEST);
     let mut dropped = before.to_vec();
     for stretch in [0..held, rest..t.len()] {

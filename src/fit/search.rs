@@ -3,7 +3,7 @@
 use super::{
     Beginning, D2, D3, Extreme, Guess, LAST, Loss, LossName, Noise, OFFSET, OMEGA0, Optimum, Q0, R,
     Record, StartKind, Task, UNKNOWNS, Unknowns, WIDE, Way, by_cost, closest, follow, guess,
-    parameters, placed,
+    index_at, parameters, placed,
 };
 use crate::model::State;
 use crate::numerics::{pow, real};
@@ -214,7 +214,7 @@ pub fn released_before(
         return None;
     }
     let first = extremes[FIRST.min(extremes.len() / PART)];
-    let from = t.partition_point(|&t| t < first.t);
+    let from = index_at(t, first.t);
     let (later, times) = (&x[from..], &t[from..]);
     let Guess { mut beginnings, .. } = guess(times, later, noise, *signal)?;
     beginnings.retain(|beginning| beginning.start == StartKind::Moving);

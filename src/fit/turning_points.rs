@@ -41,9 +41,14 @@ pub fn smoothed(t: &[f64], x: &[f64], window: f64) -> Vec<f64> {
     t.iter().map(mean).collect()
 }
 
+/// The index of the first sample from a time on.
+pub fn index_at(t: &[f64], time: f64) -> usize {
+    t.partition_point(|t| *t < time)
+}
+
 /// The samples within `reach` of a time.
 fn within(t: &[f64], time: f64, reach: f64) -> Range<usize> {
-    t.partition_point(|t| *t < time - reach)..t.partition_point(|t| *t <= time + reach)
+    index_at(t, time - reach)..t.partition_point(|t| *t <= time + reach)
 }
 
 /// The record without isolated jumps, by medians of five samples.
@@ -176,7 +181,7 @@ fn resampled(t: &[f64], x: &[f64], count: usize) -> Vec<f64> {
     let (first, last) = (t[0], t[t.len() - 1]);
     let at = |index: usize| {
         let time = first + (last - first) * real(index) / real(count);
-        let after = t.partition_point(|t| *t < time).clamp(1, t.len() - 1);
+        let after = index_at(t, time).clamp(1, t.len() - 1);
         let step = t[after] - t[after - 1];
         let part = if step > 0.0 { (time - t[after - 1]) / step } else { 0.0 };
         x[after - 1] + part * (x[after] - x[after - 1])
