@@ -121,24 +121,19 @@ impl StepKind {
     /// The number of cycles by a theorem; `None` if this step is not a theorem, or its conditions do not hold
     /// for all of these parameters.
     pub fn theorem(self, [d, d2, d3, r]: [Interval; 4]) -> Option<usize> {
-        let zero = |it: Interval| it == Interval::point(0.0);
-        let (negative, positive) =
-            (|it: Interval| it.upper() < 0.0, |it: Interval| it.lower() > 0.0);
         let (holds, cycles) = match self {
             StepKind::OneWay => {
                 // For D < 0 < D3 the minimum, at `w^2 = -2 D/(3 D3)`, is positive where `32 D^3 + 27 r^2 D3 > 0`.
                 let least = d * 32.0 * d.square() + r.square() * 27.0 * d3;
-                let gains = zero(r) && d.upper() <= 0.0 && d3.upper() <= 0.0;
+                let gains = r == 0.0 && d.upper() <= 0.0 && d3.upper() <= 0.0;
                 let loses = d.lower() >= 0.0 && d3.lower() >= 0.0;
-                (gains || loses || (positive(d3) && negative(d) && positive(least)), 0)
+                (gains || loses || (d3 > 0.0 && d < 0.0 && least > 0.0), 0)
             }
             StepKind::Overdamped => (d.upper() <= -1.0 && d3.upper() <= 0.0, 0),
-            StepKind::Affine => {
-                (zero(d2) && zero(d3) && d.lower() > -1.0 && negative(d) && positive(r), 1)
-            }
+            StepKind::Affine => (d2 == 0.0 && d3 == 0.0 && d > -1.0 && d < 0.0 && r > 0.0, 1),
             StepKind::Frictionless => {
-                let opposite = negative(d) && positive(d3) || positive(d) && negative(d3);
-                (zero(r) && opposite, 1)
+                let opposite = d < 0.0 && d3 > 0.0 || d > 0.0 && d3 < 0.0;
+                (r == 0.0 && opposite, 1)
             }
             _ => (false, 0),
         };
@@ -161,8 +156,7 @@ impl CertificateStep {
             StepKind::Within => {
                 // An infinite interval is bounded by the images of all clearances.
                 let of = Interval::new(if to < f64::INFINITY { to } else { 0.0 }, to);
-                known(map.images(of).upper() < from, "images of G may lie beyond `from`")
-                    .map(|()| 0)
+                known(map.images(of) < from, "images of G may lie beyond `from`").map(|()| 0)
             }
             StepKind::Below | StepKind::Above => {
                 let least = map.images(Interval::point(from)).lower();
@@ -188,13 +182,13 @@ impl CertificateStep {
     /// other, there is one between them.
     fn verify_cycle(&self, map: &Map, [from, to]: Bounds) -> Result<(), String> {
         let slope = map.slope(Interval::new(from, to)).ok_or("a turn is not certain")?;
-        known(slope.upper() < 1.0, "the map that should contract may not")?;
+        known(slope < 1.0, "the map that should contract may not")?;
         let [low, high] = self.clearance.ok_or("a cycle has a clearance")?;
         let inside = from <= low && low <= high && high <= to;
         known(inside, "the clearance is not within the step")?;
         let [above, below] = [low, high].map(|z| map.images(Interval::point(z)));
-        known(above.lower() > low, "the clearance may be below its bounds")?;
-        known(below.upper() < high, "the clearance may be above its bounds")
+        known(above > low, "the clearance may be below its bounds")?;
+        known(below < high, "the clearance may be above its bounds")
     }
 }
 

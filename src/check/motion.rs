@@ -74,7 +74,7 @@ impl FencedField {
         let slope = field.slope(e);
         let grows = c.lower() >= 0.0 && (b + c * e * 3.0).lower() >= 0.0;
         let excess = (a - c * e.square() * 3.0) * 4.0;
-        let shields = slope.lower() > 0.0 && excess.upper() <= (slope * slope.square()).lower();
+        let shields = slope > 0.0 && excess.upper() <= (slope * slope.square()).lower();
         let left = -field.force(e);
         let piece = left.hull(left + e.twice() / slope);
         let holds = velocity > 0.0 && grows && shields && piece.is_finite();
@@ -132,9 +132,9 @@ impl FencedField {
         let p0 = m - at * (a + 2.0 + at * (b + at * c));
         let p1 = -(a + 2.0 + at * (b.twice() + at * c * 3.0));
         let p2 = -(b + at * c * 3.0);
-        let square = p2.lower() > 0.0 && (p0 * p2 * 4.0 - p1.square()).lower() >= 0.0;
+        let square = p2 > 0.0 && (p0 * p2 * 4.0 - p1.square()).lower() >= 0.0;
         let linear = [p0, p1, p2].iter().all(|it| it.lower() >= 0.0);
-        m.lower() > 0.0 && v.lower() >= 0.0 && c.upper() <= 0.0 && (linear || square)
+        m > 0.0 && v.lower() >= 0.0 && c.upper() <= 0.0 && (linear || square)
     }
 
     /// Whether the energy of motions in this box does not grow and is too small for them to go further out than
@@ -162,7 +162,7 @@ impl FencedField {
         let w = (point(end.upper()) * end.width() * 3.0).sqrt().upper();
         let drag = self.force(Interval::new(0.0, w)).magnitude();
         let rate = point(end.lower()) - drag;
-        if !(rate.lower() > 0.0 && drag <= 0.49 * end.upper()) {
+        if !(rate > 0.0 && drag <= 0.49 * end.upper()) {
             return Some(SwingBounds { end, ..UNKNOWN });
         }
         let late = (point(w) / rate).upper();
@@ -184,7 +184,7 @@ impl FencedField {
         let way = e * time;
         let least = time * self.slope(slow).lower().min(0.0);
         let end = (-z).hull(way - z.lower());
-        let reaches = rate.lower() > 0.0 && way.upper() <= half.lower();
+        let reaches = rate > 0.0 && way.upper() <= half.lower();
         let damping = Interval::new(least.lower(), f64::INFINITY);
         reaches.then(|| self.fall([e, piece], SwingBounds { end, damping, ..UNKNOWN }, reach))?
     }
@@ -193,7 +193,7 @@ impl FencedField {
     /// is at a fold of `x = -f(v)` (end of lemma 12); `before` bounds the integral of `f'` until then from below.
     fn beyond_fold(&self, [e, piece]: Fence, before: Interval) -> Option<SwingBounds> {
         let [a, b, c] = self.coefficients;
-        if !(b.upper() < 0.0 && c.lower() > 0.0 && piece.lower() > 0.0) {
+        if !(b < 0.0 && c > 0.0 && piece > 0.0) {
             return None;
         }
         let k = -b * b.square() * 4.0 / (c.square() * 27.0) + e * (-a.lower()).max(0.0);
@@ -204,7 +204,7 @@ impl FencedField {
         let time = point((end - piece).upper()) / point(w) + point(w) / rate;
         let least = (a - b.square() / (c * 3.0)).lower().min(0.0);
         let damping = Interval::new((time * least + before).lower(), f64::INFINITY);
-        (rate.lower() > 0.0).then_some(SwingBounds { end, damping, ..UNKNOWN })
+        (rate > 0.0).then_some(SwingBounds { end, damping, ..UNKNOWN })
     }
 
     /// Upper bound of all ends, however far out a motion starts: the end of the motion from the right end of
@@ -223,7 +223,7 @@ impl FencedField {
         let k = b.twice() + 1.0;
         let x = point(1e-3 * ((k - b) / (k.square().twice() + c)).lower());
         let v = point((x - k * x.square()).lower());
-        let leaves = a.upper() <= -2.0 && x.lower() > 0.0 && v.lower() > 0.0;
+        let leaves = a.upper() <= -2.0 && x > 0.0 && v > 0.0;
         leaves
             .then(|| self.run(Disc::new([x, v]), 0.0))
             .flatten()
@@ -232,7 +232,7 @@ impl FencedField {
 
     /// The half swing from rest at `-z`, for all z of an interval; `reach` is the outer edge of the sticking set.
     pub fn swing(&self, z: Interval, reach: f64) -> SwingBounds {
-        if !(z.lower() > 0.0) {
+        if !(z > 0.0) {
             return UNKNOWN;
         }
         let near = self.run(Disc::new([-z, point(0.0)]), reach);
@@ -267,7 +267,7 @@ impl FencedField {
                 return disc.end(self);
             }
             let place = disc.square();
-            if !(place[1].lower() > 0.0) {
+            if !(place[1] > 0.0) {
                 return None;
             }
             if self.never_returns(place) {
@@ -276,7 +276,7 @@ impl FencedField {
             if self.stays(place, reach) {
                 return Some(SwingBounds { end: point(f64::NEG_INFINITY), ..UNKNOWN });
             }
-            if let Some(fence) = fence.filter(|[e, _]| place[1].lower() > e.upper()) {
+            if let Some(fence) = fence.filter(|[e, _]| place[1] > e.upper()) {
                 return self.fall(fence, disc.swing(), reach);
             }
         }
@@ -332,7 +332,7 @@ impl Disc {
         }
         let place = next(place);
         let falls = field.acceleration(place);
-        if !(place[1].lower() > 0.0 || falls.lower() > 0.0 || falls.upper() < 0.0) {
+        if !(place[1] > 0.0 || falls > 0.0 || falls < 0.0) {
             return None;
         }
         let last = field.series(place)[ORDER].map(|it| (0..ORDER).fold(it, |it, _| it * h));
@@ -364,7 +364,7 @@ impl Disc {
         let rate = point(-field.acceleration([x * Interval::new(0.9, 1.1), slow]).upper());
         let lag = m / rate;
         let way = (m * lag).upper();
-        if !(rate.lower() > 0.0 && x.lower() > 0.0 && way < 0.05 * x.lower()) {
+        if !(rate > 0.0 && x > 0.0 && way < 0.05 * x.lower()) {
             return None;
         }
         let late = (lag * field.slope(slow).magnitude()).upper();

@@ -12,6 +12,7 @@
     reason = "a comparison with what is not a number fails, and its negation is the safe side"
 )]
 
+use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -335,6 +336,23 @@ fn extremes(one: Interval, other: Interval, of: impl Fn(f64, f64) -> f64) -> Int
         return Interval::ALL;
     }
     Interval::outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+}
+
+impl PartialEq<f64> for Interval {
+    fn eq(&self, other: &f64) -> bool {
+        *self == Interval::point(*other)
+    }
+}
+
+impl PartialOrd<f64> for Interval {
+    /// What is certain of all members, where they are not equal: that they are less, or greater.
+    fn partial_cmp(&self, other: &f64) -> Option<Ordering> {
+        match (self.lower > *other, self.upper < *other) {
+            (true, _) => Some(Ordering::Greater),
+            (_, true) => Some(Ordering::Less),
+            _ => (self == other).then_some(Ordering::Equal),
+        }
+    }
 }
 
 impl fmt::Display for Interval {

@@ -143,7 +143,7 @@ impl Ball {
 pub fn never_returns(field: &FieldBox, x: f64, v: f64) -> bool {
     let at = Interval::point(v);
     let m = at - x;
-    if !(field.c.upper() <= 0.0 && m.lower() > 0.0 && v >= 0.0) {
+    if !(field.c.upper() <= 0.0 && m > 0.0 && v >= 0.0) {
         return false;
     }
     let FieldBox { a, b, c } = field.strongest();
@@ -157,10 +157,10 @@ pub fn never_returns(field: &FieldBox, x: f64, v: f64) -> bool {
     if holds(p1) && holds(p2) {
         return holds(p0);
     }
-    if p2.lower() > 0.0 && holds(p0 * 4.0 * p2 - p1.square()) {
+    if p2 > 0.0 && holds(p0 * 4.0 * p2 - p1.square()) {
         return true;
     }
-    if !(p3.lower() > 0.0) {
+    if !(p3 > 0.0) {
         return false;
     }
     // Half of the cubic term compensates the square by u^3 >= 2 t u^2 - t^2 u, the other half the remaining

@@ -113,12 +113,12 @@ pub fn enclose_escape(parameters: &ParameterBox, symbol: Knob, near: f64) -> Opt
 fn returns_from_infinity(parameters: &ParameterBox) -> Option<bool> {
     let ParameterBox { d2, d3, r, .. } = *parameters;
     // The half swing on which D2 brakes.
-    let strong = match (d2.upper() < 0.0, d2.lower() > 0.0) {
+    let strong = match (d2 < 0.0, d2 > 0.0) {
         (true, _) => 0,
         (_, true) => 1,
         _ => return None,
     };
-    if d3 != Interval::point(0.0) || !(r.lower() >= 0.0) {
+    if d3 != 0.0 || !(r.lower() >= 0.0) {
         return None;
     }
     let ProvedMap { gap, forward: HalfMaps(forward), .. } = ProvedMap::new(parameters);
@@ -130,7 +130,7 @@ fn returns_from_infinity(parameters: &ParameterBox) -> Option<bool> {
     if next.lower() == f64::INFINITY {
         return Some(false);
     }
-    (next.upper() < f64::INFINITY).then_some(true)
+    (next < f64::INFINITY).then_some(true)
 }
 
 /// An interval near a guess in which a verdict changes: at its ends the verdict is certain and different.

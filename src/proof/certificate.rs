@@ -88,7 +88,7 @@ impl Walk {
         let mut to = if known { 0.95 * first } else { map.gap.upper() };
         for _ in 0..40 {
             for (fences, map) in self.maps(false) {
-                if map.images(Interval::point(to)).upper() < 0.0 {
+                if map.images(Interval::point(to)) < 0.0 {
                     self.add(StepKind::Within, Some(to), None, fences);
                     return Ok(());
                 }
@@ -147,14 +147,13 @@ impl Walk {
         for (fences, map) in self.maps(!cycle.stable) {
             let narrow = |&[from, to]: &Bounds| {
                 let slope = map.slope(Interval::new(from, to));
-                from > self.at && slope.is_some_and(|slope| slope.upper() < 1.0)
+                from > self.at && slope.is_some_and(|slope| slope < 1.0)
             };
             let image = |z: f64| map.images(Interval::point(z));
             if !image(bounds.middle()).is_finite() {
                 continue;
             }
-            let certain =
-                |&[low, high]: &Bounds| image(low).lower() > low && image(high).upper() < high;
+            let certain = |&[low, high]: &Bounds| image(low) > low && image(high) < high;
             let Some([from, to]) = WIDTHS.map(ends).into_iter().find(narrow) else { continue };
             let Some(clearance) = WIDER.map(ends).into_iter().find(certain) else {
                 why = "a cycle cannot be bounded";

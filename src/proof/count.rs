@@ -135,7 +135,7 @@ impl Count {
     fn settle_along(&mut self, way: &HalfMaps, gap: SignedGap) -> bool {
         let SignedGap { over, low, high } = gap;
         let Some(slope) = way.slope(over) else { return false };
-        if slope.lower() > 1.0 || slope.upper() < 1.0 {
+        if slope > 1.0 || slope < 1.0 {
             if low != high {
                 self.cycles.push(ProvedCycle::new(over, low == Sign::Above));
             }
@@ -149,7 +149,7 @@ impl Count {
         let away = way.image(middle) - middle;
         let sway = (slope - 1.0) * (over - middle);
         let sum = away + sway;
-        sum.lower() > 0.0 || sum.upper() < 0.0
+        sum > 0.0 || sum < 0.0
     }
 }
 
@@ -214,7 +214,7 @@ fn inner_end(map: &ProvedMap) -> SearchEnd {
         let bound = passed.max(least[1]);
         if bound > 0.0 && bound < f64::INFINITY {
             // No image is smaller, provided that every motion returns.
-            let returns = map.parameters.d3.lower() > 0.0 && least[0] > 0.0;
+            let returns = map.parameters.d3 > 0.0 && least[0] > 0.0;
             let sign = if returns { Some(Sign::Above) } else { sign_at(map, bound) };
             return sign.map(|sign| (bound, sign)).ok_or(0.0);
         }
@@ -244,7 +244,7 @@ fn least_end(field: &FieldBox, funnel: Option<&Funnel>) -> f64 {
     let bound = (k - b) / (k.square() * 2.0 + c);
     let at = Interval::point(NEAR * bound.lower());
     let v = at - k * at.square();
-    if !(at.lower() > 0.0 && v.lower() > 0.0) {
+    if !(at > 0.0 && v > 0.0) {
         return 0.0;
     }
     let start = StartBox { x: at, v: Interval::point(v.lower()) };
@@ -280,7 +280,7 @@ fn outer_end(map: &ProvedMap, inner: f64) -> SearchEnd {
     }
     if bound < f64::INFINITY {
         // No image is larger: the map is not above the diagonal there, unless the motion never turns again.
-        let returns = map.parameters.d3.lower() > 0.0;
+        let returns = map.parameters.d3 > 0.0;
         let sign = if returns { Some(Sign::Below) } else { sign_at(map, bound) };
         return sign.map(|sign| (bound, sign)).ok_or(inner);
     }
@@ -303,9 +303,9 @@ fn outer_end(map: &ProvedMap, inner: f64) -> SearchEnd {
 /// The side of the diagonal on which the map certainly lies at a clearance.
 pub fn sign_at(map: &ProvedMap, clearance: f64) -> Option<Sign> {
     let image = map.forward.image(Interval::point(clearance));
-    if image.lower() > clearance {
+    if image > clearance {
         Some(Sign::Above)
-    } else if image.upper() < clearance {
+    } else if image < clearance {
         Some(Sign::Below)
     } else {
         None

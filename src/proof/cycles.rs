@@ -91,7 +91,7 @@ pub(crate) fn stabilities(parameters: &ParameterBox) -> (Option<Vec<bool>>, u32)
 /// The parameters in units of `2^k`, and k: near the limits of the range of doubles, r is scaled to about 1,
 /// exactly or as an interval.
 fn in_own_units(parameters: &ParameterBox) -> (ParameterBox, i32) {
-    let unit = if parameters.r.lower() > 0.0 { exponent(parameters.r.middle()) } else { 0 };
+    let unit = if parameters.r > 0.0 { exponent(parameters.r.middle()) } else { 0 };
     let unit = if unit.abs() > 300 { unit } else { 0 };
     (parameters.in_units_of(unit), unit)
 }
@@ -104,7 +104,7 @@ fn counted(theorem: Option<Theorem>, map: &ProvedMap) -> Count {
     match theorem {
         Some(Theorem::OneWay | Theorem::Overdamped) => Count::default(),
         Some(Theorem::Affine) => one(false),
-        Some(Theorem::Frictionless) => one(map.parameters.d.upper() < 0.0),
+        Some(Theorem::Frictionless) => one(map.parameters.d < 0.0),
         None => Count::of(map),
     }
 }
@@ -112,18 +112,17 @@ fn counted(theorem: Option<Theorem>, map: &ProvedMap) -> Count {
 /// The theorem that decides the number of cycles, if there is one.
 fn theorem(parameters: &ParameterBox) -> Option<Theorem> {
     let ParameterBox { d, d2, d3, r } = *parameters;
-    let zero = |it: Interval| it == Interval::point(0.0);
     if one_way(d, d3, r) {
         return Some(Theorem::OneWay);
     }
     if d.upper() <= -1.0 && d3.upper() <= 0.0 {
         return Some(Theorem::Overdamped);
     }
-    if zero(d2) && zero(d3) {
-        return (d.lower() > -1.0 && d.upper() < 0.0 && r.lower() > 0.0).then_some(Theorem::Affine);
+    if d2 == 0.0 && d3 == 0.0 {
+        return (d > -1.0 && d < 0.0 && r > 0.0).then_some(Theorem::Affine);
     }
-    let opposite = d.upper() < 0.0 && d3.lower() > 0.0 || d.lower() > 0.0 && d3.upper() < 0.0;
-    (zero(r) && opposite).then_some(Theorem::Frictionless)
+    let opposite = d < 0.0 && d3 > 0.0 || d > 0.0 && d3 < 0.0;
+    (r == 0.0 && opposite).then_some(Theorem::Frictionless)
 }
 
 /// Whether `r + 2 D w + D3 w^3` has one sign for all speeds w (lemma 13).
@@ -132,7 +131,7 @@ fn one_way(d: Interval, d3: Interval, r: Interval) -> bool {
     let gains = r.upper() == 0.0 && d.upper() <= 0.0 && d3.upper() <= 0.0;
     // Its minimum (at w = 3 r/(4 abs(D)) when it is zero) is positive where 32 abs(D)^3 < 27 r^2 D3.
     let cube = -d * 32.0 * d.square();
-    let loses_yet = d3.lower() > 0.0 && d.upper() < 0.0 && (r * 27.0 * r * d3 - cube).lower() > 0.0;
+    let loses_yet = d3 > 0.0 && d < 0.0 && r * 27.0 * r * d3 - cube > 0.0;
     loses || gains || loses_yet
 }
 

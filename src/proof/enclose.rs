@@ -65,7 +65,7 @@ pub fn enclose(map: &ProvedMap, guess: f64, within: Interval, stable: bool) -> O
     let around = RADII.into_iter().find_map(|radius| {
         let wide = Interval::around(near, radius * near);
         let inner = newton(way, wide)?;
-        let is_inside = inner.lower() > wide.lower() && inner.upper() < wide.upper();
+        let is_inside = inner > wide.lower() && inner < wide.upper();
         is_inside.then_some((inner, radius))
     });
     // The only cycle in an interval lies in each Newton step from there, whether in its interior or not.
@@ -104,7 +104,7 @@ fn describe(map: &ProvedMap, clearance: Interval, stable: bool) -> Option<Enclos
     let way = if stable { &map.forward } else { &map.backward };
     // The clearance of the left turning point.
     let left = way.0[0].image(clearance);
-    if !(left.lower() > 0.0 && left.is_finite()) {
+    if !(left > 0.0 && left.is_finite()) {
         return None;
     }
     let [from_right, from_left] = [(&way.0[0], clearance), (&way.0[1], left)]
@@ -127,7 +127,7 @@ fn describe(map: &ProvedMap, clearance: Interval, stable: bool) -> Option<Enclos
     };
     let mut multiplier = multiplier.intersection(positive)?;
     // For a stiff cycle it is known more accurately from the map, which contracts.
-    if !(multiplier.upper() < 1.0 || multiplier.lower() > 1.0)
+    if !(multiplier < 1.0 || multiplier > 1.0)
         && let Some(slope) = way.slope(clearance)
     {
         let over = |bound: f64| Interval::point(1.0) / bound;

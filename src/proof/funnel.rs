@@ -82,7 +82,7 @@ impl Funnel {
             // The slope is convex and increases from the speed on.
             let convex = (b + c * 3.0 * v).lower() >= 0.0;
             (if convex { v } else { return None }, f64::INFINITY)
-        } else if c.upper() < 0.0 && fastest > speed {
+        } else if c < 0.0 && fastest > speed {
             let top = Interval::point(fastest);
             (top, field.force(top).lower())
         } else {
@@ -93,7 +93,7 @@ impl Funnel {
             let [from, to] = [from, to].map(Interval::point);
             let least = Interval::point(field.slope(from).lower().min(field.slope(to).lower()));
             let excess = (a - c * 3.0 * to.square()) * 4.0;
-            least.lower() > 0.0 && excess.upper() <= (least * least.square()).lower()
+            least > 0.0 && excess.upper() <= (least * least.square()).lower()
         };
         let next = |at: f64| (2.0 * at).min(top.lower());
         let farther = |at: &f64| (*at < top.lower()).then(|| next(*at));
@@ -162,7 +162,7 @@ impl Funnel {
         let drag = field.map(positive).force(v);
         let half = Interval::point(start.lower()) / 2.0;
         let rate = Interval::point((half - drag).lower());
-        if !(rate.lower() > 0.0) {
+        if !(rate > 0.0) {
             return None;
         }
         let time = v / rate;
@@ -193,7 +193,7 @@ impl Funnel {
         // At least the logarithm of the ratio of the two velocities.
         let doublings = f64::from(exponent((speed / v).upper()) + 1);
         let logarithm = Interval::point(doublings) * 0.7;
-        if !(half.lower() > 0.0) {
+        if !(half > 0.0) {
             return None;
         }
         let position = logarithm / half + position;
@@ -278,7 +278,7 @@ impl Funnel {
         let left = Interval::new(0.0, speed_left);
         let drag = field.in_units_of(unit).force(left).magnitude();
         let rate = Interval::point(end.lower()) - drag;
-        if !(rate.lower() > 0.0 && drag <= 0.49 * end.upper()) {
+        if !(rate > 0.0 && drag <= 0.49 * end.upper()) {
             return None;
         }
         let late = (Interval::point(speed_left) / rate.lower()).upper();
@@ -308,8 +308,8 @@ impl Funnel {
         let rate = force + entry.lower();
         let way = Interval::point((end - entry).upper());
         let within = half.upper() <= turning.twice().lower()
-            && half.upper() < scaled(Interval::point(self.speed), -unit).lower();
-        if !(rate.lower() > 0.0 && within) {
+            && half < scaled(Interval::point(self.speed), -unit).lower();
+        if !(rate > 0.0 && within) {
             return None;
         }
         let time = way / half + half / rate.lower();
@@ -320,7 +320,7 @@ impl Funnel {
 /// The arrivals of motions that fall through `speed` at `entry`, right of the centre, for `b < 0 < c` (lemma 12).
 fn beyond_fold(field: &FieldBox, entry: Interval, speed: Interval) -> Option<Interval> {
     let FieldBox { a, b, c } = *field;
-    if !(b.upper() < 0.0 && c.lower() > 0.0 && entry.lower() > 0.0) {
+    if !(b < 0.0 && c > 0.0 && entry > 0.0) {
         return None;
     }
     let pull = speed * a.lower().min(0.0);

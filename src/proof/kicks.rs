@@ -68,7 +68,7 @@ fn border(
     hint: Option<f64>,
 ) -> Result<(Option<Border>, Option<[Interval; 2]>), &'static str> {
     let r = proof.parameters.r;
-    if !(r.lower() > 0.0) {
+    if !(r > 0.0) {
         return Err(NO_FRICTION);
     }
     let none = proof.is_complete() && proof.cycles.is_empty();
@@ -110,9 +110,9 @@ fn smaller([one, other]: [Option<Interval>; 2]) -> Option<Interval> {
 fn is_bounded(map: &ProvedMap, proof: &Proof) -> bool {
     let ParameterBox { d2, d3, .. } = proof.parameters;
     // Every motion loses energy, the first integral of lemma 13 for D2 = 0.
-    let energy = proof.theorem == Some(Theorem::OneWay) && d2 == Interval::point(0.0);
+    let energy = proof.theorem == Some(Theorem::OneWay) && d2 == 0.0;
     let barred = |it: &ProvedHalf| it.greatest(f64::INFINITY) < f64::INFINITY;
-    energy || (d3.lower() > 0.0 && map.forward.0.iter().all(barred))
+    energy || (d3 > 0.0 && map.forward.0.iter().all(barred))
 }
 
 /// Whether a start at rest with this clearance is captured, where that is certain; `half` is its first half swing.
@@ -159,9 +159,9 @@ fn pushed(
         return (passage == Passage::Never).then_some(false);
     };
     let (after, edge) = (swing.end - map.gap, edge[1 - half]);
-    if after.upper() < edge.lower() {
+    if after < edge.lower() {
         Some(true)
-    } else if after.lower() > edge.upper() {
+    } else if after > edge.upper() {
         Some(false)
     } else {
         None

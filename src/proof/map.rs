@@ -122,7 +122,7 @@ impl HalfMaps {
             let (end, slope) = half.end_slope(half.start(at))?;
             product = product * slope;
             at = if half.backward { end } else { end - half.gap };
-            if !(at.lower() > 0.0) {
+            if !(at > 0.0) {
                 return None;
             }
         }
@@ -234,7 +234,7 @@ impl ProvedHalf {
     /// The clearances after swings, from those before.
     pub fn image(&self, from: Interval) -> Interval {
         if self.field.is_point()
-            && from.lower() > 0.0
+            && from > 0.0
             && from.radius() <= ROUNDED * from.lower()
             && let Some(swing) = self.effort.run(&self.field, self.start(from), None).arrived()
         {
@@ -270,7 +270,7 @@ impl ProvedHalf {
         let (field, funnel) = (&self.field, self.funnel());
         let stiff = |climb| funnel.and_then(|it| it.contraction(field, from, climb));
         let far = funnel.and_then(|it| it.climb_from(field, from)).and_then(stiff);
-        let settled = |(_, slope): &(Interval, Interval)| slope.upper() < SUPERSTABLE;
+        let settled = |(_, slope): &(Interval, Interval)| *slope < SUPERSTABLE;
         if far.as_ref().is_some_and(settled) {
             return far;
         }

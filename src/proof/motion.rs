@@ -89,11 +89,11 @@ fn followed(
         return captured(tau, q);
     }
     // 0 below v = 0, where x = r - q, and 1 above, where x = q + r.
-    let mut index = match (v.lower() > 0.0, v.upper() < 0.0) {
+    let mut index = match (v > 0.0, v < 0.0) {
         (true, _) => 1,
         (_, true) => 0,
-        _ if rests && q.lower() > r.upper() => 0,
-        _ if rests && q.upper() < -r.upper() => 1,
+        _ if rests && q > r.upper() => 0,
+        _ if rests && q < -r.upper() => 1,
         _ => return open(tau, if rests { EDGE } else { START }),
     };
     // The frame of a half plane turns the other one round.
@@ -122,7 +122,7 @@ fn followed(
             }
         };
         let arrived = tau + found.duration;
-        if arrived.lower() > until {
+        if arrived > until {
             return moving().unwrap_or(open(tau, STIFF));
         }
         if arrived.upper() > until {
@@ -136,7 +136,7 @@ fn followed(
             return captured(tau, q);
         }
         let clearance = end - map.gap;
-        if !(clearance.lower() > 0.0) {
+        if !(clearance > 0.0) {
             return open(tau, EDGE);
         }
         (start, index) = (StartBox::at_rest(clearance), 1 - index);
@@ -147,7 +147,7 @@ fn followed(
 /// End of a swing; for a wide interval of starts at rest, from the motions of its two ends (lemma 8).
 fn end(field: &FieldBox, start: &StartBox, whole: &ProvedSwing) -> Interval {
     let point = start.x.is_point() && field.is_point();
-    if point || start.v != Interval::point(0.0) {
+    if point || start.v != 0.0 {
         return whole.end;
     }
     let ends = Effort::default().extremes(field, -start.x).and_then(|[low, high]| {
@@ -162,7 +162,7 @@ impl Ball {
         let ahead = self.prepare(most)?;
         let (h, reached) = self.reach(ahead)?;
         self.advance(h, &reached);
-        (self.state().1.lower() > 0.0).then_some(())
+        (self.state().1 > 0.0).then_some(())
     }
 
     /// Upper bound of the time until the velocity is infinite; `None` where that is not certain.
@@ -182,7 +182,7 @@ impl Ball {
         let k1 = -(a + 1.0 + at * (b * 2.0 + at * c * 3.0));
         let k2 = -(b + at * c * 3.0);
         let k3 = -c;
-        if !(k0.lower() > 0.0 && [k1, k2, k3].iter().all(|it| it.lower() >= 0.0)) {
+        if !(k0 > 0.0 && [k1, k2, k3].iter().all(|it| it.lower() >= 0.0)) {
             return None;
         }
         let up_to = |u: f64| Interval::point(u) / k0;

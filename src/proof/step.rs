@@ -327,7 +327,7 @@ impl StepField {
         // positive again.
         let speed = (v + norm.stretch * tube) * INFLATE;
         let turning = h * (1.0 + 0.5 * (a + speed * (b + speed * c))) * INFLATE;
-        if !(carried < tube && (speeds.lower() > 0.0 || turning < std::f64::consts::PI)) {
+        if !(carried < tube && (speeds > 0.0 || turning < std::f64::consts::PI)) {
             return None;
         }
         let [once, each] = HORNER;

@@ -172,14 +172,14 @@ impl SwingRun {
         let speed = Interval::new(-most, most);
         // Whether the motion continues or is followed back, x only grows.
         let rate = Interval::point(x.lower()) - field.force(speed).magnitude();
-        if !(rate.lower() > 0.0) {
+        if !(rate > 0.0) {
             return None;
         }
         let lag = (Interval::point(most) / rate.lower()).upper();
         let along = (Interval::point(most) * lag).upper();
         let last = (Interval::point(x.upper()) + along).upper();
         let end = Interval::new(x.lower(), last);
-        let end = if end.lower() > 0.0 { end } else { return None };
+        let end = if end > 0.0 { end } else { return None };
         self.finish((end, Interval::point(0.0)), lag)
     }
 
@@ -207,7 +207,7 @@ impl SwingRun {
         let cap = v.upper() * 1.01;
         let slope = field.slope(Interval::new(v.lower(), cap)).magnitude();
         let bend = Interval::point(v.lower()) - unbalanced * slope;
-        if !(bend.lower() > 0.0) {
+        if !(bend > 0.0) {
             return None;
         }
         let rise = (unbalanced.square() / bend).upper();
@@ -224,7 +224,7 @@ impl SwingRun {
         let beyond = lag * powi(ball.v.abs() + ball.off(), 2);
         let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);
         let divergence = -ball.local.field.damping(duration, end - self.start, square);
-        let known = duration.is_finite() && divergence.is_finite() && duration.lower() > 0.0;
+        let known = duration.is_finite() && divergence.is_finite() && duration > 0.0;
         let length = |it| scaled(it, ball.unit);
         known.then(|| ProvedSwing {
             end: length(end),
