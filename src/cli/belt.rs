@@ -116,8 +116,8 @@ impl BeltCommand {
         let portrait = source.portrait()?;
         let model = &portrait.model;
         let fate = portrait.fate(x, v)?;
-        let rests = (fate == Fate::Rest)
-            .then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v), limits));
+        let rests =
+            (fate == Fate::Rest).then(|| Flow::new(model).rest_of(x, v / model.omega_0, limits));
         let rest = rests.transpose()?;
         let (problem, _) = subject.problem()?;
         let follow = |problem: Problem, energy| {

@@ -16,8 +16,8 @@
 //! freedom dynamics*, 1988; M. Jean, *The non-smooth contact dynamics method*, Computer Methods in Applied
 //! Mechanics and Engineering 177, 1999).
 
-use super::{Cost, Powers, Step, StepPoint, Stepper, check_stability, powers_of_stages};
-use crate::model::{Field, HalfPlane, Parameters, PlaneField, Reason, Result, Side};
+use super::{Cost, Powers, Step, StepPoint, Stepper, check_stability, powers};
+use crate::model::{Field, HalfPlane, PlaneField, Reason, Result};
 use crate::numerics::{tanh, times_power};
 
 /// The field of the whole phase plane with friction as a function of the velocity.
@@ -28,15 +28,7 @@ pub struct SmoothField {
     /// Intensity of the friction.
     pub r: f64,
     /// The velocity over which `tanh(v/epsilon)` smoothes the sign of `v`; `None`: the sign itself, 0 at 0.
-    epsilon: Option<f64>,
-}
-
-impl SmoothField {
-    /// The field for these parameters.
-    pub fn new(parameters: &Parameters, epsilon: Option<f64>) -> Self {
-        let smooth = HalfPlane::new(parameters, Side::Upper);
-        SmoothField { smooth, r: parameters.r, epsilon }
-    }
+    pub epsilon: Option<f64>,
 }
 
 impl Field for SmoothField {
@@ -164,7 +156,7 @@ impl Stepper<SmoothField> for TimeStepping {
     }
 
     fn powers(&self) -> Powers {
-        powers_of_stages(self.duration, &[1.0], &[0.5 * (self.start.v + self.end.v)])
+        self.duration * powers(0.5 * (self.start.v + self.end.v))
     }
 
     fn cost(&self) -> Cost {

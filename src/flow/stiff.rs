@@ -80,10 +80,13 @@ impl<F: PlaneField> StiffStepper<F> {
             tolerance if tolerance >= MEDIUM => five,
             _ => seven,
         };
+        let stages = real(scheme.nodes.len());
         StiffStepper {
             scheme,
             field,
-            tolerance: embedded_tolerance(tolerance, scheme.nodes.len()),
+            // That which gives the solution, of order `2 S - 1`, about the requested one, where damping is not stiff
+            // (as in the authors' program).
+            tolerance: 0.1 * pow(tolerance, (stages + 1.0) / (2.0 * stages)),
             asked: tolerance,
             next: 0.0,
             start: StepPoint { x: 0.0, v: 0.0 },
@@ -318,7 +321,8 @@ impl<F: PlaneField> Stepper<F> for StiffStepper<F> {
             let (duration, end) = self.accepted(longest, arrives)?;
             let last = self.end;
             self.keep(duration, end);
-            if !(arrives && self.reaches_standstill()) {
+            let mut velocities = self.velocity.iter().take(self.scheme.nodes.len());
+            if !(arrives && velocities.any(|&v| v <= 0.0)) {
                 return Ok(Step { duration, end, crossed: false });
             }
             let arrival = self.arrive().filter(Step::is_possible);
@@ -348,13 +352,6 @@ impl<F: PlaneField> Stepper<F> for StiffStepper<F> {
     fn cost(&self) -> Cost {
         self.cost
     }
-}
-
-/// The tolerance for the embedded solution of order S that gives the solution of order `2 S - 1` about the
-/// requested tolerance (as in the authors' program), where damping is not stiff.
-fn embedded_tolerance(tolerance: f64, stages: usize) -> f64 {
-    let stages = real(stages);
-    0.1 * pow(tolerance, (stages + 1.0) / (2.0 * stages))
 }
 
 #[cfg(test)]

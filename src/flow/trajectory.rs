@@ -26,7 +26,10 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Motion 
     let asked = run(problem.method);
     match problem.method {
         Method::Auto | Method::Exact if linear => run(Method::Exact).go(&mut ExactStepper::new()),
-        Method::Exact => asked.give_up(Reason::NotApplicable { needs: "D2 = D3 = 0" }),
+        Method::Exact => {
+            let reason = Reason::NotApplicable { needs: "D2 = D3 = 0" };
+            asked.close(Err(reason), Cost::default())
+        }
         Method::Auto => {
             let mut stepper = AutoStepper::new(tolerance);
             let mut found = run(Method::Taylor).go(&mut stepper);
@@ -97,11 +100,6 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             works: Vector3::zeros(),
             path: 0.0,
         }
-    }
-
-    /// Ends the run without an answer.
-    pub fn give_up(self, reason: Reason) -> Motion<N> {
-        self.close(Err(reason), Cost::default())
     }
 
     /// Follows the motion until it ends.
@@ -253,7 +251,8 @@ impl MotionRun<'_> {
         stepper: impl FnOnce(SmoothField) -> S,
     ) -> Motion {
         let Problem { parameters, initial, until, .. } = self.found.problem;
-        let field = SmoothField::new(&parameters, epsilon);
+        let smooth = HalfPlane::new(&parameters, Side::Upper);
+        let field = SmoothField { smooth, r: parameters.r, epsilon };
         let mut stepper = stepper(field);
         let (mut crossings, mut path) = (Vec::new(), 0.0);
         let start = StepPoint { x: initial.q, v: initial.v };

@@ -267,12 +267,6 @@ impl Model {
         if self.pull > 0.0 { self.pull } else { 1.0 }
     }
 
-    /// A velocity in m/s divided by the natural frequency; for that of the belt, exactly the speed of the model.
-    #[must_use]
-    pub fn scaled_velocity(&self, v: f64) -> f64 {
-        v / self.omega_0
-    }
-
     /// The damper's force at a velocity.
     pub(crate) fn damper(&self, y: f64) -> f64 {
         value(&self.damper, y)

@@ -192,7 +192,7 @@ impl Portrait {
     /// # Errors
     /// As for [`Self::fate`].
     pub fn fate_within(&self, x: f64, v: f64, most: usize) -> Result<Fate> {
-        let y = self.model.scaled_velocity(v);
+        let y = v / self.model.omega_0;
         if self.model.place(x, y) == ContactState::Rests {
             return Ok(Fate::Rest);
         }
@@ -241,7 +241,7 @@ impl Portrait {
     /// Whether a motion that starts at displacement `x` (m) with velocity `v` (m/s) begins within a cycle.
     #[must_use]
     pub fn starts_within(&self, cycle: &Cycle, x: f64, v: f64) -> bool {
-        let y = self.model.scaled_velocity(v);
+        let y = v / self.model.omega_0;
         if self.orders_starts() {
             let index = self.cycles.iter().position(|own| own == cycle);
             let inner = self.borders.len() - self.cycles.len();
@@ -342,9 +342,7 @@ impl Portrait {
                 // Without friction the one point that rests counts as what is around it.
                 let rests = *v == 0.0 && self.model.guide > 0.0 && self.model.rests_at(x);
                 let fate = match &region {
-                    Some(region) if !rests => {
-                        Ok(portrait.fates[region(self.model.scaled_velocity(*v))])
-                    }
+                    Some(region) if !rests => Ok(portrait.fates[region(*v / self.model.omega_0)]),
                     _ => portrait.fate(x, *v),
                 };
                 counts.add(fate.unwrap_or_else(Fate::Unknown));
@@ -363,7 +361,7 @@ impl Portrait {
         if !self.has_basin() {
             return Some(Share::exact(0.0));
         }
-        let scaled = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
+        let scaled = (v.0 / self.model.omega_0, v.1 / self.model.omega_0);
         let window = StartWindow { q: x, v: scaled };
         let Some(edge) = self.edge() else {
             // Above v = 0, motions do not cross, and those from the upper end of a vertical edge go farther out than

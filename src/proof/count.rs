@@ -155,10 +155,8 @@ impl Count {
 
 /// A new edge of a gap, the lower or the upper one, in place of this one.
 fn narrowed(map: &ProvedMap, (at, sign): GapEnd, which: Bound) -> f64 {
-    let way = match (which, sign) {
-        (Bound::Lower, Sign::Above) | (Bound::Upper, Sign::Below) => &map.forward,
-        (Bound::Lower, Sign::Below) | (Bound::Upper, Sign::Above) => &map.backward,
-    };
+    let inwards = (which == Bound::Lower) == (sign == Sign::Above);
+    let way = if inwards { &map.forward } else { &map.backward };
     let image = way.image_bound(at, which);
     if which == Bound::Lower { image.max(at) } else { image.min(at) }
 }
@@ -207,7 +205,7 @@ fn inner_end(map: &ProvedMap) -> SearchEnd {
     let gap = map.gap;
     if map.forward.0[0].field.a.upper() <= -2.0 {
         let least = map.forward.0.each_ref().map(|half| {
-            let end = least_end(&half.field, half.funnel().as_ref());
+            let end = least_end(&half.field, half.funnel());
             (Interval::point(end) - gap).lower()
         });
         let passed = map.forward.0[1].image(Interval::point(least[0])).lower();

@@ -187,8 +187,8 @@ impl ProvedHalf {
     }
 
     /// Its funnel, if it has one.
-    pub fn funnel(&self) -> Option<Funnel> {
-        *self.funnel.get_or_init(|| Funnel::new(&self.field, &self.effort.swings))
+    pub fn funnel(&self) -> Option<&Funnel> {
+        self.funnel.get_or_init(|| Funnel::new(&self.field, &self.effort.swings)).as_ref()
     }
 
     /// Upper bound of the ends of the swings that start up to this far out.
@@ -210,9 +210,9 @@ impl ProvedHalf {
         }
         let mut from = start;
         for _ in 0..SHORTENINGS {
-            match self.effort.run(&field, Interval::point(from), funnel.as_ref()) {
+            match self.effort.run(&field, Interval::point(from), funnel) {
                 Passage::Unknown => from *= 0.25,
-                known => return Funnel::least_after(funnel.as_ref(), &field, &known),
+                known => return Funnel::least_after(funnel, &field, &known),
             }
         }
         f64::NEG_INFINITY
@@ -223,7 +223,7 @@ impl ProvedHalf {
         let (funnel, field) = (self.funnel(), self.field.weakest());
         let far = funnel.and_then(|it| it.climb_from(&field, Interval::point(start)));
         if start < f64::INFINITY && far.is_none() {
-            let passage = self.effort.run(&field, Interval::point(start), funnel.as_ref());
+            let passage = self.effort.run(&field, Interval::point(start), funnel);
             if let Passage::Arrives(swing) = passage {
                 return swing.end.upper();
             }
@@ -274,7 +274,7 @@ impl ProvedHalf {
         if far.as_ref().is_some_and(settled) {
             return far;
         }
-        let whole = match self.effort.run(field, from, funnel.as_ref()) {
+        let whole = match self.effort.run(field, from, funnel) {
             Passage::Arrives(swing) => swing,
             Passage::Exceeds(swing) => {
                 let near = funnel.and_then(|it| it.climb_of(field, &swing)).and_then(stiff);

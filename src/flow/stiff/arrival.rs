@@ -54,9 +54,4 @@ impl<F: PlaneField> StiffStepper<F> {
             None => (0.0, whole),
         }
     }
-
-    /// Whether the last attempt reaches `v = 0`.
-    pub(super) fn reaches_standstill(&self) -> bool {
-        self.velocity.iter().take(self.scheme.nodes.len()).any(|&v| v <= 0.0)
-    }
 }

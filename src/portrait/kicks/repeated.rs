@@ -107,8 +107,7 @@ impl Chain {
             limits.go_on()?;
             let mut flow = Flow::new(&model);
             let comes = portrait.fate(q, v) == Ok(Fate::Rest);
-            let place =
-                comes.then(|| flow.rest_of(q, model.scaled_velocity(v), limits).ok()).flatten();
+            let place = comes.then(|| flow.rest_of(q, v / model.omega_0, limits).ok()).flatten();
             Ok((place, flow.cost()))
         };
         let of = |(q, _): &StartColumn| {
