@@ -211,7 +211,7 @@ impl FencedField {
     /// the fence.
     pub fn greatest(&self) -> Interval {
         let from = |[e, piece]: Fence| self.follow(Disc::new([point(piece.upper()), e]), 0.0, None);
-        self.fence.and_then(from).map_or(Interval::ALL, |it| it.end)
+        self.fence.and_then(from).unwrap_or(UNKNOWN).end
     }
 
     /// Lower bound of all ends, however near to the centre a motion starts, for `a <= -2`, where the centre is
@@ -224,10 +224,7 @@ impl FencedField {
         let x = point(1e-3 * ((k - b) / (k.square().twice() + c)).lower());
         let v = point((x - k * x.square()).lower());
         let leaves = a.upper() <= -2.0 && x > 0.0 && v > 0.0;
-        leaves
-            .then(|| self.run(Disc::new([x, v]), 0.0))
-            .flatten()
-            .map_or(Interval::ALL, |it| it.end)
+        leaves.then(|| self.run(Disc::new([x, v]), 0.0)).flatten().unwrap_or(UNKNOWN).end
     }
 
     /// The half swing from rest at `-z`, for all z of an interval; `reach` is the outer edge of the sticking set.

@@ -139,7 +139,7 @@ impl AutoStepper {
         let settled = PlaceTolerance::Absolute(1e-9 * duration);
         let bracket = Bracket::falling(0.0, duration);
         let peak = newton(bracket, 0.5 * duration, settled, acceleration);
-        Some(self.at(peak.at).v)
+        Some(self.at(peak).v)
     }
 
     /// The length of a step in units of the damping time at its end.

@@ -192,7 +192,7 @@ impl<N: Scalar> Taylor<N> {
         let start = if guess > 0.0 && guess < end { guess } else { end };
         let rounded = self.v.map(N::value);
         let v = |t: f64| value_and_slope(&rounded[..=self.order], t);
-        let root = N::from(newton(Bracket::falling(0.0, end), start, SETTLED, v).at);
+        let root = N::from(newton(Bracket::falling(0.0, end), start, SETTLED, v));
         (0..N::POLISHING).fold(root, |root, _| {
             let (v, slope) = value_and_slope(&self.v[..=self.order], root);
             root - v / slope

@@ -1,7 +1,7 @@
 //! Zeros of functions of one variable, inside brackets.
 //!
 //! [`newton`] is for functions with a known derivative, [`illinois`] for those without, [`bisect`] for
-//! conditions, and [`maximum`] for the largest value. Each returns its final bracket and ends after a fixed
+//! conditions, and [`maximum`] for the largest value. Each ends after a fixed
 //! number of evaluations, whatever the function does. The versions named `try_..` are for functions that may
 //! fail; they stop at the first error.
 
@@ -73,15 +73,6 @@ impl PlaceTolerance {
     }
 }
 
-/// A zero and the bracket around it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Root {
-    /// The best estimate; never outside the bracket.
-    pub at: f64,
-    /// The bracket established by the signs of the evaluations.
-    pub bracket: Bracket,
-}
-
 /// Newton's method from `start` inside a bracket, which is halved wherever a step would leave it.
 ///
 /// `function` returns the value and the derivative. Assumption: it is continuous on the bracket and has the
@@ -96,19 +87,19 @@ pub fn newton(
     start: f64,
     settled: PlaceTolerance,
     mut function: impl FnMut(f64) -> (f64, f64),
-) -> Root {
-    let Ok(root) = try_newton(bracket, start, settled, |at| Ok::<_, Infallible>(function(at)));
-    root
+) -> f64 {
+    let Ok((at, _)) = try_newton(bracket, start, settled, |at| Ok::<_, Infallible>(function(at)));
+    at
 }
 
-/// [`newton`] for a function that may fail.
+/// [`newton`] for a function that may fail, with the final bracket, as the signs of the evaluations have established it.
 #[inline]
 pub fn try_newton<E>(
     mut bracket: Bracket,
     start: f64,
     settled: PlaceTolerance,
     mut function: impl FnMut(f64) -> Result<(f64, f64), E>,
-) -> Result<Root, E> {
+) -> Result<(f64, Bracket), E> {
     const EVALUATIONS: u32 = 200;
     let mut at = start;
     for _ in 0..EVALUATIONS {
@@ -116,12 +107,12 @@ pub fn try_newton<E>(
         let next = bracket.step(at, value, slope);
         let newton = at - value / slope;
         if (newton - at).abs() <= settled.at(at) {
-            return Ok(Root { at: newton.clamp(bracket.low, bracket.high), bracket });
+            return Ok((newton.clamp(bracket.low, bracket.high), bracket));
         }
         let Some(next) = next else { break };
         at = next;
     }
-    Ok(Root { at, bracket })
+    Ok((at, bracket))
 }
 
 /// The point between `without` and `with` where a condition begins to hold, in at most this many halvings.
@@ -253,11 +244,12 @@ mod tests {
         let count = Cell::new(0);
         let cube = |x: f64| {
             count.set(count.get() + 1);
-            (x * x * x - 2.0, 3.0 * x * x)
+            Ok::<_, Infallible>((x * x * x - 2.0, 3.0 * x * x))
         };
-        let root = newton(Bracket::rising(0.0, 2.0), 2.0, PlaceTolerance::Relative(1e-9), cube);
-        assert!((root.at - cbrt(2.0)).abs() <= f64::EPSILON && count.get() <= 7, "{root:?}");
-        assert!(root.bracket.low <= root.at && root.at <= root.bracket.high);
+        let settled = PlaceTolerance::Relative(1e-9);
+        let Ok((at, bracket)) = try_newton(Bracket::rising(0.0, 2.0), 2.0, settled, cube);
+        assert!((at - cbrt(2.0)).abs() <= f64::EPSILON && count.get() <= 7, "{at}");
+        assert!(bracket.low <= at && at <= bracket.high);
     }
 
     /// Unprotected, Newton's method would diverge on `atan`, divide by zero on the plateau, and cycle.
@@ -267,17 +259,17 @@ mod tests {
             newton(Bracket::rising(-30.0, 50.0), 50.0, PlaceTolerance::Absolute(0.0), |x: f64| {
                 (atan(x) - 0.25, 1.0 / (1.0 + x * x))
             });
-        assert!((far.at - tan(0.25)).abs() < 1e-15, "{far:?}");
+        assert!((far - tan(0.25)).abs() < 1e-15, "{far:?}");
         let flat =
             newton(Bracket::rising(0.0, 8.0), 1.0, PlaceTolerance::Absolute(0.0), |x: f64| {
                 if x < 3.0 { (-1.0, 0.0) } else { (x - 4.0, 1.0) }
             });
-        assert_eq!(flat.at, 4.0);
+        assert_eq!(flat, 4.0);
         let cycling =
             newton(Bracket::rising(-2.0, 2.0), 0.0, PlaceTolerance::Relative(1e-9), |x: f64| {
                 (powi(x, 3) - 2.0 * x + 2.0 - 4.0, 3.0 * x * x - 2.0)
             });
-        assert!((powi(cycling.at, 3) - 2.0 * cycling.at - 2.0).abs() < 1e-14, "{cycling:?}");
+        assert!((powi(cycling, 3) - 2.0 * cycling - 2.0).abs() < 1e-14, "{cycling:?}");
     }
 
     #[test]
@@ -287,7 +279,7 @@ mod tests {
             count.set(count.get() + 1);
             (f64::NAN, f64::NAN)
         });
-        assert!((0.0..=1.0).contains(&root.at) && count.get() <= 200, "{root:?}");
+        assert!((0.0..=1.0).contains(&root) && count.get() <= 200, "{root:?}");
     }
 
     #[test]
@@ -337,12 +329,14 @@ mod tests {
         fn newton_ends_within_its_bracket(root in 0.01..0.99_f64, power in 1_i32..12, start in 0.0..1.0_f64) {
             let function = |x: f64| {
                 let n = f64::from(power);
-                (pow((x - root).abs(), n).copysign(x - root), n * pow((x - root).abs(), n - 1.0))
+                let slope = n * pow((x - root).abs(), n - 1.0);
+                Ok::<_, Infallible>((pow((x - root).abs(), n).copysign(x - root), slope))
             };
-            let found = newton(Bracket::rising(0.0, 1.0), start, PlaceTolerance::Relative(1e-9), function);
-            let Bracket { low, high, .. } = found.bracket;
-            prop_assert!(low <= root && root <= high && low <= found.at && found.at <= high);
-            prop_assert!((found.at - root).abs() < 1e-7, "{:?}", found);
+            let settled = PlaceTolerance::Relative(1e-9);
+            let Ok((at, bracket)) = try_newton(Bracket::rising(0.0, 1.0), start, settled, function);
+            let Bracket { low, high, .. } = bracket;
+            prop_assert!(low <= root && root <= high && low <= at && at <= high);
+            prop_assert!((at - root).abs() < 1e-7, "{} {:?}", at, bracket);
         }
     }
 }

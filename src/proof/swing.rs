@@ -246,7 +246,7 @@ fn arrival(ball: &Ball, (h, (_, ahead)): Ahead) -> Option<(Ahead, bool)> {
     const BEYOND: f64 = 1.02;
     let series = &ball.series;
     let bracket = Bracket::falling(0.0, if ahead > 0.0 { BEYOND * h } else { h });
-    let at = newton(bracket, h, PlaceTolerance::Relative(1e-9), |at| series.velocity(at)).at;
+    let at = newton(bracket, h, PlaceTolerance::Relative(1e-9), |at| series.velocity(at));
     let to = |h: f64| (h, series.at(h));
     if at > 0.0 && at < BEYOND * h * (1.0 - 1e-9) {
         Some((to(at), true))

@@ -185,7 +185,7 @@ fn ends_decide(derivatives: &[f64; ORDER], rest: f64, half: f64, noise: f64) -> 
 fn sign_change(function: &Fourier, bracket: Bracket) -> SignChange {
     let settled = PlaceTolerance::Relative(f64::EPSILON);
     let at = |angle: f64| function.at(angle).into();
-    let angle = newton(bracket, bracket.middle(), settled, at).at;
+    let angle = newton(bracket, bracket.middle(), settled, at);
     let [_, slope] = function.at(angle);
     SignChange { angle, direction: if bracket.rising { 1.0 } else { -1.0 }, slope }
 }

@@ -39,14 +39,14 @@ impl MachineStep {
     /// A ride on the belt, or another piece of its line, from one displacement to another.
     pub fn ride(from: f64, to: f64, speed: f64) -> Self {
         let duration = (to - from) / speed;
-        MachineStep { duration, ..Self::even(ContactState::Sticks, [from, speed], speed) }
+        Self::even(ContactState::Sticks, duration, [from, speed], speed)
     }
 
     /// A step of one velocity, whose displacement begins here and changes at this rate.
-    pub(super) fn even(place: ContactState, [x, rate]: [f64; 2], y: f64) -> Self {
+    pub(super) fn even(place: ContactState, duration: f64, [x, rate]: [f64; 2], y: f64) -> Self {
         let [mut places, mut velocities] = [[0.0; TERMS]; 2];
         (places[0], places[1], velocities[0]) = (x, rate, y);
-        let (duration, peak, offset) = (0.0, Some(0.0), 0.0);
+        let (peak, offset) = (Some(0.0), 0.0);
         MachineStep { place, duration, peak, offset, x: places, y: velocities }
     }
 
@@ -70,7 +70,7 @@ impl MachineStep {
             let (height, slope) = value_and_slope(&self.x, t);
             (height - target, slope)
         };
-        let time = newton(bracket, bracket.middle(), settled, height).at;
+        let time = newton(bracket, bracket.middle(), settled, height);
         Some(value(&self.y, time))
     }
 

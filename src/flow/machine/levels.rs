@@ -43,7 +43,7 @@ pub(super) fn crossing(
             let (velocity, slope) = inside(t);
             (velocity - level, slope)
         };
-        newton(Bracket { low, high, rising }, high, settled, ahead).at
+        newton(Bracket { low, high, rising }, high, settled, ahead)
     };
     let (velocity, slope) = inside(end);
     let mut peak = None;
@@ -54,7 +54,7 @@ pub(super) fn crossing(
             let bracket = Bracket { low: 0.0, high: end, rising: sign < 0.0 };
             // Where the velocity is flat, an error e in time costs only e^2 in it.
             let settled = PlaceTolerance::Absolute(1e-9 * end);
-            let turn = newton(bracket, 0.5 * end, settled, turning).at;
+            let turn = newton(bracket, 0.5 * end, settled, turning);
             peak = Some(turn);
             (turn, inside(turn).0)
         };

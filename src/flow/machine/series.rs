@@ -32,7 +32,7 @@ pub struct PhaseSeries {
 impl PhaseSeries {
     pub fn new() -> Self {
         PhaseSeries {
-            step: MachineStep::even(ContactState::Rests, [0.0; 2], 0.0),
+            step: MachineStep::even(ContactState::Rests, 0.0, [0.0; 2], 0.0),
             left: f64::INFINITY,
             local: Vec::new(),
             rows: Vec::new(),

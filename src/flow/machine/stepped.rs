@@ -87,9 +87,8 @@ pub(super) fn pair_step(
     let end = StepPoint { v: level.unwrap_or(step.end.v.clamp(least, most)), ..step.end };
     // Its end stands for the step: it has no series.
     let place = [end.x - model.offset(phase), 0.0];
-    let at_end = MachineStep::even(ContactState::Slips(phase), place, end.v);
     Ok(PhaseStep {
-        step: MachineStep { duration: step.duration, ..at_end },
+        step: MachineStep::even(ContactState::Slips(phase), step.duration, place, end.v),
         end,
         slopes: (field.acceleration(from.x, from.v), field.acceleration(end.x, end.v)),
         level: level.map(|level| (level, true)),

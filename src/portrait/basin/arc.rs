@@ -195,10 +195,10 @@ impl ArcStep {
         let target = times_power(target, -self.unit);
         let bracket = Bracket::rising(0.0, self.duration);
         let settled = PlaceTolerance::Absolute(1e-12 * self.duration);
-        let found = newton(bracket, bracket.middle(), settled, |time| {
+let time = newton(bracket, bracket.middle(), settled, |time| {
             let StepPoint { x, v } = self.step.at(time);
             (x - target, v)
         });
-        times_power(self.step.at(found.at).v, self.unit).max(0.0)
+        times_power(self.step.at(time).v, self.unit).max(0.0)
     }
 }

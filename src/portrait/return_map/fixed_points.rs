@@ -229,7 +229,7 @@ impl FixedPointSearch<'_, '_> {
         let root = try_newton(bracket, start, PlaceTolerance::Absolute(width), |u| {
             self.growth(u).map(|sample| (sample.value, sample.slope))
         });
-        Ok(root?.at)
+        Ok(root?.0)
     }
 
     /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
