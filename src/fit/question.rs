@@ -66,7 +66,6 @@ pub fn direction(place: usize) -> Unknowns {
 }
 
 /// The parameters of the motion among the unknowns.
-#[must_use]
 pub fn parameters(p: &Unknowns) -> Parameters {
     Parameters { d: p[D], d2: p[D2], d3: p[D3], r: p[R] }
 }

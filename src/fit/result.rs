@@ -160,7 +160,6 @@ impl FitResult {
     }
 
     /// The fitted motion; the method and whatever else the fit does not determine are those of `before`.
-    #[must_use]
     pub fn problem(&self, before: Problem) -> Problem {
         let p = &self.estimate.p;
         let last = self.points.iter().rfind(|point| point.dropped.is_none());

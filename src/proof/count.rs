@@ -135,7 +135,7 @@ impl Count {
     fn settle_along(&mut self, way: &HalfMaps, gap: SignedGap) -> bool {
         let SignedGap { over, low, high } = gap;
         let Some(slope) = way.slope(over) else { return false };
-        if slope > 1.0 || slope < 1.0 {
+        if !slope.contains(1.0) {
             if low != high {
                 self.cycles.push(ProvedCycle::new(over, low == Sign::Above));
             }
@@ -149,7 +149,7 @@ impl Count {
         let away = way.image(middle) - middle;
         let sway = (slope - 1.0) * (over - middle);
         let sum = away + sway;
-        sum > 0.0 || sum < 0.0
+        !sum.contains(0.0)
     }
 }
 

@@ -127,7 +127,7 @@ fn describe(map: &ProvedMap, clearance: Interval, stable: bool) -> Option<Enclos
     };
     let mut multiplier = multiplier.intersection(positive)?;
     // For a stiff cycle it is known more accurately from the map, which contracts.
-    if !(multiplier < 1.0 || multiplier > 1.0)
+    if multiplier.contains(1.0)
         && let Some(slope) = way.slope(clearance)
     {
         let over = |bound: f64| Interval::point(1.0) / bound;

@@ -194,7 +194,7 @@ impl ProvedHalf {
     /// Upper bound of the ends of the swings that start up to this far out.
     pub fn greatest(&self, from: f64) -> f64 {
         let funnel = self.funnel().filter(|it| from <= it.reach);
-        funnel.map_or(f64::INFINITY, |it| it.greatest())
+        funnel.map_or(f64::INFINITY, Funnel::greatest)
     }
 
     /// Lower bound of the end of a swing. Where none can be computed, the bound for a start further in is used:

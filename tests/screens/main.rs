@@ -81,7 +81,10 @@ fn approved() -> Scene {
         ..Problem::default()
     };
     let span = |from, to| Span::new(from, to).unwrap();
-    let plot_setup = |view, window| PlotSetup { window: Some(window), ..PlotSetup::fitting(view, Axes::default()) };
+    let plot_setup = |view, window| PlotSetup {
+        window: Some(window),
+        ..PlotSetup::fitting(view, Axes::default())
+    };
     Scene {
         name: "approved".into(),
         title: "A scene with a fold".into(),

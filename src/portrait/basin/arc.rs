@@ -195,7 +195,7 @@ impl ArcStep {
         let target = times_power(target, -self.unit);
         let bracket = Bracket::rising(0.0, self.duration);
         let settled = PlaceTolerance::Absolute(1e-12 * self.duration);
-let time = newton(bracket, bracket.middle(), settled, |time| {
+        let time = newton(bracket, bracket.middle(), settled, |time| {
             let StepPoint { x, v } = self.step.at(time);
             (x - target, v)
         });
