@@ -6,13 +6,12 @@
 //! `l = -r/(2 D)` (24); with all terms the radius is a root of a cubic, found here too, since (24)
 //! promises too much where `D2` or negative `D3` feed energy in.
 
-use crate::model::{Parameters, State};
+use crate::model::Parameters;
 use crate::numerics::{TO_ROUNDING, bisect};
 
 /// The rate of change `V'` of the energy (equations 17 to 19, with the terms of higher order).
-pub fn energy_rate(parameters: &Parameters, state: State) -> f64 {
+pub fn energy_rate(parameters: &Parameters, v: f64) -> f64 {
     let Parameters { d, d2, d3, r } = *parameters;
-    let v = state.v;
     let damping = 2.0 * d + v * (d2 + v * d3);
     -(v * v * damping + r * v.abs())
 }
@@ -116,7 +115,7 @@ mod tests {
             let parameters = oscillator(d, d2, d3, r);
             let radius = full_disk(&parameters);
             let inside = part * if radius.is_finite() { radius } else { 1e3 };
-            let rate = |v: f64| energy_rate(&parameters, State { q: 0.0, v });
+            let rate = |v: f64| energy_rate(&parameters, v);
             prop_assert!(rate(inside) <= 0.0 && rate(-inside) <= 0.0);
             let outside = radius * (1.0 + 1e-9);
             if outside.is_finite() {

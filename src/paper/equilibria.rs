@@ -41,12 +41,12 @@ pub(super) const CHECKS: &[Check] = &[
     worst("energy with friction (5)", |it| energy(it, -1.0)),
     worst("energy", |it| energy(it, 1.0)),
     tends("energy of slow motions", |it| {
-        let rate = |of: &Parameters| lyapunov::energy_rate(of, State { q: 0.0, v: it.more });
+        let rate = |of: &Parameters| lyapunov::energy_rate(of, it.more);
         Ok((rate(&linear(it)), Approximation::relative(rate(it), 1e-15)))
     }),
     always("sign of V'", |it| {
         let v = -it.more * it.r / (2.0 * it.d);
-        let rate = lyapunov::energy_rate(it, State { q: 0.0, v });
+        let rate = lyapunov::energy_rate(it, v);
         Ok(((rate < 0.0) == (it.more.abs() < 1.0)).into())
     }),
     worst("Lyapunov's circle", |it| Ok(Evidence::at_most(circle(it), least_kick(it)?))),

@@ -3,7 +3,7 @@
 use super::{Item, Mark, Picture, Role, ellipse};
 use crate::closed_form::lyapunov::energy_rate;
 use crate::closed_form::{LinearCycle, LinearFlow};
-use crate::model::{Parameters, State};
+use crate::model::Parameters;
 use crate::numerics::{TO_ROUNDING, bisect};
 use crate::scene::{Point, Span};
 
@@ -25,7 +25,7 @@ pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
 fn falling(parameters: &Parameters, among: Span) -> Vec<(f64, f64)> {
     /// Velocities whose sign of V' is looked at; borders between them are bisected.
     const VELOCITIES: u16 = 400;
-    let falls = |v: f64| energy_rate(parameters, State { q: 0.0, v }) <= 0.0;
+    let falls = |v: f64| energy_rate(parameters, v) <= 0.0;
     let velocities = (0..=VELOCITIES).map(|index| f64::from(index) / f64::from(VELOCITIES));
     let velocities: Vec<f64> = velocities.map(|part| among.at(part)).collect();
     let border = |pair: &[f64]| {

@@ -3,30 +3,23 @@
 
 use super::{LineStyle, Mark, Picture, Role};
 use crate::closed_form::lyapunov::{self, energy_rate};
-use crate::model::{Parameters, State};
+use crate::model::Parameters;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 
 pub fn draw(picture: &mut Picture, session: &Session) {
     picture.axes("v", "V'");
     let parameters = session.problem.parameters;
+    let on_curve = |v: f64| Point { x: v, y: energy_rate(&parameters, v) };
     // The cursor reads the curve.
-    let on_curve = |at: Point| Point { y: rate(&parameters, at.x), ..at };
-    picture.reading = picture.cursor.map(|at| picture.coordinates(on_curve(at)));
+    picture.reading = picture.cursor.map(|at| picture.coordinates(on_curve(at.x)));
     if session.layers.contains(&Layer::Rate) {
         curves(picture, parameters);
     }
-    let mut at = |mark, v, role| {
-        picture.mark(mark, Point { x: v, y: rate(&parameters, v) }, role);
-    };
-    at(Mark::Start, session.problem.initial.v, Role::Trajectory);
+    picture.mark(Mark::Start, on_curve(session.problem.initial.v), Role::Trajectory);
     if let Some(head) = session.head() {
-        at(Mark::Head, head.v, Role::Cursor);
+        picture.mark(Mark::Head, on_curve(head.v), Role::Cursor);
     }
-}
-
-fn rate(parameters: &Parameters, v: f64) -> f64 {
-    energy_rate(parameters, State { q: 0.0, v })
 }
 
 fn curves(picture: &mut Picture, parameters: Parameters) {
@@ -39,11 +32,11 @@ fn curves(picture: &mut Picture, parameters: Parameters) {
         ("taken by friction", dry),
         ("rate of the energy V'", parameters),
     ] {
-        picture.graph(name, move |v| Some(rate(&of, v)));
+        picture.graph(name, move |v| Some(energy_rate(&of, v)));
     }
     if let Some(radius) = lyapunov::radius(&parameters).filter(|radius| *radius > 0.0) {
         for (v, name) in [(radius, "l"), (-radius, "-l")] {
-            let at = Point { x: v, y: rate(&parameters, v) };
+            let at = [v, energy_rate(&parameters, v)];
             picture.mark(Mark::Turn, at, Role::Lyapunov);
             picture.caption(at, name, Role::Lyapunov);
         }

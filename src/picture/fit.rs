@@ -106,8 +106,8 @@ pub fn damping(fitted: &FitResult) -> Option<Picture<'static>> {
     let exact = Point::all(&found.exact);
     let zeros = exact.windows(2).filter(|two| two[0].y * two[1].y < 0.0);
     zeros.for_each(|two| picture.marks(zero(two[0], two[1])));
-    let marks = Marks::new(Mark::Turn, Role::Ghost, measured);
-    picture.marks(Marks { name: "measured".into(), at_edge: true, ..marks });
+    let marks = Marks::new(Mark::Turn, Role::Ghost, measured).called("measured");
+    picture.marks(Marks { at_edge: true, ..marks });
     Some(picture)
 }
 
@@ -115,9 +115,9 @@ pub fn damping(fitted: &FitResult) -> Option<Picture<'static>> {
 fn zero(from: Point, to: Point) -> Marks {
     let x = from.x + from.y / (from.y - to.y) * (to.x - from.x);
     let stable = to.y > from.y;
-    let (name, at) = (cycle_name(stable), vec![Point { x, y: 0.0 }]);
-    let marks = Marks::new(cycle_mark(stable), cycle_role(stable), at);
-    Marks { name: name.into(), brief: name, ..marks }
+    let brief = cycle_name(stable);
+    let marks = Marks::new(cycle_mark(stable), cycle_role(stable), [[x, 0.0]]);
+    Marks { brief, ..marks.called(brief) }
 }
 
 fn phase(fitted: &FitResult) -> Option<Picture<'static>> {
@@ -176,8 +176,7 @@ fn together(fitted: &FitResult) -> Option<Picture<'static>> {
         }
     }
     picture.window = around(&picture)?;
-    let marks = Marks::new(Mark::Stable, Role::Special, vec![[p[D], p[R]].into()]);
-    picture.marks(Marks { name: "estimate".into(), ..marks });
+    picture.marks(Marks::new(Mark::Stable, Role::Special, [[p[D], p[R]]]).called("estimate"));
     Some(picture)
 }
 
@@ -211,13 +210,13 @@ const MOST: usize = 500;
 /// Marks the samples that do not count. What lies above or below the window is shown at its edge.
 pub fn mark_dropped(picture: &mut Picture, samples: impl Iterator<Item = (Point, DropReason)>) {
     let samples: Vec<(Point, DropReason)> = samples.collect();
-    for (which, mark, role, name) in MARKS {
+    for (which, mark, role, brief) in MARKS {
         let of_kind = samples.iter().filter(|(_, why)| *why == which).map(|(at, _)| *at);
         let all: Vec<Point> = of_kind.collect();
-        let at: Vec<Point> = all.iter().copied().step_by(all.len().div_ceil(MOST).max(1)).collect();
-        if !at.is_empty() {
-            let marks = Marks::new(mark, role, at);
-            picture.marks(Marks { name: name.into(), brief: name, at_edge: true, ..marks });
+        if !all.is_empty() {
+            let step = all.len().div_ceil(MOST);
+            let marks = Marks::new(mark, role, all.into_iter().step_by(step)).called(brief);
+            picture.marks(Marks { brief, at_edge: true, ..marks });
         }
     }
 }

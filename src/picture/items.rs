@@ -121,9 +121,14 @@ pub struct Marks {
 
 impl Marks {
     /// Marks with the usual name, which no legend explains.
-    pub fn new(mark: Mark, role: Role, at: Vec<Point>) -> Self {
-        let name = mark.name().into();
+    pub fn new(mark: Mark, role: Role, at: impl IntoIterator<Item: Into<Point>>) -> Self {
+        let (name, at) = (mark.name().into(), at.into_iter().map(Into::into).collect());
         Marks { mark, role, at, name, brief: "", sparse: false, at_edge: false }
+    }
+
+    /// The same with a name of their own.
+    pub fn called(self, name: impl Into<Text>) -> Self {
+        Marks { name: name.into(), ..self }
     }
 
     /// Where a point above or below a window is shown at its edge, and whether it lies above.
@@ -326,7 +331,7 @@ impl<'a> Picture<'a> {
     }
 
     pub fn mark(&mut self, mark: Mark, at: impl Into<Point>, role: Role) {
-        self.marks(Marks::new(mark, role, vec![at.into()]));
+        self.marks(Marks::new(mark, role, [at]));
     }
 
     pub fn marks(&mut self, marks: Marks) {

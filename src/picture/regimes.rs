@@ -172,6 +172,5 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
 
 /// The mark of a speed.
 fn milestone(at: Point, speed: f64, role: Role) -> Marks {
-    let name = format!("v0 = {speed} m/s").into();
-    Marks { name, ..Marks::new(Mark::Turn, role, vec![at]) }
+    Marks::new(Mark::Turn, role, [at]).called(format!("v0 = {speed} m/s"))
 }

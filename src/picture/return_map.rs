@@ -45,9 +45,9 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         let cycles = session.cycles().filter(|_| !session.draws_whole());
         for cycle in cycles.into_iter().flat_map(|found| &found.cycles) {
             let (mark, role) = (cycle_mark(cycle.stable), cycle_role(cycle.stable));
-            let turning = [cycle.q_min, cycle.q_max].map(|q| Point { x: q, y: q });
+            let turning = [cycle.q_min, cycle.q_max].map(|q| [q, q]);
             let brief = cycle_name(cycle.stable);
-            picture.marks(Marks { brief, ..Marks::new(mark, role, turning.to_vec()) });
+            picture.marks(Marks { brief, ..Marks::new(mark, role, turning) });
         }
     }
 }

@@ -42,8 +42,7 @@ fn curve(picture: &mut Picture, scanned: &ScanOnShow, name: String) {
     let known = |index: usize| scanned.height(index).is_some();
     let joined = |index: usize| (index > 0 && known(index - 1)) || known(index + 1);
     let alone = all.clone().filter(|index| words || (known(*index) && !joined(*index)));
-    let marks = Marks::new(Mark::Stable, Role::Trajectory, alone.map(place).collect());
-    let marks = Marks { name: name.clone().into(), ..marks };
+    let marks = Marks::new(Mark::Stable, Role::Trajectory, alone.map(place)).called(name.clone());
     if !words {
         picture.curve(LineStyle::new(name, Role::Trajectory, Dash::Solid), all.map(place));
     }

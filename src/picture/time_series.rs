@@ -160,7 +160,7 @@ fn curve(motion: &Motion, end: f64, read: fn(State) -> f64) -> Vec<Point> {
 /// The turning points, where they stand apart, and how the motion ends.
 fn events(picture: &mut Picture, motion: &Motion) {
     let turns = motion.crossings.iter().map(|turn| Point { x: turn.tau, y: turn.q });
-    let marks = Marks::new(Mark::Turn, Role::Trajectory, turns.collect());
+    let marks = Marks::new(Mark::Turn, Role::Trajectory, turns);
     picture.marks(Marks { sparse: true, ..marks });
     match motion.outcome {
         Outcome::Captured { tau, q } => picture.mark(Mark::Rest, [tau, q], Role::Trajectory),

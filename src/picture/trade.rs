@@ -6,7 +6,7 @@
 use super::{Dash, LineStyle, Mark, Marks, Picture, Role};
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::{METHODS, Method, MethodSpec};
-use crate::scene::{Layer, Point};
+use crate::scene::Layer;
 use crate::session::Session;
 use crate::words::{count, significant};
 
@@ -21,13 +21,13 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     }
     if session.layers.contains(&Layer::Front) {
         let is_best = |row: &&TradePoint| found.is_best(row, TradePoint::evaluations);
-        let at: Vec<Point> = found.rows.iter().filter(is_best).filter_map(place).collect();
+        let at: Vec<_> = found.rows.iter().filter(is_best).filter_map(TradePoint::place).collect();
         if !at.is_empty() {
             let marks = Marks::new(Mark::Stable, Role::Special, at);
             picture.marks(Marks { brief: "best choices", ..marks });
         }
     }
-    if let Some(at) = found.nearest_to(&session.problem).and_then(place) {
+    if let Some(at) = found.nearest_to(&session.problem).and_then(TradePoint::place) {
         picture.mark(Mark::Head, at, Role::Cursor);
         picture.caption(at, "now", Role::Cursor);
     }
@@ -38,18 +38,13 @@ fn method(picture: &mut Picture, found: &Trade, spec: &MethodSpec) {
     let (role, dash) =
         if spec.events { (Role::Trajectory, Dash::Solid) } else { (Role::Beside, Dash::Dotted) };
     let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
-    let points: Vec<Point> = own.filter_map(place).collect();
+    let points: Vec<_> = own.filter_map(TradePoint::place).collect();
     // Where auto chooses a method, the curve of that method covers its own.
     if let Some(finest) = points.last().filter(|_| spec.method != Method::Auto) {
         picture.caption(*finest, spec.name, role);
     }
     picture.curve(LineStyle::new(spec.name, role, dash).captioned(), points.iter().copied());
     picture.marks(Marks::new(Mark::Turn, role, points));
-}
-
-/// Where a row lies; nowhere if it has no error, or none that can be told from zero.
-fn place(row: &TradePoint) -> Option<Point> {
-    row.place().map(|(x, y)| Point { x, y })
 }
 
 /// The row under the cursor, in words.

@@ -31,6 +31,9 @@ pub struct DotPen {
 /// A point in dots from the top left corner.
 type DotPoint = (f64, f64);
 
+/// Column and row of a cell, which need not lie on the raster.
+pub type DotPlace = (i32, i32);
+
 /// What a cell shows, as far as a text that would stand there is concerned; each hides less than the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Covering {
@@ -74,12 +77,12 @@ impl Dots {
     }
 
     /// The cell (column, row) in which a point lies, if it lies on the raster.
-    pub fn cell_at(&self, (x, y): DotPoint) -> Option<(u16, u16)> {
+    pub fn cell_at(&self, (x, y): DotPoint) -> Option<DotPlace> {
         let (width, height) = self.size();
         let (across, down) = self.glyphs.dots();
         let inside = (0.0..=width).contains(&x) && (0.0..=height).contains(&y);
-        let column = ((x / f64::from(across)) as u16).min(self.area.width.saturating_sub(1));
-        let row = ((y / f64::from(down)) as u16).min(self.area.height.saturating_sub(1));
+        let column = ((x / f64::from(across)) as i32).min(i32::from(self.area.width) - 1);
+        let row = ((y / f64::from(down)) as i32).min(i32::from(self.area.height) - 1);
         (inside && !self.area.is_empty()).then_some((column, row))
     }
 
@@ -146,9 +149,8 @@ impl Dots {
         let (across, down) = (i32::from(across), i32::from(down));
         let bit = 1_u8 << (y.rem_euclid(down) * across + x.rem_euclid(across));
         let bit = if on { bit } else { 0 };
-        let cell = (x.div_euclid(across), y.div_euclid(down));
-        let (Ok(column), Ok(row)) = (u16::try_from(cell.0), u16::try_from(cell.1)) else { return };
-        let Some(cell) = self.at(column, row) else { return };
+        let place = (x.div_euclid(across), y.div_euclid(down));
+        let Some(cell) = self.at(place) else { return };
         let guide = matches!(dash, Dash::DashDot | Dash::Dotted | Dash::Sparse);
         let covering = if guide { Covering::Guide } else { Covering::Curve };
         if cell.covering > covering || (guide && !on) {
@@ -161,35 +163,36 @@ impl Dots {
     }
 
     /// Puts texture into a cell, if nothing else is there.
-    pub fn texture(&mut self, column: u16, row: u16, symbol: char, role: Role) {
-        if self.covering(column, row) == Covering::Texture {
-            self.put(column, row, Covering::Texture, symbol, role);
+    pub fn texture(&mut self, place: DotPlace, symbol: char, role: Role) {
+        if self.covering(place) == Covering::Texture {
+            self.put(place, Covering::Texture, symbol, role);
         }
     }
 
     /// Puts a symbol into a cell, over everything else.
-    pub fn symbol(&mut self, column: u16, row: u16, symbol: char, role: Role) {
-        self.put(column, row, Covering::Symbol, symbol, role);
+    pub fn symbol(&mut self, place: DotPlace, symbol: char, role: Role) {
+        self.put(place, Covering::Symbol, symbol, role);
     }
 
-    fn put(&mut self, column: u16, row: u16, covering: Covering, symbol: char, role: Role) {
-        if let Some(cell) = self.at(column, row) {
+    fn put(&mut self, place: DotPlace, covering: Covering, symbol: char, role: Role) {
+        if let Some(cell) = self.at(place) {
             *cell = DotCell { covering, role, dots: 0, symbol: Some(symbol) };
         }
     }
 
-    pub fn covering(&self, column: u16, row: u16) -> Covering {
-        let cell = self.index(column, row).and_then(|index| self.cells.get(index));
+    pub fn covering(&self, place: DotPlace) -> Covering {
+        let cell = self.index(place).and_then(|index| self.cells.get(index));
         cell.map_or(Covering::Outside, |cell| cell.covering)
     }
 
-    fn index(&self, column: u16, row: u16) -> Option<usize> {
-        let width = self.area.width;
-        (column < width).then(|| usize::from(row) * usize::from(width) + usize::from(column))
+    fn index(&self, (column, row): DotPlace) -> Option<usize> {
+        let width = i32::from(self.area.width);
+        let on_a_row = (0..width).contains(&column);
+        usize::try_from(row * width + column).ok().filter(|_| on_a_row)
     }
 
-    fn at(&mut self, column: u16, row: u16) -> Option<&mut DotCell> {
-        self.index(column, row).and_then(|index| self.cells.get_mut(index))
+    fn at(&mut self, place: DotPlace) -> Option<&mut DotCell> {
+        self.index(place).and_then(|index| self.cells.get_mut(index))
     }
 
     /// Writes the raster into the buffer; empty cells leave what is there.

@@ -79,10 +79,10 @@ fn draw_sample(place: Rect, role: Role, sample: LegendSample, screen: &mut Surfa
             dots.stroke([at, at], DotPen { role, dash: Dash::Thick });
         }
         LegendSample::Shade => {
-            (0..SAMPLE).for_each(|x| dots.texture(x, 0, look.symbols().shade, role));
+            (0..SAMPLE.into()).for_each(|x| dots.texture((x, 0), look.symbols().shade, role));
         }
-        LegendSample::Point(mark) => dots.symbol(1, 0, look.symbols().mark(mark), role),
-        LegendSample::Arrow => dots.texture(1, 0, look.symbols().arrows[0], role),
+        LegendSample::Point(mark) => dots.symbol((1, 0), look.symbols().mark(mark), role),
+        LegendSample::Arrow => dots.texture((1, 0), look.symbols().arrows[0], role),
     }
     dots.paint(screen);
 }

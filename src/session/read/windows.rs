@@ -4,7 +4,7 @@ use crate::accuracy::trade::TradePoint;
 use crate::closed_form::lyapunov;
 use crate::fit::{DropReason, RecordPoint, Signal};
 use crate::flow::{Motion, Outcome, Problem};
-use crate::model::{Knob, Parameters, State, energy};
+use crate::model::{Knob, Parameters, energy};
 use crate::numerics::{hypot, real, truncated};
 use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window, usual_values};
 use crate::session::state::setup::size;
@@ -226,7 +226,7 @@ fn energy_rate(session: &Session) -> Option<Window> {
     let fastest = radius.max(initial.v.abs()).max(parameters.r);
     let far = FASTER * if fastest > 0.0 { fastest } else { 1.0 };
     let x = Span::new(-far, far).ok()?;
-    let rate = |v: f64| lyapunov::energy_rate(&parameters, State { q: 0.0, v });
+    let rate = |v: f64| lyapunov::energy_rate(&parameters, v);
     let parts = (0..=RATES).map(|part| rate(x.at(f64::from(part) / f64::from(RATES))));
     let y = Span::covering(parts.chain([0.0]))?;
     Some(Window { x, y: roomy(y) })

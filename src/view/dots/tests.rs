@@ -67,12 +67,12 @@ fn each_set_of_glyphs_draws_the_same_cross() {
 #[test]
 fn strokes_hide_texture_and_symbols_hide_strokes() {
     let mut dots = Dots::new(Rect::new(0, 0, 3, 1), Glyphs::Ascii);
-    (0..3).for_each(|column| dots.texture(column, 0, '.', Role::Basin));
-    dots.symbol(2, 0, 'F', Role::Special);
+    (0..3).for_each(|column| dots.texture((column, 0), '.', Role::Basin));
+    dots.symbol((2, 0), 'F', Role::Special);
     dots.stroke([(1.0, 0.0), (2.9, 0.0)], SOLID);
-    dots.texture(1, 0, '.', Role::Basin);
+    dots.texture((1, 0), '.', Role::Basin);
     assert_eq!(painted(&dots), [".*F"]);
-    let covered = [0, 1, 2, 3].map(|column| dots.covering(column, 0));
+    let covered = [0, 1, 2, 3].map(|column| dots.covering((column, 0)));
     let expected = [Covering::Texture, Covering::Curve, Covering::Symbol, Covering::Outside];
     assert_eq!(covered, expected);
 }
@@ -153,7 +153,7 @@ proptest! {
             for dash in [Dash::Thick, Dash::Dashed, Dash::DashDot, Dash::Dotted, Dash::Sparse] {
                 dots.stroke(points.iter().chain(&near).copied(), DotPen { role: Role::Stable, dash });
             }
-            prop_assert!(near.iter().all(|point| dots.cell_at(*point).is_none_or(|(column, row)| column < width && row < height)));
+            prop_assert!(near.iter().all(|point| dots.cell_at(*point).is_none_or(|(column, row)| column < width.into() && row < height.into())));
             painted(&dots);
         }
     }

@@ -18,7 +18,7 @@ use ratatui::style::{Color, Modifier};
 use geometry::{Geometry, along, centred, column};
 pub use geometry::{point_at, rows, shown};
 
-use super::dots::{Covering, DotPen, Dots};
+use super::dots::{Covering, DotPen, DotPlace, Dots};
 use super::{Look, Surface, pane::FramedPicture};
 use crate::numerics::elementary::atan2;
 use crate::picture::{Dash, Role, Tick, Ticks};
@@ -98,7 +98,7 @@ impl<'a> Canvas<'a> {
         let free = |start: u16, row: u16, label: &str| {
             let end = start + label.len() as u16;
             (start.saturating_sub(1)..=end)
-                .all(|column| self.dots.covering(column, row) != Covering::Symbol)
+                .all(|column| self.dots.covering((column.into(), row.into())) != Covering::Symbol)
         };
         for tick in upward.ticks.iter().filter(fits) {
             let row = self.row(tick.fraction);
@@ -122,6 +122,11 @@ impl<'a> Canvas<'a> {
         let (width, height) = self.dots.size();
         let Window { x, y } = self.window;
         (along(x.fraction(point.x), width), along(1.0 - y.fraction(point.y), height))
+    }
+
+    /// The cell of the raster in which a point lies.
+    fn cell(&self, point: Point) -> Option<DotPlace> {
+        self.dots.cell_at(self.place(point))
     }
 
     /// The world at the middle of a cell.
@@ -181,7 +186,7 @@ impl<'a> Canvas<'a> {
                 // The blanks belong to the texture: to write them is shorter than to skip them.
                 let shade = self.look.symbols().shade;
                 let symbol = if (column + row).is_multiple_of(2) { shade } else { ' ' };
-                self.dots.texture(column, row, symbol, role);
+                self.dots.texture((column.into(), row.into()), symbol, role);
             }
         }
     }
@@ -193,7 +198,7 @@ impl<'a> Canvas<'a> {
             // Every other cell of every other line, so that borders and names can be read.
             for column in (0..width).filter(|column| (column + 2 * row) % 4 == 0) {
                 if let Some((symbol, role)) = texture(self.world(column, row)) {
-                    self.dots.texture(column, row, symbol, role);
+                    self.dots.texture((column.into(), row.into()), symbol, role);
                 }
             }
         }
@@ -212,7 +217,8 @@ impl<'a> Canvas<'a> {
                 let angle = atan2(direction.y * down, direction.x * across);
                 if angle.is_finite() {
                     let eighth = (angle / std::f64::consts::FRAC_PI_4).round().rem_euclid(8.0);
-                    self.dots.texture(column, row, arrows[eighth as usize % 8], role);
+                    let place = (column.into(), row.into());
+                    self.dots.texture(place, arrows[eighth as usize % 8], role);
                 }
             }
         }
@@ -220,8 +226,8 @@ impl<'a> Canvas<'a> {
 
     /// Puts a symbol on a point, if it is in the window.
     pub fn mark(&mut self, point: Point, symbol: char, role: Role) {
-        if let Some((column, row)) = self.dots.cell_at(self.place(point)) {
-            self.dots.symbol(column, row, symbol, role);
+        if let Some(place) = self.cell(point) {
+            self.dots.symbol(place, symbol, role);
         }
     }
 

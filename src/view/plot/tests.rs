@@ -24,8 +24,8 @@ fn canvas<'a>(size: (u16, u16), window: Window, screen: &mut Surface<'a>) -> Can
 /// The rows in which something stands.
 fn rows_drawn(plot: &Canvas) -> Vec<u16> {
     let Rect { width, height, .. } = plot.inner;
-    let drawn =
-        |row: &u16| (0..width).any(|column| plot.dots.covering(column, *row) > Covering::Texture);
+    let covering = |column: u16, row: u16| plot.dots.covering((column.into(), row.into()));
+    let drawn = |row: &u16| (0..width).any(|column| covering(column, *row) > Covering::Texture);
     (0..height).filter(drawn).collect()
 }
 

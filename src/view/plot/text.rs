@@ -3,7 +3,7 @@
 use super::Canvas;
 use crate::picture::{Caption, Role, along};
 use crate::scene::Point;
-use crate::view::dots::Covering;
+use crate::view::dots::{Covering, DotPlace};
 use crate::view::pane;
 use crate::words::fitting;
 
@@ -16,11 +16,15 @@ const CLEAR: i32 = 3;
 /// Distance from other curves, in rows, below which a name touches them.
 const NEAR: i32 = 1;
 
+/// Cells that a text takes.
+fn length(text: &str) -> i32 {
+    i32::try_from(text.chars().count()).unwrap_or(i32::MAX)
+}
+
 /// How far a text that begins in a cell is from some others, in rows; a column is half as wide as a row is high.
-fn far_from(others: &[(i32, i32)], (column, row): (u16, u16), text: &str) -> i32 {
-    let (first, row) = (i32::from(column), i32::from(row));
-    let last = first + i32::try_from(text.chars().count()).unwrap_or(i32::MAX) - 1;
-    let distance = |(x, y): &(i32, i32)| {
+fn far_from(others: &[DotPlace], (first, row): DotPlace, text: &str) -> i32 {
+    let last = first + length(text) - 1;
+    let distance = |(x, y): &DotPlace| {
         // Beside each other, one free column is no distance.
         let aside = (first - x).max(x - last).max(1) - 1;
         (row - y).abs().max(aside / 2)
@@ -56,14 +60,14 @@ impl Canvas<'_> {
                     all.filter(|(clear, at)| far == 0 || (*clear >= far && is_own(*clear, *at)));
                 far.reduce(|best, next| if next.0 > best.0 { next } else { best })
             });
-            if let Some((_, (column, row))) = found {
-                self.letters(column, row, &name.short, name.role);
+            if let Some((_, at)) = found {
+                self.letters(at, &name.short, name.role);
             }
         }
     }
 
     /// The cells that a curve runs through.
-    fn cells_of(&self, curve: &[Point]) -> Vec<(i32, i32)> {
+    fn cells_of(&self, curve: &[Point]) -> Vec<DotPlace> {
         let places: Vec<_> = curve.iter().map(|point| self.place(*point)).collect();
         let mut cells = Vec::new();
         for ends in places.windows(2) {
@@ -76,12 +80,7 @@ impl Canvas<'_> {
             }
         }
         cells.dedup();
-        cells.into_iter().map(|(column, row)| (i32::from(column), i32::from(row))).collect()
-    }
-
-    fn cell(&self, point: Point) -> Option<(i32, i32)> {
-        let (column, row) = self.dots.cell_at(self.place(point))?;
-        Some((i32::from(column), i32::from(row)))
+        cells
     }
 
     /// Writes one of some texts, the best first, beside a point.
@@ -96,81 +95,74 @@ impl Canvas<'_> {
             .chain(texts.last().map(|text| (Covering::Curve, text)));
         let found = candidates
             .find_map(|(over, text)| Some((self.places(&cells, text, over).next()?, text)));
-        if let Some(((column, row), text)) = found {
-            self.letters(column, row, text, role);
+        if let Some((at, text)) = found {
+            self.letters(at, text, role);
         }
     }
 
     /// Where a text can begin beside one of some cells, hiding no more than this, the best first.
     fn places(
         &self,
-        cells: &[(i32, i32)],
+        cells: &[DotPlace],
         text: &str,
         over: Covering,
-    ) -> impl Iterator<Item = (u16, u16)> {
-        let length = i32::try_from(text.chars().count()).unwrap_or(i32::MAX);
+    ) -> impl Iterator<Item = DotPlace> {
+        let length = length(text);
         let (width, height) = (i32::from(self.inner.width), i32::from(self.inner.height));
         let middle = -length / 2;
         let aside = [0, -1, 1].into_iter().flat_map(move |row| [(1, row), (-length, row)]);
         let beside = aside.chain([(middle, -1), (middle, 1), (0, -2), (0, 2)]);
-        let cell =
-            |column: i32, row: i32| Some((u16::try_from(column).ok()?, u16::try_from(row).ok()?));
-        let no_symbol = move |(x, y)| self.dots.covering(x, y) != Covering::Symbol;
-        let fits = move |((x, y), own): &((i32, i32), (i32, i32))| {
+        let no_symbol = move |at| self.dots.covering(at) != Covering::Symbol;
+        let fits = move |((x, y), own): &(DotPlace, DotPlace)| {
             // Two texts never run together; the mark of its own point a text may touch where it hides curves.
-            let may_touch = |at: &(i32, i32)| over == Covering::Curve && at == own;
-            let apart = [(x - 1, *y), (x + length, *y)].into_iter().filter(|at| !may_touch(at));
-            let apart = apart.filter_map(|(column, row)| cell(column, row));
-            let within = (0..length).filter_map(|offset| cell(x + offset, *y));
+            let may_touch = |at: &DotPlace| over == Covering::Curve && at == own;
+            let mut apart = [(x - 1, *y), (x + length, *y)].into_iter().filter(|at| !may_touch(at));
             (0..=width - length).contains(x)
                 && (0..height).contains(y)
-                && apart.into_iter().all(no_symbol)
-                && within.into_iter().all(|(x, y)| self.dots.covering(x, y) <= over)
+                && apart.all(no_symbol)
+                && (0..length).all(|offset| self.dots.covering((x + offset, *y)) <= over)
         };
         let places = cells
             .iter()
             .flat_map(move |own| beside.clone().map(|(x, y)| ((own.0 + x, own.1 + y), *own)));
-        places.filter(fits).filter_map(move |((column, row), _)| cell(column, row))
+        places.filter(fits).map(|(at, _)| at)
     }
 
     /// Writes a text from the left end of the row in which a height lies.
     pub fn write(&mut self, y: f64, text: &str, role: Role) {
         let left = Point { x: self.window.x.from(), y };
-        if let Some((_, row)) = self.dots.cell_at(self.place(left)) {
+        if let Some((_, row)) = self.cell(left) {
             let text = pane::cut(text, self.inner.width.into(), self.look);
-            self.letters(0, row, &text, role);
+            self.letters((0, row), &text, role);
         }
     }
 
     /// Writes a number beside the line `x = 0`, with as many of the digits as there is room for.
     pub fn beside_zero(&mut self, y: f64, value: f64, digits: usize, right: bool) {
-        let Some((column, row)) = self.dots.cell_at(self.place(Point { x: 0.0, y })) else {
-            return;
-        };
-        let room = if right { self.inner.width.saturating_sub(column + 2) } else { column };
-        let Some(text) = fitting(value, digits, room.into()) else { return };
-        let start = if right { column + 2 } else { column.saturating_sub(text.len() as u16 + 1) };
-        self.letters(start, row, &text, Role::Text);
+        let Some((column, row)) = self.cell(Point { x: 0.0, y }) else { return };
+        let room = if right { i32::from(self.inner.width) - column - 2 } else { column };
+        let text = usize::try_from(room).ok().and_then(|room| fitting(value, digits, room));
+        let Some(text) = text else { return };
+        let start = if right { column + 2 } else { (column - length(&text) - 1).max(0) };
+        self.letters((start, row), &text, Role::Text);
     }
 
-    fn letters(&mut self, start: u16, row: u16, text: &str, role: Role) {
-        for (column, letter) in (start..self.inner.width).zip(text.chars()) {
-            self.dots.symbol(column, row, letter, role);
+    fn letters(&mut self, (start, row): DotPlace, text: &str, role: Role) {
+        for (column, letter) in (start..self.inner.width.into()).zip(text.chars()) {
+            self.dots.symbol((column, row), letter, role);
         }
     }
 
     pub fn cross(&mut self, point: Point) {
         let [centre, level, upright] = self.look.symbols().cross;
-        let Some((column, row)) = self.dots.cell_at(self.place(point)) else { return };
+        let Some((column, row)) = self.cell(point) else { return };
         let along = [-2, -1, 1, 2].map(|right| (right, 0, level));
         let arms = along.into_iter().chain([(0, -1, upright), (0, 1, upright), (0, 0, centre)]);
         for (right, down, symbol) in arms {
-            let place = (column.checked_add_signed(right), row.checked_add_signed(down));
-            let (Some(column), Some(row)) = place else { continue };
+            let place = (column + right, row + down);
             // Above and below it hides no letter: a number without its sign is another number.
-            let hides = self.dots.covering(column, row) == Covering::Symbol;
-            if symbol != upright || !hides {
-                self.dots.symbol(column, row, symbol, Role::Cursor);
+            if symbol != upright || self.dots.covering(place) != Covering::Symbol {
+                self.dots.symbol(place, symbol, Role::Cursor);
             }
         }
     }
