@@ -178,11 +178,9 @@ impl Panel {
         match item {
             Item::Curve(line, points) => add(line, points),
             Item::Graph(line, value) => add(line, &graph(value, window)),
-            Item::Upright(line, at) => {
-                add(line, &y.ends().map(|y| Point { x: *at, y }));
-            }
+            Item::Upright(line, at) => add(line, &y.ends().map(|y| Point { x: *at, y })),
             Item::Shade(line, edge) => self.area(picture, line, edge),
-            Item::Beyond(line, edge) => self.area(picture, line, &beyond(edge, picture.window)),
+            Item::Beyond(line, edge) => self.area(picture, line, &beyond(edge, window)),
             Item::Columns(line, from, to) => {
                 self.area(picture, line, &rectangle([*from, *to], y.ends()));
             }
@@ -190,13 +188,13 @@ impl Panel {
                 self.area(picture, line, &rectangle(x.ends(), [*from, *to]));
             }
             Item::Texture(at) => {
-                for (Fill { role, name }, corners) in polygons(at, self.window) {
+                for (Fill { role, name }, corners) in polygons(at, window) {
                     let line = LineStyle::new(name, role, Dash::Solid);
                     self.area(picture, &line, &corners);
                 }
             }
             Item::Arrows(_, flow) => {
-                self.arrows.extend(lattice(self.window).map(|at| (at, flow(at))));
+                self.arrows.extend(lattice(window).map(|at| (at, flow(at))));
             }
             Item::Marks(marks) => self.marks(marks),
         }

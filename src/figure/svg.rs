@@ -108,28 +108,26 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
 fn polyline(out: &mut String, points: &[[f64; 2]], attributes: &str, frame: Frame) {
     let mut commands = String::new();
     let mut down = false;
-    for (index, [x, y]) in points.iter().enumerate() {
-        let seen = |point: &[f64; 2]| near(*point, frame);
-        let neighbour = index.checked_sub(1).map(|before| &points[before]);
-        let beside = neighbour.is_some_and(seen) || points.get(index + 1).is_some_and(seen);
-        if !(x.is_finite() && y.is_finite()) || !(near([*x, *y], frame) || beside) {
-            down = false;
-            continue;
+    for (index, point) in points.iter().enumerate() {
+        let around = &points[index.saturating_sub(1)..points.len().min(index + 2)];
+        let seen = around.iter().any(|point| near(*point, frame));
+        let drawn = seen && point.iter().all(|value| value.is_finite());
+        if drawn {
+            reach(&mut commands, down, *point, frame);
         }
-        let (across, along) = drawable(frame, [*x, *y]);
-        let command = if down { 'L' } else { 'M' };
-        let _ = write!(commands, "{command}{across:.3} {along:.3}");
-        down = true;
+        down = drawn;
     }
     if !commands.is_empty() {
         path(out, &commands, attributes);
     }
 }
 
-/// Where a point stands. Coordinates of paper have six digits; what is far outside keeps its side.
-fn drawable(frame: Frame, point: [f64; 2]) -> Spot {
+/// Leads a path to a point, or begins it there. Coordinates of paper have six digits; what is far outside keeps its side.
+fn reach(commands: &mut String, down: bool, point: [f64; 2], frame: Frame) {
     let (across, along) = frame.spot(point.into());
-    (across.clamp(-1e5, 1e5), along.clamp(-1e5, 1e5))
+    let (across, along) = (across.clamp(-1e5, 1e5), along.clamp(-1e5, 1e5));
+    let command = if down { 'L' } else { 'M' };
+    let _ = write!(commands, "{command}{across:.3} {along:.3}");
 }
 
 /// Whether a point lies within a few sizes of the plot.
@@ -143,9 +141,7 @@ fn shade(out: &mut String, areas: &[Outline], frame: Frame) {
     let mut commands = String::new();
     for polygon in areas.iter().flat_map(|area| loops(&area.points, frame.window)) {
         for (index, point) in polygon.iter().enumerate() {
-            let (across, along) = drawable(frame, *point);
-            let command = if index == 0 { 'M' } else { 'L' };
-            let _ = write!(commands, "{command}{across:.3} {along:.3}");
+            reach(&mut commands, index > 0, *point, frame);
         }
         commands.push('Z');
     }

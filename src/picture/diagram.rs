@@ -46,13 +46,11 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.upright("present value", current);
     // Beside branches of other values the formulas stand for the present one alone.
     for shown in all.iter().filter(|shown| shown.present || !has_present) {
-        let height = diagram.axes.height(shown.problem.parameters.r);
         if shows(Layer::Asymptotes) {
-            asymptotes(picture, shown, abscissa, height);
+            asymptotes(picture, shown, diagram.axes);
         }
         if shows(Layer::Harmonic) {
-            let largest = largest_amplitude(diagram, height, &found);
-            harmonic(picture, shown, abscissa, height, largest);
+            harmonic(picture, shown, diagram, &found);
         }
     }
     let rest = |shown: &ShownMotion| match (shown.present || all.len() == 1, has_present) {
@@ -61,8 +59,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         (false, false) => (REST, Dash::Solid),
     };
     for shown in &all {
-        let height = diagram.axes.height(shown.problem.parameters.r);
-        rest_in(picture, shown, rest(shown), abscissa, height);
+        rest_in(picture, shown, rest(shown), diagram.axes);
     }
     let pieces = || {
         found.iter().flat_map(|found| found.branch.pieces.iter().map(move |piece| (found, piece)))
@@ -127,7 +124,9 @@ fn held(session: &Session, index: usize) -> Option<Point> {
 }
 
 /// The asymptotes A1 and A2 (51, 52), their height read out of A0 and A.
-fn asymptotes(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob, height: Height) {
+fn asymptotes(picture: &mut Picture, shown: &ShownMotion, axes: Axes) {
+    let own = shown.problem.parameters;
+    let height = axes.height(own.r);
     let Some(size) = height.ordinate.spec().harmonic else { return };
     // Of the mean they are asymptotes of their own, with names of their own (53, 54).
     let names = match height.ordinate {
@@ -135,10 +134,9 @@ fn asymptotes(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob, height
         _ => ["asymptote A1", "asymptote A2"],
     };
     let asymptotes = [small_asymptote as fn(&Parameters) -> Option<f64>, large_asymptote];
-    let own = shown.problem.parameters;
     for (name, asymptote) in names.into_iter().zip(asymptotes) {
         picture.graph(LineStyle::from(name).of(&shown.variant), move |value| {
-            let parameters = own.with(abscissa, value);
+            let parameters = own.with(axes.abscissa, value);
             let amplitude = asymptote(&parameters)?;
             Some(height.scaled(value, size(mean(parameters.d2, amplitude), amplitude)))
         });
@@ -147,21 +145,22 @@ fn asymptotes(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob, height
 
 /// The first-order harmonic answer, its height read out of A0 and A.
 ///
-/// Over D it is drawn along the amplitude, up to `largest`, which leads through the fold without a gap;
+/// Over D it is drawn along the amplitude, up to the largest on show, which leads through the fold without a gap;
 /// over the other parameters each amplitude is a curve of its own.
 fn harmonic(
     picture: &mut Picture,
     shown: &ShownMotion,
-    abscissa: Knob,
-    height: Height,
-    largest: f64,
+    diagram: &session::Plot,
+    found: &[ComputedBranch],
 ) {
     /// Samples along the amplitude: more than any screen has dots.
     const SAMPLES: u16 = 1000;
+    let own @ Parameters { d2, d3, r, .. } = shown.problem.parameters;
+    let (abscissa, height) = (diagram.axes.abscissa, diagram.axes.height(r));
     let Some(size) = height.ordinate.spec().harmonic else { return };
     let line = LineStyle::from("first harmonic").of(&shown.variant);
-    let own @ Parameters { d2, d3, r, .. } = shown.problem.parameters;
     if abscissa == Knob::D {
+        let largest = largest_amplitude(diagram, height, found);
         let points = (1..=SAMPLES).map(|sample| {
             let amplitude = largest * f64::from(sample) / f64::from(SAMPLES);
             let x = damping_at(d3, r, amplitude).unwrap_or(f64::NAN);
@@ -293,15 +292,16 @@ fn rest_in(
     picture: &mut Picture,
     shown: &ShownMotion,
     (name, dash): (&'static str, Dash),
-    abscissa: Knob,
-    height: Height,
+    axes: Axes,
 ) {
+    let own = shown.problem.parameters;
+    let (abscissa, height) = (axes.abscissa, axes.height(own.r));
     let has_band = match height.ordinate {
         Ordinate::QMax | Ordinate::QMin | Ordinate::Mean => true,
         Ordinate::VMax | Ordinate::Amplitude => false,
         Ordinate::Period | Ordinate::Multiplier => return,
     };
-    if shown.problem.parameters.r == 0.0 && abscissa != Knob::R {
+    if own.r == 0.0 && abscissa != Knob::R {
         // There is no height in units of a friction that is zero.
         if !height.is_ratio() {
             rest_without_friction(picture, shown, abscissa);
@@ -312,24 +312,21 @@ fn rest_in(
     if !has_band {
         return picture.level(line, 0.0);
     }
-    let own = shown.problem.parameters;
     let edge = move |value: f64| {
         let r = own.with(abscissa, value).r;
         let unit = if height.is_ratio() { r } else { 1.0 };
         (r >= 0.0 && unit > 0.0).then_some(r / unit)
     };
-    let band = edge(picture.window.x.from()).filter(|_| abscissa != Knob::R);
-    if abscissa == Knob::R {
-        let fill = Fill { role: Role::Sticking, name };
-        let within =
-            move |place: Point| edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill);
-        picture.items.push(Item::Texture(Box::new(within)));
-    }
     picture.graph(line.clone(), edge);
     if picture.window.y.from() < 0.0 {
         picture.graph(line.clone(), move |value| edge(value).map(|edge| -edge));
     }
-    if let Some(edge) = band {
+    if abscissa == Knob::R {
+        let fill = Fill { role: Role::Sticking, name };
+        let within =
+            move |at: Point| edge(at.x).is_some_and(|edge| at.y.abs() <= edge).then_some(fill);
+        picture.items.push(Item::Texture(Box::new(within)));
+    } else if let Some(edge) = edge(picture.window.x.from()) {
         picture.items.push(Item::Rows(line, -edge, edge));
     }
 }

@@ -36,8 +36,8 @@ use crate::session::{Plot, Session};
 /// What the numbers along the axes of the plot with this index stand for.
 pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
     match session.plots[index].view {
-        View::Scan => session.scanned.as_ref().map_or_else(Default::default, scan::scales),
-        View::Trade => [Scale::Logarithmic; 2],
+        View::Scan => session.scanned.as_ref().map(scan::scales).unwrap_or_default(),
+        View::Trade => [Scale::Logarithmic(""); 2],
         _ => units::scales(session, index).unwrap_or_default(),
     }
 }

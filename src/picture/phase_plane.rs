@@ -42,12 +42,13 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     for (variant, (found, _)) in all_cycles.iter().filter(|_| shows(Layer::Basin)) {
         basin(picture, found, variant, shows(Layer::Cycles));
     }
-    let zones = session.zones();
-    if let Some(found) = zones.filter(|_| shows(Layer::Safe)) {
-        safe(picture, &found.safe);
-    }
-    if let Some(found) = zones.filter(|_| shows(Layer::Lost)) {
-        lost(picture, &found.hopeful);
+    if let Some(found) = session.zones() {
+        if shows(Layer::Safe) {
+            safe(picture, &found.safe);
+        }
+        if shows(Layer::Lost) {
+            lost(picture, &found.hopeful);
+        }
     }
     if shows(Layer::Bands) {
         for border in session.borders(index).into_iter().flatten() {

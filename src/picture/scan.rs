@@ -9,10 +9,9 @@ use crate::session::{ScanOnShow, Session};
 pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {
     let over = scanned.scan.over();
     [0, 1].map(|axis| match over.get(axis) {
-        Some(Sweep { spacing: Spacing::Logarithmic, from, .. }) if *from < 0.0 => {
-            Scale::NegativeLogarithmic
+        Some(Sweep { spacing: Spacing::Logarithmic, from, .. }) => {
+            Scale::Logarithmic(if *from < 0.0 { "-" } else { "" })
         }
-        Some(Sweep { spacing: Spacing::Logarithmic, .. }) => Scale::Logarithmic,
         _ => Scale::Even,
     })
 }

@@ -25,7 +25,7 @@ pub struct Tick {
 }
 
 /// Evenly spaced round ticks.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ticks {
     /// What to add to every label, where labels count from a number other than zero.
     pub base: Option<String>,
@@ -45,10 +45,8 @@ pub enum Scale {
         /// What the axis is called there.
         name: &'static str,
     },
-    /// Decimal logarithms of a quantity, whose own values are labelled.
-    Logarithmic,
-    /// The same of a negative quantity's magnitude.
-    NegativeLogarithmic,
+    /// Decimal logarithms of the magnitude of a quantity, whose own values are labelled with this sign: empty, or a minus.
+    Logarithmic(&'static str),
 }
 
 impl Scale {
@@ -56,8 +54,7 @@ impl Scale {
     pub fn of_numbers(self, name: &str) -> String {
         match self {
             Scale::Even | Scale::Times { .. } => name.to_owned(),
-            Scale::Logarithmic => format!("log10 {name}"),
-            Scale::NegativeLogarithmic => format!("log10 -{name}"),
+            Scale::Logarithmic(sign) => format!("log10 {sign}{name}"),
         }
     }
 
@@ -91,8 +88,7 @@ impl Ticks {
                 let scaled = Span::new(factor * axis.from(), factor * axis.to());
                 return Ticks::fitting(scaled.unwrap_or(axis), fit);
             }
-            Scale::Logarithmic => "",
-            Scale::NegativeLogarithmic => "-",
+            Scale::Logarithmic(sign) => sign,
         };
         let within = std::iter::once((&DIGITS_WITHIN[..], 1));
         let decades = within.chain(DECADES.map(|every| (&DIGITS_WITHIN[..1], every)));
@@ -102,7 +98,7 @@ impl Ticks {
             return Ticks { base: None, ticks };
         }
         let Ok(values) = Span::new(pow(10.0, axis.from()), pow(10.0, axis.to())) else {
-            return Ticks { base: None, ticks: Vec::new() };
+            return Ticks::default();
         };
         let bent = |ticks: &[Tick]| -> Vec<Tick> {
             let place = |tick: &Tick| axis.fraction(log10(values.at(tick.fraction)));
@@ -225,9 +221,9 @@ mod tests {
         let names = |ticks: &[(String, f64)]| -> Vec<String> {
             ticks.iter().map(|(label, _)| label.clone()).collect()
         };
-        let scale = Scale::Logarithmic;
+        let scale = Scale::Logarithmic("");
         assert_eq!(names(&on(scale, -2.0, 0.0, 4)), ["0.01", "0.1", "1"]);
-        assert_eq!(names(&on(Scale::NegativeLogarithmic, -2.0, 0.0, 4)), ["-0.01", "-0.1", "-1"]);
+        assert_eq!(names(&on(Scale::Logarithmic("-"), -2.0, 0.0, 4)), ["-0.01", "-0.1", "-1"]);
         assert_eq!(names(&on(scale, -1.0, 0.0, 4)), ["0.1", "0.2", "0.5", "1"]);
         assert_eq!(
             names(&on(scale, -6.0, 4.0, 6)),

@@ -5,7 +5,7 @@ use super::Scale;
 use crate::model::Knob;
 use crate::model::belt::Units as Physical;
 use crate::scene::{Layer, Span, View, Window};
-use crate::session::Session;
+use crate::session::{Plot, Session};
 use crate::words::number::resolved;
 
 /// Names of an axis with the units that it can have, the largest first, and how many of them are one in SI units.
@@ -33,10 +33,9 @@ fn scale(units: &AxisUnits, one: f64, span: Span) -> Scale {
 /// has no such axes.
 pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
     let units = shown(session)?;
-    let plot = session.plots.get(index)?;
-    let Window { x, y } = plot.window;
+    let Plot { view, window: Window { x, y }, .. } = session.plots[index];
     let length = |span| scale(&LENGTHS, units.displacement, span);
-    Some(match plot.view {
+    Some(match view {
         View::Phase => [length(x), scale(&VELOCITIES, units.velocity, y)],
         View::Belt => [length(x), Scale::Even],
         View::TimeSeries => {

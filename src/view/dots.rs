@@ -146,7 +146,6 @@ impl Dots {
     /// Draws a dot, or the gap of a dash.
     fn ink(&mut self, (x, y): (i32, i32), DotPen { role, dash }: DotPen, on: bool) {
         let (across, down) = self.glyphs.dots();
-        let (across, down) = (i32::from(across), i32::from(down));
         let bit = 1_u8 << (y.rem_euclid(down) * across + x.rem_euclid(across));
         let bit = if on { bit } else { 0 };
         let place = (x.div_euclid(across), y.div_euclid(down));
@@ -226,7 +225,7 @@ fn extend(run: &mut Vec<(i32, i32)>, dot: (i32, i32)) {
 
 impl Glyphs {
     /// Dots of one cell, across and down.
-    pub fn dots(self) -> (u8, u8) {
+    pub fn dots(self) -> (i32, i32) {
         match self {
             Glyphs::Auto | Glyphs::Braille | Glyphs::Octant => (2, 4),
             Glyphs::Block => (2, 2),

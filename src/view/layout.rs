@@ -6,6 +6,7 @@
 
 use ratatui::layout::{Constraint, Layout as Split, Rect};
 
+use super::pane;
 use crate::scene::Arrangement;
 use crate::session::{Session, Size};
 
@@ -106,7 +107,7 @@ fn is_wide(area: Rect) -> bool {
 /// Equal parts of an area beside each other, with a column between them that stays empty, or above each other.
 fn parts(area: Rect, count: usize, beside: bool) -> Vec<Rect> {
     let (length, gap) = if beside { (area.width, 1) } else { (area.height, 0) };
-    let count = u16::try_from(count).unwrap_or(u16::MAX);
+    let count = pane::cells(count);
     let begin = |part: u16| ((length + gap) * part + gap) / count;
     let part = |part: u16| {
         let (begin, length) = (begin(part), (begin(part + 1) - begin(part)).saturating_sub(gap));

@@ -2,8 +2,8 @@
 
 use ratatui::layout::Rect;
 
-use super::Surface;
 use super::dots::{DotPen, Dots};
+use super::{Surface, pane};
 use crate::picture::{Dash, LegendEntry, LegendSample, Mark, Role};
 
 const SAMPLE: u16 = 3;
@@ -17,9 +17,8 @@ const MORE: u16 = 8;
 /// left out is counted.
 pub fn draw(area: Rect, mut entries: Vec<LegendEntry>, screen: &mut Surface) {
     entries.sort_by_key(|entry| rank(entry.sample));
-    let letters = |entry: &LegendEntry| u16::try_from(entry.text.chars().count());
-    let width = |entry| letters(entry).unwrap_or(u16::MAX).saturating_add(SAMPLE + 1);
-    let widths: Vec<u16> = entries.iter().map(width).collect();
+    let letters = entries.iter().map(|entry| pane::cells(entry.text.chars().count()));
+    let widths: Vec<u16> = letters.map(|count| count.saturating_add(SAMPLE + 1)).collect();
     let mut places = places(&widths, area, 0).0;
     let quiet = screen.look.style(Role::Quiet);
     if places.contains(&None) && area.height > 0 {

@@ -60,8 +60,8 @@ fn palette(content: &mut ListContent, session: &Session, list: &List, look: &Loo
         };
         let name = look.span(format!("{name}   "), Role::Title);
         let kind = look.span(session.heading(*row).to_lowercase(), Role::Quiet);
-        let meaning = Line::styled(row.meaning(), look.style(Role::Quiet));
-        content.about = vec![Line::from(vec![name, kind]), meaning];
+        let meaning = look.span(row.meaning(), Role::Quiet);
+        content.about = vec![vec![name, kind].into(), meaning.into()];
     }
 }
 
@@ -92,9 +92,8 @@ fn scenes(content: &mut ListContent, session: &Session, list: &List, look: &Look
         content.row(heading, cells);
     }
     if let Some(scene) = found.get(list.selected) {
-        let quiet = look.style(Role::Quiet);
-        let text =
-            |text: &str| Line::styled(look.sentence(&said_by(scene, text), &session.keymap), quiet);
+        let said = |text: &str| look.sentence(&said_by(scene, text), &session.keymap);
+        let text = |text: &str| look.span(said(text), Role::Quiet).into();
         content.about = vec![text(&scene.watch), Line::default(), text(&scene.press)];
     }
 }
@@ -163,7 +162,7 @@ fn paper(content: &mut ListContent, session: &Session, list: &List, look: &Look)
     }
     if !session.examined().is_empty() {
         let summary = claim::summary(session.examined());
-        content.about.push(Line::styled(summary, look.style(Role::Quiet)));
+        content.about.push(look.span(summary, Role::Quiet).into());
     }
 }
 
@@ -185,8 +184,8 @@ fn role_of(examined: &ClaimResult) -> Role {
 
 /// The claim in full, its numbers, and the scene that shows it.
 fn about_claim(claim: &Claim, examined: Option<&ClaimResult>, look: &Look) -> Vec<Line<'static>> {
-    let text = |text: String| Line::styled(text, look.style(Role::Text));
-    let mut lines = vec![text(format!("{}: {}", claim.equation, claim.statement))];
+    let text = |text: String| look.span(text, Role::Text).into();
+    let mut lines: Vec<Line> = vec![text(format!("{}: {}", claim.equation, claim.statement))];
     match examined.map(|examined| &examined.evidence) {
         None => {}
         Some(Err(reason)) => lines.push(text(format!("not computed: {reason}"))),
@@ -208,11 +207,11 @@ fn about_claim(claim: &Claim, examined: Option<&ClaimResult>, look: &Look) -> Ve
                 &evidence.place,
             ];
             let judged = joined(judged.into_iter().filter(|text| !text.is_empty()), "; ");
-            lines.push(Line::styled(judged, look.style(Role::Quiet)));
+            lines.push(look.span(judged, Role::Quiet).into());
         }
     }
     if let Some(scene) = claim.scene {
-        lines.push(Line::styled(format!("scene {scene}"), look.style(Role::Quiet)));
+        lines.push(look.span(format!("scene {scene}"), Role::Quiet).into());
     }
     lines
 }
@@ -242,7 +241,7 @@ impl ListContent {
         let (mut lines, mut group, mut place) = (Vec::new(), "", 0);
         for (index, (heading, cells)) in std::mem::take(&mut self.rows).into_iter().enumerate() {
             if heading != group {
-                lines.push(Line::styled(heading, look.style(Role::Title)));
+                lines.push(look.span(heading, Role::Title).into());
                 group = heading;
             }
             if index == selected {
@@ -258,8 +257,7 @@ impl ListContent {
         let count = self.rows.len();
         let (lines, selected) = self.lines(list.selected, screen.look);
         let below = if self.about.is_empty() { 0 } else { self.below + 1 };
-        let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX);
-        let wanted = rows.saturating_add(2 + below);
+        let wanted = pane::cells(lines.len()).saturating_add(2 + below);
         // No slivers of panes beside the list; the footer stays in sight.
         let width = if area.width < WIDTH + 10 { area.width } else { WIDTH };
         let above_footer = area.height.saturating_sub(1);

@@ -194,21 +194,18 @@ impl Look {
 const STEPS: u8 = 16;
 
 /// Red, green and blue.
-pub type Rgb = (u8, u8, u8);
+pub type Rgb = [u8; 3];
 
 /// Reads a style such as `red bold #ff7b72`: the finer colour serves where the terminal has more
 /// than 16. Returns the word that it does not know.
 fn parsed(words: &str) -> Result<(Style, Option<Rgb>), &str> {
     let mut style = Style::new();
     let mut fine = None;
-    for word in words.split_whitespace() {
-        match word {
-            "default" => {}
-            word => match (Modifier::from_name(&word.to_uppercase()), Color::from_str(word)) {
-                (Some(attribute), _) => style = style.add_modifier(attribute),
-                (None, Ok(Color::Rgb(red, green, blue))) => fine = Some((red, green, blue)),
-                _ => style = style.fg(Color::Indexed(number(word).ok_or(word)?)),
-            },
+    for word in words.split_whitespace().filter(|word| *word != "default") {
+        match (Modifier::from_name(&word.to_uppercase()), Color::from_str(word)) {
+            (Some(attribute), _) => style = style.add_modifier(attribute),
+            (None, Ok(Color::Rgb(red, green, blue))) => fine = Some([red, green, blue]),
+            _ => style = style.fg(Color::Indexed(number(word).ok_or(word)?)),
         }
     }
     Ok((style, fine))
@@ -231,28 +228,25 @@ fn in_depth(mut style: Style, fine: Option<Rgb>, colors: Colors) -> Style {
 fn color_of(colors: Colors) -> Option<fn(Rgb) -> Color> {
     match colors {
         Colors::Indexed => Some(|rgb| Color::Indexed(nearest(rgb))),
-        Colors::True => Some(|(red, green, blue)| Color::Rgb(red, green, blue)),
+        Colors::True => Some(Color::from),
         Colors::Auto | Colors::Never | Colors::Sixteen => None,
     }
 }
 
 /// A colour this many steps on the way from one to another.
 fn mixed(from: Rgb, to: Rgb, step: u8) -> Rgb {
-    let last = u16::from(STEPS - 1);
-    let part = |a: u8, b: u8| {
-        let step = u16::from(step);
-        let sum = u16::from(a) * (last - step) + u16::from(b) * step;
+    let [step, last] = [step, STEPS - 1].map(u16::from);
+    [0, 1, 2].map(|index| {
+        let sum = u16::from(from[index]) * (last - step) + u16::from(to[index]) * step;
         u8::try_from(sum / last).unwrap_or(u8::MAX)
-    };
-    (part(from.0, to.0), part(from.1, to.1), part(from.2, to.2))
+    })
 }
 
 /// The nearest of xterm's 240 fixed colours.
-fn nearest((red, green, blue): Rgb) -> u8 {
-    let distance = |index: &u8| {
-        let other = fixed(*index);
-        let part = |a: u8, b: u8| u32::from(a.abs_diff(b)).pow(2);
-        part(red, other.0) + part(green, other.1) + part(blue, other.2)
+fn nearest(rgb: Rgb) -> u8 {
+    let distance = |index: &u8| -> u32 {
+        let parts = rgb.into_iter().zip(fixed(*index));
+        parts.map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
     };
     (FIXED..=u8::MAX).min_by_key(distance).unwrap_or(FIXED)
 }
@@ -273,14 +267,8 @@ pub const FIXED: u8 = 16;
 pub fn fixed(index: u8) -> Rgb {
     const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
     match index.saturating_sub(FIXED) {
-        cube @ 0..216 => {
-            let level = |place: u8| LEVELS[usize::from(cube / place % 6)];
-            (level(36), level(6), level(1))
-        }
-        grey => {
-            let grey = 8 + 10 * (grey - 216);
-            (grey, grey, grey)
-        }
+        cube @ 0..216 => [36, 6, 1].map(|place| LEVELS[usize::from(cube / place % 6)]),
+        grey => [8 + 10 * (grey - 216); 3],
     }
 }
 
@@ -290,8 +278,8 @@ mod tests {
     use crate::session::settings::choices;
 
     /// The hue of a colour in degrees; none of what is nearly grey.
-    fn hue((red, green, blue): Rgb) -> Option<f64> {
-        let [red, green, blue] = [red, green, blue].map(f64::from);
+    fn hue(rgb: Rgb) -> Option<f64> {
+        let [red, green, blue] = rgb.map(f64::from);
         let (least, most) = (red.min(green).min(blue), red.max(green).max(blue));
         let spread = most - least;
         let sextant = if most == red {
@@ -405,12 +393,12 @@ mod tests {
             let ground = |look: &Look, step: u8| look.danger(f64::from(step) / 16.0).bg;
             let strengths =
                 (0..STEPS).map(|step| match ground(&look(Colors::Sixteen, Colors::True), step) {
-                    Some(Color::Rgb(red, green, blue)) => (red, green, blue),
+                    Some(Color::Rgb(red, green, blue)) => [red, green, blue],
                     other => panic!("{name}: {other:?}"),
                 });
             let strengths: Vec<Rgb> = strengths.collect();
-            let far = |(red, green, blue): Rgb| {
-                let [red, green, blue] = [red, green, blue].map(u32::from);
+            let far = |rgb: Rgb| {
+                let [red, green, blue] = rgb.map(u32::from);
                 red.max(green).max(blue) - red.min(green).min(blue)
             };
             assert!(strengths.windows(2).all(|pair| far(pair[0]) < far(pair[1])), "{name}");
@@ -442,9 +430,7 @@ mod tests {
 
     #[test]
     fn fixed_colours_are_their_own_nearest() {
-        for (rgb, index) in
-            [((0, 0, 0), 16), ((255, 255, 255), 231), ((95, 135, 175), 67), ((238, 238, 238), 255)]
-        {
+        for (rgb, index) in [([0; 3], 16), ([255; 3], 231), ([95, 135, 175], 67), ([238; 3], 255)] {
             assert_eq!(nearest(rgb), index);
         }
     }

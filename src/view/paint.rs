@@ -4,9 +4,6 @@ use super::{Look, Surface, look::Symbols, pane::FramedPicture, plot::Canvas, sca
 use crate::picture::{Caption, Dash, Item, Mark, Marks, Picture, Role};
 use crate::scene::Window;
 
-/// Plots at least this wide have the long form of captions.
-const WIDE: u16 = 36;
-
 /// Plots at least this wide say beside a curve what it is.
 const LABELLED: u16 = 30;
 
@@ -26,10 +23,8 @@ pub fn paint(framed: &FramedPicture, screen: &mut Surface) {
     // Names of curves come last, since they have many places to go to.
     let (names, beside_points): (Vec<&Caption>, Vec<&Caption>) =
         captions.iter().partition(|caption| !caption.or_at.is_empty());
-    for Caption { at, long, short, role, .. } in beside_points {
-        let texts: [&str; 2] = [long, short];
-        let texts = if plot.inner.width >= WIDE { &texts[..] } else { &texts[1..] };
-        plot.caption(*at, texts, *role);
+    for caption in beside_points {
+        plot.caption(caption);
     }
     if let Some(cursor) = cursor {
         plot.cross(*cursor);

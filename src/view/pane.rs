@@ -39,7 +39,7 @@ impl Surface<'_> {
         let (left, right) = (fitted(left.into(), area.width.into(), self.look), right.into());
         let (x, y) = (area.x, area.y + row);
         let (end, _) = self.buffer.set_line(x, y, &left, area.width);
-        let needed = u16::try_from(right.width()).unwrap_or(u16::MAX);
+        let needed = cells(right.width());
         let start = area.width.checked_sub(needed).map(|start| x + start);
         if let Some(x) = start.filter(|x| needed > 0 && *x >= end) {
             self.buffer.set_line(x, y, &right, needed);
@@ -156,6 +156,11 @@ fn clear(area: Rect, buffer: &mut Buffer) {
     Clear.render(area, buffer);
 }
 
+/// A number of columns or rows as screens count them.
+pub fn cells(count: usize) -> u16 {
+    u16::try_from(count).unwrap_or(u16::MAX)
+}
+
 /// The first of so many rows that is seen where `height` of them are, with the selected one among them.
 pub fn first_seen(selected: usize, rows: usize, height: usize) -> usize {
     selected.saturating_sub(height / 2).min(rows.saturating_sub(height))
@@ -233,7 +238,7 @@ pub fn cut(text: &str, width: usize, look: &Look) -> String {
 
 /// [`cut`] for a text in several styles.
 pub fn fitted(line: Line<'static>, width: usize, look: &Look) -> Line<'static> {
-    let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
+    let text = line.to_string();
     let short = cut(&text, width, look);
     if short == text {
         return line;
@@ -247,10 +252,15 @@ pub fn fitted(line: Line<'static>, width: usize, look: &Look) -> Line<'static> {
 }
 
 /// The first of some texts that fits into this width, the last if none does.
-pub fn fitting(texts: impl IntoIterator<Item = String>, width: usize) -> String {
-    let texts: Vec<String> = texts.into_iter().collect();
-    let fitting = texts.iter().find(|text| text.chars().count() <= width);
-    fitting.or(texts.last()).cloned().unwrap_or_default()
+pub fn fitting<T: Default + ToString>(texts: impl IntoIterator<Item = T>, width: usize) -> T {
+    let mut last = T::default();
+    for text in texts {
+        last = text;
+        if last.to_string().chars().count() <= width {
+            break;
+        }
+    }
+    last
 }
 
 /// What is left of an area below so many rows.
@@ -265,14 +275,15 @@ fn broken(line: Line<'static>, width: usize) -> Vec<Line<'static>> {
         return vec![line];
     }
     let style = line.style.patch(line.spans.first().map(|span| span.style).unwrap_or_default());
-    let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
-    wrapped(&text, width).into_iter().map(|row| Line::from(Span::styled(row, style))).collect()
+    wrapped(&line.to_string(), width)
+        .into_iter()
+        .map(|row| Line::from(Span::styled(row, style)))
+        .collect()
 }
 
 /// The rows that lines take in `width` columns.
 pub fn rows(lines: &[Line<'static>], width: u16) -> u16 {
-    let rows = lines.iter().map(|line| broken(line.clone(), width.into()).len()).sum::<usize>();
-    u16::try_from(rows).unwrap_or(u16::MAX)
+    cells(lines.iter().map(|line| broken(line.clone(), width.into()).len()).sum())
 }
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let apart = session.running().is_none() || lines.len() + below.len() < area.height.into();
     lines.extend(apart.then(Line::default));
     lines.extend(below);
-    let taken = u16::try_from(lines.len()).unwrap_or(u16::MAX);
+    let taken = pane::cells(lines.len());
     let body = pane::below(area, 1);
     screen.lines(body, lines);
     if is_wide(area.width) {
@@ -288,11 +288,11 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
         COLUMNS[usize::from(units.is_some())].iter().take_while(fits).copied().collect();
     let aligned = |cells: [String; 5]| {
         let cells = cells.into_iter().zip(&columns);
-        cells.map(|(cell, (_, width))| format!("{cell:>width$}")).collect::<Vec<_>>().concat()
+        cells.map(|(cell, (_, width))| format!("{cell:>width$}")).collect::<String>()
     };
     let title = " cycles";
     let headings = columns.iter().map(|(name, width)| format!("{name:>width$}"));
-    let headings = headings.collect::<Vec<_>>().concat().split_off(title.len() - SYMBOL);
+    let headings = headings.collect::<String>().split_off(title.len() - SYMBOL);
     let mut lines: Vec<Vec<Span>> =
         vec![vec![look.span(title, Role::Title), look.span(headings, Role::Quiet)]];
     lines.extend(found.cycles.iter().map(|cycle| {

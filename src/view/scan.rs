@@ -5,7 +5,6 @@
 //! stand for words, mean, and the third what it means that there is no number.
 
 use ratatui::layout::Rect;
-use ratatui::text::Line;
 
 use super::pane::{self, FramedPicture};
 use super::{Surface, paint::paint, scan_map};
@@ -45,16 +44,15 @@ pub fn draw(framed: FramedPicture, scanned: &ScanOnShow, screen: &mut Surface) {
     paint(&framed, screen);
     let legend = match framed.picture.map {
         Some(_) => scan_map::legend(scanned, width, look),
-        None => Line::styled(meaning(scanned, width), look.style(Role::Quiet)),
+        None => look.span(meaning(scanned, width), Role::Quiet).into(),
     };
     let running = matches!(scanned.progress, ScanProgress::Running { .. });
     let reading =
         if running && !full { format!(" {}", progress(scanned)) } else { reading(scanned, width) };
-    let reading = Line::styled(reading, look.style(Role::Cursor));
-    let without = scan_map::without_numbers(scanned, width);
-    let without = Line::styled(without, look.style(Role::Quiet));
+    let reading = look.span(reading, Role::Cursor);
+    let without = look.span(scan_map::without_numbers(scanned, width), Role::Quiet);
     let below = pane::below(area, area.height.saturating_sub(BELOW));
-    screen.lines(below, [reading, legend, without]);
+    screen.lines(below, [reading.into(), legend, without.into()]);
 }
 
 /// How far a scan is: `120 of 400, 3 s left`.
@@ -141,7 +139,7 @@ fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
         let cells = row.iter().zip(&widths).map(|(text, width)| format!("{text:>width$} "));
         cells.collect::<String>()
     };
-    let names = Line::styled(line(&names) + more, look.style(Role::Title));
+    let names = look.span(line(&names) + more, Role::Title);
     let rows = rows.iter().zip(seen).map(|(row, index)| {
         let reason = &scanned.rows[index].reason;
         let role = match (index == scanned.at, reason) {
@@ -149,8 +147,7 @@ fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
             (false, Some(_)) => Role::Warning,
             (false, None) => Role::Text,
         };
-        let text = line(row) + reason.as_deref().unwrap_or_default();
-        Line::styled(text, look.style(role))
+        look.span(line(row) + reason.as_deref().unwrap_or_default(), role)
     });
     screen.lines(area, std::iter::once(names).chain(rows));
 }
@@ -159,18 +156,17 @@ fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
 fn names(scanned: &ScanOnShow) -> Vec<String> {
     let over = scanned.scan.over().iter().map(|sweep| sweep.symbol.spec().name);
     let mut measured = scanned.scan.measured();
-    let first = scanned.column % measured.len();
-    measured.rotate_left(first);
+    measured.rotate_left(scanned.column);
     over.chain(measured).map(str::to_owned).collect()
 }
 
 /// What stands below them in a row.
 fn cells(scanned: &ScanOnShow, index: usize) -> Vec<String> {
-    let (values, count) = (&scanned.rows[index].values, scanned.scan.measured().len());
+    let mut values = scanned.rows[index].values.clone();
+    values.resize(scanned.scan.measured().len(), Value::Nothing);
+    values.rotate_left(scanned.column);
     let place = scanned.scan.place(index);
     let over = scanned.scan.over().iter().zip(&place);
     let over = over.map(|(sweep, which)| significant(sweep.value(*which), DIGITS[0]));
-    let columns = (0..count).map(|offset| (scanned.column + offset) % count);
-    let value = |column: usize| values.get(column).unwrap_or(&Value::Nothing);
-    over.chain(columns.map(|column| measurement(*value(column), Some(8)))).collect()
+    over.chain(values.into_iter().map(|value| measurement(value, Some(8)))).collect()
 }

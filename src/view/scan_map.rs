@@ -134,9 +134,7 @@ pub fn legend(scanned: &ScanOnShow, width: usize, look: &Look) -> Line<'static> 
     } else {
         vec![vec![quiet(format!(" {name}"))]]
     };
-    let mut lines = lines.into_iter().map(Line::from);
-    let last = lines.clone().next_back().unwrap_or_default();
-    lines.find(|line| line.width() <= width).unwrap_or(last)
+    pane::fitting(lines.into_iter().map(Line::from), width)
 }
 
 /// Which of some evenly spaced places along an axis another belongs to; none beyond half a step of their ends.

@@ -36,16 +36,16 @@ const BASELINE: f64 = 12.0;
 /// Colours of text and of the ground where the screen leaves them to the terminal.
 #[derive(Clone, Copy)]
 pub struct Paper {
-    ink: &'static str,
-    ground: &'static str,
+    ink: u32,
+    ground: u32,
 }
 
 impl Paper {
     /// As most terminals are.
-    pub const DARK: Self = Paper { ink: "#d8d8d8", ground: "#101418" };
+    pub const DARK: Self = Paper { ink: 0xd8_d8d8, ground: 0x10_1418 };
 
     /// For the theme made for it.
-    pub const LIGHT: Self = Paper { ink: "#1c1c1c", ground: "#fafafa" };
+    pub const LIGHT: Self = Paper { ink: 0x1c_1c1c, ground: 0xfa_fafa };
 }
 
 pub fn svg(screen: &Buffer, paper: Paper) -> String {
@@ -84,7 +84,7 @@ fn places(row: &[Cell], paper: Paper) -> Vec<ScreenCell<'_>> {
     for cell in row {
         let wide = places.last().filter(|last| last.symbol.width() > 1);
         let place = match wide {
-            Some(last) => ScreenCell { symbol: "", paint: last.paint.clone() },
+            Some(last) => ScreenCell { symbol: "", paint: last.paint },
             None => ScreenCell { symbol: cell.symbol(), paint: Paint::of(cell, paper) },
         };
         places.push(place);
@@ -93,28 +93,26 @@ fn places(row: &[Cell], paper: Paper) -> Vec<ScreenCell<'_>> {
 }
 
 /// How a cell is painted: colours after reversal, and the modifiers that remain.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 struct Paint {
-    ink: String,
-    ground: Option<String>,
+    ink: u32,
+    ground: Option<u32>,
     modifier: Modifier,
 }
 
 impl Paint {
     fn of(cell: &Cell, paper: Paper) -> Self {
-        let (mut ink, mut ground) = (hex(cell.fg), hex(cell.bg));
-        if cell.modifier.contains(Modifier::REVERSED) {
-            let or_paper =
-                |color: Option<String>, own: &str| color.unwrap_or_else(|| own.to_owned());
-            (ink, ground) = (Some(or_paper(ground, paper.ground)), Some(or_paper(ink, paper.ink)));
+        let (ink, ground) = (painted(cell.fg), painted(cell.bg));
+        let (own, modifier) = (ink.unwrap_or(paper.ink), cell.modifier);
+        if modifier.contains(Modifier::REVERSED) {
+            return Paint { ink: ground.unwrap_or(paper.ground), ground: Some(own), modifier };
         }
-        let ink = ink.unwrap_or_else(|| paper.ink.to_owned());
-        Paint { ink, ground, modifier: cell.modifier }
+        Paint { ink: own, ground, modifier }
     }
 
     /// Attributes of shapes and of text in this paint.
     fn attributes(&self) -> String {
-        let mut out = format!("fill=\"{}\"", self.ink);
+        let mut out = format!("fill=\"#{:06x}\"", self.ink);
         for (modifier, attribute) in [
             (Modifier::BOLD, " font-weight=\"bold\""),
             (Modifier::ITALIC, " font-style=\"italic\""),
@@ -137,7 +135,7 @@ fn draw(out: &mut String, run: &[ScreenCell], (left, top): (f64, f64)) {
         let (width, height) = (CELL.0 * real(run.len()), CELL.1);
         let _ = writeln!(
             out,
-            "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>"
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"#{ground:06x}\"/>"
         );
     }
     let (mut path, mut line) = (String::new(), String::new());
@@ -222,20 +220,20 @@ fn strokes(char: char) -> Option<[bool; 4]> {
     sides.contains(&true).then_some(sides)
 }
 
-/// A colour as `#rrggbb`, or `None` where it is left to the terminal.
-fn hex(color: Color) -> Option<String> {
+/// Red, green and blue of a colour as one number, or `None` where it is left to the terminal.
+fn painted(color: Color) -> Option<u32> {
     /// The sixteen colours of the terminal's palette, as in most terminals today.
-    const PALETTE: [&str; 16] = [
-        "#000000", "#cd3131", "#0dbc79", "#e5e510", "#2472c8", "#bc3fbc", "#11a8cd", "#e5e5e5",
-        "#666666", "#f14c4c", "#23d18b", "#f5f543", "#3b8eea", "#d670d6", "#29b8db", "#ffffff",
+    const PALETTE: [u32; 16] = [
+        0x00_0000, 0xcd_3131, 0x0d_bc79, 0xe5_e510, 0x24_72c8, 0xbc_3fbc, 0x11_a8cd, 0xe5_e5e5,
+        0x66_6666, 0xf1_4c4c, 0x23_d18b, 0xf5_f543, 0x3b_8eea, 0xd6_70d6, 0x29_b8db, 0xff_ffff,
     ];
-    let (red, green, blue) = match color {
-        Color::Rgb(red, green, blue) => (red, green, blue),
+    let [red, green, blue] = match color {
+        Color::Rgb(red, green, blue) => [red, green, blue],
         Color::Indexed(index @ FIXED..) => fixed(index),
-        Color::Indexed(index) => return Some(PALETTE[usize::from(index)].to_owned()),
+        Color::Indexed(index) => return Some(PALETTE[usize::from(index)]),
         _ => return None,
     };
-    Some(format!("#{red:02x}{green:02x}{blue:02x}"))
+    Some(u32::from_be_bytes([0, red, green, blue]))
 }
 
 #[cfg(test)]
@@ -273,7 +271,7 @@ mod tests {
         assert!(!picture.contains('⣿'));
         // The wide character covers two cells; with the next it is three, reversed.
         assert!(picture.contains("textLength=\"24\""), "{picture}");
-        let ground = format!("width=\"24\" height=\"16\" fill=\"{}\"", Paper::DARK.ink);
+        let ground = format!("width=\"24\" height=\"16\" fill=\"#{:06x}\"", Paper::DARK.ink);
         assert!(picture.contains(&ground), "{picture}");
         assert!(picture.contains("width=\"96\" height=\"48\""));
     }
@@ -281,14 +279,14 @@ mod tests {
     #[test]
     fn indexed_colours_are_those_of_the_cube_and_the_greys() {
         let cases = [
-            (16, "#000000"),
-            (21, "#0000ff"),
-            (231, "#ffffff"),
-            (232, "#080808"),
-            (255, "#eeeeee"),
+            (16, 0x00_0000),
+            (21, 0x00_00ff),
+            (231, 0xff_ffff),
+            (232, 0x08_0808),
+            (255, 0xee_eeee),
         ];
         for (index, expected) in cases {
-            assert_eq!(hex(Color::Indexed(index)).as_deref(), Some(expected), "{index}");
+            assert_eq!(painted(Color::Indexed(index)), Some(expected), "{index}");
         }
     }
 }

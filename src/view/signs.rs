@@ -11,17 +11,16 @@ pub const MINUS: char = '\u{2212}';
 pub fn minus(area: Rect, buffer: &mut Buffer, is_typed: impl Fn(u16) -> bool) {
     for y in (area.y..area.bottom()).filter(|y| !is_typed(*y)) {
         for x in area.x..area.right() {
-            let letter = |x: Option<u16>| {
-                let cell =
-                    x.filter(|x| area.contains((*x, y).into())).and_then(|x| buffer.cell((x, y)));
-                cell.map_or(' ', letter)
-            };
             // Almost no cell has a hyphen: only beside one is anything read.
             if buffer.cell((x, y)).is_none_or(|cell| cell.symbol() != "-") {
                 continue;
             }
-            let around = [x.checked_sub(2), x.checked_sub(1), x.checked_add(1), x.checked_add(2)];
-            if is_minus(around.map(letter)) {
+            let around = [-2, -1, 1, 2].map(|by| {
+                let beside =
+                    x.checked_add_signed(by).filter(|x| (area.x..area.right()).contains(x));
+                beside.and_then(|x| buffer.cell((x, y))).map_or(' ', letter)
+            });
+            if is_minus(around) {
                 buffer[(x, y)].set_char(MINUS);
             }
         }

@@ -31,11 +31,14 @@ pub struct Canvas<'a> {
     /// The cells between the axes.
     pub inner: Rect,
     dots: Dots,
-    inside: Option<(Ticks, Ticks)>,
+    /// Whether the axes stand outside of the cells.
+    roomy: bool,
+    rightward: Ticks,
+    upward: Ticks,
 }
 
 impl<'a> Canvas<'a> {
-    /// Writes the title and the axes of a picture into its place, and gives the raster between them.
+    /// Writes the title of a picture into its place, and gives the raster between its axes.
     pub fn new(framed: &FramedPicture, screen: &mut Surface<'a>) -> Self {
         let look = screen.look;
         let FramedPicture { area, picture, heading } = framed;
@@ -54,16 +57,10 @@ impl<'a> Canvas<'a> {
         };
         screen.title(*area, &picture.title, &axes, heading);
         let dots = Dots::new(inner, look.glyphs);
-        let mut plot = Canvas { look, window, inner, dots, inside: None };
-        if roomy {
-            plot.axes(&rightward, &upward, screen.buffer);
-        } else {
-            plot.inside = Some((rightward, upward));
-        }
-        plot
+        Canvas { look, window, inner, dots, roomy, rightward, upward }
     }
 
-    fn axes(&self, rightward: &Ticks, upward: &Ticks, buffer: &mut Buffer) {
+    fn axes(&self, buffer: &mut Buffer) {
         let style = self.look.style(Role::Axis);
         let [line, notch, corner, rule, stub] = &self.look.symbols().axis;
         let Rect { x, y, width, height } = self.inner;
@@ -73,13 +70,13 @@ impl<'a> Canvas<'a> {
         }
         buffer.set_string(left, bottom, corner, style);
         buffer.set_string(x, bottom, rule.repeat(width.into()), style);
-        for tick in &upward.ticks {
+        for tick in &self.upward.ticks {
             let row = y + self.row(tick.fraction);
             let start = left.saturating_sub(tick.label.len() as u16);
             buffer.set_string(start, row, &tick.label, style);
             buffer.set_string(left, row, notch, style);
         }
-        for tick in &rightward.ticks {
+        for tick in &self.rightward.ticks {
             let column = column(tick.fraction, width);
             buffer.set_string(x + column, bottom, stub, style);
             buffer.set_string(x + centred(tick, width), bottom + 1, &tick.label, style);
@@ -87,7 +84,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// Labels over the edge of the picture, where there is no room beside it.
-    fn labels_inside(&self, rightward: &Ticks, upward: &Ticks, buffer: &mut Buffer) {
+    fn labels_inside(&self, buffer: &mut Buffer) {
         let axis = self.look.style(Role::Axis);
         // The colour of a curve below says something of the curve, not of the number.
         let style = axis.fg(axis.fg.unwrap_or(Color::Reset)).remove_modifier(Modifier::BOLD);
@@ -100,13 +97,13 @@ impl<'a> Canvas<'a> {
             (start.saturating_sub(1)..=end)
                 .all(|column| self.dots.covering((column.into(), row.into())) != Covering::Symbol)
         };
-        for tick in upward.ticks.iter().filter(fits) {
+        for tick in self.upward.ticks.iter().filter(fits) {
             let row = self.row(tick.fraction);
             if row < last && free(0, row, &tick.label) {
                 buffer.set_string(x, y + row, &tick.label, style);
             }
         }
-        for tick in rightward.ticks.iter().filter(fits) {
+        for tick in self.rightward.ticks.iter().filter(fits) {
             let start = centred(tick, width);
             if free(start, last, &tick.label) {
                 buffer.set_string(x + start, y + last, &tick.label, style);
@@ -234,8 +231,10 @@ impl<'a> Canvas<'a> {
     /// Puts the picture on the screen.
     pub fn finish(self, screen: &mut Surface) {
         self.dots.paint(screen);
-        if let Some((rightward, upward)) = &self.inside {
-            self.labels_inside(rightward, upward, screen.buffer);
+        if self.roomy {
+            self.axes(screen.buffer);
+        } else {
+            self.labels_inside(screen.buffer);
         }
     }
 }

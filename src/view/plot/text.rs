@@ -7,6 +7,9 @@ use crate::view::dots::{Covering, DotPlace};
 use crate::view::pane;
 use crate::words::fitting;
 
+/// Plots at least this wide have the long form of captions.
+const WIDE: u16 = 36;
+
 /// What a text may hide anywhere, the best first.
 const FREE: [Covering; 2] = [Covering::Texture, Covering::Guide];
 
@@ -83,20 +86,19 @@ impl Canvas<'_> {
         cells
     }
 
-    /// Writes one of some texts, the best first, beside a point.
+    /// Writes a caption beside its point.
     ///
     /// A text stands where nothing else does; where there is no such place it may hide guides, then
     /// curves, but no other text and no mark. Where there is not even that, or the point is not in the window, it is left out.
-    pub fn caption(&mut self, point: Point, texts: &[&str], role: Role) {
-        let cells: Vec<_> = self.cell(point).into_iter().collect();
-        let mut candidates = texts
-            .iter()
-            .flat_map(|text| FREE.map(|over| (over, text)))
-            .chain(texts.last().map(|text| (Covering::Curve, text)));
+    pub fn caption(&mut self, Caption { at, long, short, role, .. }: &Caption) {
+        let cells: Vec<_> = self.cell(*at).into_iter().collect();
+        let texts = [long, short].into_iter().skip(usize::from(self.inner.width < WIDE));
+        let mut candidates =
+            texts.flat_map(|text| FREE.map(|over| (over, text))).chain([(Covering::Curve, short)]);
         let found = candidates
             .find_map(|(over, text)| Some((self.places(&cells, text, over).next()?, text)));
         if let Some((at, text)) = found {
-            self.letters(at, text, role);
+            self.letters(at, text, *role);
         }
     }
 
