@@ -87,8 +87,7 @@ pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>)> {
 /// Every plot, one above the other.
 fn in_letters(session: &Session) -> String {
     let look = Look::new(session.display);
-    let Size { width, height } = session.size;
-    let panels = view::panels(session, (width, height), &look);
+    let panels = view::panels(session, &look);
     let parts = joined(panels.iter().map(screen::text), "\n");
     format!("{}: {}\n\n{parts}", session.scene.name, session.scene.title)
 }

@@ -16,7 +16,7 @@ const AROUND: f64 = 4.0;
 
 /// The loops whose even-odd filling is the area: the curve where it is closed, else the curve closed
 /// around the window, and a rectangle around all where the origin lies outside of that.
-pub(super) fn loops(edge: &[Pair], window: Window) -> Vec<Vec<Pair>> {
+pub fn loops(edge: &[Pair], window: Window) -> Vec<Vec<Pair>> {
     let (Some(first), Some(last)) = (edge.first(), edge.last()) else { return Vec::new() };
     if first == last {
         return vec![edge.to_vec()];
@@ -84,7 +84,7 @@ const CHORD: f64 = 1e-4;
 const INSIDE: f64 = 1e-9;
 
 /// What fills the window, each part as the corners of a closed polygon.
-pub(super) fn polygons(at: &Texture, window: Window) -> Vec<(Fill, Vec<Point>)> {
+pub fn polygons(at: &Texture, window: Window) -> Vec<(Fill, Vec<Point>)> {
     let mut cutter = Cutter { at, window, open: Vec::new(), done: Vec::new() };
     for strip in 0..STRIPS {
         let [low, high] = [strip, strip + 1].map(|edge| f64::from(edge) / f64::from(STRIPS));
@@ -150,13 +150,9 @@ impl Cutter<'_> {
 
     /// Adds a row of trapezoids, on top of those below where they fit.
     fn add(&mut self, lower: (f64, &[FillRun]), upper: (f64, &[FillRun])) {
-        let point = |part: f64, height: f64| Point {
-            x: self.window.x.at(part),
-            y: self.window.y.at(height),
-        };
         let corners = |(height, runs): (f64, &[FillRun])| -> Vec<Point> {
             let ends = runs.iter().map(|(end, _)| *end);
-            std::iter::once(0.0).chain(ends).map(|part| point(part, height)).collect()
+            std::iter::once(0.0).chain(ends).map(|part| self.window.at([part, height])).collect()
         };
         let (below, above) = (corners(lower), corners(upper));
         let apart = 0.1 / f64::from(PLACES) * self.window.x.width();

@@ -184,7 +184,7 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
     placed
 }
 
-pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {
+pub fn write(out: &mut String, panel: &Panel, frame: Frame) {
     for (Caption { role, .. }, text, Rectangle { left, top, .. }) in places(panel, frame) {
         let (_, color) = ink(*role);
         let spot = (left, top + LINE - 2.5);

@@ -22,7 +22,7 @@ pub struct Figure {
     /// What the scene is called.
     pub title: String,
     /// Name and version of the program.
-    pub program: String,
+    pub program: &'static str,
     /// What wrote the figure: program, version, revision and command line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub provenance: Option<Provenance>,

@@ -63,7 +63,7 @@ fn rows<'a>(panel: u32, shown: &'a Panel) -> Vec<PointRow<'a>> {
 }
 
 /// What a figure was computed with, a line each.
-pub(super) fn remarks(figure: &Figure) -> Vec<String> {
+pub fn remarks(figure: &Figure) -> Vec<String> {
     let p = &figure.parameters;
     let start = &figure.initial;
     let mut remarks = vec![

@@ -8,12 +8,12 @@ use super::paper::Spot;
 use crate::words::printable::xml;
 
 /// Writes a path with these commands and attributes.
-pub(super) fn path(out: &mut String, commands: &str, attributes: &str) {
+pub fn path(out: &mut String, commands: &str, attributes: &str) {
     let _ = writeln!(out, "<path d=\"{commands}\" {attributes}/>");
 }
 
 /// Writes an upright rectangle: its upper left corner, and its width and height.
-pub(super) fn rectangle(out: &mut String, (x, y): Spot, (width, height): Spot, attributes: &str) {
+pub fn rectangle(out: &mut String, (x, y): Spot, (width, height): Spot, attributes: &str) {
     let _ = writeln!(
         out,
         "<rect x=\"{x:.3}\" y=\"{y:.3}\" width=\"{width}\" height=\"{height}\" {attributes}/>"
@@ -21,21 +21,21 @@ pub(super) fn rectangle(out: &mut String, (x, y): Spot, (width, height): Spot, a
 }
 
 /// Writes a circle around a spot.
-pub(super) fn circle(out: &mut String, (x, y): Spot, radius: f64, attributes: &str) {
+pub fn circle(out: &mut String, (x, y): Spot, radius: f64, attributes: &str) {
     let _ = writeln!(out, "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"{radius}\" {attributes}/>");
 }
 
 /// What a spot is of the text that is written there.
 #[derive(Clone, Copy, IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
-pub(super) enum Anchor {
+pub enum Anchor {
     Start,
     Middle,
     End,
 }
 
 /// Writes a text on its base line, of which a spot is the start, the middle or the end.
-pub(super) fn text(out: &mut String, (x, y): Spot, anchor: Anchor, attributes: &str, text: &str) {
+pub fn text(out: &mut String, (x, y): Spot, anchor: Anchor, attributes: &str, text: &str) {
     let (anchor, text): (&str, _) = (anchor.into(), xml(text));
     let _ = writeln!(
         out,

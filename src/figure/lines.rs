@@ -19,7 +19,7 @@ const HALVINGS: u32 = 12;
 const CHORD: f64 = 1e-4;
 
 /// The graph of a function over the window. A point that is not a number stands where it has no value.
-pub(super) fn graph(value: &dyn Fn(f64) -> Option<f64>, window: Window) -> Vec<Point> {
+pub fn graph(value: &dyn Fn(f64) -> Option<f64>, window: Window) -> Vec<Point> {
     let at = |x: f64| Point { x, y: value(x).filter(|y| y.is_finite()).unwrap_or(f64::NAN) };
     let within = |point: Point| point.y.clamp(window.y.at(-0.5), window.y.at(1.5));
     let is_close = |from: Point, middle: Point, to: Point| {
@@ -46,14 +46,11 @@ pub(super) fn graph(value: &dyn Fn(f64) -> Option<f64>, window: Window) -> Vec<P
     points
 }
 
-pub(super) fn lattice(window: Window) -> impl Iterator<Item = Point> {
+pub fn lattice(window: Window) -> impl Iterator<Item = Point> {
     const COUNT: u32 = 17;
     let fraction = |index: u32| (f64::from(index) + 0.5) / f64::from(COUNT);
     let all = (0..COUNT).flat_map(|row| (0..COUNT).map(move |column| (row, column)));
-    all.map(move |(row, column)| Point {
-        x: window.x.at(fraction(column)),
-        y: window.y.at(fraction(row)),
-    })
+    all.map(move |(row, column)| window.at([column, row].map(fraction)))
 }
 
 /// What is too small to be seen, in pixels.
@@ -77,7 +74,7 @@ fn in_sight(points: &[[f64; 2]], window: Window) -> bool {
     touches(0, window.x) && touches(1, window.y)
 }
 
-pub(super) fn missed(line: &[[f64; 2]], window: Window) -> f64 {
+pub fn missed(line: &[[f64; 2]], window: Window) -> f64 {
     let bend = |three: &[[f64; 2]]| {
         let [before, here, after] = [0, 1, 2].map(|index| place(three[index], window));
         let (one, other) =
@@ -93,7 +90,7 @@ pub(super) fn missed(line: &[[f64; 2]], window: Window) -> f64 {
 }
 
 /// The points around the window, and every nth of the others.
-pub(super) fn kept(line: &[[f64; 2]], window: Window, times: usize) -> Vec<[f64; 2]> {
+pub fn kept(line: &[[f64; 2]], window: Window, times: usize) -> Vec<[f64; 2]> {
     let needed = |index: usize, point: &[f64; 2]| {
         let near = &line[index.saturating_sub(times)..(index + times + 1).min(line.len())];
         let ends = index == 0 || index + 1 == line.len();

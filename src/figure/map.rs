@@ -8,7 +8,7 @@ use crate::scene::Point;
 use crate::words::significant;
 
 /// Height of the scale of a map with its name and its numbers, in pixels.
-pub(super) const SCALE: f64 = 54.0;
+pub const SCALE: f64 = 54.0;
 
 /// Steps of the scale.
 const STEPS: usize = 32;
@@ -17,7 +17,7 @@ const STEPS: usize = 32;
 const ENDS: [[f64; 3]; 2] = [[253.0, 246.0, 233.0], [122.0, 59.0, 0.0]];
 
 /// What a word on a map stands for, as far as its colour goes.
-pub(super) fn role(word: &str) -> Role {
+pub fn role(word: &str) -> Role {
     match word {
         "every kick survived" | "captured" => Role::Safe,
         "moving" => Role::Danger,
@@ -57,7 +57,7 @@ fn borders(places: &[f64]) -> Vec<f64> {
 }
 
 /// Draws the cells, equal neighbours above each other as one.
-pub(super) fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
+pub fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
     let (across, upward) = (borders(&map.x), borders(&map.y));
     out.push_str("<g shape-rendering=\"crispEdges\" stroke=\"none\">\n");
     for (column, cells) in across.windows(2).zip(&map.values) {
@@ -77,7 +77,7 @@ pub(super) fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
 
 /// Draws the scale at a place, if the map has numbers: what is measured, the colours, and the numbers that they
 /// stand for.
-pub(super) fn scale(out: &mut String, map: &ScanMap, (x, y): Spot) {
+pub fn scale(out: &mut String, map: &ScanMap, (x, y): Spot) {
     let Some(scale) = map.scale else { return };
     let (width, top) = (PLOT.0, y + 20.0);
     text(out, (x + width / 2.0, y + 14.0), Anchor::Middle, "font-size=\"11\"", &map.name);

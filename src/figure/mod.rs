@@ -80,6 +80,9 @@ pub fn file(figure: &Figure, form: FigureForm) -> Result<Vec<u8>, String> {
     }
 }
 
+/// What draws it.
+const PROGRAM: &str = concat!("hopfscope ", env!("CARGO_PKG_VERSION"));
+
 /// What all numbers of a figure are measured in.
 const UNITS: &str =
     "dimensionless, as in equation (4): time tau in 1/omega_0, q in x0, v in omega_0 x0";
@@ -106,7 +109,7 @@ impl Figure {
         Figure {
             figure: session.scene.name.clone(),
             title: session.scene.title.clone(),
-            program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
+            program: PROGRAM,
             provenance: None,
             units: match session.running() {
                 Some(_) => format!("{UNITS}; what goes over numbers of the machine in SI units"),
@@ -128,7 +131,7 @@ impl Figure {
         Figure {
             figure: "fit".into(),
             title: format!("{}: fitted motion", fitted.name),
-            program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
+            program: PROGRAM,
             provenance: None,
             units:
                 "lengths in the unit of the record, times in s, velocities and impulses over omega0"

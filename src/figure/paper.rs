@@ -8,26 +8,26 @@ use crate::picture::{Dash, Role};
 use crate::scene::{Point, Window};
 
 /// Size of the plot of a panel, in pixels of 1/96 inch.
-pub(super) const PLOT: (f64, f64) = (380.0, 300.0);
+pub const PLOT: (f64, f64) = (380.0, 300.0);
 
 /// Room around it: left, right, above, below.
-pub(super) const MARGIN: (f64, f64, f64, f64) = (64.0, 16.0, 30.0, 44.0);
+pub const MARGIN: (f64, f64, f64, f64) = (64.0, 16.0, 30.0, 44.0);
 
 /// Size of a panel with the room around its plot.
-pub(super) const PANEL: (f64, f64) = (MARGIN.0 + PLOT.0 + MARGIN.1, MARGIN.2 + PLOT.1 + MARGIN.3);
+pub const PANEL: (f64, f64) = (MARGIN.0 + PLOT.0 + MARGIN.1, MARGIN.2 + PLOT.1 + MARGIN.3);
 
 /// Room for the title of the figure.
-pub(super) const HEAD: f64 = 34.0;
+pub const HEAD: f64 = 34.0;
 
 /// Height of a line of the legend, and width of one of its columns.
-pub(super) const ENTRY: (f64, f64) = (214.0, 18.0);
+pub const ENTRY: (f64, f64) = (214.0, 18.0);
 
 /// A place on paper, in pixels.
-pub(super) type Spot = (f64, f64);
+pub type Spot = (f64, f64);
 
 /// The plot of a panel on paper.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub struct Frame {
     pub left: f64,
     pub top: f64,
     pub window: Window,
@@ -57,7 +57,7 @@ impl Frame {
 }
 
 /// Panels beside each other.
-pub(super) fn columns(panels: u32) -> u32 {
+pub fn columns(panels: u32) -> u32 {
     if panels == 4 { 2 } else { panels.clamp(1, 3) }
 }
 
@@ -72,13 +72,13 @@ fn described(line: &'static str) -> Option<(Role, f64, &'static str)> {
 }
 
 /// Width and colour of the lines of a role.
-pub(super) fn ink(role: Role) -> (f64, &'static str) {
+pub fn ink(role: Role) -> (f64, &'static str) {
     let row = INKS.iter().find(|(known, ..)| *known == role);
     row.map_or((1.0, "#222222"), |(_, width, color)| (*width, *color))
 }
 
 /// The attributes of a line of a role.
-pub(super) fn stroke(role: Role, dash: Dash) -> String {
+pub fn stroke(role: Role, dash: Dash) -> String {
     let (width, color) = ink(role);
     let width = if dash == Dash::Thick { 3.0 } else { width };
     let dashes = match dash {
@@ -92,7 +92,7 @@ pub(super) fn stroke(role: Role, dash: Dash) -> String {
 }
 
 /// The attributes of a shaded area: its colour and opacity.
-pub(super) fn shading(role: Role) -> String {
+pub fn shading(role: Role) -> String {
     let (color, opacity) = match role {
         Role::Danger | Role::Safe | Role::Field => (ink(role).1, 0.12),
         Role::Sticking | Role::Failure => (ink(role).1, 0.18),

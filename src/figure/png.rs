@@ -21,7 +21,7 @@ const FONTS: [&[u8]; 2] = [
 const SETTING: [&str; 5] = ["x", "y", "text-anchor", "font-size", "font-style"];
 
 /// Paints an SVG. Fails with one line if it is not one, or too large.
-pub(super) fn png(svg: &str) -> Result<Vec<u8>, String> {
+pub fn png(svg: &str) -> Result<Vec<u8>, String> {
     let tree = Tree::from_str(&outlined(svg)?, &Options::default()).map_err(failed)?;
     let size = tree.size().to_int_size().scale_by(SCALE).ok_or_else(|| failed("it has no size"))?;
     let mut dots =

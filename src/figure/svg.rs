@@ -137,7 +137,6 @@ fn near([x, y]: [f64; 2], frame: Frame) -> bool {
 }
 
 fn shade(out: &mut String, areas: &[Outline], frame: Frame) {
-    let Some(Outline { role, .. }) = areas.first() else { return };
     let mut commands = String::new();
     for polygon in areas.iter().flat_map(|area| loops(&area.points, frame.window)) {
         for (index, point) in polygon.iter().enumerate() {
@@ -145,7 +144,7 @@ fn shade(out: &mut String, areas: &[Outline], frame: Frame) {
         }
         commands.push('Z');
     }
-    path(out, &commands, &format!("{} fill-rule=\"evenodd\"", shading(*role)));
+    path(out, &commands, &format!("{} fill-rule=\"evenodd\"", shading(areas[0].role)));
 }
 
 /// An arrow about a point of the world, which points a way in the world.

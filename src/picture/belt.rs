@@ -14,7 +14,7 @@ use crate::words::with_unit;
 const BELT: (f64, f64) = (0.12, 0.26);
 
 /// Heights of the mass, which lies on the belt.
-const MASS: (f64, f64) = (BELT.1, 0.86);
+const MASS: [f64; 2] = [BELT.1, 0.86];
 
 /// Height of the axis of the spring.
 const SPRING: f64 = 0.74;
@@ -78,21 +78,21 @@ fn machine(picture: &mut Picture, session: &Session, moment: &Sample) {
     let (wall, width) = (across.from(), across.width());
     let sticking = session.running().map(|running| running.reduced.sticking_velocity);
     belt(picture, across, sticking.unwrap_or(0.0) * moment.tau);
-    let (left, right) = (moment.q - 0.5 * WIDTH * width, moment.q + 0.5 * WIDTH * width);
+    let half = 0.5 * WIDTH * width;
+    let (left, right) = (moment.q - half, moment.q + half);
     let r = session.problem.parameters.r;
     picture.curve("where the mass may rest", [[-r, REST], [r, REST]]);
     picture.curve("spring", spring(wall, left));
-    for piece in damper(wall, -0.5 * WIDTH * width, left) {
+    for piece in damper(wall, -half, left) {
         picture.curve("damper", piece);
     }
-    picture.curve("mass", rectangle([left, right], MASS.into()));
-    let middle = Point { x: moment.q, y: 0.5 * (MASS.0 + MASS.1) };
-    picture.caption(middle, "m", Role::Trajectory);
+    picture.curve("mass", rectangle([left, right], MASS));
+    picture.caption([moment.q, f64::midpoint(MASS[0], MASS[1])], "m", Role::Trajectory);
     let rides = |ride: &[Sample; 2]| (ride[0].tau..=ride[1].tau).contains(&moment.tau);
     if let Some(ride) = session.trajectory().and_then(|motion| motion.rides().find(rides)) {
         let line = LineStyle::new("sticks to the belt", Role::Current, Dash::Thick);
         picture.curve(line.captioned(), [[left, BELT.1], [right, BELT.1]]);
-        let below = Point { x: ride[0].q.max(across.from()), y: 0.5 * (BELT.0 + BELT.1) };
+        let below = [ride[0].q.max(across.from()), f64::midpoint(BELT.0, BELT.1)];
         picture.caption(below, "sticks", Role::Current);
     }
     arrow(picture, session, moment);
@@ -102,7 +102,7 @@ fn machine(picture: &mut Picture, session: &Session, moment: &Sample) {
 fn arrow(picture: &mut Picture, session: &Session, moment: &Sample) {
     let Some(running) = session.running() else { return };
     let Some(pull) = running.pull(moment.v) else { return };
-    let (across, y) = (picture.window.x, MASS.1 + HALF);
+    let (across, y) = (picture.window.x, MASS[1] + HALF);
     let longest = LONGEST * across.width();
     let way = (pull * ARROW * across.width()).clamp(-longest, longest);
     let edge = 0.5 * (across.width() - way.abs());

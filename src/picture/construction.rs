@@ -8,7 +8,7 @@ use crate::numerics::{TO_ROUNDING, bisect};
 use crate::scene::{Point, Span};
 
 /// Circles on which the energy V is the same, and shaded the velocities at which it falls.
-pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
+pub fn levels(picture: &mut Picture, parameters: &Parameters) {
     /// Circles in the window.
     const LEVELS: u8 = 2;
     let y = picture.window.y;
@@ -45,7 +45,7 @@ fn falling(parameters: &Parameters, among: Span) -> Vec<(f64, f64)> {
 
 /// The half turns of two spirals, one shifted to the left by r and one to the right, whose ends meet
 /// (25, 30), and their continuations.
-pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
+pub fn spirals(picture: &mut Picture, parameters: &Parameters) {
     /// Points on a half turn.
     const POINTS: u16 = 160;
     let Parameters { d, r, .. } = *parameters;

@@ -213,11 +213,9 @@ pub fn mark_dropped(picture: &mut Picture, samples: impl Iterator<Item = (Point,
     for (which, mark, role, brief) in MARKS {
         let of_kind = samples.iter().filter(|(_, why)| *why == which).map(|(at, _)| *at);
         let all: Vec<Point> = of_kind.collect();
-        if !all.is_empty() {
-            let step = all.len().div_ceil(MOST);
-            let marks = Marks::new(mark, role, all.into_iter().step_by(step)).called(brief);
-            picture.marks(Marks { brief, at_edge: true, ..marks });
-        }
+        let step = all.len().div_ceil(MOST).max(1);
+        let marks = Marks::new(mark, role, all.into_iter().step_by(step)).called(brief);
+        picture.marks(Marks { brief, at_edge: true, ..marks });
     }
 }
 

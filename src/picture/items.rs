@@ -334,8 +334,11 @@ impl<'a> Picture<'a> {
         self.marks(Marks::new(mark, role, [at]));
     }
 
+    /// Adds marks, if there are any.
     pub fn marks(&mut self, marks: Marks) {
-        self.items.push(Item::Marks(marks));
+        if !marks.at.is_empty() {
+            self.items.push(Item::Marks(marks));
+        }
     }
 
     pub fn caption(&mut self, at: impl Into<Point>, text: impl Into<Text>, role: Role) {

@@ -141,7 +141,6 @@ impl ScanMap {
         let places = |sweep: &Sweep| -> Vec<f64> {
             (0..sweep.count).map(|index| ScanOnShow::coordinate(sweep, index)).collect()
         };
-        let words = scanned.plots_words();
         let cell = |index: usize| match (nothing(scanned, index), scanned.value(index)) {
             (Some(none), _) => MapCell::Word(none),
             (None, Some(Value::Word(word))) => MapCell::Word(word),
@@ -152,7 +151,7 @@ impl ScanMap {
         let cells: Vec<MapCell> = (0..scanned.rows.len()).step_by(stride).map(cell).collect();
         Some(ScanMap {
             name: with_unit(scanned),
-            scale: Danger::of(scanned).filter(|_| !words),
+            scale: Danger::of(scanned).filter(|_| !scanned.plots_words()),
             x: places(across),
             y: places(upward),
             values: cells.chunks(upward.count).map(<[_]>::to_vec).collect(),

@@ -141,7 +141,7 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
 }
 
 /// The kind of a cycle in the words of the legend, and as its own caption where it is not a plain slip.
-pub(super) fn kind(cycle: &Cycle) -> (&'static str, &'static str) {
+pub fn kind(cycle: &Cycle) -> (&'static str, &'static str) {
     match (cycle.stable, cycle.sticks(), cycle.overtakes) {
         (_, true, false) => ("stick-slip cycle", "stick-slip"),
         (_, true, true) => ("overtaking stick-slip cycle", "stick-slip, overtaking"),
@@ -181,7 +181,7 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
 }
 
 /// How the motion in this place among those on show is drawn, and what it is called.
-pub(super) fn motion(session: &Session, place: usize) -> LineStyle {
+pub fn motion(session: &Session, place: usize) -> LineStyle {
     const DASHES: [Dash; 2] = [Dash::DashDot, Dash::Dotted];
     let own = LineStyle::from("motion");
     let Some(number) = session.number(place) else { return own };
@@ -195,7 +195,7 @@ pub(super) fn motion(session: &Session, place: usize) -> LineStyle {
 }
 
 /// The segment where the mass rests.
-pub(super) fn sticking_set(r: f64) -> LineStyle {
+pub fn sticking_set(r: f64) -> LineStyle {
     if r == 0.0 { "equilibrium" } else { "sticking set" }.into()
 }
 
@@ -347,8 +347,7 @@ fn lost_part(session: &Session, index: usize) -> String {
     }
     match session.answer(Topic::Kicks, index) {
         Some(Finding::Kicks(found, _)) if !session.is_stale(Topic::Kicks, index) => {
-            let [part, error] = [(found.part, 4), (found.error, 2)]
-                .map(|(value, digits)| significant(value, digits));
+            let (part, error) = (significant(found.part, 4), significant(found.error, 2));
             let of = if session.variants(index).is_some() { " at the present values" } else { "" };
             format!("kicks lost{of} {part} +- {error}")
         }

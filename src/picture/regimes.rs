@@ -118,8 +118,7 @@ fn names_of_regimes(picture: &mut Picture, chart: &Chart) {
         let best = own.map(|&(x, y, _)| (room(x, y), x, y)).max_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, x, y)) = best {
             // A caption stands beside its point, the name should stand around it.
-            let left = Point { x: window.x.at(x - 0.5 * NAME.0), y: window.y.at(y) };
-            picture.caption(left, name, Role::Text);
+            picture.caption(window.at([x - 0.5 * NAME.0, y]), name, Role::Text);
         }
     }
 }
@@ -128,7 +127,7 @@ fn names_of_regimes(picture: &mut Picture, chart: &Chart) {
 const APART: (f64, f64) = (0.16, 0.07);
 
 /// Distance from the present point below which a mark would lie in its cross.
-const CLEAR: f64 = 0.03;
+const CLEAR: (f64, f64) = (0.03, 0.03);
 
 /// What the path stands for, and the marks on it.
 const PEN: Role = Role::Velocity;
@@ -146,15 +145,15 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
     picture.curve(line, running.path().into_iter().map(place));
     // Round speeds have marks and their numbers, as far apart as these are wide.
     let (here, window) = (at(&session.problem.parameters), picture.window);
-    let apart = |one: Point, other: Point, x: f64, y: f64| {
+    let apart = |one: Point, other: Point, (x, y): (f64, f64)| {
         let (across, along) = (one.x - other.x, one.y - other.y);
         across.abs() >= x * window.x.width() || along.abs() >= y * window.y.width()
     };
     let mut kept: Vec<Point> = Vec::new();
     for station in running.milestones() {
         let (speed, at) = (station.0, place(station));
-        let is_free = kept.iter().all(|other| apart(at, *other, APART.0, APART.1));
-        if window.contains(at) && is_free && apart(at, here, CLEAR, CLEAR) {
+        let is_free = kept.iter().all(|other| apart(at, *other, APART));
+        if window.contains(at) && is_free && apart(at, here, CLEAR) {
             kept.push(at);
             picture.marks(milestone(at, speed, PEN));
             picture.caption(at, with_unit(speed, 1, "m/s"), PEN);

@@ -21,11 +21,9 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     }
     if session.layers.contains(&Layer::Front) {
         let is_best = |row: &&TradePoint| found.is_best(row, TradePoint::evaluations);
-        let at: Vec<_> = found.rows.iter().filter(is_best).filter_map(TradePoint::place).collect();
-        if !at.is_empty() {
-            let marks = Marks::new(Mark::Stable, Role::Special, at);
-            picture.marks(Marks { brief: "best choices", ..marks });
-        }
+        let at = found.rows.iter().filter(is_best).filter_map(TradePoint::place);
+        let marks = Marks::new(Mark::Stable, Role::Special, at);
+        picture.marks(Marks { brief: "best choices", ..marks });
     }
     if let Some(at) = found.nearest_to(&session.problem).and_then(TradePoint::place) {
         picture.mark(Mark::Head, at, Role::Cursor);

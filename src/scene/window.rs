@@ -250,6 +250,11 @@ impl Window {
     pub fn center(self) -> Point {
         Point { x: self.x.center(), y: self.y.center() }
     }
+
+    /// The point at these fractions of the width and the height.
+    pub fn at(self, [right, up]: [f64; 2]) -> Point {
+        Point { x: self.x.at(right), y: self.y.at(up) }
+    }
 }
 
 /// The outline of a rectangle, counter-clockwise from the lower left corner and back to it.

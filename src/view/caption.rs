@@ -36,9 +36,6 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let styled = |text| Line::styled(text, look.style(role));
     let lines: Vec<Line> = paragraphs.into_iter().map(styled).collect();
     let height = pane::rows(&lines, inner).saturating_add(2).min(area.height);
-    if inner < 10 || height < 3 {
-        return;
-    }
     let place =
         Rect { x: area.x + (area.width - width) / 2, y: area.bottom() - height, width, height };
     let text = screen.boxed(place, &heading, "");

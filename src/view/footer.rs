@@ -30,7 +30,13 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let mut right: Vec<Span> = always.into_iter().flat_map(|hint| spans(hint, look)).collect();
     right.push(Span::raw(" "));
     let left = match (&session.waiting, session.pending, &session.overlay, &session.notice) {
-        (Some(key), ..) => waiting(key.request.topic().name(), look),
+        (Some(key), ..) => {
+            let topic = key.request.topic().name();
+            vec![
+                look.span(format!(" waiting for: {topic} "), Role::Title),
+                look.span(" esc forgets the key that waits", Role::Quiet),
+            ]
+        }
         (_, Some(key), ..) => vec![pending(key, look)],
         (_, _, Some(Overlay::Prompt(prompt)), _) => typed(prompt, session, area.width.into(), look),
         (_, _, Some(Overlay::Offer(script)), _) => {
@@ -40,8 +46,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         }
         (.., Some(Notice { error, text })) => {
             let role = if *error { Role::Failure } else { Role::Text };
-            let text = pane::cut(&format!(" {text}"), usize::from(area.width), look);
-            vec![look.span(text, role)]
+            vec![look.span(format!(" {text}"), role)]
         }
         _ => {
             let taken: usize = right.iter().map(Span::width).sum();
@@ -65,14 +70,6 @@ fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
     [
         look.span(format!(" {}", look.keys(hint.keys.iter().copied())), Role::Key),
         look.span(format!(" {} ", hint.text), Role::Quiet),
-    ]
-}
-
-/// What the last key waits for.
-fn waiting(topic: &str, look: &Look) -> Vec<Span<'static>> {
-    vec![
-        look.span(format!(" waiting for: {topic} "), Role::Title),
-        look.span(" esc forgets the key that waits", Role::Quiet),
     ]
 }
 

@@ -113,9 +113,9 @@ fn card(area: Rect, screen: &mut Surface) {
     text.wrap(Wrap { trim: true }).render(middle, screen.buffer);
 }
 
-/// Every plot of a session for itself, each drawn in this size.
-pub fn panels(session: &Session, (width, height): (u16, u16), look: &Look) -> Vec<Buffer> {
-    let area = Rect { x: 0, y: 0, width, height };
+/// Every plot of a session for itself, each as large as its screen.
+pub fn panels(session: &Session, look: &Look) -> Vec<Buffer> {
+    let area = Rect::new(0, 0, session.size.width, session.size.height);
     let panel = |index: usize| {
         let mut buffer = Buffer::empty(area);
         let screen = &mut Surface { look, buffer: &mut buffer };

@@ -264,9 +264,6 @@ impl ListContent {
         let height = above_footer.min(wanted.max(4));
         let (x, y) = (area.x + (area.width - width) / 2, area.y + (above_footer - height) / 2);
         let area = Rect { x, y, width, height };
-        if area.width < 4 || area.height < 4 {
-            return;
-        }
         let remark = match count {
             0 => String::new(),
             _ => format!(" {} of {count} ", (list.selected + 1).min(count)),

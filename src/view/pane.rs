@@ -59,7 +59,7 @@ impl Surface<'_> {
         let width = usize::from(area.width);
         let mut rows: Vec<Line> = lines.into_iter().flat_map(|line| broken(line, width)).collect();
         let height = usize::from(area.height);
-        if rows.len() > height && height > 0 {
+        if rows.len() > height {
             rows.truncate(height);
             let mark = &self.look.symbols().more;
             if let Some(last) = rows.last_mut() {
@@ -141,14 +141,11 @@ impl Surface<'_> {
 /// Clears an area for what stands over the panes, and what it would leave of words and numbers beside it.
 fn clear(area: Rect, buffer: &mut Buffer) {
     let full = buffer.area;
-    let is_letter = |buffer: &Buffer, x: &u16, y: u16| {
-        let symbol = buffer.cell((*x, y)).map_or(" ", |cell| cell.symbol());
-        symbol.starts_with(|letter: char| letter.is_ascii_graphic())
-    };
-    for y in area.y..area.bottom().min(full.bottom()) {
-        let leftward = (full.x..=area.x).rev().take_while(|x| is_letter(buffer, x, y));
-        let rightward =
-            (area.right().saturating_sub(1)..full.right()).take_while(|x| is_letter(buffer, x, y));
+    for y in area.y..area.bottom() {
+        let is_letter =
+            |x: &u16| buffer[(*x, y)].symbol().starts_with(|it: char| it.is_ascii_graphic());
+        let leftward = (full.x..=area.x).rev().take_while(is_letter);
+        let rightward = (area.right() - 1..full.right()).take_while(is_letter);
         for x in leftward.chain(rightward).collect::<Vec<_>>() {
             buffer[(x, y)].set_symbol(" ");
         }

@@ -67,8 +67,8 @@ pub fn shown(session: &Session, height: u16) -> Range<usize> {
     /// Lines of the heading and of two cycles below, unless fewer than `FEW` rows were left.
     const BELOW: usize = 4;
     const FEW: usize = 10;
-    let (rows, lines) = (session.rows(), usize::from(height));
-    let most = lines.saturating_sub(BELOW).max(FEW).min(lines.saturating_sub(1)).max(1);
+    let rows = session.rows();
+    let most = usize::from(height).saturating_sub(BELOW).max(FEW);
     let selected = rows.iter().position(|row| *row == session.selected).unwrap_or(0);
     let first = (selected + 1).saturating_sub(most);
     first..rows.len().min(first + most)

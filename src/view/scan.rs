@@ -116,9 +116,7 @@ fn meaning(scanned: &ScanOnShow, width: usize) -> String {
 /// first of those that are measured, and the others follow as far as they fit whole.
 fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
     let look = screen.look;
-    let Some(room) = usize::from(area.height).checked_sub(1).filter(|room| *room > 0) else {
-        return;
-    };
+    let room = usize::from(area.height).saturating_sub(1);
     let first = pane::first_seen(scanned.at, scanned.rows.len(), room);
     let seen = first..scanned.rows.len().min(first + room);
     let names = names(scanned);

@@ -130,8 +130,8 @@ impl Paint {
 /// Draws neighbouring places of one paint, the first with its upper left corner there: their ground, what is drawn as
 /// shapes in one path, and what is left as one text.
 fn draw(out: &mut String, run: &[ScreenCell], (left, top): (f64, f64)) {
-    let Some(ScreenCell { paint, .. }) = run.first() else { return };
-    if let Some(ground) = &paint.ground {
+    let paint = run[0].paint;
+    if let Some(ground) = paint.ground {
         let (width, height) = (CELL.0 * real(run.len()), CELL.1);
         let _ = writeln!(
             out,

@@ -12,13 +12,13 @@ pub fn minus(area: Rect, buffer: &mut Buffer, is_typed: impl Fn(u16) -> bool) {
     for y in (area.y..area.bottom()).filter(|y| !is_typed(*y)) {
         for x in area.x..area.right() {
             // Almost no cell has a hyphen: only beside one is anything read.
-            if buffer.cell((x, y)).is_none_or(|cell| cell.symbol() != "-") {
+            if buffer[(x, y)].symbol() != "-" {
                 continue;
             }
             let around = [-2, -1, 1, 2].map(|by| {
                 let beside =
                     x.checked_add_signed(by).filter(|x| (area.x..area.right()).contains(x));
-                beside.and_then(|x| buffer.cell((x, y))).map_or(' ', letter)
+                beside.map_or(' ', |x| letter(&buffer[(x, y)]))
             });
             if is_minus(around) {
                 buffer[(x, y)].set_char(MINUS);

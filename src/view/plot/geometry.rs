@@ -15,7 +15,7 @@ const ROOMY: (u16, u16) = (22, 9);
 const GUTTER: u16 = 5;
 
 /// Where the parts of a plot stand, and the ticks that there is room for.
-pub(super) struct Geometry {
+pub struct Geometry {
     /// The cells between the axes.
     pub inner: Rect,
     /// Whether the axes stand outside of them.
@@ -96,33 +96,37 @@ pub fn point_at(area: Rect, picture: &Picture, cell: Position) -> Option<Point> 
     if !inner.contains(cell) {
         return None;
     }
-    let fraction = |cell: u16, cells: u16| (f64::from(cell) + 0.5) / f64::from(cells);
-    let right = fraction(cell.x - inner.x, inner.width);
-    let down = fraction(cell.y - inner.y, inner.height);
+    let [right, up] = middle(inner, cell.x - inner.x, cell.y - inner.y);
     let rounded = |span: Span, fraction, cells: u16| {
         resolved(span.at(fraction), span.width() / f64::from(cells)).parse().ok()
     };
     Some(Point {
         x: rounded(window.x, right, inner.width)?,
-        y: rounded(window.y, 1.0 - down, inner.height)?,
+        y: rounded(window.y, up, inner.height)?,
     })
+}
+
+/// Where the middle of a cell lies, as fractions of both axes.
+pub fn middle(inner: Rect, column: u16, row: u16) -> [f64; 2] {
+    let fraction = |cell: u16, cells: u16| (f64::from(cell) + 0.5) / f64::from(cells.max(1));
+    [fraction(column, inner.width), 1.0 - fraction(row, inner.height)]
 }
 
 /// Where a fraction of an axis lies among this many dots or cells. Curves, marks and ticks at the border of two of
 /// them all lie in the second, whatever the last digit of the fraction is.
-pub(super) fn along(fraction: f64, count: f64) -> f64 {
+pub fn along(fraction: f64, count: f64) -> f64 {
     const ROUNDING: f64 = 1e-9;
     let place = fraction * count + ROUNDING;
     if (place - count).abs() <= 2.0 * ROUNDING { count } else { place }
 }
 
 /// The cell in which a fraction of the axis lies.
-pub(super) fn column(fraction: f64, cells: u16) -> u16 {
+pub fn column(fraction: f64, cells: u16) -> u16 {
     (along(fraction, cells.into()) as u16).min(cells.saturating_sub(1))
 }
 
 /// Where the label of a tick begins, so that it is centred below its tick and inside the axis.
-pub(super) fn centred(tick: &Tick, cells: u16) -> u16 {
+pub fn centred(tick: &Tick, cells: u16) -> u16 {
     let length = tick.label.len() as u16;
     column(tick.fraction, cells).saturating_sub(length / 2).min(cells.saturating_sub(length))
 }

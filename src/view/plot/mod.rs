@@ -15,7 +15,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier};
 
-use geometry::{Geometry, along, centred, column};
+use geometry::{Geometry, along, centred, column, middle};
 pub use geometry::{point_at, rows, shown};
 
 use super::dots::{Covering, DotPen, DotPlace, Dots};
@@ -128,11 +128,7 @@ impl<'a> Canvas<'a> {
 
     /// The world at the middle of a cell.
     pub fn world(&self, column: u16, row: u16) -> Point {
-        let fraction = |cell: u16, cells: u16| (f64::from(cell) + 0.5) / f64::from(cells.max(1));
-        Point {
-            x: self.window.x.at(fraction(column, self.inner.width)),
-            y: self.window.y.at(1.0 - fraction(row, self.inner.height)),
-        }
+        self.window.at(middle(self.inner, column, row))
     }
 
     pub fn curve(&mut self, points: impl IntoIterator<Item = Point>, role: Role, dash: Dash) {
