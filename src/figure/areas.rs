@@ -161,10 +161,8 @@ impl Cutter<'_> {
             Polygon { fill: *fill, left, right }
         };
         let begun: Vec<_> = lower.1.iter().zip(below.windows(2)).map(begun).collect();
-        let meets = |side: &[Point], other: &[Point]| {
-            let ends = side.last().zip(other.last());
-            ends.is_some_and(|(one, other)| (one.x - other.x).abs() < apart)
-        };
+        let meets =
+            |side: &[Point], begun: &[Point]| (side[side.len() - 1].x - begun[0].x).abs() < apart;
         let goes_on = |(open, next): (&Polygon, &Polygon)| {
             let sides = meets(&open.left, &next.left) && meets(&open.right, &next.right);
             open.fill == next.fill && sides

@@ -161,12 +161,11 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
     }
     let present = at(&running.reduced.parameters);
     let speed = running.machine.belt.belt_speed;
-    let text = with_unit(speed, 4, "m/s");
     if present != here {
         // Off the belt: where its speed would have the parameters.
         picture.marks(milestone(present, speed, Role::Current));
     }
-    picture.caption(present, text, Role::Current);
+    picture.caption(present, with_unit(speed, 4, "m/s"), Role::Current);
 }
 
 /// The mark of a speed.

@@ -26,8 +26,8 @@ pub fn draw(picture: &mut Picture, session: &Session) {
     // The lines below the plot say what stands at the cursor.
     (picture.cursor, picture.reading) = (scanned.place(scanned.at), None);
     picture.map = ScanMap::of(scanned);
-    if let Some(name) = picture.map.as_ref().map(|map| map.name.clone()) {
-        picture.add_to_title(&name);
+    if picture.map.is_some() {
+        picture.add_to_title(&with_unit(scanned));
     } else {
         curve(picture, scanned, upward);
     }

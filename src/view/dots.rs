@@ -88,22 +88,21 @@ impl Dots {
 
     /// Draws a polyline; a point that is not finite interrupts it.
     pub fn stroke(&mut self, points: impl IntoIterator<Item = DotPoint>, pen: DotPen) {
-        if pen.dash == Dash::Thick && self.glyphs != Glyphs::Ascii {
-            // Both of its dots stand in the cell that the line is in, as a mark on it does.
-            let (height, down) = (self.size().1, f64::from(self.glyphs.dots().1));
-            let inside = |y: f64| {
-                if !(0.0..=height).contains(&y) {
-                    return y;
-                }
-                let top = (y.min(height - 1.0) / down).floor() * down;
-                y.clamp(top + 0.5, top + down - 1.0)
-            };
-            let points: Vec<DotPoint> = points.into_iter().map(|(x, y)| (x, inside(y))).collect();
-            for offset in [-0.5, 0.5] {
-                self.line(points.iter().map(|(x, y)| (*x, y + offset)), pen);
+        if pen.dash != Dash::Thick || self.glyphs == Glyphs::Ascii {
+            return self.line(points, pen);
+        }
+        // Both dots of a thick one stand in the cell that the line is in, as a mark on it does.
+        let (height, down) = (self.size().1, f64::from(self.glyphs.dots().1));
+        let inside = |y: f64| {
+            if !(0.0..=height).contains(&y) {
+                return y;
             }
-        } else {
-            self.line(points, pen);
+            let top = (y.min(height - 1.0) / down).floor() * down;
+            y.clamp(top + 0.5, top + down - 1.0)
+        };
+        let points: Vec<DotPoint> = points.into_iter().map(|(x, y)| (x, inside(y))).collect();
+        for offset in [-0.5, 0.5] {
+            self.line(points.iter().map(|(x, y)| (*x, y + offset)), pen);
         }
     }
 

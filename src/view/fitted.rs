@@ -65,7 +65,7 @@ pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
     } else {
         let range = between(end(spread.lower), &end(spread.upper));
         let texts = ["95 % from rest: ", "95 %: rest ", "rest: "];
-        pane::fitting(texts.map(|before| format!("{before}{range}")), width.saturating_sub(1))
+        pane::fitting(texts.map(|before| format!("{before}{range}")), width)
     };
     let frequency = estimate.free[OMEGA0].then_some(frequency);
     // What matters most first: a low pane has no room for what follows.

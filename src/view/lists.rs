@@ -45,8 +45,7 @@ fn palette(content: &mut ListContent, session: &Session, list: &List, look: &Loo
     for row in &found {
         let heading = if list.search.is_empty() { session.heading(*row) } else { "" };
         let keys = keys_of(session, *row, look);
-        let spaced = keys.join(" ");
-        let keys = if spaced.chars().count() > KEYS { keys.concat() } else { spaced };
+        let keys = pane::fitting([keys.join(" "), keys.concat()], KEYS);
         let keys = if keys.is_empty() { row.name().to_owned() } else { keys };
         let keys = format!("{keys:<KEYS$} ");
         content.row(heading, [look.span(keys, Role::Key), look.span(row.meaning(), Role::Text)]);

@@ -89,7 +89,8 @@ fn fitting(session: &Session, width: usize, texts: impl Fn(KickNotation) -> Vec<
 }
 
 /// The status line about margins, for a record what may be signed; `None` where they are not known.
-pub fn status(session: &Session, width: usize) -> Option<String> {
+pub fn status(session: &Session) -> Option<String> {
+    let width = usize::from(session.size.width).saturating_sub(1);
     if session.scene.recording.is_some() {
         return statement(session, width);
     }
@@ -97,7 +98,7 @@ pub fn status(session: &Session, width: usize) -> Option<String> {
     certain(session, width).or_else(nominal)
 }
 
-/// What the pane says about the margin that holds for certain, in a line of less than this width.
+/// What the pane says about the margin that holds for certain, in a line of this width.
 pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
     let (_, sure) = margins(session)?;
     match sure {
@@ -107,7 +108,7 @@ pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
     }
 }
 
-/// What the pane says about a margin of this name, in a line of less than this width.
+/// What the pane says about a margin of this name, in a line of this width.
 pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> Option<String> {
     let bound = name == "sure";
     let all = (1..=PLACES).rev().flat_map(|places| [(places, true), (places, false)]);
@@ -115,7 +116,7 @@ pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> 
         let write = KickNotation { session, places, named, bound };
         Some(format!("{name} {}", write.kick(margin.from_rest)?))
     });
-    texts.find(|text| text.chars().count() < width)
+    texts.find(|text| text.chars().count() <= width)
 }
 
 /// The nominal margin, and the one that holds for certain or why none does.

@@ -66,15 +66,13 @@ fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {
         }
         Item::Arrows(role, flow) => plot.arrows(*role, flow),
         Item::Marks(Marks { mark, role, at, sparse, at_edge, .. }) => {
-            if !sparse || at.len() * APART <= usize::from(plot.inner.width) {
-                for at in at {
-                    match Marks::edge(*at, window).filter(|_| *at_edge) {
-                        Some((at, above)) => {
-                            plot.mark(at, symbols.arrows[if above { 2 } else { 6 }], *role);
-                        }
-                        None => plot.mark(*at, symbols.mark(*mark), *role),
-                    }
-                }
+            let crowded = *sparse && at.len() * APART > usize::from(plot.inner.width);
+            for at in at.iter().filter(|_| !crowded) {
+                let (at, symbol) = match Marks::edge(*at, window).filter(|_| *at_edge) {
+                    Some((at, above)) => (at, symbols.arrows[if above { 2 } else { 6 }]),
+                    None => (*at, symbols.mark(*mark)),
+                };
+                plot.mark(at, symbol, *role);
             }
         }
     }

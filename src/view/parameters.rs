@@ -148,8 +148,8 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
     let fits = |text: &String| text.chars().count() + 2 <= room;
     // Of a fitted number its error says more than what the step is.
     let physical = physical(session, row).or_else(|| {
-        let told = fitted(session, row, look);
-        told.iter().find(|text| fits(text)).or(told.last()).cloned()
+        let told = pane::fitting(fitted(session, row, look), room - 2);
+        Some(told).filter(|told| !told.is_empty())
     });
     if width >= WITH_MEANINGS {
         let meaning = meaning(&session.problem, row).to_owned();
@@ -176,6 +176,7 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
 
 /// What a row means on the machine: the quantity and its value.
 fn physical(session: &Session, row: Row) -> Option<String> {
+    let on_the_belt = session.is_on_the_belt();
     let (name, value, unit) = match (row, session.units(), session.running()) {
         (Row::Number(Knob::Disturbance), Some(units), _) if units.force.is_finite() => {
             ("w", session.doubt.disturbance * units.force, "N")
@@ -183,17 +184,14 @@ fn physical(session: &Session, row: Row) -> Option<String> {
         (Row::Number(Knob::Until), Some(units), _) => {
             ("t", session.problem.until * units.time, "s")
         }
-        (Row::BELT, _, Some(_)) if session.is_on_the_belt() == Some(false) => {
+        (Row::BELT, ..) if on_the_belt == Some(false) => {
             return Some("off the belt".to_owned());
         }
         (Row::Number(knob), ..) if row.is_of_machine() => {
             return Some(knob.spec().unit.to_owned()).filter(|unit| !unit.is_empty());
         }
-        // R has a row of its own.
-        (Row::Number(Knob::R), _, Some(_)) if session.is_on_the_belt() == Some(true) => {
-            return None;
-        }
-        (Row::Number(knob), _, Some(running)) => {
+        // On the belt R has a row of its own.
+        (Row::Number(knob), _, Some(running)) if knob != Knob::R || on_the_belt == Some(false) => {
             let (knob, value) = running.meaning(knob, session.value(knob))?;
             (knob.spec().name, value, knob.spec().unit)
         }
@@ -300,9 +298,10 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
         let symbol = look.span(format!(" {mark} "), cycle_role(cycle.stable));
         vec![symbol, Span::raw(aligned(cells(cycle, units)))]
     }));
-    let words = basin(session, found, width, look).into_iter().chain(balance(session, width));
+    let room = width.saturating_sub(1);
+    let words = basin(session, found, room, look).into_iter().chain(balance(session, room));
     let words = words.map(|text| (text, Role::Quiet));
-    let below = std::iter::once(counted(session, found, width)).chain(words);
+    let below = std::iter::once(counted(session, found, room)).chain(words);
     lines.extend(below.map(|(text, role)| vec![look.span(format!(" {text}"), role)]));
     lines.push(Vec::new());
     lines.into_iter().map(Line::from).collect()
@@ -319,7 +318,7 @@ fn counted(session: &Session, found: &Drawing, width: usize) -> (String, Role) {
         Err(_) => (format!("{count}, proof differs"), Role::Failure),
         Ok(()) if proof.is_complete() => {
             let texts = [format!("{count}, proved"), format!("{}, proved", found.cycles.len())];
-            (pane::fitting(texts, width.saturating_sub(1)), Role::Text)
+            (pane::fitting(texts, width), Role::Text)
         }
         Ok(()) => (format!("{count}, others open"), Role::Quiet),
     }
@@ -355,9 +354,7 @@ fn basin(session: &Session, found: &Drawing, width: usize, look: &Look) -> Vec<S
     lines.extend(on_the_machine(session, found, width));
     lines.extend(margin::brief_certain(session, width));
     let share = rests.and_then(|found| margin::share(found.lyapunov_share));
-    let screen = usize::from(session.size.width).saturating_sub(1);
-    let above =
-        |share: &String| margin::status(session, screen).is_some_and(|it| it.contains(share));
+    let above = |share: &String| margin::status(session).is_some_and(|it| it.contains(share));
     lines.extend(share.filter(|it| low || (session.shows(Layer::Lyapunov) && !above(it))));
     let area = rests.and_then(|found| found.area).filter(|_| !physical);
     lines.extend(area.map(|area| format!("area {}", significant(area, 5))));
@@ -376,8 +373,7 @@ fn on_the_machine(session: &Session, found: &Drawing, width: usize) -> Vec<Strin
     let d = significant(session.value(Knob::D), 3);
     let hertz = with_unit(units.omega_0 / std::f64::consts::TAU, 3, "Hz");
     let natural = [format!("f0 {hertz}, damping ratio {d}"), format!("f0 {hertz}")];
-    let natural = pane::fitting(natural, width.saturating_sub(1));
-    std::iter::once(natural).chain(alarms).collect()
+    std::iter::once(pane::fitting(natural, width)).chain(alarms).collect()
 }
 
 /// The errors of amplitude and frequency of the cycles of N harmonics.
@@ -394,7 +390,7 @@ fn balance(session: &Session, width: usize) -> Vec<String> {
         (Ok(_), Some(error)) => {
             let amplitude = format!("{lead}q {} %", percent(error.amplitude));
             let both = format!("{amplitude}, rate {} %", percent(error.frequency));
-            pane::fitting([both, amplitude], width.saturating_sub(1))
+            pane::fitting([both, amplitude], width)
         }
     };
     match &found.balanced[..] {

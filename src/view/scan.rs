@@ -9,7 +9,7 @@ use ratatui::layout::Rect;
 use super::pane::{self, FramedPicture};
 use super::{Surface, paint::paint, scan_map};
 use crate::picture::map::{measured, nothing};
-use crate::picture::{Danger, Picture, Role};
+use crate::picture::{Danger, Role};
 use crate::scan::measure::Value;
 use crate::scene::View;
 use crate::session::{ScanOnShow, ScanProgress, WORDS};
@@ -27,20 +27,20 @@ pub fn body(area: Rect) -> Rect {
     Rect { height: area.height.saturating_sub(BELOW), ..area }
 }
 
-pub fn draw(framed: FramedPicture, scanned: &ScanOnShow, screen: &mut Surface) {
+pub fn draw(mut framed: FramedPicture, scanned: &ScanOnShow, screen: &mut Surface) {
     let look = screen.look;
-    let FramedPicture { area, picture, heading } = framed;
-    let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
+    let (area, name) = (framed.area, View::Scan.spec().title);
+    let title = format!("{name} {}", progress(scanned));
     if scanned.table {
-        screen.title(area, &title, "", &heading);
+        screen.title(area, &title, "", &framed.heading);
         return table(pane::below(area, 1), scanned, screen);
     }
     let width = usize::from(area.width);
     // The names of the axes stand there in any case; how far the scan is, where there is room.
-    let full = title.chars().count() + picture.y.len() + picture.x.len() + 9 <= width;
-    let short = if full { title.into() } else { View::Scan.spec().title.into() };
-    let picture = Picture { title: short, ..picture };
-    let framed = FramedPicture { area: body(area), picture, heading };
+    let axes = framed.picture.y.len() + framed.picture.x.len();
+    let full = title.chars().count() + axes + 9 <= width;
+    framed.picture.title = if full { title.into() } else { name.into() };
+    framed.area = body(area);
     paint(&framed, screen);
     let legend = match framed.picture.map {
         Some(_) => scan_map::legend(scanned, width, look),
@@ -78,9 +78,8 @@ fn reading(scanned: &ScanOnShow, width: usize) -> String {
     let place = scanned.scan.place(scanned.at);
     let found = |digits: usize| match (&row.reason, scanned.value(scanned.at)) {
         (Some(reason), _) => format!("- {reason}"),
-        (None, Some(Value::Number(value))) => significant(value, digits),
         (None, Some(value)) => {
-            nothing(scanned, scanned.at).map_or(measurement(value, Some(8)), str::to_owned)
+            nothing(scanned, scanned.at).map_or(measurement(value, Some(digits)), str::to_owned)
         }
         (None, None) => String::new(),
     };

@@ -56,14 +56,12 @@ pub fn draw(plot: &Canvas, map: &ScanMap, screen: &mut Surface) {
         (MapCell::Number(_), None) => (NOTHING, quiet),
     };
     let inner = plot.inner;
-    for column in 0..inner.width {
-        for row in 0..inner.height {
-            let Point { x, y } = plot.world(column, row);
-            let across = nearest(&map.x, x).and_then(|across| map.values.get(across));
-            let cell = nearest(&map.y, y).and_then(|upward| across?.get(upward));
-            let Some((symbol, style)) = cell.copied().map(sign) else { continue };
-            screen.buffer[(inner.x + column, inner.y + row)].set_char(symbol).set_style(style);
-        }
+    for place in inner.positions() {
+        let Point { x, y } = plot.world(place.x - inner.x, place.y - inner.y);
+        let across = nearest(&map.x, x).and_then(|across| map.values.get(across));
+        let cell = nearest(&map.y, y).and_then(|upward| across?.get(upward));
+        let Some((symbol, style)) = cell.copied().map(sign) else { continue };
+        screen.buffer[place].set_char(symbol).set_style(style);
     }
 }
 

@@ -2,27 +2,24 @@
 //! whole screen gets its minus signs at once, wherever its numbers came from.
 
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 
 /// The minus sign, as wide as a plus sign.
 pub const MINUS: char = '\u{2212}';
 
 /// Puts minus signs before the numbers and letters of an area, except in rows for which `is_typed` holds.
 pub fn minus(area: Rect, buffer: &mut Buffer, is_typed: impl Fn(u16) -> bool) {
-    for y in (area.y..area.bottom()).filter(|y| !is_typed(*y)) {
-        for x in area.x..area.right() {
-            // Almost no cell has a hyphen: only beside one is anything read.
-            if buffer[(x, y)].symbol() != "-" {
-                continue;
-            }
-            let around = [-2, -1, 1, 2].map(|by| {
-                let beside =
-                    x.checked_add_signed(by).filter(|x| (area.x..area.right()).contains(x));
-                beside.map_or(' ', |x| letter(&buffer[(x, y)]))
-            });
-            if is_minus(around) {
-                buffer[(x, y)].set_char(MINUS);
-            }
+    for place @ Position { x, y } in area.positions() {
+        // Almost no cell has a hyphen: only beside one is anything read.
+        if buffer[place].symbol() != "-" || is_typed(y) {
+            continue;
+        }
+        let around = [-2, -1, 1, 2].map(|by| {
+            let beside = x.checked_add_signed(by).filter(|x| (area.x..area.right()).contains(x));
+            beside.map_or(' ', |x| letter(&buffer[(x, y)]))
+        });
+        if is_minus(around) {
+            buffer[place].set_char(MINUS);
         }
     }
 }

@@ -28,8 +28,8 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         let (sentence, role) = verdict::outcome(session);
         let of = session.number(0).map_or_else(String::new, |number| format!("motion {number} "));
         // The symbol belongs to the motion: what else is said has none.
-        let symbol = Some(symbol(session, look)).filter(|_| role == Role::Text);
-        (format!("{}{of}{sentence}", symbol.unwrap_or_default()), role)
+        let symbol = if role == Role::Text { symbol(session, look) } else { String::new() };
+        (format!("{symbol}{of}{sentence}"), role)
     };
     let busy = busy(session, look);
     // That a computation is running matters more than the end of the sentence.
@@ -41,8 +41,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let quiet = |text| look.span(text, Role::Quiet);
     // While the accuracy is changed, the cost stands here; at other times a key of its own lists it.
     if !session.measures() {
-        let width = usize::from(area.width).saturating_sub(1);
-        let text = margin::status(session, width).unwrap_or_default();
+        let text = margin::status(session).unwrap_or_default();
         let failed = text.starts_with(UNRELIABLE);
         let role = if failed { Role::Warning } else { Role::Quiet };
         return screen.line(area, 1, look.span(format!(" {text}"), role));
@@ -66,10 +65,10 @@ fn busy(session: &Session, look: &Look) -> String {
     if let Some(name) = session.writing.as_ref().and_then(|path| path.file_name()) {
         busy += &format!("writing {} ", name.display());
     }
-    match session.keymap.key_of("play-motion").filter(|_| session.playback.playing) {
-        Some(key) => busy += &format!("playing, {} holds ", look.key(key)),
-        None if session.playback.playing => busy += "playing ",
-        None => {}
+    if session.playback.playing {
+        let key = session.keymap.key_of("play-motion");
+        let holds = key.map(|key| format!(", {} holds", look.key(key)));
+        busy += &format!("playing{} ", holds.unwrap_or_default());
     }
     busy
 }
