@@ -22,7 +22,7 @@ use crate::scene::machine::library::{TEXTBOOK, machines};
 ///
 /// Tells its cycles, slipping and sticking, the border of what comes to rest and the margins up to it, and by how much the
 /// cubic expansion of friction is wrong about them.
-#[derive(Debug, Args)]
+#[derive(Args)]
 #[command(after_long_help = known())]
 pub struct BeltCommand {
     /// Machine file, or the name of a built-in machine

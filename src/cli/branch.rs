@@ -18,7 +18,7 @@ use crate::report::branch as report;
 use crate::scan::{Spacing, Sweep};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct BranchCommand {
     #[arg(long, help = CERTIFY)]
     certify: bool,
@@ -66,7 +66,7 @@ impl BranchCommand {
 }
 
 /// Continues the fold `D_F` and the escape point `D_c` in a second parameter
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct BorderCommand {
     #[arg(long, help = CERTIFY)]
     certify: bool,

@@ -20,7 +20,7 @@ use crate::runtime::{bounded, provenance_file};
 type Rungs = Option<Vec<HarmonicBalance>>;
 
 /// Finds every limit cycle, proves that there are no others, and names the border of the basin
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct CyclesCommand {
     /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors
     #[arg(long, value_name = "N", value_parser = |text: &str| input::whole(text, 1..=MOST), conflicts_with = "machine")]
@@ -88,7 +88,7 @@ impl CyclesCommand {
 }
 
 /// Verifies, step by step, a certificate written by `cycles --certificate`
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct CheckCommand {
     /// The certificate
     file: PathBuf,

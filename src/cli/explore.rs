@@ -22,7 +22,7 @@ use crate::terminal::Environment;
 use crate::words::joined;
 
 /// Opens the explorer.
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct ExploreCommand {
     /// Scene to open; `hopfscope scenes` lists them
     #[arg(value_name = "SCENE", conflicts_with = "scene")]
@@ -88,7 +88,7 @@ impl ExploreCommand {
 }
 
 /// Guided tour of the explorer: the keys named in a caption work, any other key continues, Esc leaves
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct TourCommand {
     #[command(flatten)]
     looks: Looks,

@@ -19,7 +19,7 @@ use crate::view::{self, Look, screen};
 use crate::words::joined;
 
 /// Writes the plots of a scene as SVG, PNG, CSV or JSON, or draws them in the terminal
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct FigureCommand {
     /// Scene to show; each of its plots becomes a panel
     #[arg(value_name = "NAME", conflicts_with_all = ["scene", "machine"])]

@@ -18,7 +18,7 @@ use crate::runtime::{bounded, provenance_file};
 use crate::words::fit::signed;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
-#[derive(Debug, Args)]
+#[derive(Args)]
 #[command(group = ArgGroup::new("written").args(["pictures", "report"]).multiple(true))]
 pub struct FitCommand {
     /// Record: a column of times and one of displacements, as instruments write them

@@ -24,7 +24,7 @@ use crate::session::{
 };
 
 /// Lists the scenes
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct ScenesCommand {
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -45,7 +45,7 @@ impl ScenesCommand {
 }
 
 /// Lists the keys of the explorer, as the settings file changes them
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct KeysCommand {
     #[command(flatten)]
     settings: Settings,
@@ -84,7 +84,7 @@ impl KeysCommand {
 }
 
 /// Tests every equation and claim of the paper that can be tested
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct PaperCommand {
     #[command(flatten)]
     output: Output,
@@ -101,7 +101,7 @@ impl PaperCommand {
 /// Tests every method at the extremes of all parameters, and reports its accuracy
 ///
 /// With --cycles, finds the limit cycles there instead.
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct ExtremesCommand {
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]

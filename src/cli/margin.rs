@@ -14,7 +14,7 @@ use crate::report::About;
 use crate::report::margin::{basin, kicks, margins};
 
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct MarginCommand {
     /// Bound on the disturbing force, in the units of r; of a machine a force, such as "0.1 N"
     #[arg(long, value_name = "W")]
@@ -66,7 +66,7 @@ fn of_machine(case: &CommandCase, output: &Output) -> Result<()> {
 }
 
 /// Shows where the starts in a window end, and how large a kick is survived
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct BasinCommand {
     #[arg(long, help = CERTIFY)]
     certify: bool,
@@ -100,7 +100,7 @@ impl BasinCommand {
 }
 
 /// Finds the share of random kicks that is lost, and how many in a row are survived
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct KicksCommand {
     /// Displacement and velocity of a kick, mean and standard deviation; with uniform: before them, mean and
     /// half width

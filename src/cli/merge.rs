@@ -16,7 +16,7 @@ use crate::runtime::{NewFile, PartFile, Readers, merge, provenance_file, tell};
 use crate::words::provenance::{Checksum, Provenance};
 
 /// Merges the parts of a scan, or lists the rows that are missing and how to compute them
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct MergeCommand {
     /// Files written by scan --output, each with its .provenance beside it, or directories of them
     #[arg(required = true, value_name = "PART")]
@@ -142,11 +142,11 @@ fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartFile]) {
     let all = sources[0].part.scan.points();
     let shard = |source: &PartFile| ScanCommand::of_line(&source.arguments)?.part.shard();
     let shard = sources.iter().find_map(shard);
-    let shards = shard.into_iter().flat_map(Shard::siblings);
-    let name = |Shard { number, of }| format!("shard {number}/{of}: ");
-    let named = shards.map(|shard| (name(shard), shard.points(all)));
-    let pieces: Vec<_> =
-        if shard.is_some() { named.collect() } else { vec![(String::new(), 0..all)] };
+    let named = |it: Shard| (format!("shard {}/{}: ", it.number, it.of), it.points(all));
+    let pieces: Vec<_> = match shard {
+        Some(shard) => shard.siblings().map(named).collect(),
+        None => vec![(String::new(), 0..all)],
+    };
     for (name, points) in pieces {
         let piece = gap.start.max(points.start)..gap.end.min(points.end);
         if !piece.is_empty() {

@@ -52,7 +52,7 @@ impl AskedMotion {
 }
 
 /// Computes one motion: its turning points, how it ends, where its energy goes
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct TrajectoryCommand {
     /// Time at which to stop, 0 .. 1e9 (default: the scene's)
     #[arg(long, value_name = "T")]
@@ -89,7 +89,7 @@ impl TrajectoryCommand {
 }
 
 /// Shows what accuracy costs: every method at all its tolerances on the same motion
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct TradeCommand {
     /// Scene whose motion is computed
     #[arg(value_name = "SCENE", conflicts_with_all = ["scene", "machine"])]

@@ -15,7 +15,7 @@ use crate::runtime::{Readers, new_file, provenance_file, standard};
 use crate::words::printable;
 
 /// How an answer is printed.
-#[derive(Clone, Debug, Args)]
+#[derive(Args)]
 pub struct Output {
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Table)]

@@ -8,7 +8,7 @@ use super::Result;
 use super::input::pair;
 
 /// The options that choose rows; at most one of them is given.
-#[derive(Clone, Debug, Default, Args)]
+#[derive(Default, Args)]
 #[group(id = "part", multiple = false)]
 pub struct RowChoice {
     /// Computes only part K of N (1 <= K <= N); the parts in order make up the whole scan

@@ -13,7 +13,7 @@ use crate::runtime::provenance_file;
 use crate::words::provenance::{Provenance, quoted};
 
 /// The options that ask for a recipe.
-#[derive(Clone, Debug, Args)]
+#[derive(Args)]
 pub struct Plan {
     /// Instead of computing the scan, prints a recipe that computes it in shards and merges them. The rows go to
     /// rows.csv, or to an --output that ends in .csv, .json or .jsonl; any other --output is the recipe itself
@@ -26,7 +26,7 @@ pub struct Plan {
 }
 
 /// A batch engine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Engine {
     /// A Snakefile.
     Snakemake,

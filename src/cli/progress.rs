@@ -18,7 +18,6 @@ pub enum Outlet {
 }
 
 /// A message that is rewritten from time to time.
-#[derive(Debug)]
 pub struct StatusLine {
     place: Outlet,
     started: Instant,

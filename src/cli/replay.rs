@@ -14,7 +14,7 @@ use crate::terminal::Environment;
 use crate::view::screen::{self, Paper};
 
 /// Runs a keystroke file without a terminal and prints the last screen
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct ReplayCommand {
     /// Keystroke file
     file: PathBuf,
@@ -37,7 +37,7 @@ pub struct ReplayCommand {
 }
 
 /// The form of a screen in a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum ScreenFormat {
     /// Its characters, in UTF-8.
     Text,

@@ -27,7 +27,7 @@ use crate::scan::{Conditions, MEASURES, Measure, Scan, Sweep};
 use crate::words::joined;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
-#[derive(Debug, Args)]
+#[derive(Args)]
 #[command(name = "scan")]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct ScanCommand {
@@ -92,7 +92,7 @@ pub struct ScanCommand {
 }
 
 /// Which parts begin with the header line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum HeaderWhen {
     /// The first one, so that cat puts parts together.
     First,

@@ -13,7 +13,7 @@ use crate::session::{Colors, DisplaySettings, Glyphs, NamedValue, Theme, choices
 use crate::words::joined;
 
 /// Which settings file is read.
-#[derive(Clone, Debug, Args)]
+#[derive(Args)]
 pub struct Settings {
     /// Reads this settings file instead of your own
     #[arg(long, value_name = "FILE", conflicts_with = "no_config")]
@@ -40,7 +40,7 @@ impl Settings {
 }
 
 /// How the screen looks.
-#[derive(Clone, Copy, Debug, Args)]
+#[derive(Clone, Copy, Args)]
 pub struct Looks {
     #[arg(long, value_name = "KIND",
           value_parser = named::<Glyphs>, help = help::<Glyphs>("Characters that dots are drawn with"))]
@@ -92,7 +92,6 @@ fn own_settings() -> Option<PathBuf> {
 }
 
 /// What the program remembers, in the directory in which it keeps its state.
-#[derive(Clone, Debug)]
 pub struct Memory {
     folder: PathBuf,
     /// Whether the directory did not exist before: this is the first start.

@@ -14,7 +14,7 @@ use crate::words::wrapped;
 const DATE: &str = "2026-11-23";
 
 /// Prints shell completions
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct CompletionsCommand {
     /// The shell
     #[arg(value_enum)]
@@ -30,7 +30,7 @@ impl CompletionsCommand {
 }
 
 /// Writes manual pages: one for the program, one for each command
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct ManualCommand {
     /// Existing directory for the pages
     #[arg(value_name = "DIR")]

@@ -14,7 +14,7 @@ use crate::scene::{Scene, find};
 use crate::words::joined;
 
 /// What every question is about, and how its answer is printed.
-#[derive(Debug, Args)]
+#[derive(Args)]
 pub struct QuestionOptions {
     #[command(flatten)]
     pub source: SourceOptions,
@@ -23,7 +23,7 @@ pub struct QuestionOptions {
 }
 
 /// What a command is about: the motion of a scene, or a machine.
-#[derive(Clone, Debug, Args)]
+#[derive(Args)]
 pub struct SourceOptions {
     #[command(flatten)]
     pub start: StartOptions,
@@ -80,7 +80,7 @@ impl SourceOptions {
 }
 
 /// Which motion is meant.
-#[derive(Clone, Debug, Args)]
+#[derive(Args)]
 pub struct StartOptions {
     /// Scene that sets what the other options leave open
     #[arg(long = "scene", value_name = "NAME")]

@@ -42,7 +42,7 @@ pub fn scenes(scenes: &[Arc<Scene>]) -> Answer {
 }
 
 /// A question that was answered, and what it cost.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Serialize)]
 pub struct QuestionCost {
     #[serde(rename = "question")]
     pub topic: Topic,
@@ -54,7 +54,6 @@ pub struct QuestionCost {
 }
 
 /// What a scene asks at once.
-#[derive(Clone, Debug)]
 pub struct QuestionBatch {
     /// [`OPENING`], or the name of a number after whose step it asks.
     pub after: &'static str,
@@ -66,7 +65,6 @@ pub struct QuestionBatch {
 /// Names what a scene asks when it opens.
 pub const OPENING: &str = "opening";
 
-#[derive(Clone, Debug)]
 pub struct SceneCost {
     pub scene: Arc<Scene>,
     /// The names of the layers that are drawn from formulas, without a question.

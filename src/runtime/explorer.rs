@@ -60,9 +60,9 @@ impl Application for Explorer {
         let mut session = self.session.clone();
         let provenance = provenance_file::of_process();
         Ok(Box::new(move |limits: &Limits| {
-            print::refine(&mut session, limits);
+            let limits = limits.up_to(print::MOST);
+            print::refine(&mut session, &limits);
             let plots = plot.map_or_else(|| session.on_show().collect(), |plot| vec![plot]);
-            let limits = Limits { evaluations: print::MOST, ..*limits };
             let drawn = print::figure(&mut session, &plots, &limits).from(provenance);
             figure::file(&drawn, form)
         }))

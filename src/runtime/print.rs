@@ -25,10 +25,9 @@ pub const MOST: u64 = 40_000_000;
 /// Computes what is on show in the explorer once more, for print. Anything that would keep the user waiting
 /// stays as it is on the screen.
 pub fn refine(session: &mut Session, limits: &Limits) {
-    let limits = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
     for request in session.wants().into_iter().filter(|request| is_drawn(request.topic())) {
         // Without a finer answer, that of the screen remains.
-        let _ = ask(session, request, Fineness::PRINT, &limits);
+        let _ = ask(session, request, Fineness::PRINT, limits);
     }
 }
 

@@ -118,9 +118,7 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
 
 /// A row; `None` if the scan is over.
 fn computed(scan: &Scan, index: usize, limits: &Limits) -> Option<ScanRow> {
-    if (limits.interrupted)() {
-        return None;
-    }
+    limits.go_on().ok()?;
     match caught(|| scan.row(index, limits)) {
         Ok(row) => row.ok(),
         Err(why) => Some(scan.failed(format!("internal error: {why}"))),
