@@ -38,10 +38,10 @@ impl MarginCommand {
         let timed = asked.output.timed("the margin could not be computed", ask)?;
         let ((nominal, certain), seconds) = timed;
         let mut cost = nominal.cost;
-        if let Ok((worst, _)) = &certain {
+        let certain = certain.map(|(worst, margin)| {
             cost += worst.cost;
-        }
-        let certain = certain.map(|(_, margin)| margin);
+            margin
+        });
         let answer = margins(&About::boxed(&known), nominal.margin, certain, bound);
         asked.output.print(answer.cost(cost, seconds))
     }

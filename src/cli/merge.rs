@@ -64,9 +64,8 @@ impl MergeCommand {
             }
             return Err(Failure::Said(1));
         }
-        if let Some(path) = absent.first() {
-            let error = io::Error::from(io::ErrorKind::NotFound);
-            return Err(Failure::file(path, &error));
+        if let Some(path) = absent {
+            return Err(Failure::file(path, io::Error::from(io::ErrorKind::NotFound)));
         }
         if let Some((output, path)) = output {
             let written = output.into_inner().map_err(io::IntoInnerError::into_error);
@@ -80,9 +79,9 @@ impl MergeCommand {
         Ok(())
     }
 
-    /// The parts that exist, at least one, and the paths that do not.
-    fn sources(&self) -> Result<(Vec<PartFile>, Vec<&Path>)> {
-        let (mut sources, mut absent) = (Vec::new(), Vec::new());
+    /// The parts that exist, at least one, and the first path that does not.
+    fn sources(&self) -> Result<(Vec<PartFile>, Option<&Path>)> {
+        let (mut sources, mut absent) = (Vec::new(), None);
         for path in &self.parts {
             if path.is_dir() {
                 for file in provenance_file::files_in(path)? {
@@ -93,7 +92,7 @@ impl MergeCommand {
             } else if path.exists() {
                 sources.push(part_of(path.clone())?);
             } else {
-                absent.push(path.as_path());
+                absent = absent.or(Some(path.as_path()));
             }
         }
         if sources.is_empty() {

@@ -17,8 +17,7 @@ use crate::words::provenance::{Provenance, quoted};
 pub struct Plan {
     /// Instead of computing the scan, prints a recipe that computes it in shards and merges them. The rows go to
     /// rows.csv, or to an --output that ends in .csv, .json or .jsonl; any other --output is the recipe itself
-    #[arg(long, value_enum, value_name = "ENGINE", requires = "shards",
-          conflicts_with_all = ["part", "resume"])]
+    #[arg(long, value_name = "ENGINE", requires = "shards", conflicts_with_all = ["part", "resume"])]
     plan: Option<Engine>,
     /// Number of shards of the recipe
     #[arg(long, value_name = "N", requires = "plan", value_parser = |text: &str| input::whole(text, 1..=MOST))]

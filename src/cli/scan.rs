@@ -244,8 +244,8 @@ impl ScanCommand {
             return ScanFile::create(path, part, provenance);
         }
         let earlier = provenance_file::read(path).ok().filter(|_| holds_something(path));
-        let builds = earlier.map(|earlier| (earlier.build(), provenance.build()));
-        if let Some((earlier, now)) = builds.filter(|(earlier, now)| earlier != now) {
+        let now = provenance.build();
+        if let Some(earlier) = earlier.map(|it| it.build()).filter(|it| *it != now) {
             let begun = format!("{name} was begun by {earlier}, and this is {now}");
             return Err(format!("{begun}; --force starts over").into());
         }

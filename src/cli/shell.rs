@@ -17,7 +17,6 @@ const DATE: &str = "2026-11-23";
 #[derive(Args)]
 pub struct CompletionsCommand {
     /// The shell
-    #[arg(value_enum)]
     shell: Shell,
 }
 

@@ -4,7 +4,7 @@
 use crate::flow::{Cost, Limits, Result};
 use crate::model::{Body, Source, State, Tolerances};
 use crate::portrait::guarantee::certain;
-use crate::portrait::{Margin, Portrait, picture_reach};
+use crate::portrait::{Margin, NoGuarantee, Portrait, picture_reach};
 
 /// A region of the phase plane around the sticking set.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub struct CertainZones {
     /// The margin at the nominal parameters without disturbance.
     pub nominal: Margin,
     /// The guaranteed margin, or why there is none.
-    pub guaranteed: Result<Margin, String>,
+    pub guaranteed: Result<Margin, NoGuarantee>,
     pub cost: Cost,
 }
 
@@ -57,14 +57,11 @@ pub(super) fn zones(
         None if portrait.has_basin() => Extent::Everything,
         None => Extent::Nothing,
     };
-    let certain = found.as_ref();
     Ok(CertainZones {
-        safe: certain.map_or(Extent::Nothing, |(worst, _)| extent(worst)),
+        safe: found.as_ref().map_or(Extent::Nothing, |(worst, _)| extent(worst)),
         hopeful: hopeful.as_ref().map_or(Extent::Everything, extent),
         nominal: nominal.in_drawing(&nominal.margin),
-        guaranteed: certain
-            .map(|(_, margin)| nominal.in_drawing(margin))
-            .map_err(ToString::to_string),
+        guaranteed: found.map(|(_, margin)| nominal.in_drawing(&margin)),
         cost,
     })
 }

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::branch::machine::{MachineBranch, PortraitPoint};
 use crate::branch::{Boundary, BoundaryPoint, Branch, BranchPoint, Jump, JumpEnd, Special};
-use crate::flow::Cost;
+use crate::flow::{Cost, Result};
 use crate::model::Knob;
 use crate::portrait::Cycle;
 use crate::proof::range::MOST_STEPS;
@@ -141,7 +141,7 @@ pub fn border<'a>(
 }
 
 /// A value, and a cycle of a machine there; one without an answer has one row, with the reason.
-type MachineBranchRow = (f64, Result<Cycle, String>);
+type MachineBranchRow = (f64, Result<Cycle>);
 
 /// The branch of a machine: a row for each cycle at each value; below them in text, each change in a sentence.
 pub fn of_machine(about: &About, varied: Knob, found: &MachineBranch, seconds: f64) -> Answer {
@@ -149,14 +149,14 @@ pub fn of_machine(about: &About, varied: Knob, found: &MachineBranch, seconds: f
     let columns = |name| {
         Columns::default()
             .number(name, Quantity::of(unit, PLACES), |(value, _): &MachineBranchRow| *value)
-            .and(machine_cycles(|(_, cycle): &MachineBranchRow| cycle.as_ref().ok().copied()))
-            .file("reason", |(_, cycle)| cycle.as_ref().err().cloned())
+            .and(machine_cycles(|(_, cycle): &MachineBranchRow| cycle.ok()))
+            .file("reason", |(_, cycle)| cycle.err())
     };
     let mut rows = Vec::new();
     for PortraitPoint { value, found } in &found.points {
         match found {
             Ok(found) => rows.extend(found.cycles.iter().map(|cycle| (*value, Ok(*cycle)))),
-            Err(why) => rows.push((*value, Err(why.to_string()))),
+            Err(why) => rows.push((*value, Err(*why))),
         }
     }
     let cost = Cost { steps: found.cost.steps, ..Cost::default() };

@@ -34,7 +34,7 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
         .file("error", |it| Some(found(it)?.computed.error))
         .file("difference", |it| found(it)?.difference())
         .file("bound", |it| Some(found(it)?.bound()))
-        .file("verdict", |it| claim::name(it))
+        .file("verdict", claim::name)
         .file("within", |it| it.verdict().and_then(Verdict::within))
         .file("scene", |it| it.claim.scene)
         .file("proof", |it| it.mark().map(Certainty::name))
@@ -46,7 +46,7 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
 
 /// Every claim, and the reason if nothing could be computed; sentences are wrapped to a width, if one is given.
 pub fn claims(examined: &[ClaimResult], width: Option<usize>, seconds: f64) -> Answer {
-    let reason = |it: &ClaimResult| it.evidence.as_ref().err().map(ToString::to_string);
+    let reason = |it: &ClaimResult| it.evidence.as_ref().err().copied();
     Answer::default()
         .with("claims", columns().field("reason", reason).objects(examined))
         .csv(&columns(), examined)

@@ -133,7 +133,7 @@ fn balance_columns<'a>() -> Columns<'a, BalanceRow<'a>> {
         .number("residual", ERROR, |row| Some(of(row)?.residual))
         .number("amplitude_error", ERROR, |(_, it)| Some(it.error?.amplitude))
         .number("frequency_error", ERROR, |(_, it)| Some(it.error?.frequency))
-        .word("lost", |(_, it)| it.cycle.as_ref().err().map(ToString::to_string))
+        .word("lost", |(_, it)| it.cycle.as_ref().err().copied())
 }
 
 /// All rows, branch by branch.

@@ -6,7 +6,7 @@ use super::{Answer, Columns, Document, Quantity, Table};
 use crate::accuracy::extremes::sets::{BUDGET as BUDGET_OF_SET, LatticeCycle, SetVerdict};
 use crate::accuracy::extremes::verdict::{BUDGET, METHODS};
 use crate::accuracy::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
-use crate::flow::{Method, Outcome, Reason};
+use crate::flow::{Method, Outcome};
 use crate::model::{Knob, Parameters};
 use crate::words::{exact as short, significant, stability};
 
@@ -44,7 +44,7 @@ fn method_columns<'a>() -> Columns<'a, MethodRow<'a>> {
         .number("tau", FEW, |(_, answer)| answer.outcome.tau())
         .number("q", FEW, |(_, answer)| answer.outcome.state().map(|at| at.0))
         .number("v", FEW, |(_, answer)| answer.outcome.state().map(|at| at.1))
-        .file("reason", |(_, answer)| answer.outcome.answered().err().map(|it| it.to_string()))
+        .file("reason", |(_, answer)| answer.outcome.answered().err())
         .file("digits_lost", |(_, answer)| answer.digits_lost)
         .file("sensitivity", |(verdict, _)| verdict.sensitivity)
         .file("contradicts", |(_, answer)| answer.contradicts)
@@ -155,7 +155,7 @@ fn set_columns<'a>() -> Columns<'a, SetRow<'a>> {
         (Ok(_), None) => "none",
         (Ok(_), Some(_)) => "cycle",
     };
-    let reason = |(verdict, _): &SetRow| verdict.answer.as_ref().err().map(Reason::to_string);
+    let reason = |(verdict, _): &SetRow| verdict.answer.as_ref().err().copied();
     let shown = |(_, cycle): &SetRow, value: fn(&LatticeCycle) -> f64| FEW.text(cycle.map(value));
     parameter_columns(|(verdict, _): &SetRow| verdict.parameters)
         .word("answer", kind)

@@ -129,7 +129,7 @@ pub fn kicks(about: &About, law: &RandomKick, found: &Survival, held: f64, secon
         .with("density", &found.density);
     about
         .answer_to(&format!("; kicks {law}"))
-        .with("kicks", law.to_string())
+        .with("kicks", law)
         .with("lost", found.first)
         .with("repeated", repeated)
         .csv(&density, found.places(held))

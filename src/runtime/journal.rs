@@ -52,11 +52,10 @@ impl Journal {
         let found = bounded::bytes(&beside(path, ENDING)).unwrap_or_default();
         let mut journal = Self::new(Some(path), part);
         let Some(lines) = found.strip_prefix(journal.heading.as_bytes()) else { return journal };
-        for line in lines.split_inclusive(|byte| *byte == b'\n') {
-            if let Some((index, row)) = row(part, line) {
-                // What cannot be noted again is still known to this process.
-                drop(journal.note(index, row));
-            }
+        let lines = lines.split_inclusive(|byte| *byte == b'\n');
+        for (index, row) in lines.filter_map(|line| row(part, line)) {
+            // What cannot be noted again is still known to this process.
+            drop(journal.note(index, row));
         }
         journal
     }

@@ -3,7 +3,7 @@
 
 use super::{fitted::statement, pane};
 use crate::model::Knob;
-use crate::portrait::{Border, Margin, RestMargin};
+use crate::portrait::{Border, Margin, NoGuarantee, RestMargin};
 use crate::scene::Topic;
 use crate::session::{MachineMargins, Session};
 use crate::words::number::{rounded_down, too_large};
@@ -120,13 +120,13 @@ pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> 
 }
 
 /// The nominal margin, and the one that holds for certain or why none does.
-fn margins(session: &Session) -> Option<(Margin, Result<Margin, String>)> {
+fn margins(session: &Session) -> Option<(Margin, Result<Margin, NoGuarantee>)> {
     let told = session.on_show().any(|plot| session.tells_certain(plot));
     if !told || session.value(Knob::R) == 0.0 {
         return None;
     }
     let found = session.zones().filter(|_| !session.is_stale(Topic::Zones, session.plot))?;
-    Some((found.nominal, found.guaranteed.clone()))
+    Some((found.nominal, found.guaranteed))
 }
 
 /// Nominal and for certain.

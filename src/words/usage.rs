@@ -29,8 +29,9 @@ fn first_paragraphs(text: &str) -> String {
         let word = word.split(' ').next().unwrap_or_default();
         return format!("{word} cannot follow a scene; a command stands first and takes --scene");
     }
-    let similar = ["tip: a similar argument exists:", "tip: a similar value exists:"];
-    similar.into_iter().fold(sentence, |sentence, tip| sentence.replace(tip, "did you mean"))
+    sentence
+        .replace("tip: a similar argument exists:", "did you mean")
+        .replace("tip: a similar value exists:", "did you mean")
 }
 
 #[cfg(test)]

@@ -79,9 +79,8 @@ fn motions(portrait: &Portrait) -> Document {
         .with("displacements", reach.map(|reach| reach.displacement))
         .with("velocities", reach.map(|reach| reach.velocity));
     // The right turning point beyond which motions are not known, and why.
-    let limit = portrait
-        .stop
-        .map(|stop| Document::of("displacement", portrait.known).with("reason", stop.to_string()));
+    let limit =
+        portrait.stop.map(|stop| Document::of("displacement", portrait.known).with("reason", stop));
     Document::of("cycles", cycle_columns().objects(&portrait.cycles))
         .with("neutral", portrait.neutral)
         .with("border", Document::of("kind", portrait.border))
@@ -137,7 +136,7 @@ fn by_second(second: &Motion, first: Sample) -> Document {
         .with("tolerance", second.problem.tolerance)
         .with_any("end", end.ok().map(state))
         .with_any("difference", end.ok().map(less).map(state))
-        .with_any("reason", end.err().map(|stop| stop.to_string()))
+        .with_any("reason", end.err())
 }
 
 /// The columns of a cycle, beside which `x` is the displacement.

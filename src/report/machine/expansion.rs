@@ -42,7 +42,7 @@ impl<'a> CubicExpansion<'a> {
         let found = self.portrait.as_ref();
         let cycles = found.iter().flat_map(|found| &found.cycles);
         Document::of("parameters", self.reduced.parameters)
-            .with_any("reason", found.err().map(ToString::to_string))
+            .with_any("reason", found.err())
             .with("cycles", cycles.map(|cycle| self.cycle(cycle, whole)).collect::<Vec<_>>())
             .with("edge", found.ok().map(|found| found.border))
             .with("margin", found.ok().map(|found| self.margin(&found.margin, &whole.margin)))
