@@ -66,10 +66,10 @@ impl CyclesCommand {
     /// Writes the certificate, if asked for.
     fn certify(&self, proof: &Proof) -> Result<()> {
         let Some(path) = &self.certificate else { return Ok(()) };
-        const FAILED: &str = "no certificate";
-        let made = certificate(proof).map_err(Failure::unanswered(FAILED))?;
-        let text = text(&made).map_err(Failure::unanswered(FAILED))?;
-        check(&text).map_err(Failure::unanswered(FAILED))?;
+        let failed = "no certificate";
+        let made = certificate(proof).map_err(Failure::unanswered(failed))?;
+        let text = text(&made).map_err(Failure::unanswered(failed))?;
+        check(&text).map_err(Failure::unanswered(failed))?;
         write(path, text.as_bytes(), self.force)?;
         provenance_file::write(path, &provenance_file::of_process())
     }

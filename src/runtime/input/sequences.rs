@@ -64,14 +64,6 @@ type Begin = Option<(FirstBytes, usize)>;
 
 const ALT: Begin = Some((FirstBytes::Alt, 2));
 
-fn whole(length: usize) -> Begin {
-    Some((FirstBytes::Whole, length))
-}
-
-fn noise(length: usize) -> Begin {
-    Some((FirstBytes::Noise, length))
-}
-
 impl Divider {
     /// How long to wait for the rest of what has arrived; `None` if nothing is unfinished.
     pub fn patience(&self) -> Option<Duration> {
@@ -208,14 +200,14 @@ fn first(bytes: &[u8]) -> Begin {
         [ESCAPE] | [ESCAPE, b'O' | b'[' | b']' | b'P'] => None,
         // The first one is the key. The second one may begin a sequence, such as a report that arrives while
         // the key is pressed.
-        [ESCAPE, ESCAPE, ..] => whole(1),
-        [ESCAPE, b'O', b'@'..=b'~', ..] => whole(3),
+        [ESCAPE, ESCAPE, ..] => Some((FirstBytes::Whole, 1)),
+        [ESCAPE, b'O', b'@'..=b'~', ..] => Some((FirstBytes::Whole, 3)),
         [ESCAPE, b'O', ..] => ALT,
         [ESCAPE, b'[', rest @ ..] => control(rest),
         [ESCAPE, b']' | b'P', ..] => string(bytes),
         [ESCAPE, rest @ ..] => match character(rest)? {
-            (FirstBytes::Whole, length) => whole(1 + length),
-            _ => whole(1),
+            (FirstBytes::Whole, length) => Some((FirstBytes::Whole, 1 + length)),
+            _ => Some((FirstBytes::Whole, 1)),
         },
         _ => character(bytes),
     }
@@ -226,10 +218,10 @@ fn control(rest: &[u8]) -> Begin {
     match rest {
         // The function keys of the Linux console.
         [b'['] => return None,
-        [b'[', b'A'..=b'E', ..] => return whole(4),
+        [b'[', b'A'..=b'E', ..] => return Some((FirstBytes::Whole, 4)),
         // A report of the mouse, as terminals send it that know no decimal coordinates.
         [b'M', places @ ..] if places.iter().take(3).all(|place| *place >= b' ') => {
-            return if places.len() < 3 { None } else { whole(6) };
+            return if places.len() < 3 { None } else { Some((FirstBytes::Whole, 6)) };
         }
         _ => {}
     }
@@ -241,9 +233,9 @@ fn control(rest: &[u8]) -> Begin {
         (
             Some(b'0'..=b'9' | b'<' | b'>' | b'?' | b'@'..=b'Z' | b'\\'..=b'~'),
             Some(b'@'..=b'~'),
-        ) => whole(length),
-        (Some(_), Some(b'@'..=b'~')) if parameters > 0 => noise(length),
-        (Some(_), Some(_)) if parameters > 0 => noise(length - 1),
+        ) => Some((FirstBytes::Whole, length)),
+        (Some(_), Some(b'@'..=b'~')) if parameters > 0 => Some((FirstBytes::Noise, length)),
+        (Some(_), Some(_)) if parameters > 0 => Some((FirstBytes::Noise, length - 1)),
         _ => ALT,
     }
 }
@@ -257,9 +249,9 @@ fn string(bytes: &[u8]) -> Begin {
     let text = bytes.iter().skip(2).take_while(|byte| **byte >= b' ').count();
     match &bytes[2 + text..] {
         [] | [ESCAPE] => None,
-        [BELL, ..] if is_command => whole(2 + text + 1),
-        [ESCAPE, b'\\', ..] => whole(2 + text + 2),
-        _ if is_command => noise(2 + text),
+        [BELL, ..] if is_command => Some((FirstBytes::Whole, 2 + text + 1)),
+        [ESCAPE, b'\\', ..] => Some((FirstBytes::Whole, 2 + text + 2)),
+        _ if is_command => Some((FirstBytes::Noise, 2 + text)),
         _ => ALT,
     }
 }
@@ -271,12 +263,12 @@ fn character(bytes: &[u8]) -> Begin {
         0xc2..=0xdf => 2,
         0xe0..=0xef => 3,
         0xf0..=0xf4 => 4,
-        _ => return noise(1),
+        _ => return Some((FirstBytes::Noise, 1)),
     };
     let end = bytes.len().min(length);
     match bytes[1..end].iter().position(|byte| !(0x80..0xc0).contains(byte)) {
-        Some(broken) => noise(1 + broken),
+        Some(broken) => Some((FirstBytes::Noise, 1 + broken)),
         None if end < length => None,
-        None => whole(length),
+        None => Some((FirstBytes::Whole, length)),
     }
 }
