@@ -94,9 +94,9 @@ pub fn check(text: &str) -> Result<Certificate, String> {
     })?;
     let at_line = |word: &str, number: usize, why: String| {
         // Several steps may share a line.
-        let lines = text.lines().enumerate().filter(|(_, line)| line.contains(word));
+        let lines = (1..).zip(text.lines()).filter(|(_, line)| line.contains(word));
         let last = lines.take(number + 1).last();
-        format!("line {}: {why}", last.map_or(1, |(index, _)| index + 1))
+        format!("line {}: {why}", last.map_or(1, |(line, _)| line))
     };
     let ordered = |[low, high]: Bounds| low <= high && low.is_finite() && high.is_finite();
     let sensible = given.parameters.into_iter().all(ordered) && given.parameters[3][0] >= 0.0;
@@ -156,23 +156,22 @@ impl CertificateStep {
             StepKind::Within => {
                 // An infinite interval is bounded by the images of all clearances.
                 let of = Interval::new(if to < f64::INFINITY { to } else { 0.0 }, to);
-                known(map.images(of) < from, "images of G may lie beyond `from`").map(|()| 0)
+                known(map.images(of) < from, "images of G may lie beyond `from`")?;
             }
             StepKind::Below | StepKind::Above => {
                 let least = map.images(Interval::point(from)).lower();
                 let beyond = least > to || least == f64::INFINITY;
-                known(beyond, "the image of `from` may not lie beyond `to`").map(|()| 0)
+                known(beyond, "the image of `from` may not lie beyond `to`")?;
             }
-            StepKind::Stable | StepKind::Unstable => {
-                self.verify_cycle(&map, [from, to]).map(|()| 1)
-            }
+            StepKind::Stable | StepKind::Unstable => self.verify_cycle(&map, [from, to])?,
             _ => {
                 known(from == 0.0 && to == f64::INFINITY, "a theorem is the only step")?;
                 known(self.fences.is_none(), "a theorem needs no fences")?;
                 let cycles = self.kind.theorem(parameters);
-                cycles.ok_or_else(|| "its conditions are not met".to_owned())
+                return cycles.ok_or_else(|| "its conditions are not met".to_owned());
             }
         }
+        Ok(usize::from(is_cycle))
     }
 
     /// Checks that there is exactly one cycle, and that its clearance lies between its bounds.

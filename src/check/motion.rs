@@ -256,9 +256,8 @@ impl FencedField {
             let arrives = disc.centre[1] > 0.0 && velocity(longest) <= 0.0;
             let arrival = || bisect(0.0, longest, 60, |h| velocity(h) <= 0.0).1;
             let h = if arrives { arrival() } else { longest };
-            let mut shorter = (0..90).map(|k| (k, h * powi(0.8, k)));
-            let (tried, next) =
-                shorter.find_map(|(k, h)| Some((k, disc.step(self, &series, h)?)))?;
+            let shorter = |k| Some((k, disc.step(self, &series, h * powi(0.8, k))?));
+            let (tried, next) = (0..90).find_map(shorter)?;
             disc = next;
             if arrives && tried == 0 {
                 return disc.end(self);

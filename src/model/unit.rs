@@ -194,36 +194,35 @@ fn number_end(text: &str) -> usize {
     (1..=longest).rev().find(|end| text[..*end].parse::<f64>().is_ok()).unwrap_or(0)
 }
 
+/// What is wrong with a text that is no unit.
+const WRONG: &str = "is not a unit; units are made of g, m, s, N, Hz with prefixes, and of in (inch), sec, min, h, kgf, such as N s/m";
+
 /// The value in SI units and the dimension of a unit.
-fn read_unit(text: &str) -> Result<(f64, Dimension), String> {
-    let mut reader = UnitReader { text, rest: text };
-    let unit = reader.product()?;
-    if reader.rest.is_empty() { Ok(unit) } else { Err(reader.wrong()) }
+type SizedUnit = (f64, Dimension);
+
+/// Reads a unit.
+fn read_unit(text: &str) -> Result<SizedUnit, String> {
+    let mut reader = UnitReader { rest: text };
+    let unit =
+        reader.product().and_then(|unit| reader.rest.is_empty().then_some(unit).ok_or(WRONG));
+    unit.map_err(|why| format!("{text:?} {why}"))
+}
+
+/// The dimension of a product with a power of another one. Fails beyond all sense.
+fn times(mut one: Dimension, by: Dimension, power: i8) -> Result<Dimension, &'static str> {
+    for (exponent, other) in one.iter_mut().zip(by) {
+        let sum = other.checked_mul(power).and_then(|other| exponent.checked_add(other));
+        *exponent = sum.ok_or(WRONG)?;
+    }
+    Ok(one)
 }
 
 /// The unread rest of a unit.
 struct UnitReader<'a> {
-    text: &'a str,
     rest: &'a str,
 }
 
 impl UnitReader<'_> {
-    fn wrong(&self) -> String {
-        format!(
-            "{:?} is not a unit; units are made of g, m, s, N, Hz with prefixes, and of in (inch), sec, min, h, kgf, such as N s/m",
-            self.text
-        )
-    }
-
-    /// The dimension of a product with a power of another one. Fails beyond all sense.
-    fn times(&self, mut one: Dimension, by: Dimension, power: i8) -> Result<Dimension, String> {
-        for (exponent, other) in one.iter_mut().zip(by) {
-            let sum = other.checked_mul(power).and_then(|other| exponent.checked_add(other));
-            *exponent = sum.ok_or_else(|| self.wrong())?;
-        }
-        Ok(one)
-    }
-
     /// Consumes this character and the blanks after it, if it comes next.
     fn take(&mut self, char: char) -> bool {
         let taken = self.rest.strip_prefix(char);
@@ -232,35 +231,30 @@ impl UnitReader<'_> {
     }
 
     /// Reads factors up to the end or a closing parenthesis; `/` divides by the next factor only.
-    fn product(&mut self) -> Result<(f64, Dimension), String> {
+    fn product(&mut self) -> Result<SizedUnit, &'static str> {
         let (mut size, mut exponents) = self.factor()?;
         let mut dividing = false;
         while !self.rest.is_empty() && !self.rest.starts_with(')') {
-            if self.take('/') {
-                dividing = true;
-            } else if !(self.take('*') || self.take('\u{b7}')) && dividing {
-                // A factor after a quotient and a blank could belong to the numerator or to the denominator.
-                return Err(format!(
-                    "{:?} can be read in two ways; write parentheses, such as N/(m s)",
-                    self.text
-                ));
-            } else {
-                dividing = false;
+            let divides = self.take('/');
+            // A factor after a quotient and a blank could belong to the numerator or to the denominator.
+            if !(divides || self.take('*') || self.take('\u{b7}')) && dividing {
+                return Err("can be read in two ways; write parentheses, such as N/(m s)");
             }
+            dividing = divides;
             let (value, dimension) = self.factor()?;
             let power = if dividing { -1 } else { 1 };
             size *= powi(value, i32::from(power));
-            exponents = self.times(exponents, dimension, power)?;
+            exponents = times(exponents, dimension, power)?;
         }
         Ok((size, exponents))
     }
 
     /// Reads a unit name, `1` or a parenthesis, with its power.
-    fn factor(&mut self) -> Result<(f64, Dimension), String> {
+    fn factor(&mut self) -> Result<SizedUnit, &'static str> {
         let (value, dimension) = if self.take('(') {
             let inner = self.product()?;
             if !self.take(')') {
-                return Err(self.wrong());
+                return Err(WRONG);
             }
             inner
         } else if self.take('1') {
@@ -269,13 +263,13 @@ impl UnitReader<'_> {
             self.name()?
         };
         let power = self.power()?;
-        let dimension = self.times(NONE, dimension, power)?;
+        let dimension = times(NONE, dimension, power)?;
         Ok((powi(value, i32::from(power)), dimension))
     }
 
-    fn name(&mut self) -> Result<(f64, Dimension), String> {
+    fn name(&mut self) -> Result<SizedUnit, &'static str> {
         let end = self.rest.find(|char: char| !char.is_alphabetic()).unwrap_or(self.rest.len());
-        let name = &self.rest[..end];
+        let (name, rest) = self.rest.split_at(end);
         let split = |(prefix, scale): &(&str, f64)| {
             let base = name.strip_prefix(prefix)?;
             let is_it =
@@ -283,13 +277,13 @@ impl UnitReader<'_> {
             let UnitRow { value, dimension, .. } = UNITS.iter().find(is_it)?;
             Some((scale * value, *dimension))
         };
-        let found = PREFIXES.iter().find_map(split).ok_or_else(|| self.wrong())?;
-        self.rest = self.rest[end..].trim_start();
+        let found = PREFIXES.iter().find_map(split).ok_or(WRONG)?;
+        self.rest = rest.trim_start();
         Ok(found)
     }
 
     /// Reads `^3`, `^-1`, `\u{b2}` or `\u{b3}`; 1 where no power is written.
-    fn power(&mut self) -> Result<i8, String> {
+    fn power(&mut self) -> Result<i8, &'static str> {
         for (char, power) in [('\u{b2}', 2), ('\u{b3}', 3)] {
             if self.take(char) {
                 return Ok(power);
@@ -300,9 +294,9 @@ impl UnitReader<'_> {
         }
         let end = self.rest.find(|char: char| !(char.is_ascii_digit() || char == '-'));
         let (digits, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
-        let power: i8 = digits.parse().map_err(|_| self.wrong())?;
+        let power: i8 = digits.parse().map_err(|_| WRONG)?;
         if power.abs() > LARGEST_POWER {
-            return Err(self.wrong());
+            return Err(WRONG);
         }
         self.rest = rest.trim_start();
         Ok(power)

@@ -44,10 +44,11 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
 /// If a number is infinite or NaN.
 pub fn text(of: &Certificate) -> Result<String, serde_json::Error> {
     let steps: Result<Vec<_>, _> = of.steps.iter().map(serde_json::to_string).collect();
-    let mut out = format!("{{\n\"parameters\": {},\n", serde_json::to_string(&of.parameters)?);
-    out += &format!("\"cycles\": {},\n\"steps\": [\n", of.cycles);
-    out += &format!("{}\n]\n}}\n", steps?.join(",\n"));
-    Ok(out)
+    let parameters = serde_json::to_string(&of.parameters)?;
+    let (cycles, steps) = (of.cycles, steps?.join(",\n"));
+    Ok(format!(
+        "{{\n\"parameters\": {parameters},\n\"cycles\": {cycles},\n\"steps\": [\n{steps}\n]\n}}\n"
+    ))
 }
 
 /// The walk from the sticking set outwards.

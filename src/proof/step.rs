@@ -354,16 +354,15 @@ impl StepField {
     fn growth(&self, norm: Norm, v: Interval) -> f64 {
         /// Relative upper bound on the roundings of the sums below.
         const ROUNDED: f64 = 1e-15;
-        let ([a, b, c], [spread_a, spread_b, spread_c]) = (self.middles, self.spread);
+        let [a, b, c] = self.middles;
         let speed = v.magnitude();
         let linear = [v.lower(), v.upper()].map(|v| 2.0 * b * v);
         // v^2 + v w + w^2 for v and w in one interval: between 0 (or 3/4 of the larger square) and 3 times that
         // square.
         let least = if v.contains(0.0) { 0.0 } else { v.lower().abs().min(v.upper().abs()) };
         let cubic = [least, speed].map(|v| 3.0 * c * (v * v));
-        let blur = spread_a
-            + speed * (2.0 * spread_b + 3.0 * spread_c * speed)
-            + ROUNDED * (self.most[0] + speed * (2.0 * self.most[1] + 3.0 * self.most[2] * speed));
+        let slope = |[a, b, c]: [f64; 3]| a + speed * (2.0 * b + 3.0 * c * speed);
+        let blur = slope(self.spread) + ROUNDED * slope(self.most);
         let low = a + linear[0].min(linear[1]) + cubic[0].min(cubic[1]) - blur;
         let high = a + linear[0].max(linear[1]) + cubic[0].max(cubic[1]) + blur;
         // NaN has no minimum or maximum.

@@ -127,14 +127,13 @@ impl MachineCurve {
     /// Its points, one more than this number on each step in slip and on each ride; velocities divided by the natural
     /// frequency.
     pub fn points(&self, (in_slip, on_belt): (u16, u16)) -> Vec<State> {
-        let points = |step: &MachineStep| {
+        let points = self.steps.iter().flat_map(|step| {
             let rides = step.place == ContactState::Sticks;
             let between = if rides { on_belt } else { in_slip }.max(1);
-            let part = |point: u16| f64::from(point) / f64::from(between);
-            let at = |point: u16| step.at(step.duration * part(point));
-            (0..=between).map(at).map(|(q, v)| State { q, v }).collect::<Vec<State>>()
-        };
-        self.steps.iter().flat_map(points).collect()
+            let part = move |point: u16| f64::from(point) / f64::from(between);
+            (0..=between).map(move |point| step.at(step.duration * part(point)))
+        });
+        points.map(|(q, v)| State { q, v }).collect()
     }
 
     /// The ledger of a closed curve, in J.

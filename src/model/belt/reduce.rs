@@ -155,10 +155,9 @@ impl Belt {
         let places = (0..=INTERVALS).map(place);
         let worst = places.clone().max_by(by_number(|v: &f64| difference(*v)));
         let worst = worst.unwrap_or(range.0);
-        let inside = |v: f64| v.clamp(range.0, range.1);
-        let ends = (inside(worst - step), inside(worst + step));
-        let ends = maximum(ends.0, ends.1, FLAT * (ends.1 - ends.0), difference);
-        let polished = f64::midpoint(ends.0, ends.1);
+        let [from, to] = [worst - step, worst + step].map(|v| v.clamp(range.0, range.1));
+        let (from, to) = maximum(from, to, FLAT * (to - from), difference);
+        let polished = f64::midpoint(from, to);
         let at = if difference(polished) > difference(worst) { polished } else { worst };
         let force = self.normal_force * difference(at);
         let least_mu = places.clone().map(law).fold(mu.value, f64::min);
