@@ -18,7 +18,7 @@
     reason = "a comparison with what is not a number fails, and its negation is the safe side"
 )]
 
-use crate::numerics::{Interval, bisect, pow, powi};
+use crate::numerics::{Interval, bisect, pow, powi, real};
 
 /// The field of a half plane.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +47,7 @@ const SMALL: f64 = 2e-16;
 /// Steps after which a half swing is abandoned.
 const STEPS: usize = 1_000;
 
-/// Taylor coefficients: of x, of v, of the integral of `f'`, and of `v^2`.
+/// Taylor coefficients: of x, of v, of the integral of `f'`, and, below the degree of the remainder, of `v^2`.
 type Series = [[Interval; 4]; ORDER + 1];
 
 /// A box or a point: position and velocity.
@@ -100,24 +100,17 @@ impl FencedField {
         let [a, b, c] = self.coefficients;
         let mut found = [[point(0.0); 4]; ORDER + 1];
         (found[0][0], found[0][1]) = (x, v);
-        let mut degree = 0.0;
-        for k in 0..=ORDER {
+        for k in 0..ORDER {
             let product = |found: &Series, i: usize| {
                 (0..=k).fold(point(0.0), |sum, j| sum + found[j][i] * found[k - j][1])
             };
             found[k][3] = if k == 0 { v.square() } else { product(&found, 1) };
-            if k < ORDER {
-                degree += 1.0;
-                let [position, velocity, _, square] = found[k];
-                let force = a * velocity + b * square + c * product(&found, 3);
-                let constant = if k == 0 { a } else { point(0.0) };
-                let damping = constant + b.twice() * velocity + c * square * 3.0;
-                for (column, rate) in
-                    [velocity, -(position + force), damping].into_iter().enumerate()
-                {
-                    found[k + 1][column] = rate / degree;
-                }
-            }
+            let [position, velocity, _, square] = found[k];
+            let force = a * velocity + b * square + c * product(&found, 3);
+            let constant = if k == 0 { a } else { point(0.0) };
+            let damping = constant + b.twice() * velocity + c * square * 3.0;
+            let rates = [velocity, -(position + force), damping, point(0.0)];
+            found[k + 1] = rates.map(|rate| rate / real(k + 1));
         }
         found
     }

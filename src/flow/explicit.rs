@@ -108,8 +108,7 @@ impl<const S: usize, const R: usize, F: Field> ExplicitStepper<S, R, F> {
             x * x + v * v
         };
         match self.scheme.estimate {
-            ErrorEstimate::None if end.size().is_finite() => (0.0, 1.0),
-            ErrorEstimate::None => (f64::INFINITY, 1.0),
+            ErrorEstimate::None => (if end.size().is_finite() { 0.0 } else { f64::INFINITY }, 1.0),
             ErrorEstimate::Embedded(power) => (h * (0.5 * norm(self.errors[0])).sqrt(), power),
             ErrorEstimate::Combined(power) => {
                 let (fifth, third) = (norm(self.errors[0]), norm(self.errors[1]));

@@ -112,6 +112,7 @@ impl Model {
         let parts = belt.law.parts();
         let law = parts.scaled(force, omega_0);
         let pull = force * mu;
+        let (moving, at_rest) = (belt.friction, belt.static_guide.unwrap_or(belt.friction));
         let reach = belt.law.range().1.min(first_below_zero(&parts)) / omega_0;
         let side = |above| branch(&law, &damper, speed, pull, reach, above);
         let mut model = Model {
@@ -119,8 +120,8 @@ impl Model {
             mass: belt.mass,
             stiffness: belt.stiffness,
             speed,
-            guide: belt.friction * per_stiffness,
-            guide_static: belt.static_guide.unwrap_or(belt.friction) * per_stiffness,
+            guide: moving * per_stiffness,
+            guide_static: at_rest * per_stiffness,
             pull,
             tolerance: FINEST,
             slower: side(false),
@@ -129,8 +130,7 @@ impl Model {
             ..Model::default()
         };
         if model.guide_static < model.guide {
-            let at_rest = belt.static_guide.unwrap_or(belt.friction);
-            return Err(Reason::GuideStatic { at_rest, moving: belt.friction });
+            return Err(Reason::GuideStatic { at_rest, moving });
         }
         model.damping = -model.slower.at(0.0).1;
         if let Some(mu_rest) = belt.law.mu(0.0) {
@@ -169,11 +169,11 @@ impl Model {
         omega_0: f64,
         mass: f64,
         damping_ratio: &[f64],
-        guide: f64,
-        guide_static: f64,
+        moving: f64,
+        at_rest: f64,
     ) -> Result<Self> {
-        if guide_static < guide {
-            return Err(Reason::GuideStatic { at_rest: guide_static, moving: guide });
+        if at_rest < moving {
+            return Err(Reason::GuideStatic { at_rest, moving });
         }
         let stiffness = mass * omega_0 * omega_0;
         let ratio = |(k, number): (i32, &f64)| 2.0 * number * powi(omega_0, k);
@@ -186,9 +186,9 @@ impl Model {
             mass,
             stiffness,
             speed: f64::INFINITY,
-            guide: guide / stiffness,
-            guide_static: guide_static / stiffness,
-            damping: damper.get(1).copied().unwrap_or(0.0),
+            guide: moving / stiffness,
+            guide_static: at_rest / stiffness,
+            damping: *damper.get(1).unwrap_or(&0.0),
             tolerance: FINEST,
             slower: ForceBranch {
                 pieces: vec![ForcePiece { low, high, center: 0.0, coefficients, falls: false }],
@@ -209,7 +209,7 @@ impl Model {
     /// with a belt, or with damping of a higher power than the third.
     #[must_use]
     pub fn parameters(&self) -> Option<Parameters> {
-        let power = |power: usize| self.damper.get(power).copied().unwrap_or(0.0);
+        let power = |power: usize| *self.damper.get(power).unwrap_or(&0.0);
         let higher = self.damper.iter().skip(4).any(|number| *number != 0.0);
         let parameters =
             Parameters { d: 0.5 * power(1), d2: power(2), d3: power(3), r: self.guide };

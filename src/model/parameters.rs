@@ -92,7 +92,6 @@ impl Parameters {
 // The segment of equilibria that dry friction makes of the steady state (equation 10).
 
 /// Whether a motion at this point rests forever: `v = 0` and `abs(q) <= r`.
-#[must_use]
 pub fn rests(state: State, r: f64) -> bool {
     state.v == 0.0 && state.q.abs() <= r
 }
@@ -170,7 +169,6 @@ impl Ledger {
 }
 
 /// The energy `(q^2 + v^2)/2` of a state.
-#[must_use]
 pub fn energy(state: State) -> f64 {
     0.5 * (state.q * state.q + state.v * state.v)
 }

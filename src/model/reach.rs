@@ -23,7 +23,7 @@ fn falling_zero((drop, velocity, exponent): (f64, f64, f64), rest: &[f64]) -> f6
     /// Rungs in a doubling of the slip.
     const RUNGS: i32 = 32;
     // From where the law has hardly fallen to where only its straight part is left.
-    let [kinetic, viscous] = [0, 1].map(|power| rest.get(power).copied().unwrap_or(0.0));
+    let [kinetic, viscous] = [0, 1].map(|power| *rest.get(power).unwrap_or(&0.0));
     let far = if viscous < 0.0 { 2.0 * (kinetic / viscous).abs() } else { 0.0 };
     let last = far.max(1024.0 * velocity);
     let doublings = (0..).map(|rung| f64::from(rung - 20 * RUNGS) / f64::from(RUNGS));

@@ -138,7 +138,7 @@ impl Tolerances {
     /// Where a number lies; `None` where the machine has no such number.
     #[must_use]
     pub fn interval(&self, varied: Knob, belt: &Belt) -> Option<Interval> {
-        let half = self.half_widths.get(varied.spec().name).copied().unwrap_or(0.0);
+        let half = *self.half_widths.get(varied.spec().name).unwrap_or(&0.0);
         Some(Interval::around(varied.of_belt(belt)?, half))
     }
 

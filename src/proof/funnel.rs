@@ -126,12 +126,6 @@ impl Funnel {
         })
     }
 
-    /// Lower bound of the arrivals of all motions that were faster than `speed`.
-    pub fn least(&self) -> f64 {
-        let low = self.low.map_or(f64::NEG_INFINITY, |low| low.end.lower());
-        low.max(self.beyond_fold.lower())
-    }
-
     /// Lower bound of the arrival of a motion with this passage below the ceiling.
     pub fn least_after(funnel: Option<&Self>, field: &FieldBox, passage: &Passage) -> f64 {
         match passage {
@@ -139,20 +133,17 @@ impl Funnel {
             Passage::Never => f64::INFINITY,
             Passage::Exceeds(swing) => funnel
                 .filter(|it| it.climb_of(field, swing).is_some())
-                .map_or(f64::NEG_INFINITY, Funnel::least),
+                .map_or(f64::NEG_INFINITY, |it| it.arrivals().lower()),
             Passage::Unknown => f64::NEG_INFINITY,
         }
     }
 
-    /// Upper bound of the arrivals of motions that start at rest, up to `reach` away.
-    pub fn greatest(&self) -> f64 {
-        let high = self.high.map_or(f64::INFINITY, |high| high.end.upper());
-        high.min(self.beyond_fold.upper())
-    }
-
-    /// The arrivals of motions that start at rest, up to `reach` away, and were faster than `speed`.
+    /// The arrivals of motions that were faster than `speed`: none is lower, and none higher that starts at rest, up to
+    /// `reach` away.
     pub fn arrivals(&self) -> Interval {
-        Interval::new(self.least(), self.greatest())
+        let low = self.low.map_or(f64::NEG_INFINITY, |low| low.end.lower());
+        let high = self.high.map_or(f64::INFINITY, |high| high.end.upper());
+        Interval::new(low, high).intersection(self.beyond_fold).unwrap_or(self.beyond_fold)
     }
 
     /// The climb from rest far out, where nothing slows motions down yet (lemma 12).

@@ -194,7 +194,7 @@ impl ProvedHalf {
     /// Upper bound of the ends of the swings that start up to this far out.
     pub fn greatest(&self, from: f64) -> f64 {
         let funnel = self.funnel().filter(|it| from <= it.reach);
-        funnel.map_or(f64::INFINITY, Funnel::greatest)
+        funnel.map_or(f64::INFINITY, |it| it.arrivals().upper())
     }
 
     /// Lower bound of the end of a swing. Where none can be computed, the bound for a start further in is used:
@@ -206,7 +206,7 @@ impl ProvedHalf {
         if let Some(far) = funnel
             && far.climb_from(&field, Interval::point(start)).is_some()
         {
-            return far.least();
+            return far.arrivals().lower();
         }
         let mut from = start;
         for _ in 0..SHORTENINGS {
@@ -281,10 +281,9 @@ impl ProvedHalf {
                 if near.as_ref().is_some_and(settled) {
                     return near;
                 }
-                match self.effort.run(field, from, None) {
-                    Passage::Arrives(swing) => swing,
-                    _ => return near,
-                }
+                let whole = self.effort.run(field, from, None).arrived();
+                let Some(swing) = whole else { return near };
+                swing
             }
             _ => return None,
         };

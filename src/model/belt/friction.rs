@@ -140,7 +140,6 @@ pub struct LawParts {
 
 impl LawParts {
     /// The coefficient and its derivatives at a slip.
-    #[must_use]
     pub fn at(&self, v: f64) -> Derivatives {
         let piece = self.pieces.iter().rfind(|(from, ..)| *from <= v);
         let mut mu = piece.map_or(Derivatives::default(), |(from, _, c)| derivatives(c, v - from));

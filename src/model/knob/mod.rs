@@ -216,7 +216,6 @@ impl Knob {
 }
 
 /// That there is no such number, and which was probably meant.
-#[must_use]
 pub fn unknown(name: &str, known: &[&str]) -> String {
     // A single letter resembles too much.
     let alike = |meant: &&&str| name.chars().count() > 1 || name.eq_ignore_ascii_case(meant);
