@@ -3,8 +3,6 @@
 //! The paper takes one harmonic. Its amplitude is 17 % too small at `D = -0.7`, and its frequency 40 % too
 //! high; this module gives both errors at any parameters, and how far more harmonics reduce them.
 
-use serde::Serialize;
-
 use crate::closed_form::{Harmonic, HarmonicCycle, amplitudes, harmonic_cycle};
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Parameters, State};
@@ -12,7 +10,7 @@ use crate::numerics::{by_number, ln};
 use crate::portrait::{Cycle, cycles};
 
 /// How far a cycle of N harmonics is from the true one; relative, positive where it is too large.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HarmonicError {
     /// Of the amplitude `(q_max - q_min)/2`.
     pub amplitude: f64,
