@@ -173,7 +173,7 @@ const SIGNALS: [(Signal, [&str; 3]); 2] = [
 ];
 
 /// Names and units of the columns.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Header {
     /// One for each column; none if the file has no header.
     pub columns: Vec<ColumnHeader>,

@@ -10,7 +10,7 @@ use super::{
 use crate::numerics::{powi, real};
 
 /// A drift that a fit leaves over.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct LeftDrift {
     /// By how much chi-squared falls if the zero may drift along a parabola; for noise with memory divided by the factor
     /// by which that raises chance.
@@ -23,7 +23,7 @@ pub struct LeftDrift {
 }
 
 /// A drift that is fitted.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct FittedDrift {
     /// The change of the zero from the beginning to the end of the record.
     pub change: f64,

@@ -15,7 +15,7 @@ use crate::model::State;
 use crate::numerics::sin_cos;
 
 /// A minimum that competes with the best one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Rival {
     /// Half swings within the record.
     pub half_swings: usize,

@@ -10,7 +10,7 @@ use super::{
 use crate::numerics::{ln, real, sin_cos};
 
 /// A way in which a record may begin, with guesses of the unknowns.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Beginning {
     /// How the motion begins.
     pub start: StartKind,
@@ -21,7 +21,7 @@ pub struct Beginning {
 }
 
 /// First guesses, and the turning points from which they were made.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Guess {
     /// The ways in which the record may begin, the more likely one first.
     pub beginnings: Vec<Beginning>,

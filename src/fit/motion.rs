@@ -33,7 +33,7 @@ const MOST: usize = 100_000;
 const STEPS: u32 = 5_000;
 
 /// A point of a motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct MotionPoint {
     /// Displacement.
     pub q: f64,
@@ -78,7 +78,7 @@ pub struct FollowedMotion {
 }
 
 /// How a motion is followed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Way {
     /// Whether derivatives are wanted.
     pub with_derivatives: bool,

@@ -57,7 +57,7 @@ fn zero(p: &Unknowns, [slope, bend]: [f64; 2]) -> f64 {
 }
 
 /// A residual, with the derivatives of the computed value.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Residual {
     /// Measured minus computed.
     pub value: f64,
@@ -68,7 +68,7 @@ pub struct Residual {
 }
 
 /// The model compared with the whole record.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Misfit {
     /// One for each measured number.
     pub residuals: Vec<Residual>,

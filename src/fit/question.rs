@@ -87,7 +87,7 @@ pub enum LossName {
 }
 
 /// A loss function: the square of a residual, or less if the residual is large.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Loss {
     /// Its name; [`LossName::Auto`] counts as linear.
     pub name: LossName,

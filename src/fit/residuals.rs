@@ -9,7 +9,7 @@ use super::{Unknowns, left_over, mean_square};
 use crate::numerics::{bisect, cos, integrate, ln, pow, powi, real, sin, truncated};
 
 /// Correlation of the residuals.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Whiteness {
     /// Correlation of neighbouring residuals.
     pub correlation: f64,

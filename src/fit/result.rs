@@ -245,7 +245,7 @@ fn points(record: &Record, estimate: &Estimate) -> Vec<RecordPoint> {
 }
 
 /// An estimated number in SI units.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct EstimatedNumber {
     /// Its symbol.
     #[serde(skip)]
@@ -300,7 +300,7 @@ pub fn rows(fitted: &FitResult) -> Vec<EstimatedNumber> {
 }
 
 /// A combination of numbers that are not known separately.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Combination {
     /// The numbers and their weights; the first weight is 1.
     pub terms: Vec<(&'static NameSpec, f64)>,

@@ -19,7 +19,7 @@ use crate::model::Parameters;
 use crate::numerics::{atan2, by_number, hypot, powi, real, sin_cos};
 
 /// A turning point read from a record.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Extreme {
     /// Time in s.
     pub t: f64,

@@ -90,7 +90,7 @@ impl Approximation {
 }
 
 /// The answer to a question, and whether that is proved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Conclusion<T> {
     /// The answer.
     pub value: T,

@@ -72,7 +72,7 @@ pub const UNTIL: f64 = 60.0;
 pub const THIN: usize = 11;
 
 /// One motion of the lattice.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Case {
     pub parameters: Parameters,
     /// What is special about its start.

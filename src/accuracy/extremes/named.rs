@@ -10,7 +10,7 @@ use crate::model::{Parameters, State, energy};
 use crate::numerics::{amount, cells, times_power};
 
 /// One of them by one method.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct NamedExtreme {
     pub what: &'static str,
     pub method: Method,

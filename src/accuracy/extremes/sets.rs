@@ -18,7 +18,7 @@ pub const THIN: usize = 7;
 const AGAIN: f64 = 1e-13;
 
 /// A limit cycle of the lattice.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct LatticeCycle {
     #[serde(flatten)]
     pub cycle: Cycle,
@@ -28,7 +28,7 @@ pub struct LatticeCycle {
 }
 
 /// The parameters of a place of the lattice and what the search for cycles answered there.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct SetVerdict {
     pub parameters: Parameters,
     /// All cycles, by amplitude, or why the search gave up.

@@ -31,7 +31,7 @@ pub(super) fn methods(linear: bool) -> impl Iterator<Item = Method> {
     METHODS.into_iter().filter(move |method| linear || *method != Method::Exact)
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct MethodAnswer {
     /// The method that was asked.
     pub method: Method,
@@ -46,7 +46,7 @@ pub struct MethodAnswer {
 }
 
 /// A motion of the lattice and what the methods answered.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct MethodsVerdict {
     /// The motion.
     pub case: Case,
