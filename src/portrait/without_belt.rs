@@ -124,8 +124,7 @@ impl Portrait {
     /// How far kicks may go within the border of the basin; `None` where nothing borders it.
     fn reach_within(&self) -> Option<Reach> {
         let Model { guide, guide_static, .. } = self.model;
-        let edge = self.edge()?;
-        let Edge::Orbit(orbit) = edge else { return None };
+        let edge @ Edge::Orbit(orbit) = self.edge()? else { return None };
         // What turns within the places that the guide holds rests there.
         let turn = |arc: &Arc| (guide + arc.clearance().value).max(guide_static);
         let displacement = (turn(&orbit.lower), turn(&orbit.upper));

@@ -228,20 +228,19 @@ impl Tracer<'_> {
         /// First stride in the logarithm: the guess is better than this on all lines but the first.
         const STRIDE: f64 = 0.1;
         let Some(guess) = self.harmonic(here) else { return Ok(None) };
-        let guess = guess * self.ratio;
-        let near = here.with(self.plane.along(), guess);
+        let (guess, along) = (guess * self.ratio, self.plane.along());
+        let near = here.with(along, guess);
         let beside = match &self.known {
             Some(known) => FoldPlace::beside(known, &near),
             None => FoldPlace::in_damping(&near),
         };
         if let Some(beside) = beside
-            && let Some(found) =
-                self.fold_near(&FoldPlace { parameters: near, ..beside }, self.plane.along())?
+            && let Some(found) = self.fold_near(&FoldPlace { parameters: near, ..beside }, along)?
         {
-            return Ok(Some(found.value(self.plane.along())));
+            return Ok(Some(found.value(along)));
         }
         let place = root(ln(guess), STRIDE, SLACK * self.resolution.tolerance, |z| {
-            let found = self.fold(&here.with(self.plane.along(), exp(z)))?;
+            let found = self.fold(&here.with(along, exp(z)))?;
             Ok(ln(found / here.d))
         });
         place.map(|z| Some(exp(z)))
@@ -264,20 +263,21 @@ impl Tracer<'_> {
 
     /// The bands on both sides of the boundary within the range.
     fn bands(&self, here: &Parameters, boundary: Option<f64>, failed: bool) -> Vec<Band> {
-        let (from, to) = self.plane.range(self.plane.along());
+        let along = self.plane.along();
+        let (from, to) = self.plane.range(along);
         let inside = |value: &f64| *value > from && *value < to;
-        let critical = (self.plane.along() == Knob::D).then_some(-1.0);
+        let critical = (along == Knob::D).then_some(-1.0);
         let places = [0.0].into_iter().chain(critical).chain(boundary).filter(inside);
         let mut ends: Vec<f64> = places.chain([from, to]).collect();
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let regime = |value: f64| {
-            let parameters = here.with(self.plane.along(), value);
+            let parameters = here.with(along, value);
             let Parameters { d, d3, r, .. } = parameters;
             if failed && d < 0.0 && d3 >= 0.0 && r > 0.0 {
                 return None;
             }
-            if self.plane.along() == Knob::D {
+            if along == Knob::D {
                 return Some(Regime::of(&parameters, boundary));
             }
             // A line that crosses the boundary at the given D lies below it in D before it.

@@ -36,16 +36,13 @@ impl CycleCurve<'_> {
     /// is how far apart points look on a diagram. Between followed points the curve is interpolated by
     /// polynomials through six of them.
     pub fn spread(&mut self, points: &[CurvePoint], count: usize) -> Result<Vec<CurvePlace>> {
-        let (Some(first), Some(last)) = (points.first(), points.last()) else {
-            return Ok(Vec::new());
-        };
         let arc = arc_lengths(points);
         let total = arc[arc.len() - 1];
-        if points.len() < 2 || total == 0.0 {
+        if total == 0.0 {
             return Ok(points.iter().map(CurvePlace::from).collect());
         }
         let window = points.len().min(6);
-        let mut spread = vec![CurvePlace::from(first)];
+        let mut spread = vec![CurvePlace::from(&points[0])];
         self.slope_in_p = None;
         for index in 1..count.saturating_sub(1) {
             let s = total * real(index) / real(count - 1);
@@ -66,7 +63,7 @@ impl CycleCurve<'_> {
             }
             spread.extend(found);
         }
-        spread.push(CurvePlace::from(last));
+        spread.push(CurvePlace::from(&points[points.len() - 1]));
         Ok(spread)
     }
 
@@ -102,11 +99,8 @@ fn between_steep([one, other]: [&CurvePoint; 2], (u, p): (f64, f64)) -> Option<C
     let steep = one.log_multiplier.abs().min(other.log_multiplier.abs()) >= STEEP
         && one.log_multiplier.signum() == other.log_multiplier.signum();
     let within = |from: f64, to: f64, at: f64| at > from.min(to) && at < from.max(to);
-    (steep && within(one.p, other.p, p) && within(one.u, other.u, u)).then_some(CurvePlace {
-        p,
-        u,
-        log_multiplier,
-    })
+    let place = CurvePlace { p, u, log_multiplier };
+    (steep && within(one.p, other.p, p) && within(one.u, other.u, u)).then_some(place)
 }
 
 /// Length along a curve as it looks on a diagram, from its first point to each.

@@ -23,8 +23,7 @@ pub fn guaranteed(
     belt: &Belt,
     known: &Tolerances,
 ) -> Result<Result<(Portrait, Margin), NoGuarantee>> {
-    let corners = Corners::new(belt, known)?;
-    let Some(corners) = corners else { return Ok(Err(NoGuarantee::TooMany)) };
+    let Some(corners) = Corners::new(belt, known)? else { return Ok(Err(NoGuarantee::TooMany)) };
     let least = corners.friction;
     if least < 0.0 || known.disturbance > 0.0 && least == 0.0 {
         let (disturbance, friction) = (known.disturbance, corners.belts[0].friction);
@@ -201,10 +200,9 @@ impl Corners {
             if less * self.stiffest() >= self.friction {
                 return Ok(Err(NoGuarantee::Tolerances));
             }
-            let Some(found) = self.below_the_line(corner, less)? else {
+            let Some((portrait, (low, high))) = self.below_the_line(corner, less)? else {
                 return Ok(Err(NoGuarantee::Unbounded));
             };
-            let (portrait, (low, high)) = found;
             if low >= range.0 && high <= range.1 {
                 return Ok(Ok(portrait));
             }

@@ -57,8 +57,10 @@ pub fn repeated(portrait: &Portrait, kicks: &RandomKick, limits: &Limits) -> Res
     let mut cost = portrait.cost;
     cost += coarse.cost;
     cost += fine.cost;
-    let (density, later) = fine.settled();
+    let (shares, later) = fine.settled();
     let (_, before) = coarse.settled();
+    let width = 2.0 * portrait.model.guide_static / real(CELLS);
+    let density = shares.iter().map(|share| share / width).collect();
     let mean = fine.mean(later);
     let relative =
         |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
@@ -73,10 +75,14 @@ const WITHOUT: Reason =
 impl Survival {
     /// The middles of the cells, and the density there, `r` being the friction.
     pub fn places(&self, r: f64) -> impl Iterator<Item = (f64, f64)> {
-        let width = 2.0 * r / real(self.density.len());
-        let middle = move |cell: usize| (real(cell) + 0.5) * width - r;
-        self.density.iter().enumerate().map(move |(cell, &density)| (middle(cell), density))
+        middles(r, self.density.len()).zip(self.density.iter().copied())
     }
+}
+
+/// The middles of so many cells of the sticking set.
+fn middles(r: f64, cells: usize) -> impl Iterator<Item = f64> {
+    let width = 2.0 * r / real(cells);
+    (0..cells).map(move |cell| (real(cell) + 0.5) * width - r)
 }
 
 /// The chain on cells.
@@ -85,7 +91,6 @@ struct Chain {
     steps: DMatrix<f64>,
     /// The chance to be lost from each cell.
     lost: DVector<f64>,
-    half: f64,
     cost: Cost,
 }
 
@@ -97,7 +102,7 @@ impl Chain {
         model.tolerance = TOLERANCE;
         let r = model.guide_static;
         let width = 2.0 * r / real(cells);
-        let centres: Vec<f64> = (0..cells).map(|cell| (real(cell) + 0.5) * width - r).collect();
+        let centres: Vec<f64> = middles(r, cells).collect();
         let fineness = FINENESS * real(cells) / real(CELLS);
         let (columns, rows) = (columns(kicks, &centres, fineness), rows(kicks, fineness));
         let mut cost = Cost::default();
@@ -139,11 +144,11 @@ impl Chain {
             let sum: f64 = row.sum();
             row *= if sum > 0.0 { (1.0 - lost) / sum } else { 0.0 };
         }
-        Ok(Chain { steps, lost, half: r, cost })
+        Ok(Chain { steps, lost, cost })
     }
 
-    /// The density after many kicks, and the part that is then lost.
-    fn settled(&self) -> (Vec<f64>, f64) {
+    /// The share of each cell after many kicks, and the part that is then lost.
+    fn settled(&self) -> (DVector<f64>, f64) {
         /// Kicks until nothing changes any more.
         const KICKS: usize = 10_000;
         const STILL: f64 = 1e-14;
@@ -164,8 +169,7 @@ impl Chain {
             }
         }
         let later = shares.dot(&self.lost);
-        let width = 2.0 * self.half / real(cells);
-        (shares.iter().map(|share| share / width).collect(), later)
+        (shares, later)
     }
 
     /// Mean number of kicks from the middle; `later` is the part that is lost in the long run.
