@@ -64,8 +64,7 @@ impl MachineBranch {
             points.sort_by(by_number(|point: &PortraitPoint| point.value));
         }
         let mut cost = Cost::default();
-        let known = points.iter().filter_map(|point| point.found.as_ref().ok());
-        known.for_each(|found| cost += found.cost);
+        points.iter().flat_map(|point| &point.found).for_each(|found| cost += found.cost);
         Ok(MachineBranch { points, special, cost })
     }
 }
@@ -159,8 +158,9 @@ impl Family<'_> {
         // Between these the portrait keeps its form, unless cycles fold.
         let mut folds = Vec::new();
         let mut begin = Some((left.value, left.portrait));
-        let ends = found.iter().map(|change| [&change.beside[1], &change.beside[2]]);
-        let ends = ends.map(|ends| ends.map(|end| end.1.as_ref().map(|found| (end.0, found))));
+        let ends = found.iter().map(|Change { beside, .. }| {
+            [&beside[1], &beside[2]].map(|(value, found)| Some((*value, found.as_ref()?)))
+        });
         for [before, after] in ends.chain([[Some((right.value, right.portrait)), None]]) {
             folds.extend(begin.zip(before).and_then(|(one, other)| self.fold(one, other)));
             begin = after;

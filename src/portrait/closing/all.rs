@@ -57,10 +57,10 @@ pub fn closings(
     /// the flow is too stiff for it.
     const BUDGET: u64 = 40_000_000;
     equation.limits = equation.limits.up_to(BUDGET);
-    let Parameters { d, .. } = equation.parameters;
+    let parameters = equation.parameters;
     // No swing of an overdamped linear motion comes back.
-    let never_back = equation.parameters.is_piecewise_linear() && d <= -1.0;
-    if never_back || is_one_way(&equation.parameters) {
+    let never_back = parameters.is_piecewise_linear() && parameters.d <= -1.0;
+    if never_back || is_one_way(&parameters) {
         return Ok(Vec::new());
     }
     let sought = "a limit cycle";
@@ -75,8 +75,8 @@ pub fn closings(
         let closing = polish(equation, bracket)?;
         // Where the second swing would have to start at the very end of the sticking set, nothing closes.
         if closing.duration.is_finite() && found.len() < most {
-            let log_multiplier = closing.log_multiplier(&equation.parameters);
-            if !log_multiplier.is_finite() || loses_square(&closing, &equation.parameters) {
+            let log_multiplier = closing.log_multiplier(&parameters);
+            if !log_multiplier.is_finite() || loses_square(&closing, &parameters) {
                 return Err(Reason::OutOfRange);
             }
             if closing.uncertainty > VAGUE && is_exact(equation) {
@@ -85,11 +85,11 @@ pub fn closings(
             found.push(closing);
         }
     }
-    if known.is_empty() && found.is_empty() && has_cycle(&equation.parameters) {
+    if known.is_empty() && found.is_empty() && has_cycle(&parameters) {
         return Err(Reason::OutOfRange);
     }
     // Between two cycles that both attract, or both repel, lies another one.
-    let stable = |closing: &SwingPair| closing.log_multiplier(&equation.parameters) < 0.0;
+    let stable = |closing: &SwingPair| closing.log_multiplier(&parameters) < 0.0;
     let alternate = found.windows(2).all(|pair| stable(&pair[0]) != stable(&pair[1]));
     if known.is_empty() && !alternate {
         let change = found.iter().fold(0.0, |most, it| it.uncertainty.max(most));
@@ -144,15 +144,16 @@ fn lower_end(equation: &mut Equation) -> Result<Option<f64>> {
     let Parameters { d, d2, d3, r } = equation.parameters;
     // The preimage of the far end of the sticking set: no cycle starts with less. It is infinite where no swing of any
     // clearance passes the set: every motion is captured.
-    let smallest = equation.swing(0, Direction::Backward, Length::new(2.0 * r))?.end.log;
-    let beyond_node = d <= -1.0 && r > 0.0;
-    let rim = if beyond_node { equation.rim()? } else { f64::NEG_INFINITY };
-    if smallest.max(rim) == f64::INFINITY {
+    let mut least = equation.swing(0, Direction::Backward, Length::new(2.0 * r))?.end.log;
+    if d <= -1.0 && r > 0.0 {
+        least = least.max(equation.rim()?);
+    }
+    if least == f64::INFINITY {
         return Ok(None);
     }
-    Ok(Some(if smallest.max(rim).is_finite() {
+    Ok(Some(if least.is_finite() {
         // A cycle of large multiplier lies within rounding of it: begin clearly below.
-        smallest.max(rim) - CLEARLY
+        least - CLEARLY
     } else if r > 0.0 {
         // Beyond critical damping a swing passes from any clearance, however small.
         ln(SMALL * f64::EPSILON * r)
@@ -193,8 +194,8 @@ fn brackets(
     const FINEST: f64 = 1e-4;
     /// First stride and longest stride, in `ln c0`.
     const STRIDES: (f64, f64) = (0.5, 2.0);
-    let high = upper_end(&equation.parameters);
     let parameters = equation.parameters;
+    let high = upper_end(&parameters);
     let fine = equation.tolerance();
     let rough = fine.max(ROUGH);
     let (step, blur) = if parameters.d.abs() < WEAK { (fine, 0.0) } else { (rough, BLUR * rough) };

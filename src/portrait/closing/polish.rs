@@ -132,8 +132,7 @@ impl Steps<'_, '_> {
         }
         // The closing keeps the plain residual.
         let Some((weighed, noise)) = energy.filter(|_| self.weigh) else {
-            let value = closing.node.value;
-            return Ok((closing, value, flat));
+            return Ok((closing, closing.node.value, flat));
         };
         closing.uncertainty = (weighed.abs() + noise) / closing.node.slope.abs();
         Ok((closing, weighed, flat))

@@ -3,7 +3,7 @@
 use super::{TwoSidedOscillator, machine, oscillator};
 use crate::flow::{Limits, Result};
 use crate::model::{Body, Source, Tolerances};
-use crate::portrait::{Margin, NoGuarantee, Portrait};
+use crate::portrait::{Guarantee, Portrait};
 
 /// That whose basin lies within all others, and the margin that holds for certain, or why there is none; a border that
 /// is not closed is followed as far as `reach`. A mode is known exactly.
@@ -15,7 +15,7 @@ pub fn guaranteed(
     known: &Tolerances,
     reach: f64,
     limits: &Limits,
-) -> Result<Result<(Portrait, Margin), NoGuarantee>> {
+) -> Result<Guarantee> {
     match &source.body {
         Body::Paper(parameters) => {
             oscillator::guaranteed(&known.around(parameters), known.disturbance, reach, limits)

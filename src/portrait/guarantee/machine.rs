@@ -14,15 +14,12 @@ use nalgebra::{DMatrix, DVectorView};
 use crate::flow::{Reason, Result};
 use crate::model::{Belt, Knob, MONOTONE, Model, Phase, Tolerances, set};
 use crate::numerics::{by_number, real, try_bisect};
-use crate::portrait::{Margin, NoGuarantee, Portrait};
+use crate::portrait::{Guarantee, NoGuarantee, Portrait};
 
 /// The portrait of a machine whose basin lies within those of all others, and the kicks, in m and N s, that every one
 /// survives for certain; or why there is none. Fails with [`Reason`] where a machine within the tolerances has no model,
 /// or one that bounds them has no portrait.
-pub fn guaranteed(
-    belt: &Belt,
-    known: &Tolerances,
-) -> Result<Result<(Portrait, Margin), NoGuarantee>> {
+pub fn guaranteed(belt: &Belt, known: &Tolerances) -> Result<Guarantee> {
     let Some(corners) = Corners::new(belt, known)? else { return Ok(Err(NoGuarantee::TooMany)) };
     let least = corners.friction;
     if least < 0.0 || known.disturbance > 0.0 && least == 0.0 {

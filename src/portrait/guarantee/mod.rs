@@ -7,6 +7,10 @@ pub mod machine;
 pub mod oscillator;
 
 pub(crate) use self::oscillator::*;
+use super::{Margin, Portrait};
+
+/// The portrait whose basin lies within those of all others, and the margin that holds for certain; or why there is none.
+pub type Guarantee = Result<(Portrait, Margin), NoGuarantee>;
 
 /// Why no kick is survived for certain.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

@@ -15,7 +15,7 @@ use crate::flow::{Fate, Limits, Reason, Result};
 use crate::model::{HalfPlane, Model, ParameterBox, Parameters, Side};
 use crate::numerics::Interval;
 use crate::portrait::{
-    Border, Equation, Margin, NoGuarantee, Orbit, Portrait, RestMargin, STEP, SwingPair,
+    Border, Equation, Guarantee, Margin, NoGuarantee, Orbit, Portrait, RestMargin, STEP, SwingPair,
     centre_fate, has_cycle, innermost_bracket, polish,
 };
 
@@ -129,7 +129,7 @@ pub fn guaranteed(
     disturbance: f64,
     reach: f64,
     limits: &Limits,
-) -> Result<Result<(Portrait, Margin), NoGuarantee>> {
+) -> Result<Guarantee> {
     let (d, friction) = (known.d.lower(), known.r.lower());
     let worst = TwoSidedOscillator::worst(known, disturbance);
     if disturbance > 0.0 && worst.upper.r <= 0.0 {

@@ -20,6 +20,9 @@ pub(crate) enum Divide {
     Capture,
 }
 
+/// A right turning point with what happens there.
+pub(crate) type Mark = (f64, Divide);
+
 /// Logarithm of the multiplier from which cycles are computed backward in time.
 const STRONG: f64 = 4.0;
 
@@ -38,13 +41,13 @@ fn growth_to(u: f64, x: f64, image: &Image) -> Node {
 /// The right turning points at which the return map changes, by amplitude: its fixed points, and where it jumps or catches.
 /// Tells the portrait how far they were sought, what ended the search, and where it did not settle. Fails with [`Reason`]
 /// if even the motions next to rest cannot be followed.
-pub fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<Vec<(f64, Divide)>> {
+pub fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<Vec<Mark>> {
     let marks = portrait.landmarks;
     let divides = jumps(flow.model, marks).into_iter().map(|x| (x, Divide::Jump)).collect();
     let unit = unit(flow.model, marks);
     let mut search = FixedPointSearch { flow, unit, portrait, divides };
     search.run(marks)?;
-    search.divides.sort_by(by_number(|(x, _): &(f64, Divide)| *x));
+    search.divides.sort_by(by_number(|(x, _): &Mark| *x));
     Ok(search.divides)
 }
 
@@ -73,7 +76,7 @@ struct FixedPointSearch<'f, 'm> {
     flow: &'f mut Flow<'m>,
     unit: f64,
     portrait: &'f mut Portrait,
-    divides: Vec<(f64, Divide)>,
+    divides: Vec<Mark>,
 }
 
 impl FixedPointSearch<'_, '_> {

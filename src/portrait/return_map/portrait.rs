@@ -3,7 +3,7 @@
 
 use std::cmp::Ordering;
 
-use super::{Divide, NOTHING};
+use super::{Divide, Mark, NOTHING};
 use crate::flow::{Fate, Flow, Reason, Result};
 use crate::model::{ContactState, Model};
 use crate::portrait::{Border, Edge, Gap, Portrait, Reach, fixed_points};
@@ -21,8 +21,7 @@ impl Portrait {
         let ways = ways(&mut flow, &marks, portrait.known)?;
         for (place, (x, divide)) in marks.iter().enumerate() {
             let Divide::Cycle(image) = divide else { continue };
-            let attracts =
-                ways[place] == Ok(Ordering::Greater) && ways[place + 1] == Ok(Ordering::Less);
+            let attracts = ways[place..place + 2] == [Ok(Ordering::Greater), Ok(Ordering::Less)];
             let stable = image.sticks_from.is_some() || attracts;
             portrait.cycles.push(flow.describe(*x, image, stable)?);
         }
@@ -32,7 +31,7 @@ impl Portrait {
         Ok(portrait)
     }
 
-    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Divide)]) -> Result<()> {
+    fn settle_border(&mut self, flow: &mut Flow, marks: &[Mark]) -> Result<()> {
         let Some(first) = self.gaps.first() else { return Ok(()) };
         let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
         if let Fate::Unknown(stop) = first.fate {
@@ -82,7 +81,7 @@ impl Portrait {
 type Tendency = Result<Ordering>;
 
 /// The direction of motions in each gap.
-fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tendency>> {
+fn ways(flow: &mut Flow, marks: &[Mark], end: f64) -> Result<Vec<Tendency>> {
     let mut ways = Vec::with_capacity(marks.len() + 1);
     let mut low = flow.model.guide_static;
     for mark in marks.iter().map(Some).chain([None]) {
@@ -106,8 +105,8 @@ fn ways(flow: &mut Flow, marks: &[(f64, Divide)], end: f64) -> Result<Vec<Tenden
 }
 
 /// The fate of each gap.
-fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Reason>) -> Vec<Gap> {
-    let is_cycle = |(_, divide): &&(f64, Divide)| matches!(divide, Divide::Cycle(_));
+fn gaps(marks: &[Mark], ways: &[Tendency], stop: Option<Reason>) -> Vec<Gap> {
+    let is_cycle = |(_, divide): &&Mark| matches!(divide, Divide::Cycle(_));
     let cycle = |mark: usize| Fate::Cycle(marks[..mark].iter().filter(is_cycle).count());
     let fate = |gap: usize| {
         let mut here = gap;
@@ -127,7 +126,7 @@ fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Reason>) -> Vec
             }
         }
     };
-    let gap = |(gap, mark): (usize, Option<&(f64, Divide)>)| {
+    let gap = |(gap, mark): (usize, Option<&Mark>)| {
         let (to, mark) = mark.map_or((f64::INFINITY, Divide::Capture), |(x, mark)| (*x, *mark));
         let end = match mark {
             Divide::Cycle(_) => cycle(gap),
