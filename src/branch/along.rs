@@ -27,7 +27,6 @@ use super::{
     CurvePlace, CurvePoint, CycleCurve, Special, SpecialKind, Tangent, covers, escape_point,
     escape_product, is_beside, passes, vanishing,
 };
-use crate::closed_form::LinearCycle;
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters, Side};
 use crate::numerics::{by_number, cbrt, ln, pow, powi, real};
@@ -187,16 +186,11 @@ impl CurveTracer<'_> {
                 if curves.iter().any(covered) {
                     continue;
                 }
-                let mut points = Vec::new();
-                if fraction > 0.0 {
-                    points = self.follow(seed, -1.0)?;
-                    points.reverse();
-                    points.pop();
-                }
+                let mut points = if fraction > 0.0 { self.follow(seed, -1.0)? } else { vec![seed] };
+                points.reverse();
                 if fraction < 1.0 {
+                    points.pop();
                     points.extend(self.follow(seed, 1.0)?);
-                } else {
-                    points.push(seed);
                 }
                 curves.push(points);
             }
@@ -331,7 +325,7 @@ impl CurveTracer<'_> {
 
     /// Spreads points over the parts of a curve within the range and describes each; notes the folds.
     fn keep(&mut self, points: &[CurvePoint]) -> Result<()> {
-        let mut part: Vec<CurvePoint> = points.first().copied().into_iter().collect();
+        let mut part: Vec<CurvePoint> = points.iter().take(1).copied().collect();
         for pair in points.windows(2) {
             let [one, other] = pair else { continue };
             let turns = (one.log_multiplier > 0.0) != (other.log_multiplier > 0.0);
@@ -464,12 +458,9 @@ fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<Branc
             _ if index + 1 == count => to,
             _ => from * pow(to / from, fraction),
         };
-        let cycle = LinearCycle::new(d, r)?;
         let parameters = Parameters { d, d2: 0.0, d3: 0.0, r };
-        Some(BranchPoint {
-            value: d,
-            cycle: SwingPair::from(&cycle).describe(&parameters, Side::Upper),
-        })
+        let cycle = SwingPair::linear(&parameters)?.describe(&parameters, Side::Upper);
+        Some(BranchPoint { value: d, cycle })
     };
     Some((0..count).filter_map(point).collect())
 }

@@ -27,7 +27,7 @@ use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
 use crate::numerics::{PlaceTolerance, illinois};
-use crate::portrait::{Equation, STEP, WayFromRim, all_closings, evenly};
+use crate::portrait::{Equation, STEP, all_closings, evenly};
 
 /// Maximum number of evaluations of one swing: a cycle that takes more is not followed.
 const BUDGET: u64 = 200_000;
@@ -174,25 +174,6 @@ fn grazing_cycle(
 ) -> Result<Option<FoldPoint>> {
     /// How far above it cycles are looked for, as a fraction of the damping.
     const BESIDE: f64 = 1e-9;
-    let Some((d, way)) = damping(parameters, limits, cost)? else { return Ok(None) };
-    // Above it no motion leaves the end of the set: a cycle further out means that two meet.
-    let mut clear =
-        Equation::new(&Parameters { d: (1.0 - BESIDE) * d, ..*parameters }, STEP, limits);
-    let beyond = all_closings(&mut clear);
-    *cost += clear.cost();
-    if !beyond?.is_empty() {
-        return Ok(None);
-    }
-    // The cycle starts at the end of the set, and takes forever to leave it.
-    Ok(Some(FoldPoint { d, q_max: way.q_max, period: f64::INFINITY, grazes: true }))
-}
-
-/// Where the curve that leaves the end of the set begins to come back beyond the other end, to rounding.
-fn damping(
-    parameters: &Parameters,
-    limits: &Limits,
-    cost: &mut Cost,
-) -> Result<Option<(f64, WayFromRim)>> {
     const ROUNDING: f64 = 2.0 * f64::EPSILON;
     let mut way = |d: f64| {
         let mut equation = Equation::new(&Parameters { d, ..*parameters }, STEP, limits);
@@ -212,9 +193,20 @@ fn damping(
             return Ok(None);
         }
     }
+    // Where the curve that leaves the end of the set begins to come back beyond the other end, to rounding.
     let excess = |d: f64| way(d).map(|way| way.excess);
     let [(d, _), _] = illinois([below, above], 0.0, PlaceTolerance::Relative(ROUNDING), excess)?;
-    Ok(Some((d, way(d)?)))
+    let q_max = way(d)?.q_max;
+    // Above it no motion leaves the end of the set: a cycle further out means that two meet.
+    let mut clear =
+        Equation::new(&Parameters { d: (1.0 - BESIDE) * d, ..*parameters }, STEP, limits);
+    let beyond = all_closings(&mut clear);
+    *cost += clear.cost();
+    if !beyond?.is_empty() {
+        return Ok(None);
+    }
+    // The cycle starts at the end of the set, and takes forever to leave it.
+    Ok(Some(FoldPoint { d, q_max, period: f64::INFINITY, grazes: true }))
 }
 
 #[cfg(test)]

@@ -329,8 +329,7 @@ fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
     let rests = !from.neutral && from.border != Border::NoBasin;
     let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.q_max);
     rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
-        let fate = to.fate(state.max(KICK * size), 0.0).unwrap_or_else(Fate::Unknown);
-        let end = match fate {
+        let end = match to.fate(state.max(KICK * size), 0.0).unwrap_or_else(Fate::Unknown) {
             Fate::Rest => JumpEnd::Rest,
             Fate::Cycle(index) => JumpEnd::Cycle { q_max: to.cycles[index].q_max },
             Fate::Neutral => return None,

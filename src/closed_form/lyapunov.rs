@@ -7,7 +7,7 @@
 //! promises too much where `D2` or negative `D3` feed energy in.
 
 use crate::model::Parameters;
-use crate::numerics::{TO_ROUNDING, bisect};
+use crate::numerics::{TO_ROUNDING, bisect, times_power};
 
 /// The rate of change `V'` of the energy (equations 17 to 19, with the terms of higher order).
 pub fn energy_rate(parameters: &Parameters, v: f64) -> f64 {
@@ -46,9 +46,8 @@ pub fn full_disk(parameters: &Parameters) -> f64 {
     let negative = if d3 > 0.0 && !least.is_infinite() {
         Some(least).filter(|&v| v > 0.0 && loss(v) < 0.0)
     } else {
-        std::iter::successors(Some(f64::MIN_POSITIVE), |v| Some(2.0 * v))
-            .take_while(|v| v.is_finite())
-            .find(|&v| loss(v) < 0.0)
+        // All powers of two.
+        (-1022..1024).map(|power| times_power(1.0, power)).find(|&v| loss(v) < 0.0)
     };
     negative
         .map_or(f64::INFINITY, |negative| bisect(0.0, negative, TO_ROUNDING, |v| loss(v) < 0.0).0)

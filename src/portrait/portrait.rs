@@ -193,7 +193,7 @@ impl Portrait {
     /// As for [`Self::fate`].
     pub fn fate_within(&self, x: f64, v: f64, most: usize) -> Result<Fate> {
         let y = v / self.model.omega_0;
-        if self.model.place(x, y) == ContactState::Rests {
+        if y == 0.0 && self.model.rests_at(x) {
             return Ok(Fate::Rest);
         }
         if self.orders_starts() {

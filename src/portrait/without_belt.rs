@@ -107,8 +107,8 @@ impl Portrait {
         }
         let fates = fates_between(parameters, border, &cycles);
         let cycles = cycles.iter().map(|cycle| cycle.scaled(1.0, model.omega_0)).collect();
-        let blank = Portrait { cycles, border, fates, ..Portrait::blank(model) };
-        Ok(Portrait { followed: reach, ..blank.parted(orbits) })
+        let blank = Portrait { cycles, border, fates, followed: reach, ..Portrait::blank(model) };
+        Ok(blank.parted(orbits))
     }
 
     /// With the orbits that part its motions, innermost first, and the kicks that follow from them.

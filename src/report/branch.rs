@@ -230,7 +230,6 @@ pub fn border_of_machine(
 mod tests {
     use super::*;
     use crate::branch::SpecialKind;
-    use crate::closed_form::piecewise_linear::LinearCycle;
     use crate::model::{Body, Parameters, Side};
     use crate::portrait::closing::pair::SwingPair;
     use crate::report::Format;
@@ -241,8 +240,8 @@ mod tests {
 
     #[test]
     fn a_branch_ends_where_two_cycles_meet_or_where_one_grazes_the_rest() {
-        let linear = SwingPair::from(&LinearCycle::new(-0.3, 0.1).unwrap())
-            .describe(&Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 }, Side::Upper);
+        let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
+        let linear = SwingPair::linear(&parameters).unwrap().describe(&parameters, Side::Upper);
         let end = |log_multiplier| {
             let cycle = Cycle { log_multiplier, ..linear };
             let special = vec![Special::new(SpecialKind::Fold, -1.5, Some(cycle))];

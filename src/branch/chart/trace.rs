@@ -225,8 +225,6 @@ impl Tracer<'_> {
 
     /// The value along the line at which the fold is at the line's D; infinite where none is.
     fn seek(&mut self, here: &Parameters) -> Result<Option<f64>> {
-        /// First stride in the logarithm: the guess is better than this on all lines but the first.
-        const STRIDE: f64 = 0.1;
         let Some(guess) = self.harmonic(here) else { return Ok(None) };
         let (guess, along) = (guess * self.ratio, self.plane.along());
         let near = here.with(along, guess);
@@ -239,7 +237,7 @@ impl Tracer<'_> {
         {
             return Ok(Some(found.value(along)));
         }
-        let place = root(ln(guess), STRIDE, SLACK * self.resolution.tolerance, |z| {
+        let place = root(ln(guess), SLACK * self.resolution.tolerance, |z| {
             let found = self.fold(&here.with(along, exp(z)))?;
             Ok(ln(found / here.d))
         });
@@ -298,17 +296,12 @@ impl Tracer<'_> {
 
 /// Where an increasing function is at most `small`, near `start`: strides until its zero lies between,
 /// then the Illinois rule.
-fn root(
-    start: f64,
-    stride: f64,
-    small: f64,
-    mut function: impl FnMut(f64) -> Result<f64>,
-) -> Result<f64> {
+fn root(start: f64, small: f64, mut function: impl FnMut(f64) -> Result<f64>) -> Result<f64> {
+    /// First stride in the logarithm: the guess is better than this on all lines but the first.
+    const STRIDE: f64 = 0.1;
     const MOST: usize = 60;
     let mut low = (start, function(start)?);
-    let mut high = low;
-    let mut stride = stride;
-    let mut steps = 0;
+    let (mut high, mut stride, mut steps) = (low, STRIDE, 0);
     while low.1 > 0.0 || high.1 < 0.0 {
         if low.1 > 0.0 {
             high = low;

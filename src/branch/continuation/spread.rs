@@ -59,7 +59,10 @@ impl CycleCurve<'_> {
             }
             let mut found = if beside { self.corrected(pair, smooth)? } else { None };
             if found.is_none() {
-                found = self.corrected(pair, on_chord(pair, fraction))?;
+                let [one, other] = pair;
+                let on_chord = |from: f64, to: f64| from + fraction * (to - from);
+                let near = (on_chord(one.u, other.u), on_chord(one.p, other.p));
+                found = self.corrected(pair, near)?;
             }
             spread.extend(found);
         }
@@ -84,12 +87,6 @@ impl CycleCurve<'_> {
     }
 }
 
-/// The place at this part of the chord of two points.
-fn on_chord([one, other]: [&CurvePoint; 2], fraction: f64) -> (f64, f64) {
-    let between = |from: f64, to: f64| from + fraction * (to - from);
-    (between(one.u, other.u), between(one.p, other.p))
-}
-
 /// An interpolated place where the curve is a graph over the parameter: between two points that are not
 /// a fold's neighbours, the one cycle at this parameter is what Newton's method finds from there.
 fn between_steep([one, other]: [&CurvePoint; 2], (u, p): (f64, f64)) -> Option<CurvePlace> {
@@ -105,7 +102,7 @@ fn between_steep([one, other]: [&CurvePoint; 2], (u, p): (f64, f64)) -> Option<C
 
 /// Length along a curve as it looks on a diagram, from its first point to each.
 fn arc_lengths(points: &[CurvePoint]) -> Vec<f64> {
-    let place = |point: &CurvePoint| Vector3::new(point.p, point.u, point.closing.first.value);
+    let place = |it: &CurvePoint| Vector3::new(it.p, it.u, it.closing.clearances[0].value);
     let places: Vec<Vector3<f64>> = points.iter().map(place).collect();
     let low = places.iter().fold(Vector3::repeat(f64::INFINITY), |low, it| low.inf(it));
     let high = places.iter().fold(Vector3::repeat(f64::NEG_INFINITY), |high, it| high.sup(it));

@@ -34,8 +34,6 @@ pub const MOST: usize = 255;
 /// A cycle as N harmonics have it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HarmonicCycle {
-    /// Number N of harmonics.
-    pub harmonics: usize,
     /// Whether it attracts; the branch inherits that from the first-order answer.
     pub stable: bool,
     /// Left turning point.
@@ -183,7 +181,6 @@ impl<'a> Continuation<'a> {
         let (frequency, (q_min, q_max)) = (*frequency, extremes(q));
         let (p_min, p_max) = extremes(&q.derivative());
         let cycle = HarmonicCycle {
-            harmonics: q.degree(),
             stable: self.stable,
             q_min: sized(q_min),
             q_max: sized(q_max),

@@ -126,7 +126,7 @@ impl SwingPair {
         let log_multiplier = self.log_multiplier(parameters);
         let multiplier = exp(log_multiplier);
         let [one, other] = self.spread();
-        let turning = [(self.first, one.length), (self.second, other.length)];
+        let turning = [(self.clearances[0], one.length), (self.clearances[1], other.length)];
         let fastest = [(self.fastest[0], one.fastest), (self.fastest[1], other.fastest)];
         let Errors { duration, square, .. } = one.plus(other, 1.0);
         // The first swing starts on the far side of the half plane that it crosses.

@@ -48,7 +48,7 @@ impl Orbit {
         repels: bool,
         limits: &Limits,
     ) -> Result<Self> {
-        let SwingPair { first, second, .. } = *closing;
+        let [first, second] = closing.clearances;
         let arc = |of, side, start, next| attracting(of, side, (start, next), repels, limits);
         let arcs = [arc(own, side, first, second)?, arc(other, side.opposite(), second, first)?];
         Ok(Orbit::of(side, arcs, true))

@@ -33,16 +33,17 @@ pub fn first_closings(equation: &mut Equation, most: usize) -> Result<Vec<SwingP
 /// All closings where there is a closed form of them.
 fn closed_form(parameters: &Parameters) -> Option<Vec<SwingPair>> {
     if parameters.is_piecewise_linear() {
-        let cycle = LinearCycle::new(parameters.d, parameters.r);
-        return Some(cycle.iter().map(SwingPair::from).collect());
+        return Some(SwingPair::linear(parameters).into_iter().collect());
     }
     weak_closing(parameters).map(|closing| vec![closing])
 }
 
-impl From<&LinearCycle> for SwingPair {
-    fn from(cycle: &LinearCycle) -> Self {
+impl SwingPair {
+    /// The cycle of the piecewise linear oscillator with this damping and friction.
+    pub fn linear(parameters: &Parameters) -> Option<Self> {
+        let cycle = LinearCycle::new(parameters.d, parameters.r)?;
         let clearance = Length { value: cycle.clearance, log: cycle.log_clearance };
-        SwingPair::in_closed_form([clearance; 2], cycle.period, 0.0, cycle.v_max)
+        Some(SwingPair::in_closed_form([clearance; 2], cycle.period, 0.0, cycle.v_max))
     }
 }
 
@@ -128,7 +129,7 @@ fn resolved(equation: &mut Equation, u: f64) -> Result<Node> {
         (value, noise) = (weighed, bound);
     }
     if !decided(value, noise) && FINER * closing.noise < noise {
-        let found = equation.precisely_at(Route::Mixed, Twofold::from(closing.first.value));
+        let found = equation.precisely_at(Route::Mixed, Twofold::from(closing.clearances[0].value));
         // Where it is too stiff, or out of range, doubles have to do.
         value = Reason::tolerated(found)?.map_or(value, |found| found.residual);
     }

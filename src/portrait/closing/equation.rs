@@ -251,8 +251,7 @@ impl<'a> Equation<'a> {
         });
         SwingPair {
             node,
-            first: clearances[0].length,
-            second: clearances[1].length,
+            clearances: clearances.map(|it| it.length),
             duration: swings[0].duration + swings[1].duration,
             square: swings[0].square + swings[1].square,
             fastest: swings.map(|swing| swing.fastest),

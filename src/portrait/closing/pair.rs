@@ -9,10 +9,8 @@ use crate::numerics::{ln, ln_1p};
 pub struct SwingPair {
     /// The unknown, and the residual as a difference of two increasing functions of it.
     pub node: Node,
-    /// Clearance at which the first swing starts.
-    pub first: Length,
-    /// Clearance at which the second swing starts.
-    pub second: Length,
+    /// Clearances at which the first and the second swing start.
+    pub clearances: [Length; 2],
     /// Duration of both swings.
     pub duration: f64,
     /// Integral of `v^2` over both swings.
@@ -53,8 +51,8 @@ impl SwingPair {
         }
         // A plain relative error of the first clearance.
         errors[0][1].length = 1.0;
-        let (first, second) = (Length::new(first), Length::new(second));
-        SwingPair { first, second, duration, uncertainty, errors, ..self }
+        let clearances = [first, second].map(Length::new);
+        SwingPair { clearances, duration, uncertainty, errors, ..self }
     }
 
     /// Bounds on the errors of each swing, its length being the clearance at which it starts.
@@ -69,7 +67,6 @@ impl SwingPair {
         square: f64,
         fastest: f64,
     ) -> Self {
-        let [first, second] = clearances;
         let own = clearances.map(|clearance| Errors {
             length: UNIT + rounding(clearance),
             duration: UNIT * (0.5 * duration),
@@ -77,9 +74,8 @@ impl SwingPair {
             fastest: UNIT * fastest,
         });
         SwingPair {
-            node: Node::new(first.log, 0.0, 0.0, f64::NAN),
-            first,
-            second,
+            node: Node::new(clearances[0].log, 0.0, 0.0, f64::NAN),
+            clearances,
             duration,
             square,
             fastest: [fastest; 2],
@@ -101,7 +97,7 @@ impl SwingPair {
     /// turning points built in. The D2 part of the integral vanishes on a closed curve.
     pub fn log_terms(&self, parameters: &Parameters) -> [f64; 4] {
         let Parameters { d, d3, r, .. } = *parameters;
-        let [first, second] = [self.first, self.second].map(|it| log_share(it, 2.0 * r));
+        let [first, second] = self.clearances.map(|it| log_share(it, 2.0 * r));
         // Three times a damping can be too large a number; times the square, which is then small, it is not.
         [first, second, -2.0 * d * self.duration, -3.0 * (d3 * self.square)]
     }

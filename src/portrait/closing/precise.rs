@@ -30,11 +30,20 @@ impl Equation<'_> {
     /// captured, too. An evaluation counts as a hundred in doubles.
     pub fn precisely_at(&mut self, route: Route, start: Twofold) -> Result<PreciseSwingPair> {
         use Direction::{Backward, Forward};
+        /// Truncation well below rounding.
+        const GRAIN: Grain = Grain { order: 30, tolerance: 1e-29 };
+        /// Maximum number of evaluations of one swing, and what one costs in units of one in doubles.
+        const BUDGET: u64 = 20_000;
+        const COSTLIER: u64 = 100;
+        let limits = Limits { evaluations: BUDGET, ..self.limits };
         let gap = Twofold::from(2.0 * self.parameters.r);
         let positive = |length: Twofold| Some(length).filter(|it| it.high > 0.0).ok_or(LOST);
         let mut duration = Twofold::default();
         let mut swing = |index, direction, start| -> Result<Twofold> {
-            let (end, time) = self.precise_swing(index, direction, start)?;
+            let (field, mut cost) = (self.map(index, direction).field, Cost::default());
+            let found = half_swing(field, start, GRAIN, &mut cost, &limits);
+            self.charge(Cost { evaluations: COSTLIER * cost.evaluations, ..cost });
+            let (end, time) = found?.ok_or(LOST)?;
             duration = duration + time;
             Ok(end)
         };
@@ -59,25 +68,5 @@ impl Equation<'_> {
         let (second, duration) = (second.value(), duration.value());
         let sound = residual.is_finite() && second > 0.0;
         sound.then_some(PreciseSwingPair { residual, second, duration }).ok_or(LOST)
-    }
-
-    /// Where a swing ends, and when; [`Reason::OutOfRange`] where it escapes.
-    fn precise_swing(
-        &mut self,
-        index: usize,
-        direction: Direction,
-        start: Twofold,
-    ) -> Result<(Twofold, Twofold)> {
-        /// Truncation well below rounding.
-        const GRAIN: Grain = Grain { order: 30, tolerance: 1e-29 };
-        /// Maximum number of evaluations of one swing, and what one costs in units of one in doubles.
-        const BUDGET: u64 = 20_000;
-        const COSTLIER: u64 = 100;
-        let field = self.map(index, direction).field;
-        let limits = Limits { evaluations: BUDGET, interrupted: self.limits.interrupted };
-        let mut cost = Cost::default();
-        let found = half_swing(field, start, GRAIN, &mut cost, &limits);
-        self.charge(Cost { evaluations: COSTLIER * cost.evaluations, ..cost });
-        found?.ok_or(LOST)
     }
 }

@@ -70,7 +70,13 @@ impl Equation<'_> {
             return Ok(Vec::new());
         }
         let mut starts: Vec<f64> = evenly((near, far), usize::from(count.max(2))).collect();
-        starts.extend(self.kinks()?.into_iter().filter(|kink| near < *kink && *kink < far));
+        // Captured on an end of the sticking set by the first half swing, and by the second; infinite where there is none.
+        let gap = Length::new(2.0 * self.parameters.r);
+        let once = self.swing(0, Direction::Backward, gap)?.end;
+        let between = self.swing(1, Direction::Backward, gap)?.end;
+        let twice = self.swing(0, Direction::Backward, between.plus(gap.value))?.end;
+        let kinks = [once, twice].map(|clearance| self.parameters.r + clearance.value);
+        starts.extend(kinks.iter().filter(|kink| near < **kink && **kink < far));
         starts.sort_by(f64::total_cmp);
         starts.dedup();
         let outward = -self.side.sign();
@@ -97,17 +103,6 @@ impl Equation<'_> {
             (place, passed) = (side.displacement(end, r), end - 2.0 * r);
         }
         Ok(Some(place))
-    }
-
-    /// Distances from zero of the turning points that are captured on an end of the sticking set: by the
-    /// first half swing, and by the second; infinite where there is none.
-    fn kinks(&mut self) -> Result<[f64; 2]> {
-        let r = self.parameters.r;
-        let gap = Length::new(2.0 * r);
-        let once = self.swing(0, Direction::Backward, gap)?.end;
-        let between = self.swing(1, Direction::Backward, gap)?.end;
-        let twice = self.swing(0, Direction::Backward, between.plus(gap.value))?.end;
-        Ok([once, twice].map(|clearance| r + clearance.value))
     }
 }
 

@@ -41,8 +41,7 @@ pub fn weak_closing(parameters: &Parameters) -> Option<SwingPair> {
     }
     // In the frame of the first swing, in which D2 >= 0, the left turning point is the farther one.
     let turning = [1.0, -1.0].map(|sign| amplitude * (1.0 + sign * 2.0 / 3.0 * bend) - r);
-    let [first, second] = turning.map(Length::new);
-    Some(SwingPair::in_closed_form([first, second], TAU, square, amplitude))
+    Some(SwingPair::in_closed_form(turning.map(Length::new), TAU, square, amplitude))
 }
 
 /// Whether energy alone excludes cycles: whatever D2, the first integral K of [`super::balance`] changes the same
@@ -90,8 +89,9 @@ mod tests {
             let found = closings(&mut equation, usize::MAX, &[]).unwrap();
             assert_eq!(found.len(), 1, "{parameters:?}");
             let near = |one: f64, other: f64, within: f64| (one / other - 1.0).abs() <= within;
-            assert!(near(weak.first.value, found[0].first.value, 1e-12), "{weak:?} {found:?}");
-            assert!(near(weak.second.value, found[0].second.value, 1e-12), "{weak:?} {found:?}");
+            for (one, other) in weak.clearances.iter().zip(found[0].clearances) {
+                assert!(near(one.value, other.value, 1e-12), "{weak:?} {found:?}");
+            }
             assert!(near(weak.duration, found[0].duration, 1e-14));
             assert!(near(weak.fastest[0], found[0].fastest[0], 1e-12));
             assert!(near(weak.fastest[1], found[0].fastest[1], 1e-12));

@@ -10,7 +10,6 @@
 //! An extreme system has a D2 of its own on each side, so it is a [`TwoSidedOscillator`]; half maps and arcs are
 //! computed side by side anyway.
 
-use crate::closed_form::LinearCycle;
 use crate::flow::{Fate, Limits, Reason, Result};
 use crate::model::{HalfPlane, Model, ParameterBox, Parameters, Side};
 use crate::numerics::Interval;
@@ -88,8 +87,7 @@ impl TwoSidedOscillator {
     /// there is one, else where the search closes.
     fn closing(&self, equation: &mut Equation) -> Result<Option<(SwingPair, f64)>> {
         if self.upper == self.lower && self.upper.is_piecewise_linear() {
-            let cycle = LinearCycle::new(self.upper.d, self.upper.r);
-            return Ok(cycle.map(|cycle| (SwingPair::from(&cycle), NOISE)));
+            return Ok(SwingPair::linear(&self.upper).map(|closing| (closing, NOISE)));
         }
         let Some(bracket) = innermost_bracket(equation)? else {
             return if has_cycle(&self.upper) { Err(Reason::OutOfRange) } else { Ok(None) };

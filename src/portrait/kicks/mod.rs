@@ -16,10 +16,11 @@ use serde::{Deserialize, Serialize};
 use super::{Edge, Portrait, Share, over_scales, support};
 use crate::flow::{Reason, Result};
 use crate::model::{Border, quantity};
-use crate::numerics::{Integral, erfc, exp};
+use crate::numerics::{Integral, erfc, exp, named};
 
 /// How a random number is spread.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Distribution {
     /// Normal; the spread is the standard deviation.
     Normal,
@@ -55,8 +56,7 @@ impl RandomKick {
         const FORM: &str = "kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0";
         let form = || format!("{text:?}: expected {FORM}");
         let (name, parts) = text.split_once(':').unwrap_or(("normal", text));
-        let mut laws = [Distribution::Normal, Distribution::Uniform].into_iter();
-        let law = laws.find(|law| law.name() == name).ok_or_else(form)?;
+        let law = named(name).ok_or_else(form)?;
         let mut kicks = RandomKick { law, q: (0.0, 0.0), v: (0.0, 0.0) };
         for part in parts.split(',') {
             let (name, interval) = part.split_once('=').ok_or_else(form)?;

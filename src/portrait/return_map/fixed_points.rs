@@ -43,7 +43,7 @@ fn growth_to(u: f64, x: f64, image: &Image) -> Node {
 /// if even the motions next to rest cannot be followed.
 pub fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<Vec<Mark>> {
     let marks = portrait.landmarks;
-    let divides = jumps(flow.model, marks).into_iter().map(|x| (x, Divide::Jump)).collect();
+    let divides = jumps(flow.model, marks);
     let unit = unit(flow.model, marks);
     let mut search = FixedPointSearch { flow, unit, portrait, divides };
     search.run(marks)?;
@@ -52,14 +52,11 @@ pub fn fixed_points(flow: &mut Flow, portrait: &mut Portrait) -> Result<Vec<Mark
 }
 
 /// Jumps of the return map: where a touch becomes a ride, and where the mirror band ends.
-fn jumps(model: &Model, landmarks: Option<Landmarks>) -> Vec<f64> {
-    let Some(marks) = landmarks else { return Vec::new() };
-    let mut found: Vec<f64> = marks.touch.into_iter().collect();
-    if marks.lines.release > marks.lines.fold {
-        found.extend(marks.beyond.filter(|beyond| Some(*beyond) != marks.touch));
-    }
-    found.retain(|x| *x > model.guide_static);
-    found
+fn jumps(model: &Model, marks: Option<Landmarks>) -> Vec<Mark> {
+    let Some(Landmarks { lines, touch, beyond, .. }) = marks else { return Vec::new() };
+    let ends = beyond.filter(|_| lines.release > lines.fold && beyond != touch);
+    let places = touch.into_iter().chain(ends).filter(|x| *x > model.guide_static);
+    places.map(|x| (x, Divide::Jump)).collect()
 }
 
 /// A power of two beyond all special lengths of the machine, so that results do not depend on their unit.

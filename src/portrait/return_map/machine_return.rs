@@ -95,8 +95,7 @@ impl Flow<'_> {
         backward: bool,
         watch: &mut impl FnMut(&PhaseSeries),
     ) -> Result<ArcEnd> {
-        let guide = self.model.guide;
-        let x = if phase == Phase::Below { guide } else { -guide };
+        let x = -self.model.offset(phase);
         match self.arc(phase, start, backward, watch) {
             Err(Reason::Settles) => Ok(ArcEnd { x, y: 0.0, log_ratio: f64::NEG_INFINITY }),
             end => end,
