@@ -3,8 +3,6 @@
 //! The Taylor series of [`super::taylor`] in twice the working precision. Order and steps are chosen so that
 //! truncation stays below rounding. An evaluation takes a hundred times as long as one in doubles.
 
-use std::ops::ControlFlow;
-
 use super::swing::swing;
 use super::{Cost, Detail, Limits, Method, Motion, MotionRun, Problem, StepPoint, Stepper, Taylor};
 use crate::model::{HalfPlane, Reason, Result};
@@ -59,7 +57,7 @@ pub fn half_swing(
     const PATIENCE: f64 = 1e100;
     let mut stepper = grain.stepper();
     let point = StepPoint { x: -start, v: Twofold::default() };
-    let watch = |_: &mut Taylor<Twofold>, _, _, _: &_| ControlFlow::Continue(());
+    let watch = |_: &mut Taylor<Twofold>, _, _, _: &_| true;
     let found =
         swing(&mut stepper, &field, (point, 0), (Twofold::from(PATIENCE), true), limits, watch);
     *cost += Cost { steps: found.steps, ..stepper.cost() };

@@ -3,8 +3,6 @@
 //! The state is kept near 1 in units of a power of two. Motions of any size are thus computed alike, and a
 //! motion scaled by a power of two is the same to the last bit.
 
-use std::ops::ControlFlow;
-
 use super::{Limits, Step, StepPoint, Stepper};
 use crate::model::{HalfPlane, PlaneField, Reason, Result};
 use crate::numerics::{Scalar, Sum, exponent, ln_1p};
@@ -34,7 +32,7 @@ pub struct Swing<N = f64> {
 /// `longest`; unless it `arrives`, through as many half swings as occur, without looking for `v = 0`.
 ///
 /// `watch` is called after each accepted step with the stepper that holds it, the time at which it began, the
-/// exponent of its unit, and the step; it may stop the swing there.
+/// exponent of its unit, and the step; it says whether the swing goes on from there.
 ///
 /// Assumption: where it does not arrive, the field holds on both sides: there is no friction, or it is part of the
 /// field.
@@ -44,7 +42,7 @@ pub fn swing<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     (start, unit): (StepPoint<N>, i32),
     (longest, arrives): (N, bool),
     limits: &Limits,
-    mut watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
+    mut watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> bool,
 ) -> Swing<N> {
     let size = exponent(start.size());
     let mut point = start.times_power(-size);
@@ -53,32 +51,27 @@ pub fn swing<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     let mut clock = Sum::<N>::default();
     let (mut duration, mut crossed, mut steps) = (N::default(), false, 0);
     stepper.begin(&scaled);
-    let end = loop {
-        if (limits.interrupted)() {
-            break Err(Reason::Interrupted);
-        }
+    let mut follow = || loop {
+        limits.go_on()?;
         let evaluations = stepper.cost().evaluations;
         if evaluations > limits.evaluations {
-            break Err(Reason::Budget { evaluations });
+            return Err(Reason::Budget { evaluations });
         }
         let smooth = scaled.frictionless();
         if !(smooth.d2.is_finite() && smooth.d3.is_finite()) {
-            break Err(Reason::OutOfRange);
+            return Err(Reason::OutOfRange);
         }
         let remaining = longest - duration;
-        let step = match stepper.advance(point, remaining, arrives) {
-            Ok(step) => step,
-            Err(reason) => break Err(reason),
-        };
+        let step = stepper.advance(point, remaining, arrives)?;
         steps += 1;
-        let goes_on = watch(stepper, duration.value(), unit, &step).is_continue();
+        let goes_on = watch(stepper, duration.value(), unit, &step);
         let step = progress(step, point, remaining);
         clock.add(step.duration);
         (point, crossed) = (step.end, step.crossed);
         let in_time = crossed || step.duration < remaining;
         duration = if in_time { clock.value() } else { longest };
         if crossed || !(in_time && goes_on) {
-            break Ok(point.times_power(unit));
+            return Ok(point.times_power(unit));
         }
         let error = BLOW_UP_ERROR * N::NEGLIGIBLE * duration.value();
         // The time is that of the two driving terms alone; its error is the effect of the others.
@@ -87,7 +80,7 @@ pub fn swing<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
             && duration + N::from(rest) <= longest
         {
             duration = duration + N::from(rest);
-            break Err(Reason::Escapes);
+            return Err(Reason::Escapes);
         }
         let drift = exponent(point.size());
         if drift.abs() > FAR {
@@ -97,6 +90,7 @@ pub fn swing<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
             stepper.begin(&scaled);
         }
     };
+    let end = follow();
     Swing { end, crossed, duration, steps }
 }
 

@@ -1,7 +1,5 @@
 //! Computes a motion, half swings joined end to end, until it is captured, escapes, reaches its end time or is given up.
 
-use std::ops::ControlFlow;
-
 use nalgebra::Vector3;
 
 pub use super::motion::{Cost, Crossing, Detail, Motion, Outcome, Problem, Sample};
@@ -166,7 +164,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             } else {
                 let (from, bound) = ((point, unit), (remaining, arrives));
                 let (end, crossed) =
-                    self.piece(stepper, &field, (side, r), from, bound, |_, _, _| false);
+                    self.piece(stepper, &field, (side, r), from, bound, |_, _, _| true);
                 let StepPoint { x, v } = end?;
                 self.path += (x - point.x).value();
                 q = side.displacement(x, r);
@@ -190,7 +188,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
 
     /// Runs one smooth piece on a side whose centre is displaced by some shift, from a point in units of a power of two,
     /// for some time or up to `v = 0`; keeps evenly spaced points of each step for drawing, its end but not its start,
-    /// and adds up the work. `see` may stop it after a step. Returns its end, and whether that is at `v = 0`.
+    /// and adds up the work. `see` says whether it goes on after a step. Returns its end, and whether that is at `v = 0`.
     fn piece<F: PlaneField, S: Stepper<F, N>>(
         &mut self,
         stepper: &mut S,
@@ -222,7 +220,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             if detail.energy {
                 *sum += works(stepper.powers(), &field.frictionless(), unit);
             }
-            if see(at, unit, step) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            see(at, unit, step)
         };
         let piece = swing(stepper, field, from, bound, self.limits, watch);
         self.found.cost.steps += piece.steps;
@@ -281,7 +279,7 @@ impl MotionRun<'_> {
                 let stays = sticks && rests(State { q: end.x, v: end.v }, parameters.r);
                 stays.then_some(Ok(Outcome::Captured { tau, q: end.x }))
             };
-            ended.is_some()
+            ended.is_none()
         };
         let outcome = if sticks && rests(initial, parameters.r) {
             Ok(self.rests())

@@ -90,15 +90,13 @@ impl Interval {
     /// Upper bound of the distance of any member from [`Interval::middle`].
     pub fn radius(self) -> f64 {
         let middle = self.middle();
-        if self.lower == self.upper {
-            return 0.0;
-        }
-        (middle - self.lower).max(self.upper - middle).next_up()
+        let most = (middle - self.lower).max(self.upper - middle);
+        if self.is_point() { 0.0 } else { most.next_up() }
     }
 
     /// Width, rounded up.
     pub fn width(self) -> f64 {
-        if self.lower == self.upper { 0.0 } else { (self.upper - self.lower).next_up() }
+        if self.is_point() { 0.0 } else { (self.upper - self.lower).next_up() }
     }
 
     /// All numbers at most `off` from a member.

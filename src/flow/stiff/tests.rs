@@ -1,7 +1,5 @@
 //! The implicit method against closed forms and other methods.
 
-use std::ops::ControlFlow;
-
 use super::super::auto::AutoStepper;
 use super::super::swing::{Swing, swing};
 use super::super::taylor::Taylor;
@@ -60,9 +58,7 @@ fn a_step_that_begins_stiff_and_ends_at_rest_keeps_the_digits_of_its_end() {
 }
 
 fn run<S: Stepper>(stepper: &mut S, field: &HalfPlane, start: StepPoint) -> Swing {
-    swing(stepper, field, (start, 0), (60.0, true), &Limits::PATIENT, |_, _, _, _| {
-        ControlFlow::Continue(())
-    })
+    swing(stepper, field, (start, 0), (60.0, true), &Limits::PATIENT, |_, _, _, _| true)
 }
 
 #[test]

@@ -9,8 +9,6 @@
 //! Lengths are carried with their logarithm. Near the end point of the sticking set the motion is a
 //! linear spiral that scales with `c` exactly, so a swing may start or end at lengths that underflow.
 
-use std::ops::ControlFlow;
-
 use super::Errors;
 use super::roundoff::Roundoff;
 use crate::closed_form::LinearFlow;
@@ -222,13 +220,11 @@ impl HalfMap {
             }
             watch(stepper, unit, step.duration);
             if step.crossed {
-                return ControlFlow::Continue(());
+                return true;
             }
             escapes = !tail && blow_up(&field.in_units(unit), step.end).is_some();
-            if escapes || times_power(step.end.size(), unit) < small {
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
+            let ends = escapes || times_power(step.end.size(), unit) < small;
+            !ends
         };
         let stepper = &mut self.stepper;
         let done = swing(stepper, &self.field, (from, 0), (LONGEST, true), limits, &mut see);
