@@ -159,7 +159,7 @@ fn cost_of(scene: &Arc<Scene>) -> Result<SceneCost> {
     let opening = QuestionBatch { after: OPENING, questions, reused: Vec::new() };
     Ok(SceneCost {
         scene: Arc::clone(scene),
-        formulas: session.drawn_by_formulas().iter().map(|layer| layer.spec().name).collect(),
+        formulas: session.drawn_by_formulas(),
         asked: std::iter::once(Ok(opening)).chain(rows.map(step)).collect::<Result<_>>()?,
     })
 }
@@ -171,7 +171,7 @@ fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>> {
     session::settle(session, |session, request| {
         let layers = session.requirements().into_iter();
         let layers = layers.filter(|part| part.request == *request).flat_map(|part| part.layers);
-        let layers = layers.map(|layer| layer.spec().name).collect();
+        let layers = layers.collect();
         let ask = || answer(request, &Limits::PATIENT);
         let (result, once) = timed(1, ask);
         let seconds = if once < QUICK { timed(TIMES, ask).1 } else { once };

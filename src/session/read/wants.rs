@@ -11,7 +11,9 @@ use crate::branch::chart::Plane;
 use crate::flow::{Cost, Problem};
 use crate::model::Knob;
 use crate::numerics::{distinct, exp2, hypot, log2};
-use crate::scene::{Axes, Finding, Layer, Reply, Request, Span, TOPICS, Topic, View, Window};
+use crate::scene::{
+    Axes, Finding, Layer, LayerSpec, Reply, Request, Span, TOPICS, Topic, View, Window,
+};
 use crate::session::{Framing, List, ListKind, Overlay, Pane, Row, Session};
 use crate::words::{count, duration, joined};
 
@@ -231,8 +233,8 @@ fn reach(Window { x, y }: Window) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
     pub request: Request,
-    /// The layers that draw its answer.
-    pub layers: Vec<Layer>,
+    /// The names of the layers that draw its answer.
+    pub layers: Vec<&'static str>,
 }
 
 /// A row of the list of costs.
@@ -250,14 +252,13 @@ impl Session {
     pub fn cost_rows(&self, list: &List) -> Vec<CostRow> {
         let present = self.requirements();
         let row = |name, text| CostRow { name, text, is_step: false };
-        let names = |layers: &[Layer]| joined(layers.iter().map(|layer| layer.spec().name), ", ");
         let asked = present.iter().map(|Requirement { request, layers }| {
             let held = self.answers.standing(request).fresh().reply();
             let price = held.map_or_else(|| "not answered".to_owned(), price);
-            row(request.topic().name(), format!("{price} for {}", names(layers)))
+            row(request.topic().name(), format!("{price} for {}", layers.join(", ")))
         });
         let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
-        let formulas = formulas.map(|it| row("formulas", format!("nothing for {}", names(&it))));
+        let formulas = formulas.map(|it| row("formulas", format!("nothing for {}", it.join(", "))));
         let is_asked = |request: &Request| present.iter().any(|it| it.request == *request);
         let steps = self.rows().into_iter().map(|row| {
             let (mut reused, mut anew) = (Vec::new(), Vec::new());
@@ -277,13 +278,13 @@ impl Session {
         let mut found: Vec<Requirement> = Vec::new();
         for plot in self.on_show() {
             for layer in self.layers.iter().filter(|layer| self.shows_in(**layer, plot)) {
-                let topic = layer.spec().needs;
-                let each = topic.map(|topic| self.requests(topic, plot)).unwrap_or_default();
+                let LayerSpec { name, needs, .. } = layer.spec();
+                let each = needs.map(|topic| self.requests(topic, plot)).unwrap_or_default();
                 for (_, request) in each {
                     match found.iter_mut().find(|requirement| requirement.request == request) {
-                        Some(known) if known.layers.contains(layer) => {}
-                        Some(known) => known.layers.push(*layer),
-                        None => found.push(Requirement { request, layers: vec![*layer] }),
+                        Some(known) if known.layers.contains(name) => {}
+                        Some(known) => known.layers.push(name),
+                        None => found.push(Requirement { request, layers: vec![name] }),
                     }
                 }
             }
@@ -292,10 +293,10 @@ impl Session {
         found
     }
 
-    /// The layers on show that are drawn by formulas and need no answer.
-    pub fn drawn_by_formulas(&self) -> Vec<Layer> {
-        let shown = self.layers.iter().filter(|layer| self.shows(**layer));
-        shown.filter(|layer| layer.spec().needs.is_none()).copied().collect()
+    /// The names of the layers on show that are drawn by formulas and need no answer.
+    pub fn drawn_by_formulas(&self) -> Vec<&'static str> {
+        let shown = self.layers.iter().filter(|layer| self.shows(**layer)).map(|it| it.spec());
+        shown.filter(|spec| spec.needs.is_none()).map(|spec| spec.name).collect()
     }
 }
 

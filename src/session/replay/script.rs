@@ -8,8 +8,9 @@ use thiserror::Error;
 use crate::model::{Group, Knob};
 use crate::numerics::similar::most_similar;
 use crate::scene::Point;
+use crate::session::Instruction::Give;
 use crate::session::{Code, Gesture, Key, MouseAction, Msg, PointerTarget, key};
-use crate::words::printable;
+use crate::words::{joined, printable};
 
 /// Longest time in a single step, in s.
 pub const LONGEST: f64 = 3600.0;
@@ -77,10 +78,45 @@ impl Instruction {
         match message {
             Msg::Key(key) => Some(Instruction::Key { key: *key, count: 1 }),
             Msg::Paste(text) | Msg::Say(text, _) if text.is_empty() => None,
-            Msg::Say(text, _) => Some(Instruction::Give(Msg::Say(text.clone(), None))),
+            Msg::Say(text, _) => Some(Give(Msg::Say(text.clone(), None))),
             // What can be written is a step.
-            _ => written(message).map(|_| Instruction::Give(message.clone())),
+            _ => Some(Give(message.clone())).filter(|step| step.written().is_some()),
         }
+    }
+
+    /// The word of its directive and what follows it; `None` for a key, and for what results from other steps.
+    fn written(&self) -> Option<(&'static str, String)> {
+        Some(match self {
+            Instruction::Wait => ("wait", String::new()),
+            Instruction::Async => ("async", String::new()),
+            Instruction::Expect(text) => ("expect", quoted(text)),
+            Instruction::Screen(name) => ("screen", name.clone()),
+            Instruction::File { name, text } => {
+                ("file", format!("{} {}", quoted(name), quoted(text)))
+            }
+            Give(Msg::Pointed(MouseAction { gesture, place })) => {
+                // Positions refer to the plots, not to the screen, so that a file has the same effect at every size.
+                let place = match place {
+                    PointerTarget::Row(row) => format!("row {row}"),
+                    PointerTarget::Plot(index, Point { x, y }) => {
+                        format!("{} {x:?} {y:?}", index + 1)
+                    }
+                };
+                (gesture.into(), place)
+            }
+            Give(Msg::Paste(text)) => ("paste", quoted(text)),
+            Give(Msg::Elapsed { seconds }) => ("elapse", seconds.to_string()),
+            Give(Msg::Resize { width, height }) => ("resize", format!("{width}x{height}")),
+            Give(Msg::Run(line)) => ("run", quoted(line)),
+            Give(Msg::Say(text, _)) => ("say", quoted(text)),
+            Give(Msg::Start(names)) => ("start", joined(names, " ")),
+            Instruction::Key { .. }
+            | Give(
+                Msg::Key(_) | Msg::Read { .. } | Msg::Answered(_) | Msg::Written(_) | Msg::Told(_),
+            ) => {
+                return None;
+            }
+        })
     }
 
     /// Number of times that it is done.
@@ -126,51 +162,16 @@ impl Script {
 /// Text that the parser can read back.
 impl fmt::Display for Instruction {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Instruction::Key { key, count: 1 } => write!(out, "{key}"),
-            Instruction::Key { key, count } => {
-                let key = key.to_string();
-                let name = key.strip_prefix('<').and_then(|name| name.strip_suffix('>'));
-                write!(out, "<{}*{count}>", name.unwrap_or(&key))
-            }
-            Instruction::Give(message) => out.write_str(&written(message).unwrap_or_default()),
-            Instruction::Wait => write!(out, "<wait>"),
-            Instruction::Async => write!(out, "<async>"),
-            Instruction::Expect(text) => write!(out, "<expect {}>", quoted(text)),
-            Instruction::Screen(name) => write!(out, "<screen {name}>"),
-            Instruction::File { name, text } => {
-                write!(out, "<file {} {}>", quoted(name), quoted(text))
-            }
+        if let Instruction::Key { key, count } = self {
+            let key = key.to_string();
+            let name = key.strip_prefix('<').and_then(|name| name.strip_suffix('>'));
+            let name = name.unwrap_or(&key);
+            return if *count == 1 { out.write_str(&key) } else { write!(out, "<{name}*{count}>") };
         }
+        let (word, rest) = self.written().unwrap_or_default();
+        let blank = if rest.is_empty() { "" } else { " " };
+        write!(out, "<{word}{blank}{rest}>")
     }
-}
-
-/// A message as it is written in a file; `None` for one that results from other steps.
-fn written(message: &Msg) -> Option<String> {
-    Some(match message {
-        Msg::Pointed(MouseAction { gesture, place }) => {
-            // Positions refer to the plots, not to the screen, so that a file has the same effect at every size.
-            let gesture: &str = gesture.into();
-            match place {
-                PointerTarget::Row(row) => format!("<{gesture} row {row}>"),
-                PointerTarget::Plot(index, Point { x, y }) => {
-                    format!("<{gesture} {} {x:?} {y:?}>", index + 1)
-                }
-            }
-        }
-        Msg::Paste(text) => format!("<paste {}>", quoted(text)),
-        Msg::Elapsed { seconds } => format!("<elapse {seconds}>"),
-        Msg::Resize { width, height } => format!("<resize {width}x{height}>"),
-        Msg::Run(line) => format!("<run {}>", quoted(line)),
-        Msg::Say(text, _) => format!("<say {}>", quoted(text)),
-        Msg::Start(names) => {
-            let names: String = names.iter().flat_map(|knob| [" ", knob.spec().name]).collect();
-            format!("<start{names}>")
-        }
-        Msg::Key(_) | Msg::Read { .. } | Msg::Answered(_) | Msg::Written(_) | Msg::Told(_) => {
-            return None;
-        }
-    })
 }
 
 /// Text in quotes on one line, with exactly the escapes that the parser knows.
@@ -216,9 +217,9 @@ static DIRECTIVES: LazyLock<[Directive; 14]> = LazyLock::new(|| {
         directive("elapse", &seconds, elapse),
         directive("resize", &cells, resize),
         directive("expect", TEXT, |rest| text(rest).map(Instruction::Expect)),
-        directive("paste", TEXT, |rest| text(rest).map(|it| Instruction::Give(Msg::Paste(it)))),
-        directive("run", TEXT, |rest| text(rest).map(|it| Instruction::Give(Msg::Run(it)))),
-        directive("say", TEXT, |rest| text(rest).map(|it| Instruction::Give(Msg::Say(it, None)))),
+        directive("paste", TEXT, |rest| text(rest).map(|it| Give(Msg::Paste(it)))),
+        directive("run", TEXT, |rest| text(rest).map(|it| Give(Msg::Run(it)))),
+        directive("say", TEXT, |rest| text(rest).map(|it| Give(Msg::Say(it, None)))),
         directive("screen", NAME, screen),
         directive("start", NUMBERS, start),
         directive("file", FILE, file),
@@ -297,7 +298,7 @@ fn step(token: &str) -> Result<Instruction, String> {
 /// Seconds that pass: at most an hour.
 fn elapse(text: &str) -> Option<Instruction> {
     let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds))?;
-    Some(Instruction::Give(Msg::Elapsed { seconds }))
+    Some(Give(Msg::Elapsed { seconds }))
 }
 
 /// A key with an optional count: `right`, `right*5`, `*`, `**5`.
@@ -339,13 +340,13 @@ fn pointed(gesture: Gesture, rest: &str) -> Option<Instruction> {
         }
         _ => return None,
     };
-    Some(Instruction::Give(Msg::Pointed(MouseAction { gesture, place })))
+    Some(Give(Msg::Pointed(MouseAction { gesture, place })))
 }
 
 fn resize(rest: &str) -> Option<Instruction> {
     let read = |text: &str| text.parse().ok().filter(|cells| (1..=LARGEST).contains(cells));
     let (width, height) = rest.split_once('x')?;
-    Some(Instruction::Give(Msg::Resize { width: read(width)?, height: read(height)? }))
+    Some(Give(Msg::Resize { width: read(width)?, height: read(height)? }))
 }
 
 fn screen(name: &str) -> Option<Instruction> {
@@ -357,7 +358,7 @@ fn screen(name: &str) -> Option<Instruction> {
 fn start(rest: &str) -> Option<Instruction> {
     let named = |name: &str| Knob::named(name, &[Group::Motion]).ok();
     let names = rest.split_whitespace().map(named).collect::<Option<_>>()?;
-    Some(Instruction::Give(Msg::Start(names)))
+    Some(Give(Msg::Start(names)))
 }
 
 /// A name and a text, both in quotes.
@@ -422,7 +423,7 @@ mod tests {
                 prop_assert_eq!(steps(&format!("x{step}x"))[1].clone(), step);
             }
             if !quoted.is_empty() {
-                let paste = Instruction::Give(Msg::Paste(quoted.clone()));
+                let paste = Give(Msg::Paste(quoted.clone()));
                 for step in [Instruction::Expect(quoted), paste] {
                     prop_assert_eq!(steps(&format!("x{step}x"))[1].clone(), step);
                 }
