@@ -42,9 +42,8 @@ struct UsualPlot {
 /// which names the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, FileMistake> {
     let read = DeTable::parse(text).map_err(Complaint::from);
-    let mut scene = read.and_then(scene).map_err(|complaint| complaint.in_file(file, text))?;
-    name.clone_into(&mut scene.name);
-    Ok(scene)
+    let scene = read.and_then(scene).map_err(|complaint| complaint.in_file(file, text))?;
+    Ok(Scene { name: name.to_owned(), ..scene })
 }
 
 /// The scene of a file. A machine sets its numbers itself.

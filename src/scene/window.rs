@@ -127,6 +127,11 @@ impl Span {
         Span::new(from, to).unwrap_or(self)
     }
 
+    /// The span `factor` times as wide, with the same center.
+    pub fn widened(self, factor: f64) -> Self {
+        self.scaled(self.center(), factor)
+    }
+
     /// The span moved by a fraction of its width; unchanged if the result would be no valid span.
     pub fn shifted(self, fraction: f64) -> Self {
         let by = fraction * self.width();
@@ -208,11 +213,9 @@ impl From<Point> for [f64; 2] {
 impl Window {
     /// The smallest window around these points, so many times as large; `None` without any that is finite.
     pub fn around(points: &[Point], times: f64) -> Option<Self> {
-        let span = |place: fn(&Point) -> f64| {
-            let span = Span::covering(points.iter().map(place))?;
-            Some(span.scaled(span.center(), times))
-        };
-        Some(Window { x: span(|point| point.x)?, y: span(|point| point.y)? })
+        let x = Span::covering(points.iter().map(|point| point.x))?;
+        let y = Span::covering(points.iter().map(|point| point.y))?;
+        Some(Window { x: x.widened(times), y: y.widened(times) })
     }
 
     /// The window between left and right, bottom and top; `None` if it has no extent.

@@ -276,19 +276,15 @@ fn scene(scene: &Scene) -> Option<(Vec<Instruction>, Vec<Knob>)> {
         return None;
     }
     let names = scene.terms.difference(&known.terms).copied().collect();
-    let words = numbers(&known.problem, &scene.problem);
-    let set = (!words.is_empty()).then(|| run(format!("set {}", words.join(" "))));
-    let lines = std::iter::once(run(format!("scene {}", scene.name))).chain(set);
-    Some((lines.collect(), names))
-}
-
-/// The assignments that lead from one motion to another.
-fn numbers(from: &Problem, to: &Problem) -> Vec<String> {
+    let (from, to) = (known.problem, scene.problem);
     let accuracy = [Knob::Until, Knob::Tolerance, Knob::Step, Knob::Epsilon];
     let numbers = Knob::MOTION.into_iter().chain(accuracy);
     let given = numbers.filter(|knob| from.get(*knob) != to.get(*knob));
     let words = given.map(|knob| format!("{knob}={}", shortest(to.get(knob))));
     // Last, because the tolerance is the number that sets the accuracy of the method.
     let method = (from.method != to.method).then(|| format!("method={}", to.method));
-    words.chain(method).collect()
+    let words: Vec<String> = words.chain(method).collect();
+    let set = (!words.is_empty()).then(|| run(format!("set {}", words.join(" "))));
+    let lines = std::iter::once(run(format!("scene {}", scene.name))).chain(set);
+    Some((lines.collect(), names))
 }

@@ -230,7 +230,13 @@ pub fn read(session: &Session, setup: &Setup, row: Row, text: &str) -> Result<Se
     let text = text.trim();
     let problem = match row {
         Row::Number(knob @ Knob::Disturbance) => {
-            return session.with(setup, knob, disturbance(session, setup, text)?);
+            // In the unit of r, or with a unit of force.
+            let value = if measured(text).is_ok_and(|read| read.dimension.is_some()) {
+                Knob::DisturbingForce.parse(text)? / session.unit_of_force(setup)?
+            } else {
+                knob.parse(text)?
+            };
+            return session.with(setup, knob, value);
         }
         Row::Number(knob) => return number(session, setup, knob, text),
         Row::Method => {
@@ -249,18 +255,19 @@ pub fn read(session: &Session, setup: &Setup, row: Row, text: &str) -> Result<Se
 /// a tolerance; without one, it is known exactly.
 fn number(session: &Session, setup: &Setup, knob: Knob, text: &str) -> Result<Setup, String> {
     let read = knob.parse_toleranced(text)?;
-    let changed = session.with(setup, knob, read.middle.value)?;
-    if read.half_width == 0.0 && !knob.is_parameter() && symbol_of(knob).is_none() {
-        return Ok(changed);
-    }
-    let doubt = session.with_tolerance(&changed, knob, read.half_width)?;
-    Ok(Setup { doubt, ..changed })
-}
-
-/// The typed bound on the disturbance, in the unit of r or with a unit of force.
-fn disturbance(session: &Session, setup: &Setup, text: &str) -> Result<f64, String> {
-    if measured(text).is_ok_and(|read| read.dimension.is_some()) {
-        return Ok(Knob::DisturbingForce.parse(text)? / session.unit_of_force(setup)?);
-    }
-    Knob::Disturbance.parse(text)
+    let mut changed = session.with(setup, knob, read.middle.value)?;
+    let half = read.half_width;
+    changed.doubt = match symbol_of(knob) {
+        Some(symbol) => {
+            let scale = session.machine_of(&changed)?.scale(symbol);
+            changed.doubt.with_half_width(symbol, half / scale)?
+        }
+        None if half == 0.0 && !knob.is_parameter() => changed.doubt,
+        None if knob.is_of_machine() => {
+            let such = "R, d1 and d3 have, all of them in a machine's file";
+            return Err(format!("{knob} has no tolerance here; {such}"));
+        }
+        None => changed.doubt.with_half_width(knob, half)?,
+    };
+    Ok(changed)
 }

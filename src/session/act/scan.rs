@@ -194,16 +194,9 @@ pub fn scan(session: &mut Session, rest: &str) -> Done {
     let over = sweeps.into_iter().map(|text| Sweep::read(text, groups));
     let over = over.collect::<Result<Vec<_>, _>>()?;
     let measures = if measures.is_empty() { "from-rest".to_owned() } else { measures.join(",") };
-    let scan = scan_of(session, over, &measures)?;
-    start(session, scan);
-    Ok(())
-}
-
-/// A scan of the motion on show, of a machine by the model that is drawn; the window for `stability` is that of a phase plane
-/// on show. Fails with one line that says what is wrong and what is allowed.
-fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, String> {
     let measures = measures.split(',').map(|name| Measure::named(name.trim()));
     let measures = measures.collect::<Result<Vec<_>, _>>()?;
+    // Of a machine by the model that is drawn; the window for `stability` is that of a phase plane on show.
     let plane = session.plots.iter().find(|plot| plot.view == View::Phase);
     let window = plane.map_or(View::Phase.spec().window, |plot| plot.window);
     let ends = |span: Span, unit: f64| span.ends().map(|end| unit * end).into();
@@ -215,15 +208,17 @@ fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, 
     let kicks = session.kicks.in_units(1.0 / units.displacement, 1.0 / units.velocity);
     let conditions = Conditions { window, kicks, ..Conditions::default() };
     let (Some(belt), Some(running)) = (source.of_belt(), session.running()) else {
-        return Scan::new(session.problem, over, measures, conditions);
+        start(session, Scan::new(session.problem, over, measures, conditions)?);
+        return Ok(());
     };
     let asks = measures.iter().any(|it| matches!(it, Measure::Guaranteed | Measure::Design));
     let tolerances = asks.then(|| session.doubt.on_machine(running, belt)).transpose()?;
     let tolerances = tolerances.unwrap_or_default();
     let Problem { initial: State { q, v }, until, .. } = session.problem;
-    let start = (q * units.displacement, v * units.velocity);
-    let subject = Subject::moving(source, tolerances, start, until * units.time);
-    Scan::new(subject, over, measures, conditions)
+    let from = (q * units.displacement, v * units.velocity);
+    let subject = Subject::moving(source, tolerances, from, until * units.time);
+    start(session, Scan::new(subject, over, measures, conditions)?);
+    Ok(())
 }
 
 impl Session {

@@ -19,19 +19,14 @@ fn row_named(session: &Session, name: &str) -> Result<Row, String> {
     found.ok_or_else(|| unknown(name, &rows(session).map(Row::name).collect::<Vec<_>>()))
 }
 
-/// Whether the value of this name may have a unit.
-fn takes_unit(session: &Session, name: &str) -> bool {
-    let takes = |row: Row| row.is_of_machine() || row == Row::Number(Knob::Disturbance);
-    row_named(session, name).is_ok_and(takes)
-}
-
 /// Runs `NAME=VALUE ..` as one change. A word without `=` is the unit of the value before it.
 pub fn set(session: &mut Session, rest: &str) -> Done {
     let mut given: Vec<(&str, String)> = Vec::new();
+    let takes_unit = |row: Row| row.is_of_machine() || row == Row::Number(Knob::Disturbance);
     for word in rest.split_whitespace() {
         match (word.split_once('='), given.last_mut()) {
             (Some((name, value)), _) => given.push((name, value.to_owned())),
-            (None, Some((name, value))) if takes_unit(session, name) => {
+            (None, Some((name, value))) if row_named(session, name).is_ok_and(takes_unit) => {
                 *value = format!("{value} {word}");
             }
             (None, _) => return Err(format!("{word:?} is not NAME=VALUE, such as D=-0.3")),

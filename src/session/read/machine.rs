@@ -11,7 +11,7 @@ use crate::model::{Belt, Body, Knob, Parameters, Source};
 use crate::portrait::Margin;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Layer, ScaledMachine, Setting, Topic, View};
-use crate::session::{ON_A_MACHINE, Session, Setup, Uncertainty, symbol_of};
+use crate::session::{ON_A_MACHINE, Session, Setup};
 
 /// The margins of a machine, without units.
 #[derive(Clone, Copy, Debug)]
@@ -90,26 +90,6 @@ impl Session {
         Some(MachineMargins { whole, cubic })
     }
 
-    /// The uncertainty of `setup` with another half width of a parameter, or tolerance of a number of the
-    /// machine, in SI units. Fails with one line if no parameter corresponds to that number.
-    pub(crate) fn with_tolerance(
-        &self,
-        setup: &Setup,
-        knob: Knob,
-        half_width: f64,
-    ) -> Result<Uncertainty, String> {
-        if !knob.is_of_machine() {
-            return setup.doubt.with_half_width(knob, half_width);
-        }
-        let symbol = symbol_of(knob).ok_or_else(|| {
-            format!(
-                "{knob} has no tolerance here; R, d1 and d3 have, all of them in a machine's file"
-            )
-        })?;
-        let scale = self.machine_of(setup)?.scale(symbol);
-        setup.doubt.with_half_width(symbol, half_width / scale)
-    }
-
     /// The unit of r and w, in newtons. Fails with one line if there is no machine and no record with a known
     /// mass.
     pub(crate) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
@@ -124,7 +104,7 @@ impl Session {
 
     /// The machine of the scene with the setting of `setup`. Fails with one line if the scene has no machine, or is
     /// none with that setting.
-    fn machine_of(&self, setup: &Setup) -> Result<ScaledMachine, String> {
+    pub(crate) fn machine_of(&self, setup: &Setup) -> Result<ScaledMachine, String> {
         let scaled = self.scene.machine.as_ref().ok_or("the scene has no machine")?;
         match &setup.setting {
             Some(setting) => setting.on(&scaled.machine),

@@ -46,8 +46,14 @@ pub fn fitted(session: &Session, index: usize) -> Option<Window> {
         View::TimeSeries => time_series(session, index),
         View::EnergyLedger => energy_ledger(session),
         View::ReturnMap => return_map(session),
-        View::Regimes => Some(regimes(session, index)),
-        View::Trade => trade(session),
+        View::Regimes => {
+            let Axes { abscissa, against, .. } = session.plots[index].axes;
+            Some(Window { x: session.values_around(abscissa), y: session.values_around(against) })
+        }
+        View::Trade => {
+            let places = session.trade()?.rows.iter().filter_map(TradePoint::place);
+            Window::around(&places.map(Point::from).collect::<Vec<_>>(), ROOM)
+        }
         View::Belt => belt(session),
         View::EnergyRate => energy_rate(session),
         View::Eigenvalues => eigenvalues(session),
@@ -57,11 +63,6 @@ pub fn fitted(session: &Session, index: usize) -> Option<Window> {
         View::Spread => Window::of(session.fitted()?.curves.spread_extent),
         View::Scan => session.scanned.as_ref().map(ScanOnShow::window),
     }
-}
-
-/// A span with room at both ends.
-fn roomy(span: Span) -> Span {
-    span.scaled(span.center(), ROOM)
 }
 
 /// The question whose answer the window of a plot waits for, if the plot is on show and is being fitted.
@@ -78,12 +79,6 @@ fn belt_diagram(session: &Session, plot: usize) -> Option<Window> {
     let cycles = points.flat_map(|it| &it.found).flat_map(|found| &found.cycles);
     let y = Span::covering(cycles.map(|cycle| cycle.q_max).chain([0.0]))?;
     Some(Window { x, y: y.scaled(0.0, ROOM) })
-}
-
-/// All rows of the trade.
-fn trade(session: &Session) -> Option<Window> {
-    let places = session.trade()?.rows.iter().filter_map(TradePoint::place);
-    Window::around(&places.map(Point::from).collect::<Vec<_>>(), ROOM)
 }
 
 /// The motions, the cycles and the sticking sets.
@@ -134,7 +129,7 @@ fn belt(session: &Session) -> Option<Window> {
     let samples = session.trajectory()?.samples.iter().take_while(|sample| sample.tau <= last);
     let places = samples.map(|sample| sample.q);
     let x = Span::covering(places.chain([session.problem.initial.q, 0.0]))?;
-    Some(Window { x: x.scaled(x.center(), 1.5 * ROOM), y: View::Belt.spec().window.y })
+    Some(Window { x: x.widened(1.5 * ROOM), y: View::Belt.spec().window.y })
 }
 
 /// The same values of the parameter, and the heights of the branch there.
@@ -198,7 +193,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     values.extend(record.iter().filter_map(near));
     let y = Span::covering(values)?;
     let x = Span::covering(record.iter().map(|at| at.tau).chain([0.0, end]))?;
-    Some(Window { x, y: roomy(y) })
+    Some(Window { x, y: y.widened(ROOM) })
 }
 
 /// All lines of the energy ledger.
@@ -229,7 +224,7 @@ fn energy_rate(session: &Session) -> Option<Window> {
     let rate = |v: f64| lyapunov::energy_rate(&parameters, v);
     let parts = (0..=RATES).map(|part| rate(x.at(f64::from(part) / f64::from(RATES))));
     let y = Span::covering(parts.chain([0.0]))?;
-    Some(Window { x, y: roomy(y) })
+    Some(Window { x, y: y.widened(ROOM) })
 }
 
 /// The unit circle and both eigenvalues.
@@ -238,12 +233,6 @@ fn eigenvalues(session: &Session) -> Option<Window> {
     let d = session.problem.parameters.d.abs();
     let far = usual.x.to().max(2.0 * ROOM * d);
     Some(Window { x: Span::new(-far, far).ok()?, ..usual })
-}
-
-/// The first ranges of both parameters, and the present point.
-fn regimes(session: &Session, plot: usize) -> Window {
-    let Axes { abscissa, against, .. } = session.plots[plot].axes;
-    Window { x: session.values_around(abscissa), y: session.values_around(against) }
 }
 
 impl Session {

@@ -116,14 +116,13 @@ impl ScanOnShow {
         let along = |sweep: &Sweep, room: f64| {
             let last = sweep.count - 1;
             let span = Span::covering([0, last].map(|index| Self::coordinate(sweep, index)));
-            span.map(|span| span.scaled(span.center(), 1.0 + room / real(last)))
+            span.map(|span| span.widened(1.0 + room / real(last)))
         };
         if self.is_grid() {
             let spans = along(&over[0], 1.0).zip(along(&over[1], 1.0));
             return spans.map_or(usual, |(x, y)| Window { x, y });
         }
-        let y = Span::covering(self.heights()).map(|span| span.scaled(span.center(), ROOM));
-        let y = y.unwrap_or(usual.y);
+        let y = Span::covering(self.heights()).map_or(usual.y, |span| span.widened(ROOM));
         along(&over[0], 0.0).map_or(usual, |x| Window { x, y })
     }
 
