@@ -53,11 +53,10 @@ impl Complaint {
     /// The complaint as a [`FileMistake`] at the line and column where its range begins.
     pub fn in_file(self, file: &str, text: &str) -> FileMistake {
         let before = text.get(..self.at.start).unwrap_or(text);
-        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         FileMistake {
             file: file.to_owned(),
             line: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
+            column: before.chars().rev().take_while(|char| *char != '\n').count() + 1,
             message: self.message,
         }
     }

@@ -10,7 +10,7 @@ use serde::de::{
 use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
 use serde_spanned::de::{SpannedDeserializer, is_spanned};
 use toml::Spanned;
-use toml::de::{DeArray, DeFloat, DeInteger, DeTable, DeValue};
+use toml::de::{DeArray, DeFloat, DeTable, DeValue};
 
 use super::mistake::{Complaint, FileMistake};
 
@@ -89,11 +89,6 @@ impl<'de> SeqAccess<'de> for Elements<'de> {
     }
 }
 
-/// A whole number; `None` beyond 64 bits.
-fn integer(digits: &DeInteger) -> Option<i64> {
-    i64::from_str_radix(digits.as_str(), digits.radix()).ok()
-}
-
 fn float(digits: &DeFloat) -> Result<f64, Complaint> {
     let value = digits.as_str().parse().map_err(Complaint::custom)?;
     // Infinity that is not written as `inf` is an overflow.
@@ -109,14 +104,16 @@ impl<'de> Deserializer<'de> for Placed<'de> {
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Complaint> {
         match self.0.into_inner() {
             DeValue::String(text) => visitor.visit_str(&text),
-            DeValue::Integer(digits) => match integer(&digits) {
-                Some(value) => visitor.visit_i64(value),
-                // Larger ones can only be meant as real numbers, which have decimal digits.
-                None if digits.radix() == 10 => {
-                    visitor.visit_f64(digits.as_str().parse().map_err(Complaint::custom)?)
+            DeValue::Integer(digits) => {
+                match i64::from_str_radix(digits.as_str(), digits.radix()) {
+                    Ok(value) => visitor.visit_i64(value),
+                    // Larger ones can only be meant as real numbers, which have decimal digits.
+                    Err(_) if digits.radix() == 10 => {
+                        visitor.visit_f64(digits.as_str().parse().map_err(Complaint::custom)?)
+                    }
+                    Err(_) => Err(Complaint::custom("a whole number beyond 64 bits")),
                 }
-                None => Err(Complaint::custom("a whole number beyond 64 bits")),
-            },
+            }
             DeValue::Float(digits) => visitor.visit_f64(float(&digits)?),
             DeValue::Boolean(value) => visitor.visit_bool(value),
             DeValue::Datetime(_) => Err(Complaint::custom("a date or a time; nothing here is one")),

@@ -193,10 +193,10 @@ fn table() -> &'static [Command] {
 /// The command that a line of the file describes; `None` for a comment. A test reads every line.
 fn command(line: &'static str) -> Option<Command> {
     let fields: Vec<&str> = line.split(" | ").collect();
-    let action = |name: &str| ACTIONS.iter().find(|row| row.0 == name).map(|row| row.1);
     let [name, places, hint, doc, ref does @ ..] = fields[..] else { return None };
     let mut words = does.first().unwrap_or(&name).split(' ');
-    let run = action(words.next()?)?;
+    let action = words.next()?;
+    let (_, run) = *ACTIONS.iter().find(|row| row.0 == action)?;
     let mut by = [0; 2];
     for (by, word) in by.iter_mut().zip(words) {
         *by = match word {
@@ -252,7 +252,7 @@ pub fn commands() -> impl Iterator<Item = &'static Command> {
 impl Default for Keymap {
     /// The default keys of every command.
     fn default() -> Self {
-        Keymap::new(table().iter())
+        Keymap::new(table())
     }
 }
 

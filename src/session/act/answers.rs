@@ -9,7 +9,7 @@ use crate::question::{NoAnswer, Rows};
 use crate::scene::{Finding, Fit, Reply, Topic};
 use crate::session::act::scan::refit;
 use crate::session::read::windows::{awaited, fitted};
-use crate::session::{Framing, Recomputation, SCANNING, ScanProgress, Session, StepSizes};
+use crate::session::{Framing, Notice, Recomputation, SCANNING, ScanProgress, Session, StepSizes};
 use crate::words::fit::sentences;
 
 impl Session {
@@ -20,23 +20,18 @@ impl Session {
             return self.take_rows(&reply);
         }
         let asked = self.asks().contains(&reply.request);
-        if let Ok(answer) = &reply.result {
-            let (cost, seconds) = (answer.cost(), reply.seconds);
-            // No key waits for a proof.
-            if topic != Topic::Proof {
-                self.price.recomputed.push(Recomputation { topic, cost, seconds });
+        // No key waits for a proof.
+        if reply.result.is_ok() && topic != Topic::Proof {
+            let (cost, seconds) = (reply.cost(), reply.seconds);
+            self.price.recomputed.push(Recomputation { topic, cost, seconds });
+        }
+        if let (Ok(Finding::Fit(fit)), true) = (&reply.result, asked) {
+            if let Err(NoEstimate::Underway { motions }) = fit.found() {
+                self.fitting = *motions;
+                return asked;
             }
-            if let Finding::Fit(fit) = answer
-                && asked
-            {
-                let fit = fit.clone();
-                if let Err(NoEstimate::Underway { motions }) = fit.found() {
-                    self.fitting = *motions;
-                    return asked;
-                }
-                self.fitting = 0;
-                self.show_fit(&fit);
-            }
+            self.fitting = 0;
+            self.show_fit(fit);
         }
         self.answers.keep(reply);
         asked
@@ -65,10 +60,8 @@ impl Session {
         }
         let doubtful = found.estimate.whiteness.systematic;
         // A test that fails comes first.
-        match said.into_iter().next() {
-            Some(text) if doubtful => self.refuse(text),
-            Some(text) => self.inform(text),
-            None => {}
+        if let Some(text) = said.into_iter().next() {
+            self.notice = Some(Notice { error: doubtful, text });
         }
     }
 

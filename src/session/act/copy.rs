@@ -114,7 +114,7 @@ fn belonging(session: &Session) -> Vec<NamedNumber> {
 /// The shell command that prints the numbers of the pane in focus. It gives every number explicitly, so that
 /// its meaning does not depend on any scene.
 pub fn command_line(session: &Session) -> String {
-    let Problem { until, method, tolerance, step, epsilon, .. } = session.problem;
+    let Problem { until, method, tolerance, .. } = session.problem;
     let diagram = session.focused().filter(|plot| plot.view == View::Diagram);
     let mut line = format!("hopfscope {}", if diagram.is_some() { "branch" } else { "trajectory" });
     let is_used = |plot: &Plot, knob: Knob| knob.is_parameter() && knob != plot.axes.abscissa;
@@ -130,8 +130,9 @@ pub fn command_line(session: &Session) -> String {
         line += &format!(" --until {} --method {method}", shortest(until));
     }
     line + &match method.dial() {
-        Knob::Step if diagram.is_none() => format!(" --step {}", shortest(step)),
-        Knob::Epsilon if diagram.is_none() => format!(" --epsilon {}", shortest(epsilon)),
+        dial @ (Knob::Step | Knob::Epsilon) if diagram.is_none() => {
+            format!(" --{dial} {}", shortest(session.value(dial)))
+        }
         _ => format!(" --tol {}", shortest(tolerance)),
     }
 }

@@ -1,7 +1,7 @@
 //! Commands that belong to no pane: layers, harmonics, appearance, retry, counts, quitting.
 
 use crate::accuracy::ladder;
-use crate::scene::Layer;
+use crate::scene::{Layer, LayerSpec};
 use crate::session::{
     DisplaySettings, Done, Effect, Key, LARGEST_COUNT, MOST_HARMONICS, NamedValue, Overlay,
     PendingInput, Session, next_of,
@@ -13,15 +13,13 @@ pub fn toggle(session: &mut Session, layer: Layer) {
     if on {
         session.layers.insert(layer);
     }
-    let spec = layer.spec();
-    let absent = !session.on_show().any(|plot| session.plots[plot].view == spec.view);
+    let LayerSpec { name, view, meaning, .. } = layer.spec();
     let text = match session.not_drawn(layer) {
-        Some(why) if on => format!("{}: {why}", spec.name),
-        _ if on && absent => {
-            let title = spec.view.spec().title;
-            format!("{}: no plot shows the {title}; {{views}} picks one", spec.name)
+        Some(why) if on => format!("{name}: {why}"),
+        _ if on && !session.shows(layer) => {
+            format!("{name}: no plot shows the {}; {{views}} picks one", view.spec().title)
         }
-        _ => format!("{} {}: {}", spec.name, if on { "on" } else { "off" }, spec.meaning),
+        _ => format!("{name} {}: {meaning}", if on { "on" } else { "off" }),
     };
     session.inform_of_keys(&text);
 }

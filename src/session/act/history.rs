@@ -98,8 +98,8 @@ fn mark_own_windows(session: &mut Session) {
     for index in 0..session.plots.len() {
         let Plot { view, axes, window, framing, .. } = session.plots[index];
         let of_scene = session.plot_of_scene(index, view);
-        let is_scenes = |of: PlotSetup| of.axes == axes && of.window == Some(window);
-        if framing == Framing::Scene && !of_scene.is_some_and(is_scenes) {
+        let is_others = |of: PlotSetup| of.axes != axes || of.window != Some(window);
+        if framing == Framing::Scene && of_scene.is_none_or(is_others) {
             session.plots[index].framing = Framing::Fitted;
         }
     }

@@ -107,10 +107,9 @@ impl Session {
 
     /// Whether a condition holds, by the answers on show.
     fn holds(&self, condition: TextCondition) -> bool {
-        let any = |is: &dyn Fn(&Cycle) -> bool| {
-            self.cycles().is_some_and(|found| found.cycles.iter().any(is))
-        };
-        let border = self.cycles().map(|found| found.portrait.border);
+        let found = self.cycles();
+        let any = |is: fn(&Cycle) -> bool| found.is_some_and(|it| it.cycles.iter().any(is));
+        let border = found.map(|found| found.portrait.border);
         match condition {
             TextCondition::Here => {
                 let numbers = |it: &Problem| (it.parameters, it.initial);
@@ -124,14 +123,14 @@ impl Session {
             }
             // Of a machine only the unstable cycle that borders the basin counts.
             TextCondition::Unstable if self.draws_whole() => border == Some(Border::Cycle),
-            TextCondition::Unstable => any(&|cycle| !cycle.stable),
-            TextCondition::Stable => any(&|cycle| cycle.stable),
+            TextCondition::Unstable => any(|cycle| !cycle.stable),
+            TextCondition::Stable => any(|cycle| cycle.stable),
             TextCondition::Separatrix => border.is_some_and(Border::parts_without_cycle),
             TextCondition::Safe => {
                 matches!(border, Some(Border::None | Border::Unknown(_)))
-                    && self.cycles().is_some_and(|found| found.parameters.r > 0.0)
+                    && found.is_some_and(|found| found.parameters.r > 0.0)
             }
-            TextCondition::Sticks => any(&Cycle::sticks),
+            TextCondition::Sticks => any(Cycle::sticks),
             TextCondition::Compares(symbol, bounds) => bounds.contains(&self.value(symbol)),
             TextCondition::Shows(layer) => self.shows(layer),
             TextCondition::Rests => self.fate() == Some(End::Rests),

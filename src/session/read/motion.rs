@@ -102,12 +102,11 @@ impl Session {
 
     /// The computed motions, stale or not, each with its index.
     pub fn motions(&self) -> Vec<(usize, &Motion)> {
-        let motion = |problem| {
+        let motion = |(place, problem)| {
             let request = self.request_for(Topic::Trajectory, self.plot, problem)?;
-            self.answers.standing(&request).answer()?.try_as_trajectory_ref()
+            Some((place, self.answers.standing(&request).answer()?.try_as_trajectory_ref()?))
         };
-        let found = self.problems().into_iter().map(motion).enumerate();
-        found.filter_map(|(place, motion)| Some((place, motion?))).collect()
+        self.problems().into_iter().enumerate().filter_map(motion).collect()
     }
 }
 

@@ -173,10 +173,8 @@ impl Session {
 
     /// The problems that a plot shows: the present one, or its variants.
     pub fn shown(&self, plot: usize) -> Vec<ShownMotion> {
-        let Some(all) = self.variants(plot) else {
-            let (variant, problem) = (VariantTag::default(), self.problem);
-            return vec![ShownMotion { variant, problem, present: true }];
-        };
+        let alone = [Variant::default()];
+        let all = self.variants(plot).unwrap_or(&alone);
         let shown = |(index, (variant, label)): (usize, (&Variant, String))| ShownMotion {
             variant: VariantTag { index, label },
             problem: variant.of(self.problem),
@@ -202,11 +200,12 @@ impl Session {
     ) -> Vec<(VariantTag, T)> {
         let starts = topic == Topic::Trajectory;
         let labels = labels(self.variants(plot).unwrap_or_default(), &self.problem, starts);
-        let label = |index: usize| labels.get(index).cloned().unwrap_or_default();
-        let tag = |index| VariantTag { index, label: label(index) };
-        let asked = self.requests(topic, plot).into_iter();
-        let answer = |request: &Request| self.answers.standing(request).answer().and_then(read);
-        asked.filter_map(|(index, request)| Some((tag(index), answer(&request)?))).collect()
+        let found = |(index, request): (usize, Request)| {
+            let answer = self.answers.standing(&request).answer().and_then(read)?;
+            let label = labels.get(index).cloned().unwrap_or_default();
+            Some((VariantTag { index, label }, answer))
+        };
+        self.requests(topic, plot).into_iter().filter_map(found).collect()
     }
 
     /// The branches computed last over the parameter of a diagram, stale or not, each with its index among the

@@ -112,9 +112,8 @@ impl Session {
             None if topic == Topic::Trajectory => self.problems(),
             None => vec![self.problem],
         };
-        let request = |problem| self.request_for(topic, plot, problem);
-        let each = problems.into_iter().map(request).enumerate();
-        each.filter_map(|(index, request)| Some((index, request?))).collect()
+        let request = |(index, it)| Some((index, self.request_for(topic, plot, it)?));
+        problems.into_iter().enumerate().filter_map(request).collect()
     }
 
     /// The question on this topic for the present problem, with exactly the inputs on which its answer depends.

@@ -40,11 +40,16 @@ const QUANTILE: f64 = 0.9;
 
 /// The window that shows the whole content of a plot; `None` if there is none yet.
 pub fn fitted(session: &Session, index: usize) -> Option<Window> {
-    match session.plots[index].view {
+    let view = session.plots[index].view;
+    let usual = view.spec().window;
+    match view {
         View::Phase => phase(session, index),
         View::Diagram => diagram(session, index),
         View::TimeSeries => time_series(session, index),
-        View::EnergyLedger => energy_ledger(session),
+        View::EnergyLedger => {
+            let lines = real(session.ledger().len().max(1));
+            Some(Window { y: Span::new(-lines, 0.0).ok()?, ..usual })
+        }
         View::ReturnMap => return_map(session),
         View::Regimes => {
             let Axes { abscissa, against, .. } = session.plots[index].axes;
@@ -56,7 +61,10 @@ pub fn fitted(session: &Session, index: usize) -> Option<Window> {
         }
         View::Belt => belt(session),
         View::EnergyRate => energy_rate(session),
-        View::Eigenvalues => eigenvalues(session),
+        View::Eigenvalues => {
+            let far = usual.x.to().max(2.0 * ROOM * session.problem.parameters.d.abs());
+            Some(Window { x: Span::new(-far, far).ok()?, ..usual })
+        }
         View::BeltDiagram => belt_diagram(session, index),
         View::Damping => Window::of(session.fitted()?.curves.damping.extent),
         View::Residuals => Window::of(session.fitted()?.residual_extent()?),
@@ -196,13 +204,6 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     Some(Window { x, y: y.widened(ROOM) })
 }
 
-/// All lines of the energy ledger.
-fn energy_ledger(session: &Session) -> Option<Window> {
-    let x = View::EnergyLedger.spec().window.x;
-    let lines = real(session.ledger().len().max(1));
-    Some(Window { x, y: Span::new(-lines, 0.0).ok()? })
-}
-
 /// Turning points on the right: those of the cycles, otherwise those of the motion.
 fn return_map(session: &Session) -> Option<Window> {
     let r = session.problem.parameters.r;
@@ -225,14 +226,6 @@ fn energy_rate(session: &Session) -> Option<Window> {
     let parts = (0..=RATES).map(|part| rate(x.at(f64::from(part) / f64::from(RATES))));
     let y = Span::covering(parts.chain([0.0]))?;
     Some(Window { x, y: y.widened(ROOM) })
-}
-
-/// The unit circle and both eigenvalues.
-fn eigenvalues(session: &Session) -> Option<Window> {
-    let usual = View::Eigenvalues.spec().window;
-    let d = session.problem.parameters.d.abs();
-    let far = usual.x.to().max(2.0 * ROOM * d);
-    Some(Window { x: Span::new(-far, far).ok()?, ..usual })
 }
 
 impl Session {

@@ -97,19 +97,18 @@ pub type Candidates = fn(&Session, &[&str]) -> Vec<String>;
 /// Everything that can be run by name, and the command of each key in each context.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keymap {
-    commands: Vec<&'static Command>,
+    commands: &'static [Command],
     /// The keys of each context with their commands, in the order in which they were bound.
     bindings: BTreeMap<Context, Vec<(Key, &'static Command)>>,
 }
 
 impl Keymap {
     /// A keymap of commands with their default keys, in the order of the help.
-    pub fn new(commands: impl Iterator<Item = &'static Command>) -> Self {
-        let commands: Vec<_> = commands.collect();
+    pub fn new(commands: &'static [Command]) -> Self {
         let mut bindings: BTreeMap<_, Vec<_>> = BTreeMap::new();
-        for command in &commands {
+        for command in commands {
             for (context, keys) in &command.keys {
-                let bound = keys.iter().map(|key| (*key, *command));
+                let bound = keys.iter().map(|key| (*key, command));
                 bindings.entry(*context).or_default().extend(bound);
             }
         }
@@ -118,12 +117,12 @@ impl Keymap {
 
     /// All commands of keys, in the order in which the help lists them.
     pub fn commands(&self) -> impl Iterator<Item = &'static Command> {
-        self.commands.iter().copied().filter(|command| command.words().is_none())
+        self.commands.iter().filter(|command| command.words().is_none())
     }
 
     /// All commands that take words, in the order in which the help lists them.
     pub fn lines(&self) -> impl Iterator<Item = &'static Command> {
-        self.commands.iter().copied().filter(|command| command.words().is_some())
+        self.commands.iter().filter(|command| command.words().is_some())
     }
 
     /// The command of keys with this name.
@@ -138,9 +137,7 @@ impl Keymap {
 
     /// Removes all keys of a command in a context.
     pub fn unbind(&mut self, context: Context, command: &Command) {
-        if let Some(bindings) = self.bindings.get_mut(&context) {
-            bindings.retain(|(_, bound)| *bound != command);
-        }
+        self.bindings.entry(context).or_default().retain(|(_, bound)| *bound != command);
     }
 
     /// Binds a key to a command in a context. Fails with one line if the key means something else where this

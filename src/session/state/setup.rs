@@ -170,16 +170,15 @@ impl Uncertainty {
     }
 
     /// Converts this to the units of the machine at another speed of its belt.
-    pub fn brought_to(self, from: &ScaledMachine, to: &ScaledMachine) -> Self {
+    pub fn brought_to(mut self, from: &ScaledMachine, to: &ScaledMachine) -> Self {
         if self == Self::of_machine(from) {
             return Self::of_machine(to);
         }
-        let mut moved = self;
         for (symbol, _) in ON_A_MACHINE {
-            moved.half_widths[symbol.place()] *= from.scale(symbol) / to.scale(symbol);
+            self.half_widths[symbol.place()] *= from.scale(symbol) / to.scale(symbol);
         }
-        moved.disturbance *= from.reduced.units.force / to.reduced.units.force;
-        moved
+        self.disturbance *= from.reduced.units.force / to.reduced.units.force;
+        self
     }
 }
 
