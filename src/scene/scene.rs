@@ -5,10 +5,8 @@
 //! what to look for.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Error, MapAccess, Visitor};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::machine::{ScaledMachine, Setting, library};
@@ -57,36 +55,27 @@ pub struct Scene {
 
 /// A machine in full, or the name of a built-in one and, where that is not its own, the speed of its belt in m/s, as in
 /// `textbook 0.2`.
-struct MachineVisitor;
-
-impl<'de> Visitor<'de> for MachineVisitor {
-    type Value = Option<Box<ScaledMachine>>;
-
-    fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str("a machine or the name of one")
-    }
-
-    fn visit_str<E: Error>(self, text: &str) -> Result<Self::Value, E> {
-        let (name, speed) =
-            text.split_once(' ').map_or((text, None), |(name, it)| (name, Some(it)));
-        let machine = library::find(name).map_err(E::custom)?;
-        let refused = |it| E::custom(format!("\"{it}\" is no speed of its belt: a number of m/s"));
-        let speed = speed.map(|it| it.parse().map_err(|_| refused(it))).transpose()?;
-        let speed = speed.unwrap_or(machine.belt.belt_speed);
-        let scaled = Setting::of_speed(speed).on(machine).map_err(E::custom)?;
-        Ok(Some(Box::new(scaled)))
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
-        let scaled = ScaledMachine::deserialize(MapAccessDeserializer::new(map))?;
-        Ok(Some(Box::new(scaled)))
-    }
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a machine or the name of one")]
+enum SavedMachine {
+    Named(String),
+    Whole(Box<ScaledMachine>),
 }
 
 fn named_or_whole<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Option<Box<ScaledMachine>>, D::Error> {
-    deserializer.deserialize_any(MachineVisitor)
+    let text = match SavedMachine::deserialize(deserializer)? {
+        SavedMachine::Named(text) => text,
+        SavedMachine::Whole(scaled) => return Ok(Some(scaled)),
+    };
+    let (name, speed) = text.split_once(' ').map_or((&*text, None), |(name, it)| (name, Some(it)));
+    let machine = library::find(name).map_err(D::Error::custom)?;
+    let refused = |it| D::Error::custom(format!("{it:?} is no speed of its belt: a number of m/s"));
+    let speed = speed.map(|it| it.parse().map_err(|_| refused(it))).transpose()?;
+    let speed = speed.unwrap_or(machine.belt.belt_speed);
+    let scaled = Setting::of_speed(speed).on(machine).map_err(D::Error::custom)?;
+    Ok(Some(Box::new(scaled)))
 }
 
 /// Values that are held while the others follow the keys.

@@ -53,11 +53,14 @@ fn present(session: &Session, other: &EarlierState) -> EarlierState {
     match other {
         EarlierState::Setup(_) => EarlierState::Setup(Box::new(session.setup())),
         EarlierState::ScreenSetup(_) => EarlierState::ScreenSetup(session.screen_setup()),
-        EarlierState::Scene { .. } => EarlierState::Scene {
-            plots: session.screen_setup().plots,
-            show: Box::new(snapshot(session)),
-        },
+        EarlierState::Scene { .. } => whole(session),
     }
+}
+
+/// Everything that a scene determines, as it is now.
+fn whole(session: &Session) -> EarlierState {
+    let (plots, show) = (session.screen_setup().plots, Box::new(snapshot(session)));
+    EarlierState::Scene { plots, show }
 }
 
 /// Everything that a scene determines but its plots, as it is now.
@@ -123,13 +126,11 @@ pub fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot>) {
 
 /// Opens a scene, as one change that can be undone.
 pub fn open_scene(session: &mut Session, scene: Arc<Scene>) {
-    let (plots, before) = (session.screen_setup().plots, snapshot(session));
-    let opens = snapshot(&Session::new(scene, session.size));
-    if before != opens || plots != opens.scene.plots {
-        session.history.record(EarlierState::Scene { plots, show: Box::new(before) });
+    let (before, opens) = (whole(session), Session::new(scene, session.size));
+    if before != whole(&opens) {
+        session.history.record(before);
     }
-    let plots = opened(&opens.scene.plots);
-    restore(session, opens, plots);
+    restore(session, snapshot(&opens), opens.plots);
     session.unfolded = false;
     session.selected = Row::default();
     // The descriptions of scenes begin there.

@@ -46,17 +46,16 @@ impl Session {
     pub fn machine(&self) -> Option<Belt> {
         let running = self.running()?;
         let mut belt = running.machine.belt.clone();
-        let parameters = running.reduced.parameters;
-        if parameters == self.problem.parameters {
+        let (own, now) = (running.reduced.parameters, self.problem.parameters);
+        if own == now {
             return Some(belt);
         }
-        let own = |symbol: Knob| parameters.value(symbol);
-        if own(Knob::D2) != self.value(Knob::D2) {
+        if own.d2 != now.d2 {
             return None;
         }
         for (symbol, quantity) in ON_A_MACHINE {
-            let value = self.value(symbol);
-            if own(symbol) != value {
+            let value = now.value(symbol);
+            if own.value(symbol) != value {
                 quantity.set_in_belt(&mut belt, running.meaning(symbol, value)?.1).ok()?;
             }
         }

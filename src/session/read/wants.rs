@@ -11,10 +11,8 @@ use crate::branch::chart::Plane;
 use crate::flow::{Cost, Problem};
 use crate::model::Knob;
 use crate::numerics::{distinct, exp2, hypot, log2};
-use crate::scene::{
-    Axes, Finding, Layer, LayerSpec, Reply, Request, Span, TOPICS, Topic, View, Window,
-};
-use crate::session::{Framing, List, ListKind, Overlay, Pane, Row, Session};
+use crate::scene::{Finding, Layer, LayerSpec, Reply, Request, Span, TOPICS, Topic, View, Window};
+use crate::session::{Framing, List, ListKind, Overlay, Pane, Plot, Row, Session};
 use crate::words::{count, duration, joined};
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
@@ -180,12 +178,9 @@ impl Session {
             Topic::Branch => {
                 let plot = own(View::Diagram)?;
                 let parameter = plot.axes.abscissa;
-                Request::Branch {
-                    parameters: parameters.with(parameter, 0.0),
-                    parameter,
-                    range: within(parameter, plot.window.x)?,
-                    tolerance,
-                }
+                let range = within(parameter, plot.window.x)?;
+                let parameters = parameters.with(parameter, 0.0);
+                Request::Branch { parameters, parameter, range, tolerance }
             }
             Topic::MachineBranch => {
                 let plot = own(View::BeltDiagram)?;
@@ -202,15 +197,11 @@ impl Session {
                 Request::ReturnMap { parameters, range: range.ends().into() }
             }
             Topic::Regimes => {
-                let plot = own(View::Regimes)?;
-                let Axes { abscissa, against, .. } = plot.axes;
-                let plane = Plane {
-                    right: abscissa,
-                    up: against,
-                    right_range: within(abscissa, plot.window.x)?,
-                    up_range: within(against, plot.window.y)?,
-                };
-                let parameters = parameters.with(abscissa, 0.0).with(against, 0.0);
+                let Plot { axes, window, .. } = own(View::Regimes)?;
+                let (right, up) = (axes.abscissa, axes.against);
+                let (right_range, up_range) = (within(right, window.x)?, within(up, window.y)?);
+                let plane = Plane { right, up, right_range, up_range };
+                let parameters = parameters.with(right, 0.0).with(up, 0.0);
                 Request::Regimes { parameters, plane, rough: false }
             }
         })

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::flow::Problem;
 use crate::scene::{Arrangement, Layer, MOST_PLOTS, PlotSetup, Request, Scene, find};
-use crate::session::{Setup, StepSizes};
+use crate::session::{Done, Setup, StepSizes};
 
 /// The state before a change, limited to what the change affects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,7 +27,7 @@ pub enum EarlierState {
 
 impl EarlierState {
     /// Fails with one line that names the first number that is not within its range.
-    pub(crate) fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Done {
         match self {
             EarlierState::Setup(setup) => setup.check(),
             EarlierState::ScreenSetup(screen_setup) => check_number(&screen_setup.plots),
@@ -65,7 +65,7 @@ impl From<SavedEarlierState> for EarlierState {
 }
 
 /// Fails with one line if a screen cannot have so many plots.
-pub(crate) fn check_number<P>(plots: &[P]) -> Result<(), String> {
+pub(crate) fn check_number<P>(plots: &[P]) -> Done {
     match plots.len() {
         1..=MOST_PLOTS => Ok(()),
         count => Err(format!("{count} plots; there can be 1 to {MOST_PLOTS}")),
@@ -88,7 +88,7 @@ pub struct Snapshot {
 
 impl Snapshot {
     /// Fails with one line that names the first number that is not within its range.
-    pub(crate) fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Done {
         Setup::alone(self.scene.problem).check()?;
         check_number(&self.scene.plots)?;
         self.setup.check()

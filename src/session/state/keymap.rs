@@ -142,12 +142,7 @@ impl Keymap {
 
     /// Binds a key to a command in a context. Fails with one line if the key means something else where this
     /// context holds, or types a character there.
-    pub fn bind(
-        &mut self,
-        context: Context,
-        command: &'static Command,
-        key: Key,
-    ) -> Result<(), String> {
+    pub fn bind(&mut self, context: Context, command: &'static Command, key: Key) -> Done {
         let chains = CONTEXTS.iter().map(|row| &row.chain);
         let together = chains.filter(|chain| chain.contains(&context)).flatten().copied();
         let together: BTreeSet<Context> = together.collect();

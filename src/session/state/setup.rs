@@ -9,6 +9,7 @@ use crate::flow::Problem;
 use crate::model::{Belt, Group, KNOBS, Knob, State, Tolerances};
 use crate::numerics::StepSize;
 use crate::scene::{ScaledMachine, Scene, Setting};
+use crate::session::Done;
 
 /// Maximum number of motions on show, including the present one.
 pub const MOST_MOTIONS: usize = 8;
@@ -56,7 +57,7 @@ impl Setup {
     }
 
     /// Fails with one line that names the first number that is not within its range.
-    pub fn check(&self) -> Result<(), String> {
+    pub fn check(&self) -> Done {
         let accuracy = [Knob::Until, Knob::Tolerance, Knob::Step, Knob::Epsilon];
         for knob in Knob::MOTION.into_iter().chain(accuracy) {
             knob.check(self.problem.get(knob))?;
@@ -113,7 +114,7 @@ impl Uncertainty {
     }
 
     /// Checks that no number is negative or infinite. Fails with one line that names the number.
-    fn check(&self) -> Result<(), String> {
+    fn check(&self) -> Done {
         let mut all = self.half_widths.into_iter().chain([self.disturbance]);
         all.find(|value| !(0.0..=f64::MAX).contains(value)).map_or(Ok(()), |value| {
             Err(format!("doubt: {value:?}; half widths and disturbance are 0 or more"))
