@@ -150,7 +150,7 @@ fn costliest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, Stri
     let size = ratatui::layout::Size { width, height };
     let (answer, channel) = (Arc::new(answer), (events.clone(), received));
     let screen = Screen::new(line, size);
-    let explorer = Explorer::new(session, Environment::default());
+    let explorer = Explorer::new(session, Environment::of(|_| None));
     let application = Watched { explorer, complete, idle: Arc::clone(&idle) };
     let mut pump =
         Pump::new(application, screen, answer, channel, Options::default(), Default::default);

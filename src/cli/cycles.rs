@@ -12,8 +12,8 @@ use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
 use crate::portrait::{Cycles, cycles, proved};
 use crate::proof::certificate::{certificate, text};
-use crate::proof::{ParameterBox, Proof, prove};
-use crate::report::{About, Answer, boxed, certificate_table, cycles as report};
+use crate::proof::{Proof, prove};
+use crate::report::{boxed, certificate_table, cycles as report};
 use crate::runtime::{bounded, provenance_file};
 
 /// The harmonic balance with ever more harmonics, if asked for.
@@ -43,24 +43,18 @@ impl CyclesCommand {
         }
         let known = asked.source.start.known()?;
         if !known.is_point() {
-            return asked.output.print(self.boxed(&known)?);
+            if self.harmonics.is_some() {
+                return Err("intervals of parameters: --harmonics has no place for them".into());
+            }
+            let proof = prove(&known, &[]);
+            self.certify(&proof)?;
+            return asked.output.print(boxed(&proof));
         }
         let problem = asked.source.start.scene(None)?.problem;
         let (found, seconds) = timed(asked.output.repeat, || self.find(&problem.parameters));
         let (found, proof, rungs) = found?;
         self.certify(&proof)?;
-        let about = About::boxed(&known);
-        asked.output.print(report::cycles(&about, &found, &proof, rungs.as_deref(), seconds))
-    }
-
-    /// The answer for all parameters in a box.
-    fn boxed(&self, known: &ParameterBox) -> Result<Answer> {
-        if self.harmonics.is_some() {
-            return Err("intervals of parameters: --harmonics has no place for them".into());
-        }
-        let proof = prove(known, &[]);
-        self.certify(&proof)?;
-        Ok(boxed(&proof))
+        asked.output.print(report::cycles(&found, &proof, rungs.as_deref(), seconds))
     }
 
     /// Writes the certificate, if asked for.

@@ -143,11 +143,6 @@ impl Fineness {
         self.0.saturating_mul(on_screen)
     }
 
-    /// On each integration step of a cycle or a border.
-    fn points_per_step(self) -> u16 {
-        self.points(if self == Self::SCREEN { 12 } else { 16 })
-    }
-
     /// How finely a chart is computed, of a few lines if it is a `rough` draft: boundaries are interpolated between the
     /// evenly spaced lines; the tolerance is the relative error of clearances at boundaries.
     fn resolution(self, rough: bool) -> Resolution {
@@ -172,7 +167,8 @@ const REFERENCE: u64 = 4_000_000;
 
 /// Answers a request on this thread, with curves of this fineness: the only place where a question becomes a computation.
 pub fn answer_for(request: &Request, fineness: Fineness, limits: &Limits) -> Result<Finding> {
-    let points = fineness.points_per_step();
+    // On each integration step of a cycle or a border.
+    let points = fineness.points(if fineness == Fineness::SCREEN { 12 } else { 16 });
     Ok(match request {
         Request::Fit { recording } => Finding::Fit(Fit::of(recording, limits, &|_| ())?),
         Request::Refit { fit, held, drawn } => Finding::Refit(fit.held(*held, *drawn, limits)?),

@@ -12,7 +12,6 @@ use crate::words::{stability, with_unit};
 /// Every cycle with what is proved about it, to the digits that are proved in text; the border of the basin; the harmonic
 /// balance if asked for.
 pub fn cycles(
-    about: &About,
     found: &Cycles,
     proof: &Proof,
     rungs: Option<&[HarmonicBalance]>,
@@ -24,7 +23,8 @@ pub fn cycles(
         .text("by one harmonic", |it: &Harmonic| stability(it.stable))
         .number("amplitude", SHORT, |it| it.amplitude)
         .number("mean", SHORT, |it| it.mean);
-    let mut answer = with_proof(about.answer(), &ProvedRow::found(&found.cycles, proof), proof)
+    let answer = About::boxed(&proof.parameters).answer();
+    let mut answer = with_proof(answer, &ProvedRow::found(&found.cycles, proof), proof)
         .with("harmonic", &by_one)
         .with_any("balance", rungs.map(|rungs| balance_columns().objects(balances(rungs))))
         .with("basin", Document::of("edge", found.border))

@@ -143,7 +143,7 @@ mod tests {
     fn played(file: &str) -> ReplayResult<Explorer> {
         let size = crate::session::Size { width: 80, height: 24 };
         let session = Session::new(find(PLAIN).unwrap(), size);
-        play(session, Environment::default(), parse(file).unwrap(), false)
+        play(session, Environment::of(|_| None), parse(file).unwrap(), false)
     }
 
     #[test]

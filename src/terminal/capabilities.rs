@@ -31,12 +31,6 @@ pub struct Environment {
     pub is_light: Option<bool>,
 }
 
-impl Default for Environment {
-    fn default() -> Self {
-        Environment::of(|_| None)
-    }
-}
-
 impl Environment {
     /// An empty variable counts as unset.
     pub fn of_process() -> Environment {
