@@ -84,14 +84,14 @@ impl FitCommand {
 
     fn fitted(&self, bytes: &[u8]) -> Result<FitResult> {
         let name = self.file.display().to_string();
-        let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
+        let bad = |problem: String| Failure::from(format!("{name}: {problem}"));
         // What contradicts itself is not the fault of the file.
         self.record.question()?;
         let half_widths = half_widths(&self.half_width)?;
-        let opened = self.record.opened(&self.file, bytes).map_err(|problem| bad(&problem))?;
+        let opened = self.record.opened(&self.file, bytes).map_err(bad)?;
         let (inertia, record) = (opened.metric(), &opened.record);
         let disturbance = self.disturbance.map_or(Ok(0.0), |it| disturbance(it, inertia, record));
-        let disturbance = disturbance.map_err(|problem| bad(&problem))?;
+        let disturbance = disturbance.map_err(bad)?;
         let FitCommand { draws, confidence, .. } = *self;
         let asked = MarginQuestion { draws, confidence, disturbance, half_widths, inertia };
         let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
@@ -101,7 +101,9 @@ impl FitCommand {
             timed(self.output.repeat, || opened.estimated(&asked, &Limits::PATIENT, &report));
         line.borrow().end();
         let (estimate, margins) = found.map_err(|reason| match reason {
-            NoEstimate::TooFew { .. } | NoEstimate::NotAlternating { .. } => bad(&reason),
+            NoEstimate::TooFew { .. } | NoEstimate::NotAlternating { .. } => {
+                bad(reason.to_string())
+            }
             _ => Failure::unanswered(&name)(reason),
         })?;
         let OpenedRecord { name, record, .. } = opened;

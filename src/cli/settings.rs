@@ -118,9 +118,8 @@ impl Memory {
     /// The files of interrupted sessions that have not been put aside since, with the times at which they
     /// ended, the newest first.
     pub fn interrupted(&self) -> Vec<(SystemTime, PathBuf)> {
-        let Ok(entries) = std::fs::read_dir(&self.folder) else { return Vec::new() };
+        let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let kept = entries.filter_map(|entry| {
-            let entry = entry.ok()?;
             let name = entry.file_name().into_string().ok()?;
             let is_kept = name.starts_with(INTERRUPTED);
             let when = entry.metadata().and_then(|data| data.modified());

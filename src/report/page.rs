@@ -48,17 +48,17 @@ impl Answer {
 
 /// What computed an answer, and from which files.
 fn origin(provenance: &Provenance, sources: &[SourceFile]) -> String {
-    let mut facts = vec![("program", provenance.build()), ("command", provenance.command.clone())];
+    let fact = |name, value: &str| element("dt", name) + &element("dd", &xml(value));
+    let mut facts = fact("program", &provenance.build()) + &fact("command", &provenance.command);
     if sources.is_empty() {
-        facts.push(("file", "none, a part of the program".to_owned()));
+        facts += &fact("file", "none, a part of the program");
     }
-    for source in sources {
-        facts.push(("file", source.name.clone()));
-        facts.extend(source.changed.clone().map(|date| ("last changed", date)));
-        facts.push(("SHA-256", source.sha256.clone()));
+    for SourceFile { name, changed, sha256 } in sources {
+        facts += &fact("file", name);
+        facts.extend(changed.iter().map(|date| fact("last changed", date)));
+        facts += &fact("SHA-256", sha256);
     }
-    let fact = |(name, value): (&str, String)| element("dt", name) + &element("dd", &xml(&value));
-    facts.into_iter().map(fact).collect()
+    facts
 }
 
 /// Parts below their heading as a section; nothing if there is nothing in it.
@@ -109,7 +109,9 @@ fn table_html(table: &Table) -> String {
         |cells: Vec<String>| element("tr", &cells.iter().enumerate().map(cell).collect::<String>());
     let head = element("thead", &element("tr", &titles.collect::<String>()));
     let body = element("tbody", &lines.map(row).collect::<String>());
-    let caption = Some(&table.caption).filter(|caption| !caption.is_empty());
-    let caption = caption.map(|caption| element("caption", &xml(caption))).unwrap_or_default();
-    element("div class=\"table\"", &element("table", &(caption + &head + &body)))
+    let mut parts = head + &body;
+    if !table.caption.is_empty() {
+        parts.insert_str(0, &element("caption", &xml(&table.caption)));
+    }
+    element("div class=\"table\"", &element("table", &parts))
 }

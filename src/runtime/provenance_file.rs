@@ -83,7 +83,7 @@ pub fn read(path: &Path) -> Result<Provenance> {
 /// The files in a folder that have a file of provenance, sorted by name. Fails if the folder cannot be read.
 pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).map_err(|error| Failure::file(folder, &error))?;
-    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let paths = entries.flatten().map(|entry| entry.path());
     let mut found: Vec<_> = paths.filter(|path| path.is_file() && beside(path).is_file()).collect();
     found.sort();
     Ok(found)
