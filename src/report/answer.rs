@@ -23,7 +23,7 @@ pub enum Format {
 }
 
 /// An answer in every form, or in the only one that is asked for.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub struct Answer {
     /// The only form that is made: the others of a long answer would cost more than its computation.
     only: Option<Format>,
@@ -42,7 +42,6 @@ pub struct Answer {
 }
 
 /// What stands in an answer for reading.
-#[derive(Clone, Debug)]
 pub(super) enum Part {
     /// A heading of a page, which text leaves out.
     Heading(&'static str),

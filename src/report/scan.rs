@@ -17,7 +17,7 @@ const WIDTH: usize = 14;
 const DIGITS: usize = 8;
 
 /// The rows of a scan that stand in one file: as JSON, an object on each line.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct ScanPart {
     /// The whole scan.
     pub scan: Scan,

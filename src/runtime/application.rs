@@ -129,7 +129,6 @@ impl From<io::Error> for LoopEnd {
 }
 
 /// The result of a keystroke file that was played without a terminal.
-#[derive(Clone, Debug)]
 pub struct ReplayResult<M> {
     /// The application at the end.
     pub application: M,

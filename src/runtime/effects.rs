@@ -9,7 +9,7 @@ use super::{Readers, bounded, new_file};
 use crate::fit::decoded;
 
 /// The destination of copies besides the clipboard: terminals do not report whether they accept a copy.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub struct Files {
     /// The file with the last copy; `None` if copies are not saved.
     pub copies: Option<PathBuf>,

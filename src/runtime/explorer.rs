@@ -26,7 +26,6 @@ use crate::terminal::{Environment, Screen};
 use crate::view::{self, Look};
 
 /// A session and its appearance in the present terminal.
-#[derive(Clone, Debug)]
 pub struct Explorer {
     pub session: Session,
     environment: Environment,

@@ -24,7 +24,6 @@ const ENDING: &str = ".ahead";
 const MOST: u64 = 1 << 20;
 
 /// The rows of a scan whose turn has not come.
-#[derive(Debug)]
 pub struct Journal {
     pub rows: BTreeMap<usize, String>,
     /// `None` beside a device or a pipe, where the rows are in memory only.

@@ -30,7 +30,6 @@ pub enum Readers {
 }
 
 /// Content on its way into a file. Dropped before [`NewFile::end`], it leaves the file as it was.
-#[derive(Debug)]
 pub struct NewFile {
     /// The file that is replaced, behind all symbolic links.
     path: PathBuf,

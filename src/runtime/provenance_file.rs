@@ -46,7 +46,6 @@ pub fn write(path: &Path, provenance: &Provenance) -> Result<()> {
 
 /// The checksum in the provenance of a file that grows, renewed with each row: whenever the process is killed, it
 /// is that of all rows but perhaps the last.
-#[derive(Debug)]
 pub struct RunningChecksum {
     file: File,
     /// Offset of the checksum in bytes.

@@ -36,7 +36,7 @@ use play::Replay;
 const ANSWER_TIME: Duration = Duration::from_millis(8);
 
 /// What the explorer is to do besides exploring.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct Options {
     /// Keys to play at the start: each is given once the answers to the last one are on the screen.
     pub replay: Option<Script>,

@@ -10,7 +10,6 @@ use super::{Files, Readers, new_file};
 use crate::session::replay::{HEADER, Recorder};
 
 /// The file of a recording.
-#[derive(Debug)]
 pub struct RecordingFile {
     path: PathBuf,
     file: File,

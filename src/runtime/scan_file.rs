@@ -25,7 +25,6 @@ use crate::scan::grid::ScanRow;
 use crate::words::provenance::{Checksum, Provenance};
 
 /// A file to which rows are added.
-#[derive(Debug)]
 pub struct ScanFile {
     /// The rows that are left.
     part: ScanPart,

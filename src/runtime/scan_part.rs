@@ -16,7 +16,6 @@ use crate::report::scan::ScanPart;
 use crate::words::provenance::{Checksum, Provenance};
 
 /// A row as it stands in a file.
-#[derive(Clone, Debug)]
 pub struct FileRow {
     /// The number of its line, from 1.
     number: usize,
@@ -138,7 +137,6 @@ impl<'a> RowReader<'a> {
 }
 
 /// A file with some of the rows of a scan.
-#[derive(Clone, Debug)]
 pub struct PartFile {
     pub path: PathBuf,
     pub part: ScanPart,

@@ -33,7 +33,7 @@ pub struct TerminalState {
 }
 
 /// Text in one pen on one row.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 struct Stroke {
     start: Position,
     width: u16,
@@ -54,7 +54,7 @@ fn narrow(shown: &Buffer, x: u16, y: u16) -> Option<&Cell> {
 }
 
 /// The strokes of a frame.
-#[derive(Debug, Default)]
+#[derive(Default)]
 struct StrokeSheet {
     strokes: Vec<Stroke>,
     text: String,

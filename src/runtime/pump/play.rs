@@ -3,7 +3,7 @@
 use crate::session::replay::{Player, Script};
 
 /// Why a replay is paused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(PartialEq)]
 pub(super) enum Pause {
     Not,
     /// A caption waits to be read.
@@ -13,7 +13,6 @@ pub(super) enum Pause {
 }
 
 /// A file that is being played.
-#[derive(Debug)]
 pub(super) struct Replay {
     pub(super) player: Player,
     /// The player at its beginning, to start over.
