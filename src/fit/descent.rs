@@ -132,7 +132,7 @@ impl LinearModel {
     }
 
     /// The damped step that violates no bound and on which those in `fixed` become zero, and the reduction of the loss
-    /// that the linear model predicts; `None` where all unknowns are held.
+    /// that the linear model predicts; `None` where it predicts none.
     fn step(
         &self,
         damping: f64,
@@ -151,10 +151,8 @@ impl LinearModel {
             let worst = worst.filter(|bound| short(bound) < 0.0 && fixed.len() < self.free);
             let Some(bound) = worst else {
                 let LinearResiduals { upper, turned, .. } = &self.residuals;
-                return Some((
-                    step,
-                    turned.norm_squared() - (upper * step - turned).norm_squared(),
-                ));
+                let left = (upper * step - turned).norm_squared();
+                return Some((step, turned.norm_squared() - left));
             };
             fixed.push(*bound);
         }
@@ -163,9 +161,6 @@ impl LinearModel {
     /// The step on which these bounds become zero, by rows of overwhelming weight.
     fn solved(&self, damping: f64, fixed: &[Bound]) -> Option<Unknowns> {
         const OVERWHELMING: f64 = 1e7;
-        if self.free == 0 {
-            return None;
-        }
         let scales = self.norms.map(|norm| if norm > 0.0 { norm } else { 1.0 });
         let mut system = DMatrix::zeros(fixed.len() + 2 * UNKNOWNS, UNKNOWNS);
         let mut target = DVector::zeros(system.nrows());

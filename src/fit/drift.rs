@@ -129,7 +129,7 @@ impl Task<'_> {
         /// By this factor a descent comes much closer.
         const MUCH: f64 = 4.0;
         let best = &found[0];
-        let (drift, step) = LeftDrift::with_step(&self.starting(best.start), best)?;
+        let (drift, step) = LeftDrift::with_step(self, best)?;
         if drift.evidence < ASKED && self.explains(best) {
             return None;
         }

@@ -229,12 +229,10 @@ fn intervals(
                 profile.interval()
             };
             lower = profile.lower.or(lower);
-            let interval = &mut intervals[unknown];
-            *interval = match one {
-                Some(one) if number == 0 => one,
-                Some(one) => interval.joined(one),
-                None => *interval,
-            };
+            if let Some(one) = one {
+                let known = intervals[unknown];
+                intervals[unknown] = if number == 0 { one } else { known.joined(one) };
+            }
         }
     }
     (intervals, lower)

@@ -99,11 +99,6 @@ impl Loss {
     /// The square.
     pub const LINEAR: Self = Loss { name: LossName::Linear, scale: f64::INFINITY };
 
-    /// Whether large residuals count less than their square.
-    pub fn is_robust(self) -> bool {
-        !matches!(self.name, LossName::Auto | LossName::Linear)
-    }
-
     /// The loss of a residual.
     pub fn of(self, residual: f64) -> f64 {
         let Loss { name, scale } = self;

@@ -157,8 +157,8 @@ impl SampleSelection<'_> {
         if loss != LossName::Auto {
             return Some(());
         }
-        // If the search used a robust loss, even an unchanged selection is fitted again.
-        self.is_due = self.task.loss.is_robust();
+        // If the search used a robust loss, as with outliers, even an unchanged selection is fitted again.
+        self.is_due = noise.has_outliers;
         self.task.loss = Loss::LINEAR;
         self.leave_out(4, polish, |_, best, before| outliers(best, before))?;
         // If no motion fits, it is not known where the mass rests.
@@ -314,7 +314,8 @@ fn peaks(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, 
     for _ in 0..ROUNDS {
         let task = Task { data: &data, ..plain };
         let next = ratio * ratio_of_kinds(&task, &found[0], x.len());
-        if record.t.is_empty() || !next.is_finite() || (next / ratio - 1.0).abs() < 0.01 {
+        // Without times there is no ratio.
+        if !next.is_finite() || (next / ratio - 1.0).abs() < 0.01 {
             break;
         }
         ratio = next;

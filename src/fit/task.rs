@@ -213,7 +213,7 @@ impl<'a> Task<'a> {
 
     /// The loss of one residual of many.
     pub fn unit(&self, cost: f64) -> f64 {
-        cost / real(self.data.residuals().max(1))
+        cost / real(self.data.residuals())
     }
 
     /// Compares the model with the record, and counts the motion; `None` if the motion of the model escapes, or if the
