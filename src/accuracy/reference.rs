@@ -8,10 +8,9 @@
 
 use thiserror::Error;
 
-use crate::flow::precise::precise;
-use crate::flow::trajectory::trajectory;
 use crate::flow::{
     COARSE, Cost, Crossing, Detail, FINE, Limits, Method, Motion, Outcome, Problem, Reason, Result,
+    precise, trajectory,
 };
 use crate::model::{FINEST, Model};
 use crate::numerics::{Scalar, Twofold};

@@ -7,8 +7,7 @@ use crate::accuracy::Trade;
 use crate::flow::{Detail, Limits, Motion, Outcome, Problem};
 use crate::model::{Knob, Model};
 use crate::numerics::Interval;
-use crate::proof::ParameterBox;
-use crate::proof::motion::follow as enclosed;
+use crate::proof::{ParameterBox, follow as enclosed};
 use crate::report::{About, motion};
 use crate::view::trade_plot::in_letters;
 

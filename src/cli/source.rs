@@ -9,8 +9,7 @@ use super::{CommandCase, Output, Result, read, second};
 use crate::flow::{METHODS, Method};
 use crate::model::{Knob, ParameterBox, TolerancedNumber};
 use crate::runtime::tell;
-use crate::scene::library::PLAIN;
-use crate::scene::{Scene, find};
+use crate::scene::{PLAIN, Scene, find};
 use crate::words::joined;
 
 /// What every question is about, and how its answer is printed.

@@ -10,11 +10,9 @@
 
 use super::{Cost, LONGEST, Powers, Step, StepPoint, Stepper, powers_over};
 use crate::model::{HalfPlane, Reason, Result};
-use crate::numerics::polynomial::{
-    value_and_slope_in_two as value_and_slope, value_in_two as value,
-};
 use crate::numerics::{
     Bracket, PlaceTolerance, Scalar, exponent, newton, real, rough_exp2, rough_log2, times_power,
+    value_and_slope_in_two as value_and_slope, value_in_two as value,
 };
 
 /// Highest order.

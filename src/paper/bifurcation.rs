@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::harmonic::{approached, found_fold, large, small};
 use super::{Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, tends, worst};
-use crate::closed_form::harmonic::mean as harmonic_mean;
+use crate::closed_form::mean as harmonic_mean;
 use crate::flow::Result;
 use crate::model::Parameters;
 use crate::numerics::{ln, log2};

@@ -7,10 +7,8 @@ use super::{
     Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, missing, tends, worst,
 };
 use crate::accuracy::harmonic_balance;
-use crate::branch::FoldPoint;
-use crate::branch::fold::fold;
-use crate::closed_form::HarmonicCycle;
-use crate::closed_form::harmonic::{self, amplitudes, mean as harmonic_mean};
+use crate::branch::{FoldPoint, fold};
+use crate::closed_form::{HarmonicCycle, amplitudes, harmonic, mean as harmonic_mean};
 use crate::flow::Result;
 use crate::model::Parameters;
 use crate::numerics::interval::PI as PI_BOUNDS;

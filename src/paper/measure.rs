@@ -6,8 +6,7 @@
 use std::ops::Deref;
 
 use super::{Approximation, Conclusion};
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem, Reason, Result};
+use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem, Reason, Result, trajectory};
 use crate::model::{Knob, Parameters, Side, State};
 use crate::numerics::Interval;
 use crate::portrait::{

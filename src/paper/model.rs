@@ -6,8 +6,7 @@
 
 use super::{Approximation, Check, ClaimCase, Conclusion, Evidence, always, at_rest, worst};
 use crate::closed_form::{LinearFlow, amplitudes};
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Problem, Reason, Result};
+use crate::flow::{Detail, Problem, Reason, Result, trajectory};
 use crate::model::{Belt, FrictionLaw, Parameters, ReducedBelt};
 use crate::numerics::interval::PI;
 use crate::numerics::{exp, ln, powi, try_bisect};

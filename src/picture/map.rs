@@ -6,8 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::units;
 use crate::numerics::{cells, distinct, ln, named, pow};
-use crate::scan::measure::Value;
-use crate::scan::sweep::Sweep;
+use crate::scan::{Sweep, Value};
 use crate::session::ScanOnShow;
 
 /// Which values of a measure are the dangerous ones.

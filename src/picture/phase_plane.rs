@@ -14,7 +14,7 @@ use crate::flow::{Motion, Outcome, Problem, Sample};
 use crate::model::{Field, HalfPlane, Parameters, Side};
 use crate::numerics::elementary::hypot;
 use crate::portrait::{Border, Cycle, Distribution, Drawing, RandomKick, Ride};
-use crate::question::zones::Extent;
+use crate::question::Extent;
 use crate::scene::{Finding, Layer, Point, Topic, rectangle};
 use crate::session::{Session, ShownMotion, VariantTag};
 use crate::words::significant;

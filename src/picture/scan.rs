@@ -1,7 +1,7 @@
 //! A scan: a curve over one parameter, or a map over two.
 
 use super::{Dash, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap, map::with_unit, units};
-use crate::scan::sweep::{Spacing, Sweep};
+use crate::scan::{Spacing, Sweep};
 use crate::scene::Point;
 use crate::session::{ScanOnShow, Session};
 

@@ -4,7 +4,7 @@
 //! choices stand out, and so does the row that is nearest to the method in use.
 
 use super::{Dash, LineStyle, Mark, Marks, Picture, Role};
-use crate::accuracy::trade::{Trade, TradePoint};
+use crate::accuracy::{Trade, TradePoint};
 use crate::flow::{METHODS, Method, MethodSpec};
 use crate::scene::Layer;
 use crate::session::Session;

@@ -2,11 +2,10 @@
 //! told apart.
 
 use super::Scale;
-use crate::model::Knob;
-use crate::model::belt::Units as Physical;
+use crate::model::{Knob, Units as Physical};
 use crate::scene::{Layer, Span, View, Window};
 use crate::session::{Plot, Session};
-use crate::words::number::resolved;
+use crate::words::resolved;
 
 /// Names of an axis with the units that it can have, the largest first, and how many of them are one in SI units.
 type AxisUnits = [(&'static str, f64); 3];

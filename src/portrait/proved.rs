@@ -8,8 +8,7 @@ use thiserror::Error;
 use super::{Cycle, Cycles, Portrait};
 use crate::model::Parameters;
 use crate::numerics::Interval;
-use crate::proof::kicks::kicks;
-use crate::proof::{ParameterBox, Proof, ProvedCycle, ProvedKicks, prove};
+use crate::proof::{ParameterBox, Proof, ProvedCycle, ProvedKicks, kicks, prove};
 
 /// The search and the proof say different things: an error of this program.
 #[derive(Clone, Debug, PartialEq, Error)]

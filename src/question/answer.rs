@@ -18,7 +18,7 @@ use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Drawing, Margin, Portrait, ReturnMap, Share, bands, picture_reach};
 use crate::proof::{ParameterBox, Proof, prove};
-use crate::scan::grid::ScanRow;
+use crate::scan::ScanRow;
 
 /// The answer of the worker.
 #[derive(Clone, Debug, PartialEq, EnumTryAs)]

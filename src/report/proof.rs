@@ -6,9 +6,9 @@ use crate::branch::BoundaryPoint;
 use crate::check::{Bounds, Certificate, StepKind};
 use crate::numerics::Interval;
 use crate::portrait::{Cycle, matching};
-use crate::proof::cycles::ProvedCycle;
 use crate::proof::{
-    CountChange, Enclosure, Proof, ProvedKicks, ProvedMotion, ProvedPoint, Range, RangePiece,
+    CountChange, Enclosure, Proof, ProvedCycle, ProvedKicks, ProvedMotion, ProvedPoint, Range,
+    RangePiece,
 };
 use crate::words::{counted, cycles, significant, stability};
 

@@ -6,8 +6,7 @@
 use std::ops::Range;
 
 use super::{Format, lines};
-use crate::scan::grid::ScanRow;
-use crate::scan::{Scan, Value};
+use crate::scan::{Scan, ScanRow, Value};
 use crate::words::measurement;
 
 /// Width of a column of the table: eight digits, sign, point and exponent.

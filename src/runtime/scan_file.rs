@@ -20,8 +20,7 @@ use super::{FileRow, Readers, RowReader, standard};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
-use crate::scan::Scan;
-use crate::scan::grid::ScanRow;
+use crate::scan::{Scan, ScanRow};
 use crate::words::provenance::{Checksum, Provenance};
 
 /// A file to which rows are added.

@@ -14,8 +14,7 @@ use super::Tell;
 use super::panics::caught;
 use crate::flow::{Limits, Reason, Result};
 use crate::question::Rows;
-use crate::scan::Scan;
-use crate::scan::grid::ScanRow;
+use crate::scan::{Scan, ScanRow};
 use crate::scene::Finding;
 
 /// Rows that each thread may be ahead of the first unfinished one: enough that one slow row does not hold up

@@ -4,8 +4,7 @@
 //! not depend on each other: any of them can be computed anywhere, at any time, and is the same to the
 //! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
-pub use super::measure::ScanRow;
-use super::{Conditions, Measure, OF_THE_PAPER, Sweep, Value, measure};
+use super::{Conditions, Measure, OF_THE_PAPER, ScanRow, Sweep, Value, measure};
 use crate::flow::{Cost, Limits, Problem, Result, Subject};
 use crate::model::{FrictionLaw, Interval, Knob, State};
 use crate::portrait::{RandomKick, StartWindow};

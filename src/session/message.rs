@@ -7,7 +7,7 @@ use strum::IntoStaticStr;
 
 use crate::model::Knob;
 use crate::question::NoAnswer;
-use crate::scan::grid::{Scan, ScanRow};
+use crate::scan::{Scan, ScanRow};
 use crate::scene::{Finding, Point, Reply, Request};
 use crate::session::{Key, Script};
 

@@ -6,8 +6,7 @@ use crate::model::Knob;
 use crate::session::{Row, Session};
 use crate::words::fit::signed;
 use crate::words::motion::Notation;
-use crate::words::number::in_unit;
-use crate::words::{significant, with_unit};
+use crate::words::{in_unit, significant, with_unit};
 
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
 pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {

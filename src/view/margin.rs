@@ -6,8 +6,7 @@ use crate::model::Knob;
 use crate::portrait::{Border, Margin, NoGuarantee, RestMargin};
 use crate::scene::Topic;
 use crate::session::{MachineMargins, Session};
-use crate::words::number::{rounded_down, too_large};
-use crate::words::{joined, significant, with_unit};
+use crate::words::{joined, rounded_down, significant, too_large, with_unit};
 
 /// Columns of a screen that has room for margins as forces too.
 const WIDE: u16 = 110;

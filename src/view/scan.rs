@@ -10,11 +10,10 @@ use super::pane::{self, FramedPicture};
 use super::{Surface, paint::paint, scan_map};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Role};
-use crate::scan::measure::Value;
+use crate::scan::Value;
 use crate::scene::View;
 use crate::session::{ScanOnShow, ScanProgress, WORDS};
-use crate::words::number::{measurement, remaining};
-use crate::words::{joined, significant};
+use crate::words::{joined, measurement, remaining, significant};
 
 /// Digits of a value, as many as fit; the first are those of a table.
 const DIGITS: [usize; 5] = [8, 6, 5, 4, 3];

@@ -5,12 +5,11 @@ use ratatui::layout::Rect;
 
 use super::pane::{FramedPicture, Heading};
 use super::{Look, Surface, plot::Canvas, screen};
-use crate::accuracy::trade::Trade;
+use crate::accuracy::Trade;
 use crate::numerics::elementary::log10;
 use crate::picture::{Picture, Role};
 use crate::scene::{Point, Window};
-use crate::session::settings;
-use crate::session::{Colors, Glyphs};
+use crate::session::{Colors, Glyphs, settings};
 
 /// The letter of each of the methods.
 const LETTERS: [char; 10] = ['a', 'e', 't', '8', '5', '4', 'i', '~', 's', 'm'];

@@ -3,7 +3,7 @@
 use super::{Look, pane};
 use crate::branch::SpecialKind;
 use crate::flow::{Fate, Motion, Outcome};
-use crate::model::belt::Units;
+use crate::model::Units;
 use crate::picture::{Role, units};
 use crate::portrait::{Border, Cycle, Drawing, Portrait};
 use crate::scene::{Finding, Layer, Topic};

@@ -17,7 +17,7 @@ use hopfscope::proof::{ParameterBox, Proof};
 use hopfscope::question;
 use hopfscope::question::Rows;
 use hopfscope::question::zones::{CertainZones, Extent};
-use hopfscope::scan::grid::ScanRow;
+use hopfscope::scan::ScanRow;
 use hopfscope::scan::measure::Value;
 use hopfscope::scene::{Finding, Layer, Request, find};
 use hopfscope::session::{Key, Msg, Session, Size, update};

@@ -4,8 +4,7 @@ use serde::Serialize;
 
 use super::UNTIL;
 use super::verdict::methods;
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Crossing, Detail, Limits, Method, Motion, Outcome, Problem};
+use crate::flow::{Cost, Crossing, Detail, Limits, Method, Motion, Outcome, Problem, trajectory};
 use crate::model::{Parameters, State, energy};
 use crate::numerics::{amount, cells, times_power};
 

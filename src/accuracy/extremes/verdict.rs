@@ -3,8 +3,7 @@
 use serde::Serialize;
 
 use super::{Case, UNTIL};
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Limits, Method, Motion, Outcome, Problem};
+use crate::flow::{Cost, Detail, Limits, Method, Motion, Outcome, Problem, trajectory};
 use crate::model::{Parameters, State};
 use crate::numerics::log10;
 

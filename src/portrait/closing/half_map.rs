@@ -12,8 +12,9 @@
 use super::Errors;
 use super::roundoff::Roundoff;
 use crate::closed_form::LinearFlow;
-use crate::flow::swing::swing;
-use crate::flow::{AutoStepper, Cost, Limits, Reason, Result, Step, StepPoint, Stepper, blow_up};
+use crate::flow::{
+    AutoStepper, Cost, Limits, Reason, Result, Step, StepPoint, Stepper, blow_up, swing,
+};
 use crate::model::{HalfPlane, PlaneField};
 use crate::numerics::{atan2, exp, hypot, ln, ln_1p, sin_cos, times_power};
 

@@ -1,9 +1,7 @@
 use super::*;
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Problem};
-use crate::model::Belt;
+use crate::flow::{Detail, Limits, Problem, trajectory};
 use crate::model::belt::tests::force;
-use crate::model::belt::{FrictionLaw, ReducedBelt, TaylorError, Units};
+use crate::model::{Belt, FrictionLaw, ReducedBelt, TaylorError, Units};
 use crate::numerics::elementary::{asin, pow, powi, tanh};
 use crate::paper::model::machine as paper;
 use crate::portrait::Portrait;

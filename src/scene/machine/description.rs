@@ -10,8 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use crate::flow::{Problem, Reason, Result, Subject};
-use crate::model::belt::ReducedBelt;
-use crate::model::{Belt, Body, Group, Knob, Model, RangeError, State, Tolerances};
+use crate::model::{Belt, Body, Group, Knob, Model, RangeError, ReducedBelt, State, Tolerances};
 use crate::numerics::powi;
 
 /// What a file describes: a machine or a vibration mode, and one motion of it.

@@ -15,9 +15,8 @@ use toml::de::DeTable;
 use super::Description;
 use super::table::table;
 use crate::flow::{Reason, Subject};
-use crate::model::belt::FrictionLaw;
 use crate::model::{
-    Belt, Body, Group, Knob, KnobSpec, Mode, Source, Tolerances, quantity, unknown,
+    Belt, Body, FrictionLaw, Group, Knob, KnobSpec, Mode, Source, Tolerances, quantity, unknown,
 };
 use crate::numerics::{SmoothingSpline, shortest};
 use crate::scene::mistake::{Complaint, FileMistake};

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use crate::flow::Problem;
 use crate::model::Knob;
 use crate::numerics::shortest;
-use crate::scan::measure::Value;
+use crate::scan::Value;
 use crate::scene::{Axes, View};
 use crate::session::read::completion::plain_value;
 use crate::session::{Done, Effect, Plot, Session};

@@ -1,8 +1,7 @@
 //! Commands of the parameter pane: select, step, reset, and typing a value.
 
 use crate::flow::{METHODS, Method, MethodSpec, Problem, QUALITIES};
-use crate::model::unit::measured;
-use crate::model::{Knob, KnobSpec, Parameters};
+use crate::model::{Knob, KnobSpec, Parameters, measured};
 use crate::numerics::{cycled, log10, shortest};
 use crate::scene::{Setting, View};
 use crate::session::read::completion::typed;

@@ -4,9 +4,7 @@ use crate::flow::{Problem, Subject};
 use crate::model::{Knob, KnobSpec, State};
 use crate::numerics::cycled;
 use crate::portrait::basin;
-use crate::scan::grid::Scan;
-use crate::scan::measure::{Conditions, Measure};
-use crate::scan::sweep::Sweep;
+use crate::scan::{Conditions, Measure, Scan, Sweep};
 use crate::scene::{Request, Span, View};
 use crate::session::act::parameters::put;
 use crate::session::act::prompt;
@@ -14,7 +12,7 @@ use crate::session::act::screen_setup::{add, focus_on, show};
 use crate::session::{
     Content, Done, Effect, Pane, Plot, SCANNING, ScanOnShow, ScanProgress, Session,
 };
-use crate::words::{joined, number::resolved};
+use crate::words::{joined, resolved};
 
 /// The file in which a key saves the rows; the command line takes any name.
 pub const FILE: &str = "scan.csv";

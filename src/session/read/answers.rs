@@ -1,19 +1,16 @@
 //! The last answer on each topic, named after its content; and the fit of the record on show, of all numbers or of the
 //! others while some are held by hand.
 
-use crate::accuracy::trade::Trade;
-use crate::accuracy::{Deviation, HarmonicBalance, NoComparison, Reference};
+use crate::accuracy::{Deviation, HarmonicBalance, NoComparison, Reference, Trade};
 use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
 use crate::fit::FitResult;
 use crate::flow::Motion;
-use crate::model::belt::Units;
-use crate::model::{Knob, State};
+use crate::model::{Knob, State, Units};
 use crate::paper::ClaimResult;
 use crate::portrait::{Drawing, ReturnMap};
 use crate::proof::Proof;
-use crate::question::zones::CertainZones;
-use crate::question::{Fit, NoAnswer};
+use crate::question::{CertainZones, Fit, NoAnswer};
 use crate::scene::{Axes, Finding, Request, Topic};
 use crate::session::{AnswerState, Session};
 

@@ -3,7 +3,7 @@
 use crate::flow::METHODS;
 use crate::model::{Group, Knob};
 use crate::numerics::shortest;
-use crate::scan::measure::MEASURES;
+use crate::scan::MEASURES;
 use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, Window};
 use crate::session::{
     Command, Completion, Context, Keymap, NamedValue, Row, Session, Setup, choices,

@@ -6,8 +6,7 @@
 
 use crate::fit::FitResult;
 use crate::flow::Problem;
-use crate::model::belt::Units;
-use crate::model::{Belt, Body, Knob, Parameters, Source};
+use crate::model::{Belt, Body, Knob, Parameters, Source, Units};
 use crate::portrait::Margin;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Layer, ScaledMachine, Setting, Topic, View};

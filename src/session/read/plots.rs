@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::accuracy::trade::TradePoint;
+use crate::accuracy::TradePoint;
 use crate::branch::Branch;
 use crate::flow::Problem;
 use crate::model::{Group, Knob};

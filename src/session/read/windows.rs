@@ -1,6 +1,6 @@
 //! Windows fitted to what is on show.
 
-use crate::accuracy::trade::TradePoint;
+use crate::accuracy::TradePoint;
 use crate::closed_form::lyapunov;
 use crate::fit::{DropReason, RecordPoint, Signal};
 use crate::flow::{Motion, Outcome, Problem};

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use thiserror::Error;
 
 use crate::model::{Group, Knob};
-use crate::numerics::similar::most_similar;
+use crate::numerics::most_similar;
 use crate::scene::Point;
 use crate::session::Instruction::Give;
 use crate::session::{Code, Gesture, Key, MouseAction, Msg, PointerTarget, key};

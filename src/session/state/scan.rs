@@ -5,9 +5,7 @@
 use std::sync::Arc;
 
 use crate::numerics::{log10, real};
-use crate::scan::grid::{Scan, ScanRow};
-use crate::scan::measure::Value;
-use crate::scan::sweep::{Spacing, Sweep};
+use crate::scan::{Scan, ScanRow, Spacing, Sweep, Value};
 use crate::scene::{Point, Request, Span, View, Window};
 
 /// The words that a measure can have as its value; they are plotted at their indices.

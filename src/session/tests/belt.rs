@@ -2,11 +2,9 @@
 
 use super::Trial;
 use super::saved::reopened;
-use crate::model::Knob;
-use crate::model::belt::ReducedBelt;
+use crate::model::{Knob, ReducedBelt};
 use crate::scene::Layer;
-use crate::session::Row;
-use crate::session::{Msg, save};
+use crate::session::{Msg, Row, save};
 
 /// The textbook machine at a speed of its belt, reduced without a session.
 fn at(speed: f64) -> ReducedBelt {

@@ -28,8 +28,7 @@ use std::sync::Arc;
 
 use super::replay::{Action, Player, parse};
 use super::{Effect, List, Msg, Overlay, Session, Size, update};
-use crate::accuracy::trade::{Trade, TradePoint};
-use crate::accuracy::{Deviation, HarmonicBalance, Reference, ReferenceSource};
+use crate::accuracy::{Deviation, HarmonicBalance, Reference, ReferenceSource, Trade, TradePoint};
 use crate::branch::chart::Chart;
 use crate::branch::machine::MachineBranch;
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
@@ -38,8 +37,7 @@ use crate::model::{Ledger, Parameters, State};
 use crate::numerics::{Twofold, ln};
 use crate::portrait::{Cycle, Drawing, Margin, Portrait, ReturnMap, Share};
 use crate::proof::{ParameterBox, Proof};
-use crate::question::Rows;
-use crate::question::zones::{CertainZones, Extent};
+use crate::question::{CertainZones, Extent, Rows};
 use crate::scene::{Finding, Fit, Request, Scene, Topic, find};
 
 /// A session whose questions are answered as soon as they are asked.

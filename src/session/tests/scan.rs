@@ -7,8 +7,7 @@ use super::Trial;
 use super::facts::refuses;
 use crate::flow::Cost;
 use crate::question::Rows;
-use crate::scan::grid::{Scan, ScanRow};
-use crate::scan::measure::Value;
+use crate::scan::{Scan, ScanRow, Value};
 use crate::scene::{Finding, Reply, Request, Topic, View};
 use crate::session::{Content, Effect, Msg, Pane, ScanOnShow, ScanProgress, Session, update};
 

@@ -6,7 +6,7 @@ use crate::picture::{Picture, Scale, Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::Session;
 use crate::view::pane;
-use crate::words::number::resolved;
+use crate::words::resolved;
 
 /// Smallest area in which axes stand outside the picture; below it labels lie inside.
 const ROOMY: (u16, u16) = (22, 9);
