@@ -156,25 +156,32 @@ pub struct TolerancedNumber {
 /// One line that says what could not be read.
 pub fn toleranced(text: &str) -> Result<TolerancedNumber, String> {
     let text = &text.replace('\u{b1}', "+-");
-    let beside = |one: DimensionalNumber, other: &str| {
-        let other = measured(other)?;
-        let is_alike = one.dimension == other.dimension;
+    let both = |one: &str, other: &str| {
+        let (mut one, mut other) = (measured(one)?, measured(other)?);
+        // 0 is the same in every unit.
+        let written = (one.dimension, other.dimension);
+        for (zero, beside) in [(&mut one, written.1), (&mut other, written.0)] {
+            if zero.value == 0.0 {
+                zero.dimension = zero.dimension.or(beside);
+            }
+        }
         let unlike = || format!("{text:?}: both numbers take the same unit, or none (SI units)");
-        is_alike.then_some(other.value).ok_or_else(unlike)
+        (one.dimension == other.dimension).then_some((one, other.value)).ok_or_else(unlike)
     };
     let around = |middle: DimensionalNumber, half_width: f64| {
         (middle, half_width, Interval::around(middle.value, half_width.max(0.0)))
     };
     let (middle, half_width, ends) = if let Some((value, half)) = text.split_once("+-") {
-        let middle = measured(value)?;
-        let half_width = match half.trim().strip_suffix('%') {
-            Some(percent) => 0.01 * measured(percent)?.value * middle.value.abs(),
-            None => beside(middle, half)?,
+        let (middle, half_width) = match half.trim().strip_suffix('%') {
+            Some(percent) => {
+                let middle = measured(value)?;
+                (middle, 0.01 * measured(percent)?.value * middle.value.abs())
+            }
+            None => both(value, half)?,
         };
         around(middle, half_width)
     } else if let Some((low, high)) = text.split_once("..") {
-        let low = measured(low)?;
-        let high = beside(low, high)?;
+        let (low, high) = both(low, high)?;
         let middle = DimensionalNumber { value: 0.5 * low.value + 0.5 * high, ..low };
         (middle, 0.5 * high - 0.5 * low.value, Interval::new(low.value, high))
     } else {
@@ -387,6 +394,7 @@ mod tests {
             ("1 N +- 0.2 N", 1.0, 0.2),
             ("1 N+-200 mN", 1.0, 0.2),
             ("-4 N +- 5 %", -4.0, 0.2),
+            ("0 +- 200 mN", 0.0, 0.2),
             ("0.8 N .. 1.2 N", 1.0, 0.2),
             ("0.8..1.2", 1.0, 0.2),
             ("1 N", 1.0, 0.0),

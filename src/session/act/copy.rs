@@ -4,10 +4,11 @@
 use std::collections::BTreeSet;
 
 use crate::flow::Problem;
-use crate::model::Knob;
+use crate::model::{KNOBS, Knob, State};
 use crate::numerics::shortest;
 use crate::scan::Value;
-use crate::scene::{Axes, View};
+use crate::scene::machine::library;
+use crate::scene::{Axes, Span, View};
 use crate::session::read::completion::plain_value;
 use crate::session::{Done, Effect, Plot, Session};
 use crate::words::joined;
@@ -111,21 +112,23 @@ fn belonging(session: &Session) -> Vec<NamedNumber> {
     all
 }
 
-/// The shell command that prints the numbers of the pane in focus. It gives every number explicitly, so that
+/// The shell command that prints the numbers of the pane in focus. Of the oscillator it gives every number, so that
 /// its meaning does not depend on any scene.
 pub fn command_line(session: &Session) -> String {
     let Problem { until, method, tolerance, .. } = session.problem;
     let diagram = session.focused().filter(|plot| plot.view == View::Diagram);
+    if let (None, Some(line)) = (diagram, of_machine(session)) {
+        return line;
+    }
     let mut line = format!("hopfscope {}", if diagram.is_some() { "branch" } else { "trajectory" });
     let is_used = |plot: &Plot, knob: Knob| knob.is_parameter() && knob != plot.axes.abscissa;
     for knob in Knob::MOTION {
         if diagram.is_none_or(|plot| is_used(plot, knob)) {
-            line += &format!(" --set {knob}={}", shortest(session.value(knob)));
+            line += &set(knob, session.value(knob));
         }
     }
     if let Some(plot) = diagram {
-        let [from, to] = plot.window.x.ends().map(shortest);
-        line += &format!(" --over {}={from}:{to}:{BRANCH_POINTS}", plot.axes.abscissa);
+        line += &over(plot.axes.abscissa, plot.window.x);
     } else {
         line += &format!(" --until {} --method {method}", shortest(until));
     }
@@ -135,4 +138,46 @@ pub fn command_line(session: &Session) -> String {
         }
         _ => format!(" --tol {}", shortest(tolerance)),
     }
+}
+
+/// The command for the machine that is drawn, with the numbers that are not those of its name or file; `None` without one.
+fn of_machine(session: &Session) -> Option<String> {
+    let Problem { initial: State { q, v }, until, parameters, .. } = session.problem;
+    let (source, units) = session.source(&parameters);
+    let (belt, drawn) = (source.of_belt()?, &session.running()?.machine);
+    let known = library::find(&drawn.name).ok();
+    let opened = known.or(session.scene.machine.as_ref().map(|scaled| &scaled.machine))?;
+    let diagram = session.focused().filter(|plot| plot.view == View::BeltDiagram);
+    let varied = diagram.map(|plot| plot.axes.machine);
+    let command = if diagram.is_some() { "branch" } else { "trajectory" };
+    let mut line = format!("hopfscope {command} --machine {}", shell_word(&drawn.name));
+    for knob in KNOBS.iter().map(|row| row.knob).filter(|knob| Some(*knob) != varied) {
+        let value = knob.of_belt(belt);
+        if let Some(value) = value.filter(|_| value != knob.of_belt(&opened.belt)) {
+            line += &set(knob, value);
+        }
+    }
+    Some(match diagram {
+        Some(plot) => line + &over(plot.axes.machine, plot.window.x),
+        None => {
+            let start = set(Knob::X, q * units.displacement) + &set(Knob::V, v * units.velocity);
+            format!("{line}{start} --until {}", shortest(until * units.time))
+        }
+    })
+}
+
+fn set(knob: Knob, value: f64) -> String {
+    format!(" --set {knob}={}", shortest(value))
+}
+
+fn over(knob: Knob, window: Span) -> String {
+    let [from, to] = window.ends().map(shortest);
+    format!(" --over {knob}={from}:{to}:{BRANCH_POINTS}")
+}
+
+/// A text as one word of a shell.
+fn shell_word(text: &str) -> String {
+    let is_plain = |char: char| char.is_alphanumeric() || "_./-".contains(char);
+    let quoted = || format!("'{}'", text.replace('\'', r"'\''"));
+    if text.chars().all(is_plain) { text.to_owned() } else { quoted() }
 }

@@ -254,3 +254,22 @@ fn numbers_points_and_rows_are_copied() {
     let expected = ["D", "q_max", "q_min", "v_min", "v_max", "period", "D2", "D3", "r", "q0", "v0"];
     assert_eq!(names, expected, "{held}");
 }
+
+#[test]
+fn the_copied_command_of_a_machine_asks_about_the_machine() {
+    let copied = |scene: &str, keys: &str| {
+        let mut trial = Trial::open(scene);
+        trial.press(keys);
+        match trial.effects.last() {
+            Some(Effect::Copy(text)) => text.clone(),
+            _ => trial.notice().to_owned(),
+        }
+    };
+    let bstab = "hopfscope trajectory --machine bstab";
+    let start = "--set x=1.4 --set v=0 --until 120";
+    assert_eq!(copied("benchmark", "<C-y>"), format!("{bstab} {start}"));
+    let set = format!("{bstab} --set R=2 {start}");
+    assert_eq!(copied("benchmark", ":set<space>R=2<space>N<enter><C-y>"), set);
+    let diagram = "hopfscope branch --machine textbook --over v0=0.05:0.5:200";
+    assert_eq!(copied("slow-belt", "<tab><tab><tab><tab><C-y>"), diagram);
+}
