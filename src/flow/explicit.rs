@@ -121,12 +121,10 @@ impl<const S: usize, const R: usize, F: Field> ExplicitStepper<S, R, F> {
         }
     }
 
-    /// Repeats the step until its error is within the tolerance and `accept` approves its end.
-    fn accepted(
-        &mut self,
-        longest: f64,
-        accept: impl Fn(StepPoint) -> bool,
-    ) -> Result<(f64, StepPoint)> {
+    /// Repeats the step until its error is within the tolerance.
+    ///
+    /// Where it `arrives`, a step that turned around passed two crossings and is repeated as well.
+    fn accepted(&mut self, longest: f64, arrives: bool) -> Result<(f64, StepPoint)> {
         if self.next == 0.0 {
             self.next = first_length(self.start, self.acceleration[0]);
         }
@@ -139,7 +137,8 @@ impl<const S: usize, const R: usize, F: Field> ExplicitStepper<S, R, F> {
             let end = self.attempt(length);
             let (error, power) = self.error(length, end);
             let factor = |error: f64| 0.9 * rough_exp2(-rough_log2(error) / power);
-            if error <= 1.0 && accept(end) {
+            let turned = arrives && end.v > 0.0 && end.x < self.start.x;
+            if error <= 1.0 && !turned {
                 (self.end, self.duration) = (end, length);
                 if !self.is_fixed() {
                     let factor = if error == 0.0 { grow } else { factor(error).clamp(0.2, grow) };
@@ -198,9 +197,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for ExplicitStepper<S,
             longest = longest.min(stopping_time(from.v, self.acceleration[0]));
         }
         loop {
-            // A step that turned around passed two crossings and is repeated with a shorter length.
-            let makes_sense = |end: StepPoint| !arrives || end.v <= 0.0 || end.x >= from.x;
-            let (duration, end) = self.accepted(longest, makes_sense)?;
+            let (duration, end) = self.accepted(longest, arrives)?;
             if self.is_fixed() {
                 let rates = self.velocity.iter().map(|v| self.field.divergence(*v).abs());
                 check_stability(duration, rates.fold(0.0, f64::max))?;

@@ -163,9 +163,8 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
                 (point.x, unit) = (N::from(-beyond), of);
             } else {
                 let (from, bound) = ((point, unit), (remaining, arrives));
-                let (end, crossed) =
-                    self.piece(stepper, &field, (side, r), from, bound, |_, _, _| true);
-                let StepPoint { x, v } = end?;
+                let (StepPoint { x, v }, crossed) =
+                    self.piece(stepper, &field, (side, r), from, bound, |_, _, _| true)?;
                 self.path += (x - point.x).value();
                 q = side.displacement(x, r);
                 if !crossed {
@@ -197,7 +196,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         from: (StepPoint<N>, i32),
         bound: (N, bool),
         mut see: impl FnMut(f64, i32, &Step<N>) -> bool,
-    ) -> (Result<StepPoint<N>>, bool) {
+    ) -> Result<(StepPoint<N>, bool)> {
         let (detail, time) = (self.detail, self.time);
         let (samples, sum) = (&mut self.found.samples, &mut self.works);
         let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
@@ -225,7 +224,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         let piece = swing(stepper, field, from, bound, self.limits, watch);
         self.found.cost.steps += piece.steps;
         self.time.add(piece.duration);
-        (piece.end, piece.crossed)
+        Ok((piece.end?, piece.crossed))
     }
 
     /// The motion at its end time.
@@ -289,7 +288,7 @@ impl MotionRun<'_> {
             let bound = (until, false);
             let side = (Side::Upper, 0.0);
             let piece = self.piece(&mut stepper, &field, side, (start, 0), bound, see);
-            piece.0.and_then(|point| ended.unwrap_or_else(|| self.stopped(point)))
+            piece.and_then(|(point, _)| ended.unwrap_or_else(|| self.stopped(point)))
         };
         (self.found.crossings, self.path) = (crossings, path);
         self.close(outcome, stepper.cost())

@@ -1,7 +1,6 @@
 //! The certified half swing: from `(x, v)`, `v >= 0`, to the next `v = 0`, or the proof that there is none.
 
 use std::convert::Infallible;
-use std::ops::ControlFlow;
 
 use super::ball::MOST_STEPS;
 use super::{Ahead, Ball, FieldBox, INFLATE, StartBox, StepEnd, UNIT, never_returns, scaled};
@@ -98,14 +97,7 @@ pub fn swing_below(
         ceiling: ceiling.upper(),
         steps: 0,
     };
-    while run.steps < MOST_STEPS {
-        match run.advance() {
-            Some(ControlFlow::Continue(())) => {}
-            Some(ControlFlow::Break(passage)) => return passage,
-            None => break,
-        }
-    }
-    Passage::Unknown
+    run.to_end().unwrap_or(Passage::Unknown)
 }
 
 /// A half swing in progress.
@@ -125,39 +117,40 @@ struct SwingRun {
 }
 
 impl SwingRun {
-    /// Takes a step, which may end the swing; `None` where nothing is certain about it.
-    fn advance(&mut self) -> Option<ControlFlow<Passage>> {
-        self.steps += 1;
-        let ball = &mut self.ball;
-        let (mut ahead, mut last) = (ball.prepare(f64::INFINITY)?, false);
-        if !(ahead.1.1 > 4.0 * ball.norm.stretch * ball.radius) {
-            (ahead, last) = arrival(ball, ahead)?;
+    /// Takes steps until the swing ends; `None` where nothing is certain about it.
+    fn to_end(&mut self) -> Option<Passage> {
+        while self.steps < MOST_STEPS {
+            self.steps += 1;
+            let ball = &mut self.ball;
+            let (mut ahead, mut last) = (ball.prepare(f64::INFINITY)?, false);
+            if !(ahead.1.1 > 4.0 * ball.norm.stretch * ball.radius) {
+                (ahead, last) = arrival(ball, ahead)?;
+            }
+            let (h, reached) = ball.reach(ahead)?;
+            let last = last && h == ahead.0;
+            if self.wants_fastest && self.fastest.is_none() {
+                self.turn_of_speed(h, &reached)?;
+            }
+            self.square += reached.square;
+            self.square_error += reached.square_error + UNIT * self.square;
+            self.ball.advance(h, &reached);
+            let ball = &self.ball;
+            let (off, field) = (ball.off(), ball.local.field);
+            if last {
+                return self.arrive(off).map(Passage::Arrives);
+            }
+            // The sign of v at the end of a step must be certain.
+            if !(ball.v > off) {
+                return None;
+            }
+            if ball.v - off > self.ceiling && (!self.wants_fastest || self.fastest.is_some()) {
+                return self.finish(ball.state(), 0.0).map(Passage::Exceeds);
+            }
+            if never_returns(&field, (ball.x + off).next_up(), (ball.v - off).next_down()) {
+                return Some(Passage::Never);
+            }
         }
-        let (h, reached) = ball.reach(ahead)?;
-        let last = last && h == ahead.0;
-        if self.wants_fastest && self.fastest.is_none() {
-            self.turn_of_speed(h, &reached)?;
-        }
-        self.square += reached.square;
-        self.square_error += reached.square_error + UNIT * self.square;
-        self.ball.advance(h, &reached);
-        let ball = &self.ball;
-        let (off, field) = (ball.off(), ball.local.field);
-        if last {
-            return self.arrive(off).map(|swing| ControlFlow::Break(Passage::Arrives(swing)));
-        }
-        // The sign of v at the end of a step must be certain.
-        if !(ball.v > off) {
-            return None;
-        }
-        if ball.v - off > self.ceiling && (!self.wants_fastest || self.fastest.is_some()) {
-            let faster = self.finish(ball.state(), 0.0);
-            return faster.map(|swing| ControlFlow::Break(Passage::Exceeds(swing)));
-        }
-        if never_returns(&field, (ball.x + off).next_up(), (ball.v - off).next_down()) {
-            return Some(ControlFlow::Break(Passage::Never));
-        }
-        Some(ControlFlow::Continue(()))
+        None
     }
 
     /// The arrival at `v = 0` near the end of the last step (lemma 6).
