@@ -34,7 +34,7 @@ impl Map {
     pub fn images(&self, of: Interval) -> Interval {
         let mut at = of;
         for field in &self.fields {
-            if at.lower() == f64::INFINITY || at.upper() == f64::NEG_INFINITY {
+            if at == f64::INFINITY || at == f64::NEG_INFINITY {
                 return at;
             }
             let [low, high] = [at.lower(), at.upper()].map(|z| self.half(field, z));
@@ -53,7 +53,7 @@ impl Map {
         } else {
             field.swing(start, self.after.lower()).end
         };
-        let next = if end.lower() == f64::INFINITY { end } else { end - self.after };
+        let next = if end == f64::INFINITY { end } else { end - self.after };
         let rest = |bound: f64| if bound <= 0.0 { f64::NEG_INFINITY } else { bound };
         Interval::new(rest(next.lower()), rest(next.upper()))
     }

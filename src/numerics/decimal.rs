@@ -12,7 +12,7 @@ use super::{by_number, ln, log10, powi, truncated};
 pub fn shortest(value: f64) -> String {
     // Debug, unlike Display, writes very large and very small numbers with an exponent.
     let text = format!("{value:?}");
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
 /// The same with an exponent where that saves zeros: `1e12`, but `1000`.
@@ -34,11 +34,9 @@ pub fn significant(value: f64, digits: usize) -> String {
     let digits = digits.max(1);
     let scientific = format!("{value:.*e}", digits - 1);
     let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
-    match exponent.parse::<i32>() {
+    match exponent.parse::<isize>() {
         Ok(power @ -4..6) => {
-            let whole = power.unsigned_abs() as usize;
-            let decimals =
-                if power < 0 { digits - 1 + whole } else { (digits - 1).saturating_sub(whole) };
+            let decimals = (digits - 1).saturating_add_signed(-power);
             without_trailing_zeros(&format!("{value:.decimals$}")).into()
         }
         _ => format!("{}e{exponent}", without_trailing_zeros(mantissa)),

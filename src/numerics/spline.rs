@@ -78,9 +78,8 @@ impl SmoothingSpline {
         let missed = quadratic_mean(&y, &g);
         let pieces = pieces(&x, &g, &bends(&x, &c));
         if !pieces.iter().flatten().chain(&g).all(|number| number.is_finite()) {
-            let gap = |index: &usize| x[index + 1] - x[*index];
-            let closest = (0..x.len() - 1).min_by(by_number(gap));
-            let one = closest.unwrap_or(0) + 1;
+            let gap = |one: &usize| x[*one] - x[one - 1];
+            let one = (1..x.len()).min_by(by_number(gap)).unwrap_or(1);
             return Err(format!(
                 "points {one} and {} are too close together beside the others for a smooth curve",
                 one + 1
@@ -206,13 +205,8 @@ fn bump(x: &[f64], at: f64) -> f64 {
     // By the Cox-de Boor recurrence, whose terms are all positive.
     let hat = |i: usize| {
         let (a, b, c) = (x[i], x[i + 1], x[i + 2]);
-        if at < a || at > c {
-            0.0
-        } else if at < b {
-            (at - a) / (b - a)
-        } else {
-            (c - at) / (c - b)
-        }
+        let inside = if at < b { (at - a) / (b - a) } else { (c - at) / (c - b) };
+        inside.max(0.0)
     };
     let smooth = (at - x[0]) / (x[2] - x[0]) * hat(0) + (x[3] - at) / (x[3] - x[1]) * hat(1);
     3.0 * smooth / (x[3] - x[0])

@@ -12,6 +12,8 @@
 //! below `z_c` and below it near the sticking set, so there is a cycle between. It reaches infinity where
 //! `B = z_c` (lemma 20).
 
+use std::cmp::Ordering;
+
 use super::field::ParameterBox;
 use super::range::bracket;
 use super::{Count, HalfMaps, ProvedMap, Sign, SignedGap, sign_at};
@@ -127,10 +129,7 @@ fn returns_from_infinity(parameters: &ParameterBox) -> Option<bool> {
         return None;
     }
     let next = forward[1 - strong].image(arrivals - gap);
-    if next.lower() == f64::INFINITY {
-        return Some(false);
-    }
-    (next < f64::INFINITY).then_some(true)
+    next.partial_cmp(&f64::INFINITY).map(Ordering::is_lt)
 }
 
 /// An interval near a guess in which a verdict changes: at its ends the verdict is certain and different.

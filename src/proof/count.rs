@@ -7,7 +7,11 @@
 //! differs from 1 throughout (one cycle if the signs differ, none otherwise), or by the distance from the
 //! diagonal in the middle. Otherwise the gap is halved.
 
-use super::{Bound, Enclosure, FieldBox, Funnel, HalfMaps, ProvedMap, StartBox, swing_below};
+use std::cmp::Ordering;
+
+use super::{
+    Bound, Enclosure, FieldBox, Funnel, HalfMaps, ProvedHalf, ProvedMap, StartBox, swing_below,
+};
 use crate::numerics::{Interval, pow, times_power};
 
 /// Relative width below which a gap is not halved any more.
@@ -148,8 +152,7 @@ impl Count {
         let middle = Interval::point(over.middle());
         let away = way.image(middle) - middle;
         let sway = (slope - 1.0) * (over - middle);
-        let sum = away + sway;
-        !sum.contains(0.0)
+        !(away + sway).contains(0.0)
     }
 }
 
@@ -221,10 +224,7 @@ fn inner_end(map: &ProvedMap) -> SearchEnd {
         }
     }
     let mut trials = (0..HALVINGS).map(|halvings| times_power(gap.lower(), -halvings));
-    let rests = trials.find(|&at| {
-        let image = map.forward.image(Interval::point(at));
-        image.upper() == f64::NEG_INFINITY
-    });
+    let rests = trials.find(|&at| map.forward.image(Interval::point(at)) == f64::NEG_INFINITY);
     rests.map(|at| (at, Sign::Below)).ok_or(0.0)
 }
 
@@ -256,14 +256,8 @@ fn least_end(field: &FieldBox, funnel: Option<&Funnel>) -> f64 {
 fn outer_end(map: &ProvedMap, inner: f64) -> SearchEnd {
     /// How often a clearance is quadrupled in search of an escape.
     const QUADRUPLINGS: i32 = 200;
-    let [first, second] = map.forward.0.each_ref().map(|half| {
-        let greatest = half.greatest(f64::INFINITY);
-        if greatest < f64::INFINITY {
-            (Interval::point(greatest) - map.gap).upper()
-        } else {
-            greatest
-        }
-    });
+    let greatest = |half: &ProvedHalf| Interval::point(half.greatest(f64::INFINITY)) - map.gap;
+    let [first, second] = map.forward.0.each_ref().map(|half| greatest(half).upper());
     if first <= 0.0 || second <= 0.0 {
         return Err(f64::INFINITY);
     }
@@ -294,19 +288,16 @@ fn outer_end(map: &ProvedMap, inner: f64) -> SearchEnd {
     let trials = (1..=QUADRUPLINGS).map(|times| times_power(size, 2 * times));
     let escapes = trials
         .take_while(|at| at.is_finite())
-        .find(|&at| map.forward.image(Interval::point(at)).lower() == f64::INFINITY);
+        .find(|&at| map.forward.image(Interval::point(at)) == f64::INFINITY);
     escapes.map(|at| (at, Sign::Above)).ok_or(inner)
 }
 
 /// The side of the diagonal on which the map certainly lies at a clearance.
 pub fn sign_at(map: &ProvedMap, clearance: f64) -> Option<Sign> {
-    let image = map.forward.image(Interval::point(clearance));
-    if image > clearance {
-        Some(Sign::Above)
-    } else if image < clearance {
-        Some(Sign::Below)
-    } else {
-        None
+    match map.forward.image(Interval::point(clearance)).partial_cmp(&clearance)? {
+        Ordering::Greater => Some(Sign::Above),
+        Ordering::Less => Some(Sign::Below),
+        Ordering::Equal => None,
     }
 }
 
