@@ -18,7 +18,7 @@
     reason = "a comparison with what is not a number fails, and its negation is the safe side"
 )]
 
-use crate::numerics::{Interval, bisect, pow, powi, real};
+use crate::numerics::{Interval, bisect, point, pow, powi, real};
 
 /// The field of a half plane.
 #[derive(Clone, Copy, Debug)]
@@ -52,10 +52,6 @@ type Series = [[Interval; 4]; ORDER + 1];
 
 /// A box or a point: position and velocity.
 type StateBox = [Interval; 2];
-
-fn point(value: f64) -> Interval {
-    Interval::point(value)
-}
 
 /// A half swing about which nothing is known.
 const UNKNOWN: SwingBounds =

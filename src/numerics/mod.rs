@@ -30,3 +30,4 @@ pub(crate) use self::{
     scalar::*, scaling::*, similar::*, spline::*, sum::*, table::*, twofold::*,
 };
 pub use interval::Interval;
+pub(crate) use interval::point;

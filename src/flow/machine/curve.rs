@@ -140,7 +140,7 @@ impl MachineCurve {
     pub fn ledger(&self, model: &Model) -> Ledger {
         let sum = self.steps.iter().map(|step| step.works(model, step.duration)).sum();
         let start = self.steps.first().map_or((0.0, 0.0), |step| step.at(0.0));
-        ledger(model, sum, start, start)
+        ledger(model, sum, [start; 2])
     }
 
     /// The same as a closed curve to be drawn, on which the belt's line needs its ends alone.
@@ -152,16 +152,11 @@ impl MachineCurve {
 }
 
 /// The ledger of a motion between two states with these works of belt, damper and guide, in J.
-pub(super) fn ledger(
-    model: &Model,
-    works: Vector3<f64>,
-    start: (f64, f64),
-    end: (f64, f64),
-) -> Ledger {
+pub(super) fn ledger(model: &Model, works: Vector3<f64>, ends: [(f64, f64); 2]) -> Ledger {
     let energy = |(x, y): (f64, f64)| 0.5 * ((x + model.pull) * (x + model.pull) + y * y);
     let [belt, damper, guide] = works.into();
     let works = [("belt", belt), ("damper", -damper), ("guide", -guide)];
     let work = |(source, amount)| Work { source, amount, acts: amount != 0.0 };
     let works = works.into_iter().map(work).collect();
-    Ledger::new((energy(start), energy(end)), works).scaled(model.stiffness)
+    Ledger::new(ends.map(energy).into(), works).scaled(model.stiffness)
 }

@@ -70,7 +70,7 @@ pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Deta
     };
     let by_terms = found.cost.steps * ORDER as u64;
     found.cost.evaluations = flow.stepper.map_or(by_terms, |it| it.cost().evaluations);
-    let works = energy.then(|| ledger(model, works, start, state));
+    let works = energy.then(|| ledger(model, works, [start, state]));
     found.ledger = works.map(|works| works.scaled(1.0 / units.energy));
     found
 }
