@@ -29,7 +29,7 @@ use super::{
 };
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters, Side};
-use crate::numerics::{by_number, cbrt, ln, pow, powi, real};
+use crate::numerics::{by_number, cbrt, ln, pow, powi, range, real};
 use crate::portrait::{
     Cycle, Equation, Route, STEP, SwingPair, closings, first_side, natural_size, polish_near,
     upper_end, weak_closing,
@@ -174,7 +174,7 @@ impl CurveTracer<'_> {
         /// reach neither.
         const PROBES: [f64; 5] = [0.0, 1.0, 0.5, 0.25, 0.75];
         let (from, to) = self.range;
-        let mut curves: Vec<Vec<CurvePoint>> = Vec::new();
+        let mut curves = Vec::new();
         self.curve.side = first_side(&self.curve.parameters_at(0.5 * (from + to)));
         for fraction in PROBES {
             let p = if fraction == 1.0 { to } else { from + fraction * (to - from) };
@@ -207,11 +207,7 @@ impl CurveTracer<'_> {
         if self.found.parameter == Knob::D2 {
             return Vec::new();
         }
-        let ends = |curve: &Vec<CurvePoint>| {
-            let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-            curve.iter().fold((low, high), |(low, high), it| (low.min(it.u), high.max(it.u)))
-        };
-        curves.iter().map(ends).collect()
+        curves.iter().map(|curve| range(curve.iter().map(|it| it.u))).collect()
     }
 
     /// All cycles at one value outside of known intervals of u, as points of curves.

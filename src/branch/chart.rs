@@ -13,7 +13,7 @@ use trace::{HALVINGS, Tracer, values};
 
 use super::Regime;
 use crate::flow::{Cost, Limits, Reason, Result};
-use crate::model::{Knob, Parameters};
+use crate::model::Parameters;
 
 /// A chart of regimes.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,8 +35,7 @@ pub fn chart(
     resolution: Resolution,
     limits: &Limits,
 ) -> Result<Chart> {
-    let charted = |symbol| matches!(symbol, Knob::D | Knob::D2 | Knob::D3 | Knob::R);
-    if plane.right == plane.up || !charted(plane.right) || !charted(plane.up) {
+    if plane.right == plane.up || !plane.right.is_parameter() || !plane.up.is_parameter() {
         return Err(Reason::NotApplicable { needs: "two different ones of D, D2, D3, r" });
     }
     let (parameters, across, cost) = (*parameters, plane.across(), Cost::default());

@@ -133,7 +133,7 @@ pub fn border(
     count: usize,
     limits: &Limits,
 ) -> Result<Boundary> {
-    if !matches!(second, Knob::D2 | Knob::D3 | Knob::R) {
+    if second == Knob::D || !second.is_parameter() {
         return Err(Reason::NotApplicable { needs: "one of D2, D3, r to vary" });
     }
     let mut border =

@@ -95,8 +95,8 @@ const ASIDE: [f64; 4] = [-1e-4, -1e-6, 1e-6, 1e-4];
 impl Family<'_> {
     /// The model at a value. Where the branch is interrupted there is none, and the search for a change ends at once.
     fn model(&self, value: f64) -> Option<Model> {
-        let interrupted = (self.limits.interrupted)();
-        self.source.with(self.varied, value).ok().filter(|_| !interrupted)?.model().ok()
+        self.limits.go_on().ok()?;
+        self.source.with(self.varied, value).ok()?.model().ok()
     }
 
     fn portrait(&self, value: f64) -> Option<Portrait> {

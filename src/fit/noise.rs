@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{SMatrix, SVector};
 
+pub(crate) use crate::numerics::range;
 use crate::numerics::{exp, powi, real};
 
 /// Number of standard deviations beyond which a residual does not belong to the motion. Chance exceeds it 7 times
@@ -19,12 +20,6 @@ pub fn median(mut values: Vec<f64>) -> f64 {
     }
     let (_, found, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
     *found
-}
-
-/// The smallest and the largest of values.
-pub fn range(values: &[f64]) -> (f64, f64) {
-    let ends = (f64::INFINITY, f64::NEG_INFINITY);
-    values.iter().fold(ends, |(low, high), x| (low.min(*x), high.max(*x)))
 }
 
 /// Average number of samples in a unit of time.

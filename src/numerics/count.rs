@@ -1,5 +1,6 @@
 //! Conversion between counts and real numbers, places in a circle, order by a number, and counting things once.
 
+use std::borrow::Borrow;
 use std::cmp::Ordering;
 
 /// A count as a double. Exact below `2^53`, which no count here reaches.
@@ -34,6 +35,13 @@ pub const fn reciprocals<const N: usize>() -> [f64; N] {
 /// The order of things by a number that each of them has.
 pub fn by_number<T>(number: impl Fn(&T) -> f64) -> impl Fn(&T, &T) -> Ordering {
     move |one, other| number(one).total_cmp(&number(other))
+}
+
+/// The smallest and the largest of some numbers.
+pub fn range(numbers: impl IntoIterator<Item: Borrow<f64>>) -> (f64, f64) {
+    numbers.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), number| {
+        (low.min(*number.borrow()), high.max(*number.borrow()))
+    })
 }
 
 /// The next place (`by` is 1), the previous one (-1) or the same (0) in a circle of `count` places, at least one, counted

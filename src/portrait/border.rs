@@ -3,7 +3,7 @@
 use super::{Cycle, Orbit};
 use crate::flow::MachineCurve;
 use crate::model::{Border, Parameters, State};
-use crate::numerics::{by_number, hypot, maximum};
+use crate::numerics::{by_number, hypot, maximum, range};
 
 impl Border {
     /// What borders the basin: the innermost cycle, else a separatrix where motions can escape.
@@ -95,8 +95,7 @@ impl Edge {
             span.map_or(f64::INFINITY, |(low, high)| hypot(q, if v < 0.0 { low } else { high }))
         };
         let ends = [nearest.saturating_sub(1), (nearest + 1).min(curve.len() - 1)];
-        let [one, other] = ends.map(|index| curve[index].q);
-        let (low, high) = (one.min(other), one.max(other));
+        let (low, high) = range(ends.map(|index| curve[index].q));
         let (low, high) = maximum(low, high, FLAT * (high - low), |q| -distance(q));
         let upright = self.span_at(0.0).map_or(f64::INFINITY, |(low, high)| high.min(-low));
         Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])).min(upright))

@@ -3,6 +3,7 @@
 use super::*;
 use crate::branch::fold::fold;
 use crate::branch::regime::tests::regime;
+use crate::model::Knob;
 use crate::numerics::elementary::{hypot, powi};
 
 /// Few lines, and none between them.

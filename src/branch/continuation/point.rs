@@ -1,7 +1,7 @@
 //! Points of a curve of cycles, and directions along it.
 
 use crate::model::Parameters;
-use crate::numerics::hypot;
+use crate::numerics::{hypot, range};
 use crate::portrait::{Route, SwingPair};
 
 /// Length of u that counts as much as the whole range of the parameter.
@@ -87,7 +87,7 @@ pub fn covers(curve: &[CurvePoint], point: &CurvePoint) -> bool {
 pub fn passes(curve: &[CurvePoint], point: &CurvePoint) -> bool {
     curve.windows(2).any(|pair| {
         let (one, other) = (&pair[0], &pair[1]);
-        let (low, high) = (one.p.min(other.p), one.p.max(other.p));
+        let (low, high) = range([one.p, other.p]);
         let slack = 1e-9 * (high - low);
         if point.p < low - slack || point.p > high + slack {
             return false;

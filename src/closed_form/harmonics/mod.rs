@@ -26,7 +26,7 @@ use nalgebra::Complex;
 
 use super::Harmonic;
 use crate::model::{Parameters, Reason, Result, State};
-use crate::numerics::{exponent, real, times_power};
+use crate::numerics::{exponent, range, real, times_power};
 
 /// Maximum number of harmonics: the linear algebra costs as their cube.
 pub const MOST: usize = 255;
@@ -130,14 +130,13 @@ impl<'a> Continuation<'a> {
     fn strengthened(&self, count: usize) -> Result<BalanceResidual> {
         /// Smallest step.
         const SMALLEST: f64 = 1.0 / 256.0;
-        let Parameters { d, d2, d3, r } = self.parameters;
         let (mut here, mut step) = (BranchPlace { strength: 0.0, ansatz: self.first.clone() }, 1.0);
         here.ansatz.q.coefficients[0] = Complex::default();
         // Of the first-order answer only its mean (equation 40) depends on the strength, in proportion to it.
         let mut before = Some(BranchPlace { strength: 1.0, ansatz: self.first.clone() });
         loop {
             let s = f64::min(here.strength + step, 1.0);
-            let weaker = Parameters { d: s * d, d2: s * d2, d3: s * d3, r: s * r };
+            let weaker = self.parameters.map(|number| s * number);
             let onwards = before.as_ref().map(|before| secant(before, &here, s));
             let start = onwards.unwrap_or_else(|| here.ansatz.clone());
             match self.solve(&weaker, count, &start) {
@@ -221,9 +220,7 @@ fn secant(before: &BranchPlace, here: &BranchPlace, s: f64) -> Ansatz {
 fn extremes(function: &Fourier) -> (f64, f64) {
     let turns = sign_changes(&function.derivative());
     let values = turns.iter().map(|turn| function.at::<1>(turn.angle)[0]);
-    values.fold((function.mean(), function.mean()), |(low, high), value| {
-        (low.min(value), high.max(value))
-    })
+    range([function.mean()].into_iter().chain(values))
 }
 
 impl HarmonicCycle {

@@ -68,7 +68,7 @@ impl Arc {
         // Where friction is many times the natural scale, the motion is not linear yet at that size.
         let mut map = HalfMap::new(field, TOLERANCE);
         map.linear_below = map.linear_below.min(DETAIL * (clearance.value + parameters.r));
-        let mut pieces: Vec<ArcStep> = Vec::new();
+        let mut pieces = Vec::new();
         let limits = limits.up_to(BUDGET);
         let swing = map.swing_watched(length, true, &limits, |stepper, unit, duration| {
             let step = stepper.last_step();

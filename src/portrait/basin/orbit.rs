@@ -163,7 +163,7 @@ fn attracting(
     /// Log elasticity up to which rounding does not grow.
     const ATTRACTS: f64 = 2.0;
     let directions = [Direction::Backward, Direction::Forward];
-    let mut best: Option<Arc> = None;
+    let mut best = None;
     let mut change = f64::INFINITY;
     for direction in if backward { directions } else { [directions[1], directions[0]] } {
         let (from, to) = match direction {

@@ -4,7 +4,7 @@ use super::{Image, Landmarks};
 use crate::flow::{Flow, MachineCurve, Reason, Result};
 use crate::model::{ContactState, Model, Phase};
 use crate::numerics::{
-    PlaceTolerance, bisect, by_number, exp, exponent, ln, pow, real, times_power, try_newton,
+    PlaceTolerance, bisect, by_number, exp, exponent, ln, pow, range, real, times_power, try_newton,
 };
 use crate::portrait::{Bracket, Cycle, Node, Portrait, Ride, RootSearch, places};
 
@@ -333,8 +333,7 @@ impl Flow<'_> {
         let sticks = image.sticks_from.is_some();
         let (curve, _) = self.around(x, !stable && image.slips())?;
         let peaks = curve.steps.iter().filter_map(|step| Some(step.at(step.peak?).1));
-        let (slowest, fastest) =
-            peaks.fold((0.0_f64, 0.0_f64), |(low, high), y| (low.min(y), high.max(y)));
+        let (slowest, fastest) = range([0.0].into_iter().chain(peaks));
         let duration: f64 = curve.steps.iter().map(|step| step.duration).sum();
         let mut rides = curve.steps.iter().filter(|step| step.place == ContactState::Sticks);
         let riding: f64 = rides.clone().map(|step| step.duration).sum();
