@@ -18,7 +18,7 @@ use crate::numerics::twofold::PI;
 use crate::numerics::{Twofold, atan, cosh, ln, ln_1p, sinh};
 
 /// The flow of `x'' + 2 D x' + x = 0` with what depends on D alone worked out once.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct LinearFlow {
     d: f64,
     /// omega or kappa.

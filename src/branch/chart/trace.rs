@@ -71,7 +71,7 @@ impl Plane {
 }
 
 /// How finely a chart is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Resolution {
     /// Lines that it has in any case, about.
     pub lines: usize,

@@ -99,7 +99,7 @@ impl Fourier {
 }
 
 /// A root at which the function changes its sign.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct SignChange {
     /// Where, from 0 to a full turn.
     pub angle: f64,

@@ -32,7 +32,7 @@ pub struct Ansatz {
 }
 
 /// One unknown, and the equation of the same name.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 struct Unknown {
     harmonic: usize,
     /// What it adds to the coefficient of its harmonic: 1 for the mean A0, 1/2 for `a_k`, -i/2 for `b_k`.

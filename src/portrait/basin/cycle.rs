@@ -165,7 +165,7 @@ impl SwingPair {
 // Limit cycles as data: as the search finds them, and as they are drawn with the basin.
 
 /// All limit cycles, by amplitude, and what they imply for the basin.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Cycles {
     /// The parameters.
     pub parameters: Parameters,

@@ -24,10 +24,7 @@ pub fn all_closings(equation: &mut Equation) -> Result<Vec<SwingPair>> {
 
 /// As many of them as are wanted: finding the innermost one alone is half the work.
 pub fn first_closings(equation: &mut Equation, most: usize) -> Result<Vec<SwingPair>> {
-    match closed_form(&equation.parameters) {
-        Some(known) => Ok(known),
-        None => closings(equation, most, &[]),
-    }
+    closed_form(&equation.parameters).map_or_else(|| closings(equation, most, &[]), Ok)
 }
 
 /// All closings where there is a closed form of them.

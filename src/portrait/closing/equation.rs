@@ -326,7 +326,7 @@ impl Place {
 // Where motions go that leave the end of the sticking set, a node that repels (`D < -1`).
 
 /// How motions from the end of the sticking set come back.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct WayFromRim {
     /// By how much, as a logarithm, they come back beyond the sticking set; negative where they are captured.
     pub excess: f64,
@@ -357,7 +357,7 @@ impl Equation<'_> {
     /// The way of motions that leave the end of the sticking set, a node that repels (`D < -1`), on the side on which
     /// they come further.
     pub fn way_from_rim(&mut self) -> Result<WayFromRim> {
-        let Parameters { r, .. } = self.parameters;
+        let r = self.parameters.r;
         let gap = 2.0 * r;
         let ends = self.ends_from_rim()?;
         let mut best = WayFromRim { excess: f64::NEG_INFINITY, q_max: r };

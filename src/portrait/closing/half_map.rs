@@ -86,14 +86,11 @@ pub enum Direction {
 impl Direction {
     /// The direction of time.
     pub fn sense(self) -> f64 {
-        match self {
-            Direction::Forward => 1.0,
-            Direction::Backward => -1.0,
-        }
+        if self == Direction::Forward { 1.0 } else { -1.0 }
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct HalfSwing {
     /// Clearance at which it starts: at `(-start, 0)`.
     pub start: Length,

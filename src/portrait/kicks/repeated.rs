@@ -16,7 +16,7 @@ use crate::numerics::{real, truncated};
 use crate::portrait::{Portrait, RandomKick, Share};
 
 /// What becomes of repeated kicks.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Survival {
     /// The fraction of the first kicks, from the middle of the sticking set, that is lost.
     pub first: Share,

@@ -9,7 +9,7 @@ use crate::model::{ContactState, Lines, Phase};
 use crate::numerics::ln;
 
 /// The image of a right turning point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Image {
     /// The next right turning point.
     pub x: f64,
@@ -36,7 +36,7 @@ impl Image {
 }
 
 /// The places at which the return map changes its form.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Landmarks {
     /// The places on the belt's line.
     pub lines: Lines,
