@@ -112,7 +112,7 @@ fn arrow(picture: &mut Picture, session: &Session, moment: &Sample) {
     let points = [(tail, y), (tip, y), (barb, y + 0.5 * HALF), (tip, y), (barb, y - 0.5 * HALF)];
     picture.curve("friction of the belt", points);
     let text = with_unit(pull * running.reduced.units.force, 3, "N");
-    picture.caption(Point { x: tail, y }, text, Role::Special);
+    picture.caption([tail, y], text, Role::Special);
 }
 
 /// The belt, its marks moved by `way` to the right above and to the left below.

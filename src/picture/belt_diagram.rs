@@ -5,7 +5,7 @@
 use super::{Picture, phase_plane, units};
 use crate::branch::Special;
 use crate::portrait::{Border, Cycle, Portrait};
-use crate::scene::{Layer, Point};
+use crate::scene::Layer;
 use crate::session::Session;
 use crate::words::with_unit;
 
@@ -84,6 +84,6 @@ fn changes(picture: &mut Picture, special: &Special, unit: &str) {
         let to = if jump.reach().is_finite() { jump.reach() } else { picture.window.y.to() };
         picture.curve(name, [[at, jump.from], [at, to]]);
     }
-    let place = Point { x: at, y: special.q_max.unwrap_or(0.0) };
+    let place = [at, special.q_max.unwrap_or(0.0)];
     picture.special(place, special.kind.letter(None), &with_unit(at, 4, unit));
 }

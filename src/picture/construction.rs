@@ -5,7 +5,7 @@ use crate::closed_form::lyapunov::energy_rate;
 use crate::closed_form::{LinearCycle, LinearFlow};
 use crate::model::Parameters;
 use crate::numerics::{TO_ROUNDING, bisect};
-use crate::scene::{Point, Span};
+use crate::scene::Span;
 
 /// Circles on which the energy V is the same, and shaded the velocities at which it falls.
 pub fn levels(picture: &mut Picture, parameters: &Parameters) {
@@ -59,7 +59,7 @@ pub fn spirals(picture: &mut Picture, parameters: &Parameters) {
             let along = f64::from(index) / f64::from(POINTS);
             let tau = duration * (from + (to - from) * along);
             let (x, v) = LinearFlow::new(d).state(-cycle.clearance, 0.0, tau);
-            Point { x: side * (x - r), y: side * v }
+            [side * (x - r), side * v]
         })
     };
     for (side, name) in
@@ -70,7 +70,7 @@ pub fn spirals(picture: &mut Picture, parameters: &Parameters) {
         }
         picture.curve(name, turn(0.0, 1.0, side));
         picture.mark(Mark::Head, [-side * r, 0.0], Role::Special);
-        let end = Point { x: side * (r + cycle.clearance), y: 0.0 };
+        let end = [side * (r + cycle.clearance), 0.0];
         picture.mark(Mark::Turn, end, Role::Special);
         picture.caption(end, if side > 0.0 { "r + c" } else { "-r - c" }, Role::Special);
     }

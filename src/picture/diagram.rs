@@ -240,7 +240,7 @@ fn here(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch, va
         if (a.value < value) != (b.value < value) {
             let places: Vec<[f64; 2]> = piece.iter().map(|it| found.place(it).into()).collect();
             let y = between(&places, index, value);
-            picture.mark(cycle_mark(a.cycle.stable), Point { x: value, y }, Role::Current);
+            picture.mark(cycle_mark(a.cycle.stable), [value, y], Role::Current);
         }
     }
 }
@@ -278,9 +278,8 @@ fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
         picture.upright(line, special.value);
     }
     let y = special.cycle.map_or(top, |cycle| height.of(special.value, &cycle));
-    let at = Point { x: special.value, y };
     let letter = special.kind.letter(special.cycle.as_ref());
-    picture.special(at, letter, &significant(special.value, 4));
+    picture.special([special.value, y], letter, &significant(special.value, 4));
 }
 
 /// The name of rest in every diagram.

@@ -4,7 +4,7 @@
 
 use super::{Dash, LineStyle, Mark, Picture, Role};
 use crate::numerics::real;
-use crate::scene::{Point, Span};
+use crate::scene::Span;
 use crate::session::Session;
 use crate::session::ledger::{LedgerLine, Owner};
 use crate::words::significant;
@@ -22,17 +22,16 @@ pub fn draw(picture: &mut Picture, session: &Session) {
     });
     picture.upright(LineStyle::guide(), 0.0);
     for (line, entry) in lines.iter().enumerate() {
-        let from = Point { x: 0.0, y: middle(line) };
+        let y = middle(line);
         if let LedgerLine::Work { source, work, part, so_far } = entry {
             let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
             let line = LineStyle::new(*source, role, Dash::Thick).captioned();
-            picture.curve(line, [from, Point { x: *part, ..from }]);
+            picture.curve(line, [[0.0, y], [*part, y]]);
             if let Some(x) = *so_far {
-                picture.mark(Mark::Head, Point { x, ..from }, Role::Cursor);
+                picture.mark(Mark::Head, [x, y], Role::Cursor);
             }
         }
-        let at = Point { x: picture.window.x.at(0.02), ..from };
-        picture.caption(at, reading(entry), Role::Text);
+        picture.caption([picture.window.x.at(0.02), y], reading(entry), Role::Text);
     }
 }
 

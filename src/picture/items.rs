@@ -246,11 +246,11 @@ pub fn passes(points: &[Point], window: Window) -> bool {
 }
 
 /// An ellipse as a closed polygon: its centre and its half axis in each direction.
-pub fn ellipse(x: (f64, f64), y: (f64, f64)) -> impl Iterator<Item = Point> {
+pub fn ellipse(x: (f64, f64), y: (f64, f64)) -> impl Iterator<Item = [f64; 2]> {
     const CORNERS: u16 = 240;
     (0..=CORNERS).map(move |corner| {
         let (sin, cos) = sin_cos(TAU * f64::from(corner) / f64::from(CORNERS));
-        Point { x: x.0 + x.1 * cos, y: y.0 + y.1 * sin }
+        [x.0 + x.1 * cos, y.0 + y.1 * sin]
     })
 }
 
@@ -348,10 +348,10 @@ impl<'a> Picture<'a> {
     }
 
     /// Adds the letter of a special point, and its value where there is room.
-    pub fn special(&mut self, at: Point, letter: &'static str, value: &str) {
+    pub fn special(&mut self, at: impl Into<Point>, letter: &'static str, value: &str) {
+        let (at, or_at) = (at.into(), Vec::new());
         let long = format!("{letter} {value}").into();
-        let (or_at, short) = (Vec::new(), letter.into());
-        self.captions.push(Caption { at, or_at, long, short, role: Role::Special });
+        self.captions.push(Caption { at, or_at, long, short: letter.into(), role: Role::Special });
     }
 
     /// Adds the name of a curve, beside the highest of its points in the window that has room. Where `long` is empty, only

@@ -116,14 +116,13 @@ fn record(picture: &mut Picture, fitted: &FitResult) {
 fn belt(picture: &mut Picture, session: &Session) {
     let Some(running) = session.running() else { return };
     let y = running.reduced.sticking_velocity;
-    let left = picture.window.x.from();
     picture.level("speed of the belt", y);
-    picture.caption(Point { x: left, y }, "belt", Role::Current);
+    picture.caption([picture.window.x.from(), y], "belt", Role::Current);
     if session.draws_whole() {
         rides(picture, session, y);
     }
     if let Some((_, q)) = session.contact() {
-        picture.caption(Point { x: q, y }, "sticks to the belt", Role::Warning);
+        picture.caption([q, y], "sticks to the belt", Role::Warning);
     }
 }
 

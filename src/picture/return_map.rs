@@ -9,7 +9,7 @@ use super::{
     units::said,
 };
 use crate::flow::{Motion, Outcome};
-use crate::scene::{Layer, Point};
+use crate::scene::Layer;
 use crate::session::{Session, motion::turning_points};
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
@@ -78,9 +78,9 @@ fn turns(picture: &mut Picture, motion: &Motion, like: &LineStyle) {
         }
         let steps = turns.windows(2).flat_map(|pair| {
             let [from, to] = [pair[0], pair[1]];
-            [Point { x: from, y: to }, Point { x: to, y: to }]
+            [[from, to], [to, to]]
         });
-        let first = turns.first().map(|q| Point { x: *q, y: *q });
+        let first = turns.first().map(|q| [*q, *q]);
         let line = LineStyle::new(format!("{}, turn by turn", like.name), like.role, like.dash);
         let brief = if like.role == Role::Beside { "other motions" } else { "motion" };
         picture.curve(line.briefly(brief), first.into_iter().chain(steps));

@@ -11,27 +11,31 @@ use crate::model::{State, energy};
 use crate::scene::{Layer, Point};
 use crate::session::{Session, motion::friction_force};
 
-/// A quantity over time: its layer, its letter, its name, and how it is read from a state.
-type Quantity = (Layer, &'static str, &'static str, fn(State) -> f64);
+/// A quantity over time: its layer, its name, which ends with its letter, and how it is read from a state.
+type Quantity = (Layer, &'static str, fn(State) -> f64);
 
 const QUANTITIES: [Quantity; 3] = [
-    (Layer::Energy, "V", "energy V", energy),
-    (Layer::Velocity, "v", "velocity v", |state| state.v),
-    (Layer::Position, "q", "displacement q", |state| state.q),
+    (Layer::Energy, "energy V", energy),
+    (Layer::Velocity, "velocity v", |state| state.v),
+    (Layer::Position, "displacement q", |state| state.q),
 ];
+
+fn letter(name: &'static str) -> &'static str {
+    &name[name.len() - 1..]
+}
 
 pub fn draw(picture: &mut Picture, session: &Session) {
     let (window, [time, upward]) = (picture.window, picture.scales);
     let shows = |layer| session.layers.contains(&layer);
     let shown = || quantities_on_show(session).rev();
     let friction = shows(Layer::Friction).then_some("f");
-    let letters: Vec<&str> = shown().map(|(_, letter, ..)| letter).chain(friction).collect();
+    let letters: Vec<&str> = shown().map(|(_, name, _)| letter(name)).chain(friction).collect();
     picture.axes("tau", letters.join(" "));
     picture.reading = picture.cursor.map(|Point { x: tau, .. }| {
         let time = said(time, "tau", tau, window.x);
         let Some(state) = session.state_at(tau) else { return time };
-        shown().fold(time, |line, (_, letter, .., read)| {
-            format!("{line} {}", said(upward, letter, read(state), window.y))
+        shown().fold(time, |line, (_, name, read)| {
+            format!("{line} {}", said(upward, letter(name), read(state), window.y))
         })
     });
     picture.level(LineStyle::guide(), 0.0);
@@ -64,22 +68,13 @@ pub fn draw(picture: &mut Picture, session: &Session) {
             picture.mark(Mark::Head, at(&head, read), Role::Cursor);
         }
         if let Some(y) = force.and_then(|force| force_at(&force, head.tau)) {
-            picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
+            picture.mark(Mark::Head, [head.tau, y], Role::Cursor);
         }
     }
 }
 
 fn quantities_on_show(session: &Session) -> impl DoubleEndedIterator<Item = Quantity> {
     QUANTITIES.into_iter().filter(|(layer, ..)| session.layers.contains(layer))
-}
-
-/// What a quantity is called in a picture: a displacement in metres has its own letter.
-fn physical(picture: &Picture, text: &'static str) -> &'static str {
-    match (picture.scales[1], text) {
-        (Scale::Times { .. }, "q") => "x",
-        (Scale::Times { .. }, "displacement q") => "displacement x",
-        _ => text,
-    }
 }
 
 /// What was measured. An acceleration is none of the quantities on show.
@@ -104,12 +99,15 @@ fn record(picture: &mut Picture, session: &Session) {
 /// The quantities of the motion in this place among those on show, the present one the first.
 fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: usize) {
     let LineStyle { name: of, role: beside, .. } = phase_plane::motion(session, place);
-    for (_, letter, name, read) in quantities_on_show(session) {
+    for (layer, name, read) in quantities_on_show(session) {
         let points = curve(motion, motion.problem.until, read);
         let (Some(first), Some(end)) = (points.first().copied(), points.last().copied()) else {
             continue;
         };
-        let mut line = LineStyle::from(physical(picture, name));
+        // A displacement in metres has its own letter.
+        let metres = layer == Layer::Position && matches!(picture.scales[1], Scale::Times { .. });
+        let name = if metres { "displacement x" } else { name };
+        let mut line = LineStyle::from(name);
         if place > 0 {
             let name = format!("{}, {of}", line.name);
             line = LineStyle::new(name, beside, line.dash).briefly("other motions");
@@ -121,7 +119,7 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: 
             picture.caption(end, number, role);
         }
         let number = number.filter(|_| place > 0);
-        picture.caption(first, number.unwrap_or(physical(picture, letter).to_owned()), role);
+        picture.caption(first, number.unwrap_or(letter(name).to_owned()), role);
     }
 }
 
@@ -159,7 +157,7 @@ fn curve(motion: &Motion, end: f64, read: fn(State) -> f64) -> Vec<Point> {
 
 /// The turning points, where they stand apart, and how the motion ends.
 fn events(picture: &mut Picture, motion: &Motion) {
-    let turns = motion.crossings.iter().map(|turn| Point { x: turn.tau, y: turn.q });
+    let turns = motion.crossings.iter().map(|turn| [turn.tau, turn.q]);
     let marks = Marks::new(Mark::Turn, Role::Trajectory, turns);
     picture.marks(Marks { sparse: true, ..marks });
     match motion.outcome {
