@@ -193,7 +193,7 @@ impl Panel {
                     self.area(picture, &line, &corners);
                 }
             }
-            Item::Arrows(_, flow) => {
+            Item::Arrows(flow) => {
                 self.arrows.extend(lattice(window).map(|at| (at, flow(at))));
             }
             Item::Marks(marks) => self.marks(marks),

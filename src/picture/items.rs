@@ -158,7 +158,7 @@ pub enum Item<'a> {
     /// Parts of the world, each filled with its pattern.
     Texture(Texture<'a>),
     /// Directions on a sparse lattice.
-    Arrows(Role, Flow<'a>),
+    Arrows(Flow<'a>),
     /// Marks of one meaning.
     Marks(Marks),
 }
@@ -212,7 +212,7 @@ impl Item<'_> {
         match self {
             // What the parts of a texture are is written on them.
             Item::Upright(..) | Item::Texture(_) => false,
-            Item::Arrows(..) => true,
+            Item::Arrows(_) => true,
             Item::Marks(Marks { role, at, .. }) => {
                 role.tells() && at.iter().any(|at| window.contains(*at))
             }
@@ -229,7 +229,7 @@ impl Item<'_> {
             Item::Shade(line, edge) | Item::Beyond(line, edge) => (line, !edge.is_empty()),
             Item::Columns(line, from, to) => (line, *from < window.x.to() && *to > window.x.from()),
             Item::Rows(line, from, to) => (line, *from < window.y.to() && *to > window.y.from()),
-            Item::Texture(_) | Item::Arrows(..) | Item::Marks(_) => return None,
+            Item::Texture(_) | Item::Arrows(_) | Item::Marks(_) => return None,
         };
         Some(line).filter(|line| seen && !line.name.is_empty())
     }

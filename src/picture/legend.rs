@@ -44,7 +44,7 @@ fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
         Item::Marks(Marks { mark, role, brief, .. }) => {
             return Some(told(LegendSample::Point(*mark), *role, brief));
         }
-        Item::Arrows(role, _) => return Some(told(LegendSample::Arrow, *role, "flow")),
+        Item::Arrows(_) => return Some(told(LegendSample::Arrow, Role::Field, "flow")),
         Item::Curve(_, points) if matches!(points[..], [from, to] if from == to) => {
             LegendSample::Spot
         }

@@ -32,7 +32,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         let parameters = first.problem.parameters;
         if shows(Layer::Field) {
             let flow = Box::new(move |at| flow(&parameters, at));
-            picture.items.push(Item::Arrows(Role::Field, flow));
+            picture.items.push(Item::Arrows(flow));
         }
         if shows(Layer::Levels) {
             construction::levels(picture, &parameters);

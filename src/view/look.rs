@@ -17,8 +17,7 @@ use strum::VariantArray;
 use crate::numerics::truncated;
 use crate::picture::{Mark, Role};
 use crate::scene::placed;
-use crate::session::settings;
-use crate::session::{Code, Colors, Glyphs, Key, Keymap, Theme};
+use crate::session::{Code, Colors, DisplaySettings, Glyphs, Key, Keymap, Theme};
 
 /// The text of a theme that comes with the program.
 fn text_of(theme: Theme) -> &'static str {
@@ -91,8 +90,8 @@ const FINE: [Role; 3] = [Role::Ghost, Role::GhostStable, Role::GhostUnstable];
 
 impl Look {
     /// The look that these settings ask for; what they leave open becomes braille in 16 colours.
-    pub fn new(settings: settings::DisplaySettings) -> Self {
-        let settings::DisplaySettings { glyphs, colors, fine, theme, .. } = settings;
+    pub fn new(settings: DisplaySettings) -> Self {
+        let DisplaySettings { glyphs, colors, fine, theme, .. } = settings;
         let theme = if colors == Colors::Never { Theme::Mono } else { theme };
         // A test reads every theme, so the plain look never serves.
         Look::from_text(text_of(theme), glyphs, [colors, fine]).unwrap_or(Look {
@@ -293,12 +292,7 @@ mod tests {
     }
 
     fn look(theme: Theme, glyphs: Glyphs, colors: Colors) -> Look {
-        Look::new(settings::DisplaySettings {
-            glyphs,
-            colors,
-            theme,
-            ..settings::DisplaySettings::default()
-        })
+        Look::new(DisplaySettings { glyphs, colors, theme, ..DisplaySettings::default() })
     }
 
     #[test]
@@ -386,10 +380,8 @@ mod tests {
     #[test]
     fn grounds_of_maps_are_of_one_hue_and_the_stronger_the_more_dangerous() {
         for (name, theme) in choices::<Theme>().filter(|(_, theme)| *theme != Theme::Mono) {
-            let settings =
-                settings::DisplaySettings { theme, ..settings::DisplaySettings::default() };
-            let look =
-                |colors, fine| Look::new(settings::DisplaySettings { colors, fine, ..settings });
+            let settings = DisplaySettings { theme, ..DisplaySettings::default() };
+            let look = |colors, fine| Look::new(DisplaySettings { colors, fine, ..settings });
             let ground = |look: &Look, step: u8| look.danger(f64::from(step) / 16.0).bg;
             let strengths =
                 (0..STEPS).map(|step| match ground(&look(Colors::Sixteen, Colors::True), step) {
@@ -437,11 +429,9 @@ mod tests {
 
     #[test]
     fn keys_have_short_names() {
-        let rich = Look::new(settings::DisplaySettings::default());
-        let letters = Look::new(settings::DisplaySettings {
-            glyphs: Glyphs::Ascii,
-            ..settings::DisplaySettings::default()
-        });
+        let rich = Look::new(DisplaySettings::default());
+        let letters =
+            Look::new(DisplaySettings { glyphs: Glyphs::Ascii, ..DisplaySettings::default() });
         let cases = [
             ("<left>", "←", "left"),
             ("<S-up>", "S-↑", "S-up"),

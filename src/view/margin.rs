@@ -3,7 +3,8 @@
 
 use super::{fitted::statement, pane};
 use crate::model::Knob;
-use crate::portrait::{Border, Margin, NoGuarantee, RestMargin};
+use crate::portrait::{Border, Margin, RestMargin};
+use crate::question::CertainZones;
 use crate::scene::Topic;
 use crate::session::{MachineMargins, Session};
 use crate::words::{joined, rounded_down, significant, too_large, with_unit};
@@ -99,11 +100,10 @@ pub fn status(session: &Session) -> Option<String> {
 
 /// What the pane says about the margin that holds for certain, in a line of this width.
 pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
-    let (_, sure) = margins(session)?;
-    match sure {
+    match &zones(session)?.guaranteed {
         Err(_) => Some("sure: no kick".to_owned()),
         Ok(sure) if sure.from_rest == RestMargin::default() => Some("sure: every kick".to_owned()),
-        Ok(sure) => in_pane(session, "sure", &sure, width),
+        Ok(sure) => in_pane(session, "sure", sure, width),
     }
 }
 
@@ -118,22 +118,21 @@ pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> 
     texts.find(|text| text.chars().count() <= width)
 }
 
-/// The nominal margin, and the one that holds for certain or why none does.
-fn margins(session: &Session) -> Option<(Margin, Result<Margin, NoGuarantee>)> {
+/// What holds for certain, where it is to be told and is known.
+fn zones(session: &Session) -> Option<&CertainZones> {
     let told = session.on_show().any(|plot| session.tells_certain(plot));
     if !told || session.value(Knob::R) == 0.0 {
         return None;
     }
-    let found = session.zones().filter(|_| !session.is_stale(Topic::Zones, session.plot))?;
-    Some((found.nominal, found.guaranteed))
+    session.zones().filter(|_| !session.is_stale(Topic::Zones, session.plot))
 }
 
 /// Nominal and for certain.
 fn certain(session: &Session, width: usize) -> Option<String> {
-    let (nominal, sure) = margins(session)?;
+    let CertainZones { nominal, guaranteed, .. } = zones(session)?;
     let texts = |write: KickNotation| {
-        let headline = write.headline(&nominal);
-        let sure = match &sure {
+        let headline = write.headline(nominal);
+        let sure = match guaranteed {
             Ok(sure) => sure,
             Err(why) => {
                 let nothing = format!("nothing is certain: {why}");
@@ -146,7 +145,7 @@ fn certain(session: &Session, width: usize) -> Option<String> {
             let kick = write.kick(sure.from_rest);
             format!("{headline}; for certain: {}", kick.as_deref().unwrap_or("every kick"))
         });
-        let centre = write.centre(&nominal).zip(unnamed.kick(from_centre(sure)));
+        let centre = write.centre(nominal).zip(unnamed.kick(from_centre(sure)));
         let centre = centre.map(|(own, sure)| format!("{told}; {own}; for certain: {sure}"));
         centre.into_iter().chain([told, brief]).collect()
     };
@@ -164,19 +163,19 @@ fn oscillator(session: &Session, width: usize) -> Option<String> {
     Some(fitting(session, width, |write| {
         let headline = write.headline(&found.margin);
         let centre = write.centre(&found.margin).map(|centre| format!("{headline}; {centre}"));
-        let proved = centre.iter().zip(share(found.lyapunov_share));
-        let proved = proved.map(|(centre, share)| format!("{centre} ({share})")).next();
-        proved.into_iter().chain(centre.clone()).chain([headline.clone()]).collect()
+        let proved = centre.as_ref().zip(found.lyapunov_share.map(share));
+        let proved = proved.map(|(centre, share)| format!("{centre} ({share})"));
+        [proved, centre, Some(headline)].into_iter().flatten().collect()
     }))
 }
 
 /// How much of the margin from the centre the Lyapunov circle (24) proves. It accounts for linear damping only: where
 /// D2 or D3 feed the motion it can be larger than the basin.
-pub fn share(share: Option<f64>) -> Option<String> {
-    share.map(|share| match share {
-        _ if share > 1.0 => "Lyapunov: not valid".to_owned(),
-        _ => format!("Lyapunov proves {} %", significant(100.0 * share, 2)),
-    })
+pub fn share(share: f64) -> String {
+    if share > 1.0 {
+        return "Lyapunov: not valid".to_owned();
+    }
+    format!("Lyapunov proves {} %", significant(100.0 * share, 2))
 }
 
 /// The margin of a machine by the model on show, and by how much the expansion is wrong.

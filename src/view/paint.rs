@@ -1,7 +1,7 @@
 //! A picture painted into a part of the screen.
 
 use super::{Look, Surface, look::Symbols, pane::FramedPicture, plot::Canvas, scan_map};
-use crate::picture::{Caption, Dash, Item, Mark, Marks, Picture, Role};
+use crate::picture::{Caption, Dash, Fill, Item, Mark, Marks, Picture, Role};
 use crate::scene::Window;
 
 /// Plots at least this wide say beside a curve what it is.
@@ -60,11 +60,10 @@ fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {
             plot.shade_where(line.role, |point| (*from..=*to).contains(&point.y));
         }
         Item::Texture(at) => {
-            plot.texture_where(|point| {
-                at(point).map(|fill| (filling(fill.role, symbols), fill.role))
-            });
+            let filled = |Fill { role, .. }: Fill| (filling(role, symbols), role);
+            plot.texture_where(|point| at(point).map(filled));
         }
-        Item::Arrows(role, flow) => plot.arrows(*role, flow),
+        Item::Arrows(flow) => plot.arrows(flow),
         Item::Marks(Marks { mark, role, at, sparse, at_edge, .. }) => {
             let crowded = *sparse && at.len() * APART > usize::from(plot.inner.width);
             for at in at.iter().filter(|_| !crowded) {

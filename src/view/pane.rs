@@ -80,15 +80,11 @@ impl Surface<'_> {
         let role = if heading.focused { Role::Focus } else { Role::Title };
         let pointer = if heading.focused { &look.symbols().pointer } else { " " };
         let width = usize::from(area.width);
-        let mut right = Line::default();
-        if let Some(mark) = heading.mark {
-            right.push_span(look.span(format!(" {mark}"), Role::Warning));
-        }
-        if let Some(reading) = &heading.reading {
-            right.push_span(look.span(format!(" {reading}"), Role::Cursor));
-        }
+        let mark = heading.mark.map(|mark| look.span(format!(" {mark}"), Role::Warning));
+        let reading = heading.reading.as_ref();
+        let reading = reading.map(|reading| look.span(format!(" {reading}"), Role::Cursor));
         // What the cursor reads matters more than the end of the title.
-        let right = fitted(right, width, look);
+        let right = fitted(mark.into_iter().chain(reading).collect(), width, look);
         let room = width.saturating_sub(right.width());
         let (view, held) = title.split_once(", ").unwrap_or((title, title));
         // A number matters more than its error.

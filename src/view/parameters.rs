@@ -352,7 +352,7 @@ fn basin(session: &Session, found: &Drawing, width: usize, look: &Look) -> Vec<S
     lines.extend(spread(session, width, look));
     lines.extend(on_the_machine(session, found, width));
     lines.extend(margin::brief_certain(session, width));
-    let share = rests.and_then(|found| margin::share(found.lyapunov_share));
+    let share = rests.and_then(|found| found.lyapunov_share).map(margin::share);
     let above = |share: &String| margin::status(session).is_some_and(|it| it.contains(share));
     lines.extend(share.filter(|it| low || (session.shows(Layer::Lyapunov) && !above(it))));
     let area = rests.and_then(|found| found.area).filter(|_| !physical);

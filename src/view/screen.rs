@@ -17,7 +17,7 @@ use crate::words::printable::xml;
 /// The rows of a screen, without the blanks at their ends and with minus signs as programs read them.
 pub fn text(screen: &Buffer) -> String {
     let mut out = String::new();
-    for row in rows(screen, Paper::DARK) {
+    for row in rows(screen) {
         let line: String = row.iter().map(|place| place.symbol).collect();
         out.push_str(&line.trim_end().replace(MINUS, "-"));
         out.push('\n');
@@ -57,35 +57,36 @@ pub fn svg(screen: &Buffer, paper: Paper) -> String {
         font_size = FONT_SIZE,
         ground = paper.ground,
     );
-    for (number, row) in rows(screen, paper).enumerate() {
+    let paint = |place: &ScreenCell| Paint::of(place.cell, paper);
+    for (number, row) in rows(screen).enumerate() {
         let mut corner = (0.0, CELL.1 * real(number));
-        for run in row.chunk_by(|one, other| one.paint == other.paint) {
-            draw(&mut out, run, corner);
+        for run in row.chunk_by(|one, other| paint(one) == paint(other)) {
+            draw(&mut out, run, paint(&run[0]), corner);
             corner.0 += CELL.0 * real(run.len());
         }
     }
     out + "</svg>\n"
 }
 
-/// One place on the screen: what stands there and how it is painted.
+/// One place on the screen: what stands there and the cell as which it is painted.
 struct ScreenCell<'a> {
     /// Empty where the character before covers this place too.
     symbol: &'a str,
-    paint: Paint,
+    cell: &'a Cell,
 }
 
-fn rows(screen: &Buffer, paper: Paper) -> impl Iterator<Item = Vec<ScreenCell<'_>>> {
-    screen.content.chunks(usize::from(screen.area.width).max(1)).map(move |row| places(row, paper))
+fn rows(screen: &Buffer) -> impl Iterator<Item = Vec<ScreenCell<'_>>> {
+    screen.content.chunks(usize::from(screen.area.width).max(1)).map(places)
 }
 
 /// The places of a row; what a wide character covers looks as it does.
-fn places(row: &[Cell], paper: Paper) -> Vec<ScreenCell<'_>> {
+fn places(row: &[Cell]) -> Vec<ScreenCell<'_>> {
     let mut places: Vec<ScreenCell> = Vec::with_capacity(row.len());
     for cell in row {
         let wide = places.last().filter(|last| last.symbol.width() > 1);
         let place = match wide {
-            Some(last) => ScreenCell { symbol: "", paint: last.paint },
-            None => ScreenCell { symbol: cell.symbol(), paint: Paint::of(cell, paper) },
+            Some(last) => ScreenCell { symbol: "", cell: last.cell },
+            None => ScreenCell { symbol: cell.symbol(), cell },
         };
         places.push(place);
     }
@@ -129,8 +130,7 @@ impl Paint {
 
 /// Draws neighbouring places of one paint, the first with its upper left corner there: their ground, what is drawn as
 /// shapes in one path, and what is left as one text.
-fn draw(out: &mut String, run: &[ScreenCell], (left, top): (f64, f64)) {
-    let paint = run[0].paint;
+fn draw(out: &mut String, run: &[ScreenCell], paint: Paint, (left, top): (f64, f64)) {
     if let Some(ground) = paint.ground {
         let (width, height) = (CELL.0 * real(run.len()), CELL.1);
         let _ = writeln!(

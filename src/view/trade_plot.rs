@@ -9,7 +9,7 @@ use crate::accuracy::Trade;
 use crate::numerics::elementary::log10;
 use crate::picture::{Picture, Role};
 use crate::scene::{Point, Window};
-use crate::session::{Colors, Glyphs, settings};
+use crate::session::{Colors, DisplaySettings, Glyphs};
 
 /// The letter of each of the methods.
 const LETTERS: [char; 10] = ['a', 'e', 't', '8', '5', '4', 'i', '~', 's', 'm'];
@@ -37,10 +37,10 @@ pub fn in_letters(trade: &Trade) -> String {
     }
     let places: Vec<Point> = points.iter().map(|(place, _)| *place).collect();
     let Some(window) = Window::around(&places, 1.1) else { return String::new() };
-    let look = Look::new(settings::DisplaySettings {
+    let look = Look::new(DisplaySettings {
         glyphs: Glyphs::Ascii,
         colors: Colors::Never,
-        ..settings::DisplaySettings::default()
+        ..DisplaySettings::default()
     });
     let mut buffer = Buffer::empty(AREA);
     let picture = Picture::new("trade", "log10(time/ms)", "log10(error)", window);

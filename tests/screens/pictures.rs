@@ -236,7 +236,7 @@ fn what_is_drawn_in_red_and_green_is_a_cycle_or_the_edge_of_a_basin() {
                 | Item::Beyond(line, _)
                 | Item::Columns(line, ..)
                 | Item::Rows(line, ..) => (line.role, line.name.to_string()),
-                Item::Arrows(role, _) => (*role, "direction of flow".to_owned()),
+                Item::Arrows(_) => (Role::Field, "direction of flow".to_owned()),
                 Item::Marks(marks) => (marks.role, marks.name.to_string()),
                 Item::Texture(_) => continue,
             };

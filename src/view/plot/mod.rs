@@ -198,7 +198,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// Puts arrows on a sparse lattice of cells, in the direction that `flow` gives there.
-    pub fn arrows(&mut self, role: Role, flow: impl Fn(Point) -> Point) {
+    pub fn arrows(&mut self, flow: impl Fn(Point) -> Point) {
         let arrows = self.look.symbols().arrows;
         let Rect { width, height, .. } = self.inner;
         let (dots_across, dots_down) = self.dots.size();
@@ -211,7 +211,7 @@ impl<'a> Canvas<'a> {
                 if angle.is_finite() {
                     let eighth = (angle / std::f64::consts::FRAC_PI_4).round().rem_euclid(8.0);
                     let place = (column.into(), row.into());
-                    self.dots.texture(place, arrows[eighth as usize % 8], role);
+                    self.dots.texture(place, arrows[eighth as usize % 8], Role::Field);
                 }
             }
         }
