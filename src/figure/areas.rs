@@ -156,9 +156,10 @@ impl Cutter<'_> {
         };
         let (below, above) = (corners(lower), corners(upper));
         let apart = 0.1 / f64::from(PLACES) * self.window.x.width();
-        let begun = |((_, fill), ends): (&FillRun, &[Point])| {
-            let [left, right] = [ends[0], ends[1]].map(|end| vec![end]);
-            Polygon { fill: *fill, left, right }
+        let begun = |((_, fill), ends): (&FillRun, &[Point])| Polygon {
+            fill: *fill,
+            left: vec![ends[0]],
+            right: vec![ends[1]],
         };
         let begun: Vec<_> = lower.1.iter().zip(below.windows(2)).map(begun).collect();
         let meets =
@@ -180,9 +181,8 @@ impl Cutter<'_> {
 
     /// Ends the polygons that are open.
     fn close(&mut self) {
-        for Polygon { fill, left, right } in self.open.drain(..) {
+        for Polygon { fill, left: mut corners, right } in self.open.drain(..) {
             let Some(fill) = fill else { continue };
-            let mut corners = left;
             corners.extend(right.into_iter().rev());
             corners.extend(corners.first().copied());
             self.done.push((fill, corners));
@@ -197,8 +197,8 @@ fn alike(lower: &[FillRun], upper: &[FillRun]) -> bool {
 
 /// Whether the borders on three edges lie on straight lines, as far as print shows.
 fn straight(lower: &[FillRun], middle: &[FillRun], upper: &[FillRun]) -> bool {
-    let ends = lower.iter().zip(middle).zip(upper).map(|((a, b), c)| (a.0, b.0, c.0));
-    ends.into_iter().all(|(a, b, c)| (b - f64::midpoint(a, c)).abs() <= CHORD)
+    let mut ends = lower.iter().zip(middle).zip(upper);
+    ends.all(|((a, b), c)| (b.0 - f64::midpoint(a.0, c.0)).abs() <= CHORD)
 }
 
 #[cfg(test)]

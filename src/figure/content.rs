@@ -218,12 +218,11 @@ impl Panel {
 /// Around the window and then along a closed curve within: what lies between.
 fn beyond(edge: &[Point], window: Window) -> Vec<Point> {
     let Window { x, y } = window;
-    let reach = |ends: [f64; 2], inner: fn(&Point) -> f64| {
-        let all = edge.iter().map(inner).chain(ends);
-        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], it| [a.min(it), b.max(it)])
+    let reach = |span: Span, inner: fn(&Point) -> f64| {
+        let all = edge.iter().map(inner).chain(span.ends());
+        Span::covering(all).unwrap_or(span).ends()
     };
-    let across = reach(x.ends(), |at| at.x);
-    let corners = rectangle(across, reach(y.ends(), |at| at.y));
+    let corners = rectangle(reach(x, |at| at.x), reach(y, |at| at.y));
     corners.into_iter().chain(edge.iter().copied()).chain([corners[0]]).collect()
 }
 

@@ -5,7 +5,7 @@
 //! turns by more than [`CORNER`] at a point is a corner that is meant.
 
 use super::paper::PLOT;
-use crate::numerics::elementary::{atan2, hypot};
+use crate::numerics::{atan2, hypot};
 use crate::scene::{Point, Span, Window};
 
 /// Intervals that are always evaluated, so that no narrow feature is missed.

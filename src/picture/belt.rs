@@ -7,8 +7,7 @@ use super::{Dash, LineStyle, Picture, Role};
 use crate::flow::Sample;
 use crate::scene::{Layer, Point, Span, rectangle};
 use crate::session::Session;
-use crate::words::motion::Notation;
-use crate::words::with_unit;
+use crate::words::{Notation, with_unit};
 
 /// Heights of the surfaces of the belt, from below.
 const BELT: (f64, f64) = (0.12, 0.26);

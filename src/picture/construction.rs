@@ -36,8 +36,7 @@ fn falling(parameters: &Parameters, among: Span) -> Vec<(f64, f64)> {
         };
         Some(bisect(inside, outside, TO_ROUNDING, |v| !falls(v)).0)
     };
-    let [first, last] = [0, velocities.len() - 1].map(|end| velocities[end]);
-    let [first, last] = [first, last].map(|end| falls(end).then_some(end));
+    let [first, last] = [0.0, 1.0].map(|end| Some(among.at(end)).filter(|v| falls(*v)));
     let borders = velocities.windows(2).filter_map(border);
     let ends: Vec<f64> = first.into_iter().chain(borders).chain(last).collect();
     ends.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()

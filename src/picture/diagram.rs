@@ -200,29 +200,28 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
     let place = |point: &BranchPoint| found.place(point);
     let mut start = None;
     for run in piece.chunk_by(|one, other| one.cycle.stable == other.cycle.stable) {
-        let (first, last) = (&run[0], &run[run.len() - 1]);
+        let (stable, last) = (run[0].cycle.stable, &run[run.len() - 1]);
         let next = piece.iter().skip_while(|point| *point != last).nth(1);
         let end = next.map(|next| found.fold_between(last, next).unwrap_or(place(next)));
-        let mut line = LineStyle::from(cycle_name(first.cycle.stable));
+        let mut line = LineStyle::from(cycle_name(stable));
+        let points: Vec<Point> = run.iter().map(place).collect();
         if *present {
-            let points: Vec<Point> = run.iter().map(place).collect();
-            let label = stability(first.cycle.stable);
-            picture.name_curve(&points, Text::default(), label, line.role);
+            // Figures have it in their legend.
+            picture.name_curve(&points, "", stability(stable), line.role);
         }
         if *beside {
-            let pale = if first.cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
+            let pale = if stable { Role::GhostStable } else { Role::GhostUnstable };
             // Its values stand beside it.
             let name = format!("{} at other values", line.name);
             line = LineStyle::new(name, pale, line.dash).captioned();
         }
-        let points = start.into_iter().chain(run.iter().map(place)).chain(end);
-        picture.curve(line.of(variant), points);
+        picture.curve(line.of(variant), start.into_iter().chain(points).chain(end));
         // Without a fold the runs share a point, which this one has as its last.
         start = end.filter(|end| next.is_none_or(|next| *end != place(next)));
     }
     let points: Vec<Point> = piece.iter().map(place).collect();
     let role = if *beside { Role::Quiet } else { Role::Special };
-    picture.name_curve(&points, variant.label.clone().into(), &variant.label, role);
+    picture.name_curve(&points, &variant.label, &variant.label, role);
 }
 
 /// The largest velocities of a piece.

@@ -356,7 +356,7 @@ impl<'a> Picture<'a> {
 
     /// Adds the name of a curve, beside the highest of its points in the window that has room. Where `long` is empty, only
     /// screens write the name: figures have it in their legend.
-    pub fn name_curve(&mut self, curve: &[Point], long: Text, name: &str, role: Role) {
+    pub fn name_curve(&mut self, curve: &[Point], long: &str, name: &str, role: Role) {
         /// Points that are tried: more than a screen has rows.
         const PLACES: usize = 60;
         let mut points: Vec<Point> =
@@ -365,7 +365,8 @@ impl<'a> Picture<'a> {
         let step = points.len().div_ceil(PLACES).max(1);
         let mut places = points.into_iter().step_by(step);
         if let Some(at) = places.next().filter(|_| !name.is_empty()) {
-            let (or_at, short) = (places.collect(), name.to_owned().into());
+            let or_at = places.collect();
+            let [long, short] = [long, name].map(|text| text.to_owned().into());
             self.captions.push(Caption { at, or_at, long, short, role });
         }
     }

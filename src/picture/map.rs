@@ -47,12 +47,11 @@ pub fn with_unit(scanned: &ScanOnShow) -> String {
 /// What it means that there is no number at a point; `None` where there is one.
 pub fn nothing(scanned: &ScanOnShow, index: usize) -> Option<&'static str> {
     let row = scanned.rows.get(index)?;
-    let [.., nothing] = plotted(scanned);
-    match (scanned.height(index), &row.reason) {
-        (Some(_), _) => None,
-        (None, Some(_)) => Some("gave up"),
-        (None, None) => Some(nothing),
+    if scanned.height(index).is_some() {
+        return None;
     }
+    let [.., nothing] = plotted(scanned);
+    Some(if row.reason.is_some() { "gave up" } else { nothing })
 }
 
 /// The scale of a map: how dangerous a value is.

@@ -12,7 +12,7 @@ use crate::closed_form::lyapunov;
 use crate::fit::{FitResult, Signal};
 use crate::flow::{Motion, Outcome, Problem, Sample};
 use crate::model::{Field, HalfPlane, Parameters, Side};
-use crate::numerics::elementary::hypot;
+use crate::numerics::hypot;
 use crate::portrait::{Border, Cycle, Distribution, Drawing, RandomKick, Ride};
 use crate::question::Extent;
 use crate::scene::{Finding, Layer, Point, Topic, rectangle};
@@ -259,7 +259,7 @@ fn cycles(picture: &mut Picture, found: &Drawing, variant: &VariantTag, whole: b
         let (name, own) = if whole { kind(cycle) } else { (plain, variant.label.as_str()) };
         let points = Point::all(curve);
         let line = LineStyle::from(plain);
-        picture.name_curve(&points, own.to_owned().into(), own, line.role);
+        picture.name_curve(&points, own, own, line.role);
         // Of a machine the caption says of which kind it is.
         picture.curve(LineStyle { name: name.into(), ..line.briefly(plain) }.of(variant), points);
     }

@@ -136,8 +136,8 @@ fn rides(picture: &mut Picture, session: &Session, motion: &Motion) {
 fn force_at(force: &[(f64, f64)], tau: f64) -> Option<f64> {
     let after = force.partition_point(|(at, _)| *at <= tau);
     let (before, next) = (force.get(after.checked_sub(1)?)?, force.get(after));
-    let part = next.map_or(0.0, |next| (tau - before.0) / (next.0 - before.0));
-    Some(before.1 + part * next.map_or(0.0, |next| next.1 - before.1))
+    let rise = |next: &(f64, f64)| (tau - before.0) / (next.0 - before.0) * (next.1 - before.1);
+    Some(before.1 + next.map_or(0.0, rise))
 }
 
 /// A quantity at a moment of the motion.

@@ -5,8 +5,7 @@ use crate::fit::{FitResult, OMEGA0, row_of, rows};
 use crate::model::Knob;
 use crate::session::{Row, Session};
 use crate::words::fit::signed;
-use crate::words::motion::Notation;
-use crate::words::{in_unit, significant, with_unit};
+use crate::words::{Notation, in_unit, significant, with_unit};
 
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
 pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
@@ -62,7 +61,7 @@ pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
     let margin = if spread.lower.is_none() {
         "95 %: every kick".to_owned()
     } else {
-        let range = between(end(spread.lower), &end(spread.upper));
+        let range = between(&end(spread.lower), &end(spread.upper));
         let texts = ["95 % from rest: ", "95 %: rest ", "rest: "];
         pane::fitting(texts.map(|before| format!("{before}{range}")), width)
     };
@@ -109,18 +108,21 @@ fn shortened(text: &str, width: usize) -> String {
 }
 
 /// Two numbers, with one unit where both have the same.
-fn between(low: String, high: &str) -> String {
-    let unit = |text: &str| text.split_once(' ').map(|(_, unit)| unit.to_owned());
-    let low = match unit(high).and_then(|unit| low.strip_suffix(&unit)) {
-        Some(number) => number.trim_end().to_owned(),
-        None => low,
-    };
-    format!("{low} .. {high}")
+fn between(low: &str, high: &str) -> String {
+    let unit = high.find(' ').map_or("", |at| &high[at..]);
+    format!("{} .. {high}", low.strip_suffix(unit).unwrap_or(low))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_unit_that_both_ends_have_is_told_once() {
+        assert_eq!(between("0.1 m", "0.3 m"), "0.1 .. 0.3 m");
+        assert_eq!(between("20 mm", "0.3 m"), "20 mm .. 0.3 m");
+        assert_eq!(between("0.1 m", "any"), "0.1 m .. any");
+    }
 
     #[test]
     fn a_statement_is_shortened_to_a_screen_and_says_the_same() {

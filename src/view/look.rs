@@ -135,7 +135,7 @@ impl Look {
     /// The style of a place on a map: `part` grows from 0 to 1 with what is dangerous. Where there are colours
     /// enough its ground says it, and hides the letter that says it elsewhere.
     pub fn danger(&self, part: f64) -> Style {
-        let step = truncated(part.clamp(0.0, 1.0) * f64::from(STEPS));
+        let step = truncated(part * f64::from(STEPS));
         let ground = self.ramp.get(step.min(usize::from(STEPS) - 1));
         ground.copied().unwrap_or(self.style(Role::Danger))
     }

@@ -203,30 +203,21 @@ fn mark(session: &Session, plot: usize) -> Option<&'static str> {
     worst.max().flatten()
 }
 
-/// How many of the letters of a text stand before a mark that it continues, where it has `width` columns:
-/// all where it fits, and never a part of a word with digits, which could be taken for another number.
-fn kept(text: &str, width: usize, mark: usize) -> usize {
+/// A text that fits into `width` columns; where it is cut, it ends with a mark, and never with a part of a word with
+/// digits, which could be taken for another number.
+pub fn cut(text: &str, width: usize, look: &Look) -> String {
     let letters: Vec<char> = text.chars().collect();
     if letters.len() <= width {
-        return letters.len();
+        return text.to_owned();
     }
-    let room = width.saturating_sub(mark);
+    let mark = if width == 0 { "" } else { &look.symbols().more };
+    let room = width.saturating_sub(mark.chars().count());
     let blank = |letter: &char| letter.is_whitespace();
     let begin = letters[..room].iter().rposition(blank).map_or(0, |at| at + 1);
     let end = letters[room..].iter().position(blank).map_or(letters.len(), |at| room + at);
     let number = letters[begin..end].iter().any(char::is_ascii_digit);
-    if number && end > room { begin } else { room }
-}
-
-/// A text that fits into `width` columns; where it is cut, it ends with a mark, and numbers go whole.
-pub fn cut(text: &str, width: usize, look: &Look) -> String {
-    let mark = &look.symbols().more;
-    let kept = kept(text, width, mark.chars().count());
-    if kept == text.chars().count() {
-        return text.to_owned();
-    }
-    let mark = if width == 0 { "" } else { mark };
-    text.chars().take(kept).chain(mark.chars()).collect()
+    let kept = if number && end > room { begin } else { room };
+    letters[..kept].iter().copied().chain(mark.chars()).collect()
 }
 
 /// [`cut`] for a text in several styles.

@@ -15,8 +15,7 @@ use crate::picture::{Role, cycle_mark, cycle_name, cycle_role, units};
 use crate::portrait::{Border, Cycle, Drawing, compare};
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
-use crate::words::motion::Notation;
-use crate::words::{cycles as cycles_in_words, exact, fitting, significant, with_unit};
+use crate::words::{Notation, cycles as cycles_in_words, exact, fitting, significant, with_unit};
 
 /// Columns up to the end of the values.
 const VALUES: usize = 17;
@@ -111,7 +110,7 @@ fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'stati
     let tail = tail(session, row, width, look);
     // Two blanks before the value and, where there is room, two behind it.
     let end = VALUES.min(usize::from(width).saturating_sub(tail.chars().count()));
-    let room = (VALUES - 3).min(end.saturating_sub(3)).saturating_sub(name.len());
+    let room = end.saturating_sub(3 + name.len());
     let sign = &look.symbols().plus_minus;
     let text = |setup: &Setup| value(session, setup, row, room, sign);
     let (value, of_scene) = (text(&session.setup()), text(&Setup::of_scene(&session.scene)));

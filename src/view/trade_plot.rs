@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use super::pane::{FramedPicture, Heading};
 use super::{Look, Surface, plot::Canvas, screen};
 use crate::accuracy::Trade;
-use crate::numerics::elementary::log10;
+use crate::numerics::log10;
 use crate::picture::{Picture, Role};
 use crate::scene::{Point, Window};
 use crate::session::{Colors, DisplaySettings, Glyphs};

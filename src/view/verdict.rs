@@ -9,8 +9,8 @@ use crate::portrait::{Border, Cycle, Drawing, Portrait};
 use crate::scene::{Finding, Layer, Topic};
 use crate::session::fate::End;
 use crate::session::{BranchStop, Session};
-use crate::words::motion::{Notation, of_machine, sentence, swings};
-use crate::words::{joined, significant, stability};
+use crate::words::motion::{of_machine, sentence, swings};
+use crate::words::{Notation, joined, significant, stability};
 
 /// What became of the motion, in a sentence.
 pub fn outcome(session: &Session) -> (String, Role) {

@@ -20,7 +20,7 @@ pub use geometry::{point_at, rows, shown};
 
 use super::dots::{Covering, DotPen, DotPlace, Dots};
 use super::{Look, Surface, pane::FramedPicture};
-use crate::numerics::elementary::atan2;
+use crate::numerics::atan2;
 use crate::picture::{Dash, Role, Tick, Ticks};
 use crate::scene::{Point, Window};
 
@@ -211,7 +211,7 @@ impl<'a> Canvas<'a> {
                 if angle.is_finite() {
                     let eighth = (angle / std::f64::consts::FRAC_PI_4).round().rem_euclid(8.0);
                     let place = (column.into(), row.into());
-                    self.dots.texture(place, arrows[eighth as usize % 8], Role::Field);
+                    self.dots.texture(place, arrows[eighth as usize], Role::Field);
                 }
             }
         }
