@@ -27,10 +27,9 @@ pub fn graph(value: &dyn Fn(f64) -> Option<f64>, window: Window) -> Vec<Point> {
         (within(middle) - chord).abs() <= CHORD * window.y.width()
     };
     let mut points = vec![at(window.x.from())];
-    for interval in 1..=INTERVALS {
-        let end = at(window.x.at(f64::from(interval) / f64::from(INTERVALS)));
+    for x in window.x.evenly(INTERVALS).skip(1) {
         // The points to be reached, the next one last, each with the halvings that are left on the way to it.
-        let mut ahead = vec![(end, HALVINGS)];
+        let mut ahead = vec![(at(x), HALVINGS)];
         while let Some((to, halvings)) = ahead.pop() {
             let from = points[points.len() - 1];
             let halves = halvings > 0 && !(from.y.is_nan() && to.y.is_nan());

@@ -24,10 +24,9 @@ pub fn levels(picture: &mut Picture, parameters: &Parameters) {
 /// (17 to 19). Their ends are exact to rounding.
 fn falling(parameters: &Parameters, among: Span) -> Vec<(f64, f64)> {
     /// Velocities whose sign of V' is looked at; borders between them are bisected.
-    const VELOCITIES: u16 = 400;
+    const VELOCITIES: u32 = 400;
     let falls = |v: f64| energy_rate(parameters, v) <= 0.0;
-    let velocities = (0..=VELOCITIES).map(|index| f64::from(index) / f64::from(VELOCITIES));
-    let velocities: Vec<f64> = velocities.map(|part| among.at(part)).collect();
+    let velocities: Vec<f64> = among.evenly(VELOCITIES).collect();
     let border = |pair: &[f64]| {
         let (inside, outside) = match [falls(pair[0]), falls(pair[1])] {
             [true, false] => (pair[0], pair[1]),

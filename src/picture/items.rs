@@ -267,10 +267,8 @@ pub fn along(from: (f64, f64), to: (f64, f64), spacing: f64) -> impl Iterator<It
 /// Whether a graph is seen in a window.
 fn is_met(value: &Function, window: Window) -> bool {
     /// Places that are looked at.
-    const PLACES: u16 = 200;
-    (0..=PLACES)
-        .map(|place| window.x.at(f64::from(place) / f64::from(PLACES)))
-        .any(|x| value(x).is_some_and(|y| window.y.contains(y)))
+    const PLACES: u32 = 200;
+    window.x.evenly(PLACES).any(|x| value(x).is_some_and(|y| window.y.contains(y)))
 }
 
 impl<'a> Picture<'a> {

@@ -7,14 +7,17 @@ use crate::scene::{Layer, Span, View, Window};
 use crate::session::{Plot, Session};
 use crate::words::resolved;
 
-/// Names of an axis with the units that it can have, the largest first, and how many of them are one in SI units.
-type AxisUnits = [(&'static str, f64); 3];
+/// How many of the units that an axis can have are one in SI units, the largest unit first.
+const PER_SI: [f64; 3] = [1.0, 1e3, 1e6];
 
-const LENGTHS: AxisUnits = [("x [m]", 1.0), ("x [mm]", 1e3), ("x [um]", 1e6)];
+/// The names of an axis with these units.
+type AxisNames = [&'static str; 3];
 
-const VELOCITIES: AxisUnits = [("v [m/s]", 1.0), ("v [mm/s]", 1e3), ("v [um/s]", 1e6)];
+const LENGTHS: AxisNames = ["x [m]", "x [mm]", "x [um]"];
 
-const TIMES: AxisUnits = [("t [s]", 1.0), ("t [ms]", 1e3), ("t [us]", 1e6)];
+const VELOCITIES: AxisNames = ["v [m/s]", "v [mm/s]", "v [um/s]"];
+
+const TIMES: AxisNames = ["t [s]", "t [ms]", "t [us]"];
 
 /// The units of the machine or the record in which a session shows its axes.
 pub fn shown(session: &Session) -> Option<Physical> {
@@ -22,10 +25,10 @@ pub fn shown(session: &Session) -> Option<Physical> {
 }
 
 /// The scale in the largest unit of which the axis reaches one, when 1 on it is so much in SI units.
-fn scale(units: &AxisUnits, one: f64, span: Span) -> Scale {
+fn scale(names: AxisNames, one: f64, span: Span) -> Scale {
     let far = one * span.farthest();
-    let (name, per_si) = *units.iter().find(|(_, per_si)| far * per_si >= 1.0).unwrap_or(&units[2]);
-    Scale::Times { factor: one * per_si, name }
+    let unit = PER_SI.iter().position(|per_si| far * per_si >= 1.0).unwrap_or(2);
+    Scale::Times { factor: one * PER_SI[unit], name: names[unit] }
 }
 
 /// The axes of the plot with this index in the units of the machine; `None` where there is none, or where the plot
@@ -33,16 +36,16 @@ fn scale(units: &AxisUnits, one: f64, span: Span) -> Scale {
 pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
     let units = shown(session)?;
     let Plot { view, window: Window { x, y }, .. } = session.plots[index];
-    let length = |span| scale(&LENGTHS, units.displacement, span);
+    let length = |span| scale(LENGTHS, units.displacement, span);
     Some(match view {
-        View::Phase => [length(x), scale(&VELOCITIES, units.velocity, y)],
+        View::Phase => [length(x), scale(VELOCITIES, units.velocity, y)],
         View::Belt => [length(x), Scale::Even],
         View::TimeSeries => {
             // Curves of other quantities have no length.
             let others = [Layer::Velocity, Layer::Friction, Layer::Energy];
             let alone = !others.iter().any(|layer| session.layers.contains(layer));
             let upward = if alone { length(y) } else { Scale::Even };
-            [scale(&TIMES, units.time, x), upward]
+            [scale(TIMES, units.time, x), upward]
         }
         _ => return None,
     })

@@ -118,6 +118,11 @@ impl Span {
         self.from + fraction * self.width()
     }
 
+    /// The values that divide the span evenly into so many parts, at least one, both ends among them.
+    pub fn evenly(self, parts: u32) -> impl Iterator<Item = f64> {
+        (0..=parts).map(move |part| self.at(f64::from(part) / f64::from(parts.max(1))))
+    }
+
     /// The span `factor` times as wide, with `about` at the same fraction; unchanged if the result would be no
     /// valid span.
     pub fn scaled(self, about: f64, factor: f64) -> Self {

@@ -71,10 +71,8 @@ fn keys_of(session: &Session, row: PaletteRow, look: &Look) -> Vec<String> {
         return vec![format!(":{}", command.name)];
     }
     let place = session.place_of(row);
-    let places = session.keymap.places(command);
-    let here = places.into_iter().find(|(context, _)| Some(*context) == place);
-    let keys = here.map(|(_, keys)| keys).unwrap_or_default();
-    keys.into_iter().map(|key| look.key(key)).collect()
+    let keys = place.map(|context| session.keymap.keys_in(context, command));
+    keys.into_iter().flatten().map(|key| look.key(key)).collect()
 }
 
 /// The scenes in their groups, and what there is to see and to do in the selected one.

@@ -26,7 +26,7 @@ const FARTHER: f64 = 1.25;
 const FASTER: f64 = 1.6;
 
 /// Number of velocities at which the rate of the energy is computed to fit its window.
-const RATES: u8 = 64;
+const RATES: u32 = 64;
 
 /// Margin outside of the sticking set, as a fraction of its half width.
 const MARGIN: f64 = 0.2;
@@ -223,7 +223,7 @@ fn energy_rate(session: &Session) -> Option<Window> {
     let far = FASTER * if fastest > 0.0 { fastest } else { 1.0 };
     let x = Span::new(-far, far).ok()?;
     let rate = |v: f64| lyapunov::energy_rate(&parameters, v);
-    let parts = (0..=RATES).map(|part| rate(x.at(f64::from(part) / f64::from(RATES))));
+    let parts = x.evenly(RATES).map(rate);
     let y = Span::covering(parts.chain([0.0]))?;
     Some(Window { x, y: y.widened(ROOM) })
 }

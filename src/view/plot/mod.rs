@@ -46,14 +46,13 @@ impl<'a> Canvas<'a> {
         let Geometry { inner, roomy, rightward, mut upward } =
             Geometry::of(*area, window, scales, picture.upward.clone());
         let x = rightward.named(scales[0].title(&picture.x));
-        let axes = if picture.y.is_empty() {
-            if picture.upward.is_none() {
-                // Heights without meaning have no scale.
-                upward.ticks.clear();
-            }
-            x
-        } else {
-            format!("{} over {x}", upward.named(scales[1].title(&picture.y)))
+        if picture.y.is_empty() && picture.upward.is_none() {
+            // Heights without meaning have no scale.
+            upward.ticks.clear();
+        }
+        let axes = match &*picture.y {
+            "" => x,
+            y => format!("{} over {x}", upward.named(scales[1].title(y))),
         };
         screen.title(*area, &picture.title, &axes, heading);
         let dots = Dots::new(inner, look.glyphs);
@@ -139,12 +138,8 @@ impl<'a> Canvas<'a> {
     /// Draws `y(x)`, sampled once for each dot across; where there is no value there is no line.
     pub fn function(&mut self, role: Role, dash: Dash, value: impl Fn(f64) -> Option<f64>) {
         let across = self.dots.size().0 as u32;
-        let x = self.window.x;
-        let points: Vec<Point> = (0..=across)
-            .map(|dot| x.at(f64::from(dot) / f64::from(across.max(1))))
-            .map(|x| Point { x, y: value(x).unwrap_or(f64::NAN) })
-            .collect();
-        self.curve(points, role, dash);
+        let point = |x: f64| Point { x, y: value(x).unwrap_or(f64::NAN) };
+        self.curve(self.window.x.evenly(across).map(point), role, dash);
     }
 
     pub fn upright(&mut self, x: f64, role: Role, dash: Dash) {
