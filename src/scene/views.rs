@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-use super::window::{Span, Window};
+use super::window::Window;
 use crate::numerics::{cells, named};
 use crate::question::{TOPICS, Topic};
 
@@ -89,8 +89,7 @@ fn view(line: &'static str) -> Option<ViewSpec> {
     let [name, title, heading, needs, coordinates, window, meaning, nothing] = cells(line)?;
     let coordinates = coordinates.split_once(' ')?;
     let ends: Vec<f64> = window.split(' ').filter_map(|end| end.parse().ok()).collect();
-    let [left, right, low, high] = ends[..] else { return None };
-    let window = Window { x: Span::known(left, right), y: Span::known(low, high) };
+    let window = Window::of(ends.try_into().ok()?)?;
     let (view, needs) = (named(name)?, named(needs)?);
     Some(ViewSpec { view, name, title, heading, coordinates, window, meaning, needs, nothing })
 }

@@ -52,17 +52,10 @@ pub struct Machine {
 impl Machine {
     /// Its description.
     pub fn described(&self) -> Description {
-        Description {
-            name: self.name.clone(),
-            title: self.title.clone(),
-            watch: self.watch.clone(),
-            subject: Subject::moving(
-                (&self.belt).into(),
-                self.tolerances.clone(),
-                (self.displacement, self.velocity),
-                self.until,
-            ),
-        }
+        let Machine { name, title, watch, belt, tolerances, .. } = self.clone();
+        let start = (self.displacement, self.velocity);
+        let subject = Subject::moving((&belt).into(), tolerances, start, self.until);
+        Description { name, title, watch, subject }
     }
 }
 

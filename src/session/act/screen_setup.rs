@@ -2,7 +2,7 @@
 //! which pane has the focus. Each change but that of the focus can be undone.
 
 use crate::numerics::cycled;
-use crate::scene::{Arrangement, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
+use crate::scene::{Arrangement, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View, ViewSpec};
 use crate::session::{Done, EarlierState, Pane, Plot, Session, next_of};
 
 /// Replaces the plots and their arrangement.
@@ -56,8 +56,8 @@ pub fn show(session: &mut Session, view: View) {
         switch_on(session, view);
     }
     focus_on(session, Pane::Plot(index));
-    let spec = view.spec();
-    session.inform(format!("{}: {}", spec.title, spec.meaning));
+    let ViewSpec { title, meaning, .. } = view.spec();
+    session.inform(format!("{title}: {meaning}"));
 }
 
 /// Changes the view of the plot in use, unless the new one could show nothing: of a list, one knows that only
@@ -74,7 +74,7 @@ pub fn show_from_list(session: &mut Session, view: View) -> Done {
 pub fn next_view(session: &mut Session, by: isize) {
     let can: Vec<View> =
         VIEWS.iter().map(|row| row.view).filter(|view| session.lacks(*view).is_none()).collect();
-    let present = session.plots[session.plot].view;
+    let present = session.view_in_use();
     let before = can.iter().filter(|view| **view < present).count();
     // From a view that is not among them, the next one is the first behind it.
     let from = if can.get(before) == Some(&present) || by < 0 { by } else { by - 1 };
@@ -100,8 +100,8 @@ pub fn add(session: &mut Session) -> Done {
     switch_on(session, plot_setup.view);
     session.enlarged = false;
     focus_on(session, Pane::Plot(index + 1));
-    let spec = plot_setup.view.spec();
-    session.inform(format!("{} more: {}", spec.title, spec.meaning));
+    let ViewSpec { title, meaning, .. } = plot_setup.view.spec();
+    session.inform(format!("{title} more: {meaning}"));
     Ok(())
 }
 

@@ -161,12 +161,10 @@ impl Session {
         let mut shown = BTreeSet::new();
         for context in self.contexts() {
             for command in self.keymap.commands().filter(|command| !command.hint.is_empty()) {
-                let Some(key) = self.keymap.keys_in(*context, command).next() else { continue };
                 // A finished scan cannot be paused.
                 let over = command.name == "scan-pause" && self.scan_request().is_none();
-                if over || !shown.insert(command.name) {
-                    continue;
-                }
+                let key = self.keymap.keys_in(*context, command).next().filter(|_| !over);
+                let Some(key) = key.filter(|_| shown.insert(command.name)) else { continue };
                 match hints.iter_mut().find(|hint| hint.text == command.hint) {
                     Some(hint) => hint.keys.push(key),
                     None => hints.push(Hint { keys: vec![key], text: command.hint }),

@@ -306,17 +306,12 @@ fn keys(name: &str) -> Result<Instruction, String> {
     let counted = name.rsplit_once('*').filter(|(key, count)| {
         !key.is_empty() && !count.is_empty() && count.bytes().all(|byte| byte.is_ascii_digit())
     });
-    let (key, count) = match counted {
-        Some((key, digits)) => match digits.parse() {
-            Ok(count @ 1..=MOST) => (key, count),
-            _ => return Err(format!("a key is pressed 1 to {MOST} times, not {digits}")),
-        },
-        None => (name, 1),
+    let (name, digits) = counted.unwrap_or((name, "1"));
+    let Ok(count @ 1..=MOST) = digits.parse() else {
+        return Err(format!("a key is pressed 1 to {MOST} times, not {digits}"));
     };
-    match Key::named(key) {
-        Ok(key) => Ok(Instruction::Key { key, count }),
-        Err(unknown) => Err(nearest_directive(key).unwrap_or(unknown)),
-    }
+    let key = Key::named(name).map_err(|why| nearest_directive(name).unwrap_or(why))?;
+    Ok(Instruction::Key { key, count })
 }
 
 /// A suggestion if a misspelt directive is more likely than a misspelt key.
