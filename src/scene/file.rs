@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::machine::ScaledMachine;
-use super::mistake::{Complaint, FileMistake, built_in};
+use super::mistake::{Complaint, FileMistake, Result, built_in};
 use super::placed::Placed;
 use super::plot_setup::{Arrangement, Axes};
 use super::scene::Scene;
@@ -47,7 +47,7 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, FileMistake> {
 }
 
 /// The scene of a file. A machine sets its numbers itself.
-fn scene(mut read: Spanned<DeTable>) -> Result<Scene, Complaint> {
+fn scene(mut read: Spanned<DeTable>) -> Result<Scene> {
     static USUAL: LazyLock<String> = LazyLock::new(|| {
         let usual: &dyn erased_serde::Serialize = &UsualScene::default();
         toml::to_string(usual).expect("it is made of tables")

@@ -30,6 +30,9 @@ pub struct Complaint {
     pub message: String,
 }
 
+/// A value, or a complaint.
+pub type Result<T, E = Complaint> = std::result::Result<T, E>;
+
 impl serde::de::Error for Complaint {
     fn custom<T: Display>(message: T) -> Self {
         let message = message.to_string();

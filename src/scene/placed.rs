@@ -12,7 +12,7 @@ use serde_spanned::de::{SpannedDeserializer, is_spanned};
 use toml::Spanned;
 use toml::de::{DeArray, DeFloat, DeTable, DeValue};
 
-use super::mistake::{Complaint, FileMistake};
+use super::mistake::{Complaint, FileMistake, Result};
 
 /// Reads a TOML file. Fails with the first mistake as a [`FileMistake`].
 pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, FileMistake> {
@@ -32,11 +32,11 @@ impl<'de> From<Spanned<DeTable<'de>>> for Placed<'de> {
 
 impl<'de> Placed<'de> {
     /// What the value says. Fails with the first mistake, which is about this value where it has no narrower place.
-    pub fn read<T: Deserialize<'de>>(self) -> Result<T, Complaint> {
+    pub fn read<T: Deserialize<'de>>(self) -> Result<T> {
         self.seeded(PhantomData)
     }
 
-    fn seeded<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Complaint> {
+    fn seeded<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value> {
         let at = self.0.span();
         seed.deserialize(self).map_err(|complaint| complaint.or_at(at))
     }
@@ -60,16 +60,13 @@ fn entries(table: DeTable<'_>) -> impl MapAccess<'_, Error = Complaint> {
 impl<'de, I: Iterator<Item = (Placed<'de>, Placed<'de>)>> MapAccess<'de> for Entries<'de, I> {
     type Error = Complaint;
 
-    fn next_key_seed<S: DeserializeSeed<'de>>(
-        &mut self,
-        seed: S,
-    ) -> Result<Option<S::Value>, Complaint> {
+    fn next_key_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>> {
         let Some((name, value)) = self.left.next() else { return Ok(None) };
         self.value = Some(value);
         name.seeded(seed).map(Some)
     }
 
-    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Complaint> {
+    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value> {
         let value = self.value.take().ok_or_else(|| Complaint::custom("a value without a name"));
         value.and_then(|value| value.seeded(seed))
     }
@@ -81,15 +78,12 @@ struct Elements<'de>(<DeArray<'de> as IntoIterator>::IntoIter);
 impl<'de> SeqAccess<'de> for Elements<'de> {
     type Error = Complaint;
 
-    fn next_element_seed<S: DeserializeSeed<'de>>(
-        &mut self,
-        seed: S,
-    ) -> Result<Option<S::Value>, Complaint> {
+    fn next_element_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>> {
         self.0.next().map(|value| Placed(value).seeded(seed)).transpose()
     }
 }
 
-fn float(digits: &DeFloat) -> Result<f64, Complaint> {
+fn float(digits: &DeFloat) -> Result<f64> {
     let value = digits.as_str().parse().map_err(Complaint::custom)?;
     // Infinity that is not written as `inf` is an overflow.
     if f64::is_infinite(value) && !digits.as_str().ends_with("inf") {
@@ -101,7 +95,7 @@ fn float(digits: &DeFloat) -> Result<f64, Complaint> {
 impl<'de> Deserializer<'de> for Placed<'de> {
     type Error = Complaint;
 
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Complaint> {
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
         match self.0.into_inner() {
             DeValue::String(text) => visitor.visit_str(&text),
             DeValue::Integer(digits) => {
@@ -122,7 +116,7 @@ impl<'de> Deserializer<'de> for Placed<'de> {
         }
     }
 
-    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Complaint> {
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
         visitor.visit_some(self)
     }
 
@@ -130,7 +124,7 @@ impl<'de> Deserializer<'de> for Placed<'de> {
         self,
         _: &'static str,
         visitor: V,
-    ) -> Result<V::Value, Complaint> {
+    ) -> Result<V::Value> {
         visitor.visit_newtype_struct(self)
     }
 
@@ -139,7 +133,7 @@ impl<'de> Deserializer<'de> for Placed<'de> {
         name: &'static str,
         _: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value, Complaint> {
+    ) -> Result<V::Value> {
         let at = self.0.span();
         if is_spanned(name) {
             return visitor.visit_map(SpannedDeserializer::new(self, at));
@@ -153,7 +147,7 @@ impl<'de> Deserializer<'de> for Placed<'de> {
         _: &'static str,
         _: &'static [&'static str],
         visitor: V,
-    ) -> Result<V::Value, Complaint> {
+    ) -> Result<V::Value> {
         match self.0.into_inner() {
             DeValue::String(name) => visitor.visit_enum(name.into_deserializer()),
             DeValue::Table(table) if table.len() == 1 => {

@@ -36,7 +36,7 @@ pub enum Msg {
         path: PathBuf,
         purpose: Purpose,
         /// Its text, or one line that says why there is none.
-        result: Result<String, String>,
+        result: Done<String>,
     },
     /// Time that has passed since the last such message, or since the motion began to play; none where only what follows from
     /// the state is to be found.
@@ -83,8 +83,8 @@ pub struct Notice {
     pub text: String,
 }
 
-impl From<Result<String, String>> for Notice {
-    fn from(told: Result<String, String>) -> Self {
+impl From<Done<String>> for Notice {
+    fn from(told: Done<String>) -> Self {
         let error = told.is_err();
         Notice { error, text: told.unwrap_or_else(|why| why) }
     }
@@ -119,8 +119,8 @@ pub enum PointerTarget {
     Plot(usize, Point),
 }
 
-/// Nothing, or one line that says why a command was refused.
-pub type Done = Result<(), String>;
+/// Nothing or a value, or one line that says why there is none.
+pub type Done<T = ()> = Result<T, String>;
 
 /// An effect for the outer rings; `update` itself touches nothing outside the session.
 #[derive(Clone, Debug, PartialEq)]

@@ -24,8 +24,8 @@ use crate::session::act::history::{restore, snapshot};
 use crate::session::act::screen_setup::focus_on;
 use crate::session::read::completion::difference;
 use crate::session::{
-    Bookmark, Bookmarks, DisplaySettings, EarlierState, History, Instruction, MOST_HARMONICS, Msg,
-    NamedValue, Overlay, Pane, Plot, Prompt, Row, Session, Setup, Snapshot, Uncertainty,
+    Bookmark, Bookmarks, DisplaySettings, Done, EarlierState, History, Instruction, MOST_HARMONICS,
+    Msg, NamedValue, Overlay, Pane, Plot, Prompt, Row, Session, Setup, Snapshot, Uncertainty,
     check_number,
 };
 use crate::words::counted;
@@ -85,7 +85,7 @@ struct SavedSession {
 }
 
 /// The session as the text of a file. Fails with one line if the text cannot be made; no such session is known.
-pub fn text(session: &Session) -> Result<String, String> {
+pub fn text(session: &Session) -> Done<String> {
     let left = session.marks.left.clone().map(|mark| mark.setup);
     let file = SavedSession {
         hopfscope: VERSION,
@@ -124,7 +124,7 @@ fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<
 
 /// Changes a session to that of a file. Appearance, keys and size stay, and so do answers that fit. Fails with
 /// one line that says what is wrong; the session is then unchanged.
-pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
+pub fn open(session: &mut Session, text: &str) -> Done {
     let mut file = read(text)?;
     let SavedSession { focus, plot, harmonics, .. } = file;
     let count = file.plots.len();
@@ -177,7 +177,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
 
 /// A summary of a saved session in one line: its scene, what was changed, and how often. Fails with one line
 /// that says what is wrong.
-pub fn summary(text: &str) -> Result<String, String> {
+pub fn summary(text: &str) -> Done<String> {
     let file = read(text)?;
     let Snapshot { scene, setup, .. } = file.present;
     let marks = match file.marks.len() {
@@ -191,7 +191,7 @@ pub fn summary(text: &str) -> Result<String, String> {
 
 /// Reads the file, if its format is known; its marks are examined where they are used. Fails with one line that says
 /// what is wrong.
-fn read(text: &str) -> Result<SavedSession, String> {
+fn read(text: &str) -> Done<SavedSession> {
     #[derive(Deserialize)]
     struct Head {
         hopfscope: Option<u32>,
@@ -227,7 +227,7 @@ const CARRIED: &str = "start.toml";
 
 /// The steps that lead to this session, which must have nothing open. Fails with one line if the session cannot
 /// be saved; no such session is known.
-pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
+pub fn opening(session: &Session) -> Done<Vec<Instruction>> {
     let mut steps = display_lines(session.display);
     let saved = text(session)?;
     let is_new = text(&Session::new(session.scene.clone(), session.size))? == saved;

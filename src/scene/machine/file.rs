@@ -19,7 +19,7 @@ use crate::model::{
     Belt, Body, FrictionLaw, Group, Knob, KnobSpec, Mode, Source, Tolerances, quantity, unknown,
 };
 use crate::numerics::{SmoothingSpline, shortest};
-use crate::scene::mistake::{Complaint, FileMistake};
+use crate::scene::mistake::{Complaint, FileMistake, Result};
 use crate::scene::placed::Placed;
 
 /// Maximum number of points of a table.
@@ -36,18 +36,18 @@ struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// What stands under a name.
-    fn get<T: DeserializeOwned>(&self, name: &str) -> Result<Option<Spanned<T>>, Complaint> {
+    fn get<T: DeserializeOwned>(&self, name: &str) -> Result<Option<Spanned<T>>> {
         let Some(given) = self.entries.get(name) else { return Ok(None) };
         Ok(Some(Spanned::new(given.span(), Placed(given.clone()).read()?)))
     }
 
     /// The text under a name, or an empty one.
-    fn text(&self, name: &str) -> Result<String, Complaint> {
+    fn text(&self, name: &str) -> Result<String> {
         Ok(self.get(name)?.map(Spanned::into_inner).unwrap_or_default())
     }
 
     /// The table under a name.
-    fn section(&self, name: &str) -> Result<Option<Section<'a>>, Complaint> {
+    fn section(&self, name: &str) -> Result<Option<Section<'a>>> {
         let Some(given) = self.entries.get(name) else { return Ok(None) };
         let (at, found) = (given.span(), given.get_ref());
         if let Some(entries) = found.as_table() {
@@ -58,7 +58,7 @@ impl<'a> Section<'a> {
     }
 
     /// Fails at a name that is not among these.
-    fn has_only(&self, known: &[&str]) -> Result<(), Complaint> {
+    fn has_only(&self, known: &[&str]) -> Result<()> {
         let mut names = self.entries.keys();
         let stray = names.find(|name| !known.contains(&name.get_ref().as_ref()));
         stray.map_or(Ok(()), |name| {
@@ -134,7 +134,7 @@ struct MachineReader<'a> {
 }
 
 impl MachineReader<'_> {
-    fn described(mut self, name: &str, read: &Section) -> Result<Description, Complaint> {
+    fn described(mut self, name: &str, read: &Section) -> Result<Description> {
         /// Periods of the free oscillation for which a motion is followed where nothing is said.
         const PERIODS: f64 = 20.0;
         let numbers = numbers(self.is_mode);
@@ -179,7 +179,7 @@ impl MachineReader<'_> {
 
     /// The value of a number. Those of a mass on a belt may have a tolerance; the guaranteed margins of a mode are not
     /// computed.
-    fn read(&mut self, knob: Knob, given: &Spanned<Number>) -> Result<f64, Complaint> {
+    fn read(&mut self, knob: Knob, given: &Spanned<Number>) -> Result<f64> {
         let may_differ = !self.is_mode && knob.is_of_machine();
         let read = match given.get_ref() {
             Number::Plain(value) => knob.check(*value).map_err(String::from),
@@ -195,7 +195,7 @@ impl MachineReader<'_> {
     }
 
     /// A number of a table of the file, or its default.
-    fn number(&mut self, section: &Section, knob: Knob) -> Result<f64, Complaint> {
+    fn number(&mut self, section: &Section, knob: Knob) -> Result<f64> {
         let KnobSpec { name, meaning, default, .. } = *knob.spec();
         if let Some(given) = section.get(name)? {
             return self.read(knob, &given);
@@ -206,7 +206,7 @@ impl MachineReader<'_> {
 
     /// The coefficients of a polynomial in the velocity, the constant one first; each is read as the number of its `name`
     /// and power, or by its unit where the table of numbers ends.
-    fn polynomial(&mut self, name: &str, given: &[Spanned<Number>]) -> Result<Vec<f64>, Complaint> {
+    fn polynomial(&mut self, name: &str, given: &[Spanned<Number>]) -> Result<Vec<f64>> {
         let coefficient = |(power, given): (usize, &Spanned<Number>)| {
             if let Ok(knob) = Knob::named(&format!("{name}{power}"), Group::SOURCE) {
                 return self.read(knob, given);
@@ -218,7 +218,7 @@ impl MachineReader<'_> {
     }
 
     /// A mass on a belt with its friction and no other numbers yet, and the place of the friction in the file.
-    fn belt(&mut self, read: &Section) -> Result<(Body, Range<usize>), Complaint> {
+    fn belt(&mut self, read: &Section) -> Result<(Body, Range<usize>)> {
         let friction = read.section("friction")?;
         let friction = friction.ok_or_else(|| lacks("friction is missing"))?;
         let read = |given| self.read(Knob::StaticCoefficient, &given);
@@ -229,7 +229,7 @@ impl MachineReader<'_> {
     }
 
     /// A mode with its damping ratio and no other numbers yet, and the place of the ratio in the file.
-    fn mode(&mut self, read: &Section) -> Result<(Body, Range<usize>), Complaint> {
+    fn mode(&mut self, read: &Section) -> Result<(Body, Range<usize>)> {
         let ratio = read.get::<Vec<_>>("damping_ratio")?;
         let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing"))?;
         let damping_ratio = self.polynomial("ratio", ratio.get_ref())?;
@@ -237,7 +237,7 @@ impl MachineReader<'_> {
     }
 
     /// Gives a mass its friction law: the one table beside the coefficient of static friction.
-    fn set_law(&mut self, belt: &mut Belt, friction: &Section) -> Result<(), Complaint> {
+    fn set_law(&mut self, belt: &mut Belt, friction: &Section) -> Result<()> {
         friction.has_only(&[&["static"], &FrictionLaw::NAMES[..]].concat())?;
         let unfit =
             |message: &str| Complaint { at: friction.at.clone(), message: message.to_owned() };
@@ -248,27 +248,27 @@ impl MachineReader<'_> {
             unfit(&format!("friction takes one law: {} or {last}", others.join(", ")))
         };
         let (Some(name), None) = (other(), other()) else { return Err(one_of()) };
-        let Some(given) = friction.section(name)? else { return Err(unfit("no law")) };
-        belt.law = match (FrictionLaw::blank(name), name) {
-            (Some(blank), _) => {
-                belt.law = blank;
-                let own = |knob: &Knob| !AT_REST.contains(knob) && knob.of_belt(belt).is_some();
-                let numbers: Vec<Knob> = Group::Law.knobs().filter(own).collect();
-                given.has_only(&numbers.iter().map(|knob| knob.spec().name).collect::<Vec<_>>())?;
-                for knob in numbers {
-                    knob.set_in_belt(belt, self.number(&given, knob)?).map_err(lacks)?;
-                }
-                return Ok(());
+        let given = friction.section(name)?.ok_or_else(one_of)?;
+        if let Some(blank) = FrictionLaw::blank(name) {
+            belt.law = blank;
+            let own = |knob: &Knob| !AT_REST.contains(knob) && knob.of_belt(belt).is_some();
+            let numbers: Vec<Knob> = Group::Law.knobs().filter(own).collect();
+            given.has_only(&numbers.iter().map(|knob| knob.spec().name).collect::<Vec<_>>())?;
+            for knob in numbers {
+                knob.set_in_belt(belt, self.number(&given, knob)?).map_err(lacks)?;
             }
-            (None, "polynomial") => {
+            return Ok(());
+        }
+        belt.law = match name {
+            "polynomial" => {
                 given.has_only(&["coefficients"])?;
                 let listed = given.get::<Vec<_>>("coefficients")?;
                 let listed = listed.ok_or_else(|| unfit("coefficients = [..] is missing"))?;
                 FrictionLaw::Polynomial { coefficients: self.polynomial("mu", listed.get_ref())? }
             }
-            (None, "table") => self.spline(&given, unfit)?,
+            "table" => self.spline(&given, unfit)?,
             // A law that has a name but is not read here must not pass for another one.
-            (None, _) => return Err(one_of()),
+            _ => return Err(one_of()),
         };
         Ok(())
     }
@@ -277,7 +277,7 @@ impl MachineReader<'_> {
         &mut self,
         law: &Section,
         unfit: impl FnOnce(&str) -> Complaint,
-    ) -> Result<FrictionLaw, Complaint> {
+    ) -> Result<FrictionLaw> {
         law.has_only(&["file", "points", "scatter"])?;
         let scatter = self.number(law, Knob::Scatter)?;
         let (at, points) = match (law.get::<String>("file")?, law.get("points")?) {
@@ -302,7 +302,7 @@ impl MachineReader<'_> {
 }
 
 /// The points that are listed in the machine file itself.
-fn listed(points: &Spanned<Vec<(Number, Number)>>) -> Result<Vec<(f64, f64)>, Complaint> {
+fn listed(points: &Spanned<Vec<(Number, Number)>>) -> Result<Vec<(f64, f64)>> {
     let read = |(v, mu): &(Number, Number)| Ok((v.in_unit("m/s")?, mu.in_unit("")?));
     let point = |(index, point): (usize, &(Number, Number))| {
         let message = |why: String| format!("point {index}: {why}");

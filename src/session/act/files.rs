@@ -60,12 +60,7 @@ pub fn offer_figure(session: &mut Session) {
 }
 
 /// Takes a file in, or says what is wrong with it and changes nothing.
-pub fn read(
-    session: &mut Session,
-    path: &Path,
-    purpose: Purpose,
-    result: Result<String, String>,
-) -> Done {
+pub fn read(session: &mut Session, path: &Path, purpose: Purpose, result: Done<String>) -> Done {
     if let Purpose::Table { path: of, machine } = purpose {
         return open_machine(session, &of, machine, Some(&result));
     }
@@ -107,7 +102,7 @@ fn open_machine(
     session: &mut Session,
     path: &Path,
     text: String,
-    table: Option<&Result<String, String>>,
+    table: Option<&Done<String>>,
 ) -> Done {
     let file = path.display().to_string();
     let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();

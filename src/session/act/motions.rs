@@ -75,7 +75,7 @@ fn edge(found: &Drawing) -> Option<(f64, f64)> {
     Some(((displacement - found.parameters.r).max(0.0), 1.0_f64.copysign(found.parameters.d2)))
 }
 
-fn beside(session: &Session, factor: f64) -> Result<f64, String> {
+fn beside(session: &Session, factor: f64) -> Done<f64> {
     if let Some(why) = session.failure(Topic::Cycles, session.plot) {
         return Err(format!("the cycles are not known: {why}"));
     }

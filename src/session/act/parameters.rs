@@ -225,7 +225,7 @@ pub fn begin(session: &mut Session, key: Key) {
 }
 
 /// The setup with the typed value in a row. Fails with one line that says what is allowed.
-pub fn read(session: &Session, setup: &Setup, row: Row, text: &str) -> Result<Setup, String> {
+pub fn read(session: &Session, setup: &Setup, row: Row, text: &str) -> Done<Setup> {
     let text = text.trim();
     let problem = match row {
         Row::Number(knob @ Knob::Disturbance) => {
@@ -252,7 +252,7 @@ pub fn read(session: &Session, setup: &Setup, row: Row, text: &str) -> Result<Se
 
 /// The setup with the typed number. A parameter, and a number of the machine to which one corresponds, may have
 /// a tolerance; without one, it is known exactly.
-fn number(session: &Session, setup: &Setup, knob: Knob, text: &str) -> Result<Setup, String> {
+fn number(session: &Session, setup: &Setup, knob: Knob, text: &str) -> Done<Setup> {
     let read = knob.parse_toleranced(text)?;
     let mut changed = session.with(setup, knob, read.middle.value)?;
     let half = read.half_width;

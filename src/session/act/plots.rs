@@ -140,7 +140,7 @@ pub fn home(session: &mut Session) {
 }
 
 /// The cursor of the plot in focus. Fails with a line on how to get one.
-fn cursor(session: &Session) -> Result<Point, String> {
+fn cursor(session: &Session) -> Done<Point> {
     let text = "no cursor yet: {cursor-left}, {cursor-up} and so on show it";
     let cursor = session.focused().and_then(|plot| plot.cursor);
     cursor.ok_or_else(|| session.with_keys(text))

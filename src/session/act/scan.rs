@@ -99,7 +99,7 @@ pub fn stop(session: &mut Session) {
 }
 
 /// The scan on show. Fails with one line if there is none.
-fn scanned(session: &mut Session) -> Result<&mut ScanOnShow, String> {
+fn scanned(session: &mut Session) -> Done<&mut ScanOnShow> {
     session.scanned.as_mut().ok_or_else(|| "there is no scan".to_owned())
 }
 

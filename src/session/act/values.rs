@@ -12,7 +12,7 @@ use crate::session::{Done, Framing, MOST_HARMONICS, Pane, Plot, Row, Session};
 use crate::words::one_of;
 
 /// The row of the parameter pane with this name.
-fn row_named(session: &Session, name: &str) -> Result<Row, String> {
+fn row_named(session: &Session, name: &str) -> Done<Row> {
     // The command that sets only this row has that name.
     let name = if name == "tol" { Row::Tolerance.name() } else { name };
     let found = rows(session).find(|row| row.name() == name);
@@ -143,13 +143,13 @@ pub fn kicks(session: &mut Session, rest: &str) -> Done {
 }
 
 /// The letter of a mark.
-pub fn letter(text: &str) -> Result<char, String> {
+pub fn letter(text: &str) -> Done<char> {
     let letter = text.parse().ok().filter(char::is_ascii_lowercase);
     letter.ok_or_else(|| format!("{text:?} is not a letter from a to z"))
 }
 
 /// Whether a setting is to be on. Fails with one line if that is not said.
-pub fn is_on(what: &str, state: &str) -> Result<bool, String> {
+pub fn is_on(what: &str, state: &str) -> Done<bool> {
     match state {
         "on" => Ok(true),
         "off" => Ok(false),

@@ -10,7 +10,7 @@ use crate::model::{Belt, Body, Knob, Parameters, Source, Units};
 use crate::portrait::Margin;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Layer, ScaledMachine, Setting, Topic, View};
-use crate::session::{ON_A_MACHINE, Session, Setup};
+use crate::session::{Done, ON_A_MACHINE, Session, Setup};
 
 /// The margins of a machine, without units.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ impl Session {
 
     /// The unit of r and w, in newtons. Fails with one line if there is no machine and no record with a known
     /// mass.
-    pub(crate) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
+    pub(crate) fn unit_of_force(&self, setup: &Setup) -> Done<f64> {
         match self.fitted().and_then(FitResult::units) {
             Some(units) if units.force.is_finite() => Ok(units.force),
             Some(_) => {
@@ -102,7 +102,7 @@ impl Session {
 
     /// The machine of the scene with the setting of `setup`. Fails with one line if the scene has no machine, or is
     /// none with that setting.
-    pub(crate) fn machine_of(&self, setup: &Setup) -> Result<ScaledMachine, String> {
+    pub(crate) fn machine_of(&self, setup: &Setup) -> Done<ScaledMachine> {
         let scaled = self.scene.machine.as_ref().ok_or("the scene has no machine")?;
         match &setup.setting {
             Some(setting) => setting.on(&scaled.machine),
@@ -112,7 +112,7 @@ impl Session {
 
     /// The setup with another value of a number; one of the machine leaves the start in metres and the
     /// disturbance in newtons. Fails with one line if the number is outside its range, or there is no machine.
-    pub(crate) fn with(&self, setup: &Setup, knob: Knob, value: f64) -> Result<Setup, String> {
+    pub(crate) fn with(&self, setup: &Setup, knob: Knob, value: f64) -> Done<Setup> {
         let value = knob.check(value)?;
         let mut changed = setup.clone();
         match knob {
@@ -123,7 +123,7 @@ impl Session {
         Ok(changed)
     }
 
-    fn rebuilt(&self, setup: &Setup, knob: Knob, value: f64) -> Result<Setup, String> {
+    fn rebuilt(&self, setup: &Setup, knob: Knob, value: f64) -> Done<Setup> {
         let from = self.machine_of(setup)?;
         let mut setup = setup.clone();
         let own = || Setting::of_speed(from.machine.belt.belt_speed);

@@ -9,7 +9,7 @@ use crate::model::{Group, Knob};
 use crate::numerics::most_similar;
 use crate::scene::Point;
 use crate::session::Instruction::Give;
-use crate::session::{Code, Gesture, Key, MouseAction, Msg, PointerTarget, key};
+use crate::session::{Code, Done, Gesture, Key, MouseAction, Msg, PointerTarget, key};
 use crate::words::{joined, printable};
 
 /// Longest time in a single step, in s.
@@ -274,7 +274,7 @@ fn length_of_name(text: &str) -> usize {
     text.len()
 }
 
-fn step(token: &str) -> Result<Instruction, String> {
+fn step(token: &str) -> Done<Instruction> {
     /// Longest part of a directive that is repeated where it is refused; it may hold a whole file.
     const REPEATED: usize = 60;
     if !token.starts_with('<') {
@@ -302,7 +302,7 @@ fn elapse(text: &str) -> Option<Instruction> {
 }
 
 /// A key with an optional count: `right`, `right*5`, `*`, `**5`.
-fn keys(name: &str) -> Result<Instruction, String> {
+fn keys(name: &str) -> Done<Instruction> {
     let counted = name.rsplit_once('*').filter(|(key, count)| {
         !key.is_empty() && !count.is_empty() && count.bytes().all(|byte| byte.is_ascii_digit())
     });

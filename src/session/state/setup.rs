@@ -127,7 +127,7 @@ impl Uncertainty {
     }
 
     /// This doubt with another half width of a parameter. Fails with one line if `symbol` is none.
-    pub fn with_half_width(mut self, symbol: Knob, half: f64) -> Result<Self, String> {
+    pub fn with_half_width(mut self, symbol: Knob, half: f64) -> Done<Self> {
         if !symbol.is_parameter() {
             return Err(format!("{symbol} has no half width; only D, D2, D3 and r have one"));
         }
@@ -155,7 +155,7 @@ impl Uncertainty {
 
     /// The tolerances of the machine on show that correspond to this; those of its other numbers are from its
     /// file. Fails with one line if D2, which no single part of the machine determines, has a half width.
-    pub fn on_machine(&self, scaled: &ScaledMachine, belt: &Belt) -> Result<Tolerances, String> {
+    pub fn on_machine(&self, scaled: &ScaledMachine, belt: &Belt) -> Done<Tolerances> {
         if self.half_width(Knob::D2) > 0.0 {
             return Err("no part of the machine sets D2 alone: it has no half width".to_owned());
         }
