@@ -125,9 +125,8 @@ pub fn dial(session: &mut Session, finer: bool) -> Done {
         format!("the accuracy is at its {end}, {name}")
     })?;
     change(session, session.problem.at(quality));
-    let (knob, setting) = (Row::Tolerance.knob_in(&session.problem), session.problem.setting());
-    let (name, meaning) = (quality.name, quality.meaning);
-    session.inform(format!("{name}: {knob} {}; {meaning}", shortest(setting)));
+    let (knob, setting) = (session.problem.method.dial(), shortest(session.problem.setting()));
+    session.inform(format!("{}: {knob} {setting}; {}", quality.name, quality.meaning));
     Ok(())
 }
 

@@ -45,12 +45,11 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
 
 /// Moves the cursor of the plot in focus; the first move shows it.
 pub fn move_cursor(session: &mut Session, [right, up]: [i32; 2]) {
-    if let Some(plot) = session.focused() {
-        let Point { x, y } = plot.cursor.unwrap_or_else(|| cursor_origin(session, plot));
-        let Window { x: across, y: along } = plot.window;
-        let cursor = Point { x: moved(across, x, right), y: moved(along, y, up) };
-        session.plots[session.plot].cursor = Some(cursor);
-    }
+    let plot = &session.plots[session.plot];
+    let Point { x, y } = plot.cursor.unwrap_or_else(|| cursor_origin(session, plot));
+    let Window { x: across, y: along } = plot.window;
+    let cursor = Point { x: moved(across, x, right), y: moved(along, y, up) };
+    session.plots[session.plot].cursor = Some(cursor);
 }
 
 /// A coordinate moved by some steps to a round number, within the window.
@@ -85,21 +84,22 @@ pub fn drop_cursor(session: &mut Session) {
         history::stop_fitting(session);
     } else if session.focuses_scan() {
         scan::stop(session);
-    } else if let Some(plot) = session.focused_mut() {
-        plot.cursor = None;
+    } else if session.focused().is_some() {
+        session.plots[session.plot].cursor = None;
     }
 }
 
 /// Zooms the plot in focus about its cursor, or about its center.
 pub fn zoom(session: &mut Session, closer: bool) {
-    zoom_about(session, |plot| plot.cursor.unwrap_or(plot.window.center()), closer);
+    zoom_about(session, None, closer);
 }
 
-/// Zooms the plot in focus about a point.
-pub fn zoom_about(session: &mut Session, about: impl FnOnce(&Plot) -> Point, closer: bool) {
+/// Zooms the plot in focus about a point, unless about its cursor or its center.
+pub fn zoom_about(session: &mut Session, point: Option<Point>, closer: bool) {
     let factor = if closer { 1.0 / ZOOM } else { ZOOM };
     frame(session, |plot| {
-        let (Window { x, y }, about) = (plot.window, about(plot));
+        let Window { x, y } = plot.window;
+        let about = point.or(plot.cursor).unwrap_or(plot.window.center());
         Window { x: x.scaled(about.x, factor), y: y.scaled(about.y, factor) }
     });
 }
@@ -114,26 +114,22 @@ pub fn pan(session: &mut Session, [right, up]: [i32; 2]) {
 
 /// Gives the plot in focus a window chosen by the user.
 fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) {
-    let framed = session.focused_mut().map(|plot| {
-        let (before, after) = (plot.window, window(plot));
-        (plot.window, plot.framing) = (after, Framing::User);
-        before != after
-    });
-    if framed == Some(false) {
+    let plot = &mut session.plots[session.plot];
+    let after = window(plot);
+    plot.framing = Framing::User;
+    if std::mem::replace(&mut plot.window, after) == after {
         session.refuse("the window ends here: numbers closer or farther cannot be told apart");
     }
 }
 
 /// Fits the window of the plot in focus as soon as its content is computed.
 pub fn fit(session: &mut Session) {
-    if let Some(plot) = session.focused_mut() {
-        plot.framing = Framing::Fitting;
-    }
+    session.plots[session.plot].framing = Framing::Fitting;
 }
 
 /// Resets the plot in focus to the scene's window and axes.
 pub fn home(session: &mut Session) {
-    let Some(&Plot { view, axes, cursor, .. }) = session.focused() else { return };
+    let Plot { view, axes, cursor, .. } = session.plots[session.plot];
     let of_scene = session.plot_of_scene(session.plot, view);
     let opened = Plot::opened(&of_scene.unwrap_or(PlotSetup::fitting(view, axes)));
     session.plots[session.plot] = Plot { cursor, ..opened };
@@ -197,7 +193,7 @@ pub fn jump_here(session: &mut Session) -> Done {
 /// Draws the diagram or the chart in focus over the next number to the right or upwards, cycling; both axes of a chart
 /// always differ.
 pub fn next_abscissa(session: &mut Session, upwards: bool) {
-    let Some(&Plot { view, axes, .. }) = session.focused() else { return };
+    let Plot { view, axes, .. } = session.plots[session.plot];
     let (right, against) = (axes.right(view), axes.against);
     let (present, other) = if upwards { (against, right) } else { (right, against) };
     let chart = view == View::Regimes;
@@ -221,7 +217,7 @@ pub fn next_abscissa(session: &mut Session, upwards: bool) {
 /// Gives the diagram in focus these axes: in the scene's window if they are the scene's, otherwise in one that is
 /// fitted to the branch.
 pub fn set_axes(session: &mut Session, axes: Axes) {
-    let Some(&Plot { view, window, axes: present, .. }) = session.focused() else { return };
+    let Plot { view, window, axes: present, .. } = session.plots[session.plot];
     let knob = axes.right(view);
     let of_scene = session.plot_of_scene(session.plot, view);
     let x = match of_scene {
@@ -240,9 +236,9 @@ pub fn set_axes(session: &mut Session, axes: Axes) {
 
 /// Shows the next property of the cycles, cycling; the branch stays.
 pub fn next_ordinate(session: &mut Session) {
-    let Some(plot) = session.focused() else { return };
-    let row = &ORDINATES[(plot.axes.ordinate as usize + 1) % ORDINATES.len()];
-    let axes = Axes { ordinate: row.ordinate, ..plot.axes };
+    let Plot { axes, .. } = session.plots[session.plot];
+    let row = &ORDINATES[(axes.ordinate as usize + 1) % ORDINATES.len()];
+    let axes = Axes { ordinate: row.ordinate, ..axes };
     set_axes(session, axes);
     session.inform(format!("{}: {}", axes.label(), row.meaning));
 }
@@ -291,8 +287,8 @@ pub fn pointed(session: &mut Session, MouseAction { gesture, place }: MouseActio
             focus_on(session, Pane::Plot(index));
             match gesture {
                 Gesture::Click => return point_at(session, point),
-                Gesture::Nearer => zoom_about(session, |_| point, true),
-                Gesture::Farther => zoom_about(session, |_| point, false),
+                Gesture::Nearer => zoom_about(session, Some(point), true),
+                Gesture::Farther => zoom_about(session, Some(point), false),
             }
         }
         _ => {}

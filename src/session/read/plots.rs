@@ -30,12 +30,6 @@ impl Session {
         self.plots.get(index)
     }
 
-    /// The plot in focus, mutable.
-    pub fn focused_mut(&mut self) -> Option<&mut Plot> {
-        let Pane::Plot(index) = self.focus else { return None };
-        self.plots.get_mut(index)
-    }
-
     /// Whether a layer is on and a plot on show has its view.
     pub fn shows(&self, layer: Layer) -> bool {
         self.on_show().any(|index| self.shows_in(layer, index))

@@ -50,17 +50,18 @@ impl Session {
     pub fn asks(&self) -> Vec<Request> {
         let of_plot = |plot| self.needs(plot).into_iter().map(move |topic| (topic, plot));
         let needed: BTreeSet<(Topic, usize)> = self.on_show().flat_map(of_plot).collect();
-        let claims = matches!(self.overlay, Some(Overlay::List(ListKind::Paper, _)));
         let each = needed.iter().flat_map(|(topic, plot)| self.requests(*topic, *plot));
-        let last = self.measures().then(|| self.request(Topic::Reference, self.plot)).flatten();
+        let measures = self.measures();
+        let last = measures.then(|| self.request(Topic::Reference, self.plot)).flatten();
         let awaited = self.waiting.iter().map(|waiting| waiting.request.clone());
+        let claims = matches!(self.overlay, Some(Overlay::List(ListKind::Paper, _)));
         let claims = claims.then_some(Request::Claims);
         let all = awaited.chain(self.refit_request(false)).chain(claims).chain(each.map(|it| it.1));
         let proof = || self.request(Topic::Proof, self.plot);
         let proof = needed.iter().any(|(topic, _)| *topic == Topic::Cycles).then(proof).flatten();
         // The distribution of the margin is drawn, and the second status line tells of it.
         let spread = self.on_show().any(|plot| self.plots[plot].view == View::Spread);
-        let told = self.size.tells_margin() && !self.measures();
+        let told = self.size.tells_margin() && !measures;
         let drawn = (spread || told).then(|| self.refit_request(true)).flatten();
         distinct(all.chain(last).chain(proof).chain(drawn).chain(self.scan_request()))
     }
