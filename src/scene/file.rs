@@ -47,15 +47,16 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, FileMistake> {
 }
 
 /// The scene of a file. A machine sets its numbers itself.
-fn scene(mut read: Spanned<DeTable>) -> Result<Scene> {
+fn scene(read: Spanned<DeTable>) -> Result<Scene> {
     static USUAL: LazyLock<String> = LazyLock::new(|| {
         let usual: &dyn erased_serde::Serialize = &UsualScene::default();
         toml::to_string(usual).expect("it is made of tables")
     });
-    let own = read.get_mut();
-    let numbers = ["problem", "terms"].iter().find_map(|name| Some(own.get(*name)?.span()));
-    complete(own, DeTable::parse(&USUAL)?.get_ref());
-    let mut scene: Scene = Placed::from(read).read()?;
+    let given = read.get_ref();
+    let numbers = ["problem", "terms"].iter().find_map(|name| Some(given.get(*name)?.span()));
+    let mut own = Placed::from(read);
+    complete(own.0.get_mut(), Placed::from(DeTable::parse(&USUAL)?).0.get_ref());
+    let mut scene: Scene = own.read()?;
     if let Some(scaled) = scene.machine.as_deref() {
         if let Some(at) = numbers {
             return Err(Complaint { at, message: "a machine sets its numbers itself".to_owned() });
@@ -66,25 +67,22 @@ fn scene(mut read: Spanned<DeTable>) -> Result<Scene> {
 }
 
 /// Adds what a table leaves out of the usual one; each table of a list is completed by the first of the usual list.
-fn complete<'a>(own: &mut DeTable<'a>, usual: &DeTable<'a>) {
-    for (name, usual) in usual {
-        let Some(own) = own.get_mut(name) else {
-            own.insert(name.clone(), usual.clone());
-            continue;
-        };
-        match (own.get_mut(), usual.get_ref()) {
-            (DeValue::Table(own), DeValue::Table(usual)) => complete(own, usual),
-            (DeValue::Array(own), DeValue::Array(usual)) => {
-                for (own, usual) in own.iter_mut().zip(usual.iter().cycle()) {
-                    if let (DeValue::Table(own), DeValue::Table(usual)) =
-                        (own.get_mut(), usual.get_ref())
-                    {
-                        complete(own, usual);
-                    }
+fn complete<'a>(own: &mut DeValue<'a>, usual: &DeValue<'a>) {
+    match (own, usual) {
+        (DeValue::Table(own), DeValue::Table(usual)) => {
+            for (name, usual) in usual {
+                match own.get_mut(name) {
+                    Some(own) => complete(own.get_mut(), usual.get_ref()),
+                    None => drop(own.insert(name.clone(), usual.clone())),
                 }
             }
-            _ => {}
         }
+        (DeValue::Array(own), DeValue::Array(usual)) => {
+            for (own, usual) in own.iter_mut().zip(usual.iter().cycle()) {
+                complete(own.get_mut(), usual.get_ref());
+            }
+        }
+        _ => {}
     }
 }
 
@@ -121,14 +119,11 @@ impl Recording {
             }
         };
         let unit = self.record.unit.as_deref();
-        let reduced =
+        let mut units =
             format!("lengths are in {} and times in 1/omega0", unit.unwrap_or("the file's unit"));
-        let units = match unit.and_then(length_in_metres) {
-            Some(_) if !self.record.t.is_empty() => {
-                format!("axes are in units of length and seconds; with units off {reduced}")
-            }
-            _ => reduced,
-        };
+        if unit.and_then(length_in_metres).is_some() && !self.record.t.is_empty() {
+            units.insert_str(0, "axes are in units of length and seconds; with units off ");
+        }
         scene.layers.insert(shown);
         Scene {
             name: self.name.clone(),

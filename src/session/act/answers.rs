@@ -9,7 +9,9 @@ use crate::question::{NoAnswer, Rows};
 use crate::scene::{Finding, Fit, Reply, Topic};
 use crate::session::act::scan::refit;
 use crate::session::read::windows::{awaited, fitted};
-use crate::session::{Framing, Notice, Recomputation, SCANNING, ScanProgress, Session, StepSizes};
+use crate::session::{
+    Framing, Notice, Plot, Recomputation, SCANNING, ScanProgress, Session, StepSizes,
+};
 use crate::words::fit::sentences;
 
 impl Session {
@@ -94,12 +96,8 @@ impl Session {
 
 /// Sets the numbers that are not held to their values in the fit.
 pub fn follow_fit(session: &mut Session) {
-    if session.scene.recording.is_none() {
-        return;
-    }
-    let Some(fitted) = session.followed().map(|fitted| fitted.problem(session.problem)) else {
-        return;
-    };
+    let fitted = session.scene.recording.as_ref().and_then(|_| session.followed());
+    let Some(fitted) = fitted.map(|fitted| fitted.problem(session.problem)) else { return };
     for knob in Knob::MOTION.into_iter().filter(|knob| !session.doubt.holds(*knob)) {
         session.problem.set(knob, fitted.get(knob));
     }
@@ -108,13 +106,11 @@ pub fn follow_fit(session: &mut Session) {
 /// Fits the plots on show that wait for it, once their answers are there.
 pub fn resolve(session: &mut Session) {
     for index in session.on_show() {
-        let waits = session.plots[index].framing == Framing::Fitting;
-        if !waits || awaited(session, index).is_some() {
+        let Plot { view, framing, .. } = session.plots[index];
+        if framing != Framing::Fitting || awaited(session, index).is_some() {
             continue;
         }
-        let view = session.plots[index].view;
-        let window = fitted(session, index);
-        let of_scene = session.plot_of_scene(index, view);
+        let (window, of_scene) = (fitted(session, index), session.plot_of_scene(index, view));
         let plot = &mut session.plots[index];
         plot.window = window.unwrap_or(plot.window);
         // If the scene leaves the window open, a fitted window is the scene's.

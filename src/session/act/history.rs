@@ -13,8 +13,10 @@ use crate::session::act::screen_setup::set_up;
 use crate::session::read::completion::difference;
 use crate::session::read::wants::COMPARED;
 use crate::session::{
-    Bookmark, Done, EarlierState, Framing, Pane, Playback, Plot, Row, Session, Snapshot,
+    Bookmark, Done, EarlierState, Framing, Pane, Playback, Plot, Row, ScreenSetup, Session,
+    Snapshot,
 };
+use crate::words::joined;
 
 /// Undoes the last change.
 pub fn undo(session: &mut Session) -> Done {
@@ -35,9 +37,7 @@ pub fn redo(session: &mut Session) -> Done {
 /// Stops fitting the record on show: restores the state before.
 pub fn stop_fitting(session: &mut Session) {
     let recording = session.scene.recording.clone();
-    while session.scene.recording == recording && session.history.depth().0 > 0 {
-        let _ = undo(session);
-    }
+    while session.scene.recording == recording && undo(session).is_ok() {}
     if session.scene.recording == recording
         && let Some(request) = session.request(Topic::Fit, session.plot)
     {
@@ -81,11 +81,10 @@ fn bring_back(session: &mut Session, name: &str, state: EarlierState) {
             session.inform(format!("{name}: {}", difference(&session.setup(), &setup)));
             session.set_setup(*setup);
         }
-        EarlierState::ScreenSetup(screen_setup) => {
-            let titles: Vec<_> =
-                screen_setup.plots.iter().map(|plot| plot.view.spec().title).collect();
-            session.inform(format!("{name}: {}", titles.join(", ")));
-            set_up(session, screen_setup.arrangement, opened(&screen_setup.plots));
+        EarlierState::ScreenSetup(ScreenSetup { arrangement, plots }) => {
+            let titles = plots.iter().map(|plot| plot.view.spec().title);
+            session.inform(format!("{name}: {}", joined(titles, ", ")));
+            set_up(session, arrangement, opened(&plots));
             mark_own_windows(session);
         }
         EarlierState::Scene { plots, show } => {
@@ -121,7 +120,6 @@ pub fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot>) {
     session.layers = snapshot.layers;
     set_up(session, snapshot.arrangement, plots);
     session.playback = Playback { pace: session.playback.pace, ..Playback::default() };
-    session.held = None;
 }
 
 /// Opens a scene, as one change that can be undone.

@@ -41,8 +41,8 @@ pub fn start(session: &mut Session, initial: State) {
 /// Removes the newest motion; the previous one becomes the present one.
 pub fn drop_newest(session: &mut Session) -> Done {
     let mut setup = session.setup();
-    let State { q, v } = setup.others.pop().ok_or(ONLY)?;
-    setup.problem.initial = State { q, v };
+    let initial @ State { q, v } = setup.others.pop().ok_or(ONLY)?;
+    setup.problem.initial = initial;
     let motions = counted(setup.others.len() + 1, "motion");
     put(session, setup);
     let place = format!("q0 = {}, v0 = {}", shortest(q), shortest(v));

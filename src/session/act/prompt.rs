@@ -140,8 +140,8 @@ pub fn search_done(session: &mut Session) -> Done {
 /// layers. A command that takes words opens the line for typing them. In the list of costs, nothing can be run.
 pub fn choose(session: &mut Session) -> Done {
     let Some(Overlay::List(kind, list)) = &session.overlay else { return Ok(()) };
-    let rows = session.rows_of(*kind, list);
-    let (kind, row) = (*kind, rows.get(list.selected).copied().flatten());
+    let kind = *kind;
+    let row = session.rows_of(kind, list).get(list.selected).copied().flatten();
     if kind == ListKind::Cost || (row.is_some() && kind != ListKind::Layers) {
         session.overlay = None;
     }

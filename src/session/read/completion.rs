@@ -166,8 +166,7 @@ pub(crate) fn difference(old: &Setup, new: &Setup) -> String {
     let belt = new.setting.is_some() && old.setting != new.setting;
     let follows = |row: &Row| row.knob_in(&new.problem).spec().group == Group::Motion;
     let rows = Row::all().filter(|row| !(belt && follows(row)));
-    let changed = rows.filter(|row| typed(old, *row) != typed(new, *row));
-    let said = changed.map(|row| {
+    let said = rows.filter(|row| typed(old, *row) != typed(new, *row)).map(|row| {
         let value = typed(new, row).unwrap_or_else(|| "as in its file".to_owned());
         format!("{} = {value}", row.name_in(&new.problem))
     });

@@ -183,12 +183,13 @@ impl Session {
     /// The claims that the page of the paper lists, each with the result of its examination, if known.
     pub fn claim_rows(&self, list: &List) -> Vec<(&'static Claim, Option<&ClaimResult>)> {
         let examined = self.examined();
-        let rows = claims().enumerate().map(|(index, claim)| (claim, examined.get(index)));
-        let matches = |(claim, examined): &(&'static Claim, Option<&ClaimResult>)| {
+        let row = |(index, claim): (usize, &'static Claim)| {
+            let examined = examined.get(index);
             let verdict = examined.and_then(ClaimResult::verdict).map_or("", Verdict::name);
-            list.matches(&[claim.equation, claim.section, claim.statement, verdict])
+            let words = [claim.equation, claim.section, claim.statement, verdict];
+            list.matches(&words).then_some((claim, examined))
         };
-        rows.filter(matches).collect()
+        claims().enumerate().filter_map(row).collect()
     }
 
     /// The interrupted sessions that their list shows, each with its index among all.

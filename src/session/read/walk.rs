@@ -56,7 +56,7 @@ impl BranchPath {
             apart(before, Some(&special)) + apart(Some(&special), after) - apart(before, after)
         };
         let own = |piece: &[BranchStop]| piece[0].variant == special.variant;
-        let pieces = self.pieces.iter().enumerate().filter(|(_, piece)| own(piece));
+        let pieces = (0..).zip(&self.pieces).filter(|(_, piece)| own(piece));
         let gaps = pieces.flat_map(|(index, piece)| (0..=piece.len()).map(move |gap| (index, gap)));
         let fitting = gaps.filter(|place| admits(special.special, around(*place)));
         if let Some((piece, gap)) = fitting.min_by(by_number(detour)) {
@@ -80,8 +80,8 @@ impl BranchPath {
 
     /// All stops with their positions.
     fn stops(&self) -> impl Iterator<Item = (Position, &BranchStop)> {
-        self.pieces.iter().enumerate().flat_map(|(piece, stops)| {
-            stops.iter().enumerate().map(move |(place, stop)| ((piece, place), stop))
+        (0..).zip(&self.pieces).flat_map(|(piece, stops)| {
+            (0..).zip(stops).map(move |(place, stop)| ((piece, place), stop))
         })
     }
 

@@ -54,9 +54,7 @@ enum SavedEarlierState {
 impl From<SavedEarlierState> for EarlierState {
     fn from(saved: SavedEarlierState) -> Self {
         match saved {
-            SavedEarlierState::Motion(problem) => {
-                EarlierState::Setup(Box::new(Setup::alone(problem)))
-            }
+            SavedEarlierState::Motion(problem) => EarlierState::Setup(Setup::alone(problem).into()),
             SavedEarlierState::Motions(setup) => EarlierState::Setup(setup),
             SavedEarlierState::Plots(screen_setup) => EarlierState::ScreenSetup(screen_setup),
             SavedEarlierState::Scene { plots, show } => EarlierState::Scene { plots, show },
@@ -121,7 +119,7 @@ fn by_name<S: Serializer>(scene: &Arc<Scene>, serializer: S) -> Result<S::Ok, S:
 fn named_or_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Scene>, D::Error> {
     match SavedScene::deserialize(deserializer)? {
         SavedScene::Library(name) => find(&name).map_err(D::Error::custom),
-        SavedScene::Full(scene) => Ok(Arc::new(*scene)),
+        SavedScene::Full(scene) => Ok(Arc::from(scene)),
     }
 }
 
