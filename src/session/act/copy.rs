@@ -157,13 +157,11 @@ fn of_machine(session: &Session) -> Option<String> {
             line += &set(knob, value);
         }
     }
-    Some(match diagram {
-        Some(plot) => line + &over(plot.axes.machine, plot.window.x),
-        None => {
-            let start = set(Knob::X, q * units.displacement) + &set(Knob::V, v * units.velocity);
-            format!("{line}{start} --until {}", shortest(until * units.time))
-        }
-    })
+    if let Some(plot) = diagram {
+        return Some(line + &over(plot.axes.machine, plot.window.x));
+    }
+    let start = set(Knob::X, q * units.displacement) + &set(Knob::V, v * units.velocity);
+    Some(format!("{line}{start} --until {}", shortest(until * units.time)))
 }
 
 fn set(knob: Knob, value: f64) -> String {
