@@ -89,17 +89,18 @@ impl Funnel {
             return None;
         };
         // Done piece by piece, because the slope, which is smallest at an end of each piece, varies strongly.
-        let fenced = |from: f64, to: f64| {
-            let [from, to] = [from, to].map(point);
+        let mut from = v;
+        loop {
+            let to = point((2.0 * from.lower()).min(top.lower()));
             let least = point(field.slope(from).lower().min(field.slope(to).lower()));
             let excess = (a - c * 3.0 * to.square()) * 4.0;
-            least > 0.0 && excess.upper() <= (least * least.square()).lower()
-        };
-        let next = |at: f64| (2.0 * at).min(top.lower());
-        let farther = |at: &f64| (*at < top.lower()).then(|| next(*at));
-        let (mut from, mut ends) = (speed, std::iter::successors(Some(next(speed)), farther));
-        if !ends.all(|to| fenced(std::mem::replace(&mut from, to), to)) {
-            return None;
+            if !(least > 0.0 && excess.upper() <= (least * least.square()).lower()) {
+                return None;
+            }
+            if to == top {
+                break;
+            }
+            from = to;
         }
         let least = point(field.slope(v).lower());
         let force = field.force(v);
@@ -153,12 +154,9 @@ impl Funnel {
         let drag = field.map(positive).force(v);
         let half = point(start.lower()) / 2.0;
         let rate = point((half - drag).lower());
-        if !(rate > 0.0) {
-            return None;
-        }
         let time = v / rate;
         let way = v * time;
-        if !(way.upper() <= half.lower()) {
+        if !(rate > 0.0 && way.upper() <= half.lower()) {
             return None;
         }
         let FieldBox { a, b, c } = field.reversed().map(positive);
@@ -184,12 +182,9 @@ impl Funnel {
         // At least the logarithm of the ratio of the two velocities.
         let doublings = f64::from(exponent((speed / v).upper()) + 1);
         let logarithm = point(doublings) * 0.7;
-        if !(half > 0.0) {
-            return None;
-        }
         let position = logarithm / half + position;
         let brake = v * a.upper().max(0.0) + position.upper().max(0.0);
-        if !(brake.upper() <= (half * v.square()).lower()) {
+        if !(half > 0.0 && brake.upper() <= (half * v.square()).lower()) {
             return None;
         }
         let push = point((-a).upper().max(0.0));
@@ -231,7 +226,8 @@ impl Funnel {
         let unit = exponent(self.speed);
         let end = self.arrivals();
         let [late, squares] = self.after(field, end, unit)?;
-        let FieldBox { a, b, c } = field.in_units_of(unit);
+        let field = field.in_units_of(unit);
+        let FieldBox { a, b, c } = field;
         let [x, v, entry, e] =
             [fallen.end, fallen.speed, self.entry, point(self.speed)].map(|it| scaled(it, -unit));
         // Between the fences `x + f` is at least 0 and at most `2 v/f'`, which is at most this.
@@ -246,7 +242,7 @@ impl Funnel {
         let duration = fallen.duration + positive(time)? + late;
         let square = fallen.square_in(unit) + positive(square)? + squares;
         let path = scaled(end + start, -unit);
-        let divergence = -field.in_units_of(unit).damping(duration, path, square);
+        let divergence = -field.damping(duration, path, square);
         let speed = point(0.0);
         Some(ProvedSwing { end, speed, duration, divergence, square, unit, ..*fallen })
     }

@@ -164,14 +164,12 @@ impl SwingRun {
         let speed = Interval::new(-most, most);
         // Whether the motion continues or is followed back, x only grows.
         let rate = point(x.lower()) - field.force(speed).magnitude();
-        if !(rate > 0.0) {
-            return None;
-        }
         let lag = (point(most) / rate.lower()).upper();
         let along = (point(most) * lag).upper();
-        let last = (point(x.upper()) + along).upper();
-        let end = Interval::new(x.lower(), last);
-        let end = if end > 0.0 { end } else { return None };
+        let end = Interval::new(x.lower(), (point(x.upper()) + along).upper());
+        if !(rate > 0.0 && end > 0.0) {
+            return None;
+        }
         self.finish((end, point(0.0)), lag)
     }
 
