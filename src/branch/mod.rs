@@ -16,7 +16,8 @@ pub mod regime;
 pub(crate) mod special;
 
 pub(crate) use self::{
-    continuation::*, escape::*, extended::*, fold::*, fold_graph::*, regime::*, special::*,
+    along::*, chart::*, continuation::*, escape::*, extended::*, fold::*, fold_graph::*,
+    machine::*, regime::*, special::*,
 };
 pub use along::{Branch, BranchPoint};
 pub use special::{Jump, JumpEnd, Special, SpecialKind};

@@ -6,15 +6,12 @@ use rayon::prelude::*;
 
 use super::input::MACHINE;
 use super::{CERTIFY, CommandCase, Output, QuestionOptions, Result, given, read, timed};
-use crate::branch::along::{Points, branch};
-use crate::branch::machine::MachineBranch;
-use crate::branch::{Boundary, BoundaryPoint, border};
+use crate::branch::{Boundary, BoundaryPoint, MachineBranch, Points, border, branch};
 use crate::flow::{Limits, Problem};
 use crate::model::{Belt, Knob, Source};
 use crate::proof::bifurcation::{enclose_escape, enclose_fold};
 use crate::proof::{ParameterBox, change_near, range};
-use crate::report::BorderProof;
-use crate::report::branch as report;
+use crate::report::{BorderProof, branch as report};
 use crate::scan::{Spacing, Sweep};
 
 /// Follows the limit cycles along a parameter, with folds and other special points

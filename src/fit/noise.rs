@@ -47,6 +47,11 @@ pub fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
     median(values.map(f64::abs).collect()) / 0.6745
 }
 
+/// The mean of the squares of values.
+pub fn mean_square(values: &[f64]) -> f64 {
+    values.iter().map(|it| it * it).sum::<f64>() / real(values.len())
+}
+
 /// Noise of a record, from its second differences or, with few samples per period, from the errors of the best
 /// linear prediction of each sample by the two before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

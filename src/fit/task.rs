@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, SMatrix};
 
 use super::{
     BEND, IMPOSSIBLE, Loss, Misfit, NoEstimate, OMEGA0, Record, Region, Residual, SLOPE, StartKind,
-    UNKNOWNS, Unknowns, UnknownsMatrix, Way, robust_deviation, whiteness,
+    UNKNOWNS, Unknowns, UnknownsMatrix, Way, mean_square, robust_deviation, whiteness,
 };
 use crate::numerics::real;
 
@@ -317,9 +317,4 @@ impl<'a> Task<'a> {
     pub fn explains(&self, optimum: &Optimum) -> bool {
         self.verdict(optimum) != FitVerdict::Unexplained
     }
-}
-
-/// The mean of the squares of values.
-pub fn mean_square(values: &[f64]) -> f64 {
-    values.iter().map(|it| it * it).sum::<f64>() / real(values.len())
 }

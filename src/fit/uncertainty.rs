@@ -8,8 +8,8 @@
 use nalgebra::DVector;
 
 use super::{
-    IMPOSSIBLE, Optimum, R, Task, UNKNOWNS, Unknowns, UnknownsMatrix, deviation_of_95_percent,
-    mean_square,
+    IMPOSSIBLE, Optimum, R, Task, UNKNOWNS, Unknowns, UnknownsMatrix, correlated,
+    deviation_of_95_percent, mean_square,
 };
 use crate::numerics::{powi, real};
 
@@ -194,49 +194,6 @@ pub fn ratio_of_kinds(task: &Task, optimum: &Optimum, count: usize) -> f64 {
         mean_square(&values[kind.clone()]) * real(kind.len()) / freedom.max(0.5)
     });
     (t / x).sqrt()
-}
-
-/// The sum of the outer products of all pairs of rows, weighted by their correlation.
-fn correlated(rows: &[Unknowns], autocorrelation: &[f64]) -> UnknownsMatrix {
-    let pairs = rows.iter().zip(blurred(rows, autocorrelation));
-    let meat: UnknownsMatrix = pairs.map(|(row, ahead)| row * ahead.transpose()).sum();
-    meat + meat.transpose()
-}
-
-/// For each row, half of it plus all later rows, weighted by their correlation with it.
-fn blurred(
-    rows: &[Unknowns],
-    autocorrelation: &[f64],
-) -> impl DoubleEndedIterator<Item = Unknowns> {
-    (0..rows.len()).map(|index| {
-        let mut ahead = 0.5 * rows[index];
-        for (rho, later) in autocorrelation.iter().zip(&rows[index + 1..]) {
-            ahead.axpy(*rho, later, 1.0);
-        }
-        ahead
-    })
-}
-
-/// The mean autocorrelations at lags 1, 2, .. of the residuals of a fit to noise with these autocorrelations.
-/// The unknowns absorb the projection `H = Q Q'` of the noise, so the residuals have the covariance
-/// `(1 - H) S (1 - H)`.
-pub fn left_over(q: &[Unknowns], noise: &[f64], lags: usize) -> Vec<f64> {
-    let reversed: Vec<Unknowns> = q.iter().rev().copied().collect();
-    // S Q and Q' S Q.
-    let both = blurred(q, noise).zip(blurred(&reversed, noise).rev());
-    let sq: Vec<Unknowns> = both.map(|(ahead, behind)| ahead + behind).collect();
-    let qsq: UnknownsMatrix = q.iter().zip(&sq).map(|(one, other)| one * other.transpose()).sum();
-    let twice: Vec<Unknowns> = q.iter().map(|row| qsq.tr_mul(row)).collect();
-    let at = |lag: usize| -> f64 {
-        let rho = if lag == 0 { 1.0 } else { noise.get(lag - 1).copied().unwrap_or(0.0) };
-        let mut sum = rho * real(q.len() - lag);
-        for (t, later) in q.iter().skip(lag).enumerate() {
-            sum += twice[t].dot(later) - sq[t].dot(later) - q[t].dot(&sq[t + lag]);
-        }
-        sum
-    };
-    let power = at(0);
-    (1..=lags).map(|lag| at(lag) / power).collect()
 }
 
 /// A 95 % interval.

@@ -51,5 +51,5 @@ pub use machine::arc::Flow;
 pub use machine::motion::{MotionUnits, follow};
 pub use method::{METHODS, Method, MethodSpec};
 pub use motion::{Cost, Crossing, Detail, Leg, Motion, Outcome, Problem, Sample};
-pub use quality::{QUALITIES, Quality};
+pub use quality::{DRAFT, QUALITIES, Quality};
 pub use subject::Subject;

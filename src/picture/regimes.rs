@@ -5,8 +5,7 @@
 //! else. The machine on show has its path, along which its belt runs slower and faster.
 
 use super::{Fill, Item, LineStyle, Mark, Marks, Picture, Role};
-use crate::branch::chart::{Chart, ChartLine};
-use crate::branch::{REGIMES, Regime};
+use crate::branch::{Chart, ChartLine, REGIMES, Regime};
 use crate::model::{Knob, Parameters};
 use crate::scene::machine::path::Station;
 use crate::scene::{Axes, Layer, Point, Window};

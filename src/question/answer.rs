@@ -5,13 +5,10 @@ use thiserror::Error;
 
 use super::{CertainZones, Fit, Request, zones};
 use crate::accuracy::{HarmonicBalance, Reference, Trade, harmonic_balance};
-use crate::branch::Branch;
-use crate::branch::along::{Points, branch};
-use crate::branch::chart::{Chart, Resolution, chart};
-use crate::branch::machine::MachineBranch;
-use crate::flow::quality::DRAFT;
+use crate::branch::{Branch, Chart, MachineBranch, Points, Resolution, branch, chart};
 use crate::flow::{
-    Cost, Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, Result, follow, trajectory,
+    Cost, DRAFT, Detail, Limits, Method, Motion, MotionUnits, Problem, Reason, Result, follow,
+    trajectory,
 };
 use crate::model::{Belt, Body, Knob, Model, Parameters, Source, State};
 use crate::paper::{ClaimResult, examine_all};

@@ -7,10 +7,9 @@ use serde::Serialize;
 use strum::{EnumDiscriminants, IntoStaticStr, VariantArray};
 
 use super::{Fit, Recording};
-use crate::branch::chart::Plane;
+use crate::branch::Plane;
 use crate::fit::MarginQuestion;
-use crate::flow::quality::DRAFT;
-use crate::flow::{Method, Problem};
+use crate::flow::{DRAFT, Method, Problem};
 use crate::model::{Belt, Knob, Parameters, Source, Tolerances};
 use crate::portrait::RandomKick;
 use crate::scan::Scan;

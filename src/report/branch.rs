@@ -5,8 +5,10 @@ use super::{
     About, Answer, BorderProof, Columns, Document, PLACES, Quantity, border_columns, decided,
     digits, piece_columns, range_changes, range_pieces,
 };
-use crate::branch::machine::{MachineBranch, PortraitPoint};
-use crate::branch::{Boundary, BoundaryPoint, Branch, BranchPoint, Jump, JumpEnd, Special};
+use crate::branch::{
+    Boundary, BoundaryPoint, Branch, BranchPoint, Jump, JumpEnd, MachineBranch, PortraitPoint,
+    Special,
+};
 use crate::flow::{Cost, Result};
 use crate::model::Knob;
 use crate::portrait::Cycle;

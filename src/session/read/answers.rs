@@ -2,8 +2,7 @@
 //! others while some are held by hand.
 
 use crate::accuracy::{Deviation, HarmonicBalance, NoComparison, Reference, Trade};
-use crate::branch::chart::Chart;
-use crate::branch::machine::MachineBranch;
+use crate::branch::{Chart, MachineBranch};
 use crate::fit::FitResult;
 use crate::flow::Motion;
 use crate::model::{Knob, State, Units};

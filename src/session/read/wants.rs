@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::branch::chart::Plane;
+use crate::branch::Plane;
 use crate::flow::{Cost, Problem};
 use crate::model::Knob;
 use crate::numerics::{distinct, exp2, hypot, log2};
