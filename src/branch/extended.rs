@@ -18,7 +18,6 @@ use crate::numerics::{cbrt, exp, ln, powi};
 use crate::portrait::{Equation, Route, SwingPair};
 
 /// A fold: the cycle at which two meet.
-#[derive(Clone, Copy, Debug)]
 pub struct FoldCycle {
     /// Where it is.
     pub place: FoldPlace,
@@ -27,7 +26,7 @@ pub struct FoldCycle {
 }
 
 /// A place at a fold, or near one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct FoldPlace {
     pub parameters: Parameters,
     /// The unknown `ln c0`.

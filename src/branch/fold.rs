@@ -109,7 +109,7 @@ pub struct BoundaryPoint {
 }
 
 /// The fold and the escape point along a second parameter.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Boundary {
     /// The parameters that stay.
     pub parameters: Parameters,

@@ -223,7 +223,7 @@ impl Family<'_> {
 }
 
 /// A test function of bifurcations: its zero is a change of this kind; with the right turning point of the cycle there.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 struct TestFunction {
     number: f64,
     kind: SpecialKind,

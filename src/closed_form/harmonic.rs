@@ -38,7 +38,6 @@ pub struct Harmonic {
 }
 
 /// The point at which the two amplitudes for `D3 > 0` meet and vanish.
-#[derive(Clone, Copy, Debug)]
 pub struct HarmonicFold {
     /// Damping `D_F` (equation 48): for `D > D_F` no amplitude is stationary.
     pub d: f64,

@@ -127,10 +127,10 @@ fn covering(computed: &[f64], mut measured: Vec<f64>) -> [f64; 2] {
     measured.sort_by(f64::total_cmp);
     let trim = measured.len().div_ceil(10);
     let usual = measured.get(trim..measured.len().saturating_sub(trim)).unwrap_or_default();
-    let (low, high) = range(&[&[0.0], computed, usual].concat());
+    let (low, high) = range([&[0.0], computed, usual].concat());
     let far = high - low;
     measured.retain(|it| (low - far..=high + far).contains(it));
-    range(&[&[low, high], &measured[..]].concat()).into()
+    range([&[low, high], &measured[..]].concat()).into()
 }
 
 /// The outline of the averaged damping of 90 % of the draws.

@@ -8,7 +8,7 @@ use crate::portrait::{Route, SwingPair};
 pub(crate) const UNIT_OF_U: f64 = 4.0;
 
 /// A cycle on the curve.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct CurvePoint {
     /// The unknown `ln c0`.
     pub u: f64,
@@ -34,7 +34,7 @@ impl CurvePoint {
 }
 
 /// A direction in the scaled plane, of length 1.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Tangent {
     /// Component along `u/UNIT_OF_U`.
     pub u: f64,

@@ -13,7 +13,6 @@ use crate::numerics::real;
 use crate::portrait::Route;
 
 /// Where a cycle of the curve is to be found.
-#[derive(Clone, Copy, Debug)]
 pub struct CurvePlace {
     /// The parameter.
     pub p: f64,

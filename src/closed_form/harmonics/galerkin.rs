@@ -53,7 +53,6 @@ impl Unknown {
 }
 
 /// The residual at one ansatz, taken apart into what the equations and their derivatives need.
-#[derive(Clone, Debug)]
 pub struct BalanceResidual {
     parameters: Parameters,
     /// The ansatz, with room for all N harmonics.

@@ -68,7 +68,6 @@ impl Route {
 }
 
 /// The half maps of both swings in both directions.
-#[derive(Clone)]
 pub struct Equation<'a> {
     pub parameters: Parameters,
     /// What the answer to its question may cost.
@@ -326,7 +325,6 @@ impl Place {
 // Where motions go that leave the end of the sticking set, a node that repels (`D < -1`).
 
 /// How motions from the end of the sticking set come back.
-#[derive(Clone, Copy, Debug)]
 pub struct WayFromRim {
     /// By how much, as a logarithm, they come back beyond the sticking set; negative where they are captured.
     pub excess: f64,

@@ -133,7 +133,6 @@ impl HalfSwing {
 }
 
 /// The half-swing map of one field.
-#[derive(Clone, Debug)]
 pub struct HalfMap {
     /// Its field.
     pub field: HalfPlane,

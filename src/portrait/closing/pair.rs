@@ -1,6 +1,6 @@
 //! A pair of half swings, whether it closes or not, and the errors of its numbers.
 
-use super::{Errors, Length, Node, PreciseSwingPair, UNIT};
+use super::{Errors, Length, Node, UNIT};
 use crate::model::Parameters;
 use crate::numerics::{ln, ln_1p};
 
@@ -25,6 +25,16 @@ pub struct SwingPair {
     pub uncertainty: f64,
     /// Of each swing, the errors at exactly this unknown, and those that a relative error 1 of it makes.
     pub(crate) errors: [[Errors; 2]; 2],
+}
+
+/// How far two swings are from closing, in numbers of twice the working precision.
+pub struct PreciseSwingPair {
+    /// The residual of the route, as a closing in doubles has it.
+    pub residual: f64,
+    /// Clearance at which the second swing starts.
+    pub second: f64,
+    /// Duration of both.
+    pub duration: f64,
 }
 
 /// `d ln(c + gap) / d ln(c)`.

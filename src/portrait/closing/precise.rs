@@ -5,7 +5,7 @@
 //! may graze the sticking set. There the residual is smaller than the rounding of a double. Thirty digits tell
 //! on which side of each such place a double lies, and fix the cycle itself to all digits of a double.
 
-use super::{Direction, Equation, Route};
+use super::{Direction, Equation, PreciseSwingPair, Route};
 use crate::flow::{Cost, Grain, Limits, Reason, Result, half_swing};
 use crate::numerics::{Twofold, ln_1p};
 
@@ -13,17 +13,6 @@ use crate::numerics::{Twofold, ln_1p};
 pub const FINER: f64 = 1e-12;
 
 const LOST: Reason = Reason::OutOfRange;
-
-/// How far two swings are from closing.
-#[derive(Clone, Copy, Debug)]
-pub struct PreciseSwingPair {
-    /// The residual of the route, as a closing in doubles has it.
-    pub residual: f64,
-    /// Clearance at which the second swing starts.
-    pub second: f64,
-    /// Duration of both.
-    pub duration: f64,
-}
 
 impl Equation<'_> {
     /// The two swings at a clearance of the first one; [`Reason::OutOfRange`] where one of them escapes or is

@@ -44,7 +44,6 @@ impl Errors {
 }
 
 /// The errors of a half swing so far.
-#[derive(Clone, Copy, Debug)]
 pub(super) struct Roundoff {
     field: HalfPlane,
     tolerance: f64,

@@ -64,7 +64,7 @@ pub fn places((low, high): &Bracket) -> root::Bracket {
 }
 
 /// A search, and what it found so far.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub struct RootSearch {
     /// Half of the length of intervals that are not halved any more.
     pub finest: f64,

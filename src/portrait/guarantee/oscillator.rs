@@ -19,7 +19,6 @@ use crate::portrait::{
 };
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
-#[derive(Clone, Copy, Debug)]
 pub struct TwoSidedOscillator {
     /// Where `v > 0`.
     pub upper: Parameters,
