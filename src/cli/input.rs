@@ -192,7 +192,7 @@ pub const SIGNED: &str =
 pub fn signed(command: Command) -> Command {
     command.mut_args(|option| {
         let is_signed = SIGNED.split(' ').any(|name| option.get_long() == Some(name));
-        if is_signed { option.allow_hyphen_values(true) } else { option }
+        option.allow_hyphen_values(is_signed)
     })
 }
 

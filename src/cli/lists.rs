@@ -36,11 +36,12 @@ pub struct ScenesCommand {
 
 impl ScenesCommand {
     pub fn run(&self) -> Result<()> {
-        if self.cost {
-            let measured = library().iter().map(cost_of).collect::<Result<Vec<_>, _>>()?;
-            return print(&costs(&measured).told(self.format));
-        }
-        print(&scenes(library()).told(self.format))
+        let answer = if self.cost {
+            costs(&library().iter().map(cost_of).collect::<Result<Vec<_>>>()?)
+        } else {
+            scenes(library())
+        };
+        print(&answer.told(self.format))
     }
 }
 

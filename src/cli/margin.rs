@@ -7,7 +7,7 @@ use super::{
     CERTIFY, CommandCase, Output, QuestionOptions, Result, given, number, read, timed, troubled,
 };
 use crate::flow::{Limits, Subject};
-use crate::model::{Knob, Parameters};
+use crate::model::Knob;
 use crate::portrait::guarantee::machine;
 use crate::portrait::{Portrait, guaranteed, proved_kicks, repeated};
 use crate::report::About;
@@ -91,9 +91,8 @@ impl BasinCommand {
         let count = || found.count(&window, self.grid, &Limits::PATIENT);
         let (counts, seconds) = asked.output.timed("the starts could not be counted", count)?;
         // What is proved, is proved of the oscillator of the paper.
-        let parameters = found.model.parameters().filter(|_| !about.is_machine());
-        let enclose = |parameters: Parameters| proved_kicks(&parameters, &found);
-        let certified = self.certify.then(|| parameters.map(enclose)).flatten();
+        let parameters = found.model.parameters().filter(|_| self.certify && !about.is_machine());
+        let certified = parameters.map(|parameters| proved_kicks(&parameters, &found));
         let seconds = before + seconds;
         asked.output.print(basin(&about, &found, (&window, counts), certified.as_ref(), seconds))
     }

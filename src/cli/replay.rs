@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::settings::Looks;
-use super::{Failure, Result, StartOptions, input, print};
-use crate::runtime::{Readers, bounded, new_file, play};
+use super::{Failure, Result, StartOptions, input, print, write};
+use crate::runtime::{bounded, play};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
 use crate::session::{Session, Size, Theme};
@@ -52,18 +52,18 @@ impl ReplayCommand {
         let mut session = Session::new(self.start.scene(None)?, Size { width, height });
         // With the user's own settings the same file could show different screens.
         session.display = self.looks.wishes(&Config::default());
-        let light = session.display.theme == Theme::Light;
+        let is_light = session.display.theme == Theme::Light;
+        let paper = if is_light { Paper::LIGHT } else { Paper::DARK };
         let played = play(session, anywhere(), script, self.allow_write);
         if let Some(directory) = &self.screens {
             std::fs::create_dir_all(directory).map_err(Failure::unwritten(directory))?;
-            let paper = if light { Paper::LIGHT } else { Paper::DARK };
             for (name, screen) in &played.kept {
                 let (ending, content) = match self.screen_format {
                     ScreenFormat::Text => ("txt", screen::text(screen)),
                     ScreenFormat::Svg => ("svg", screen::svg(screen, paper)),
                 };
                 let path = directory.join(format!("{name}.{ending}"));
-                new_file::write(&path, content.as_bytes(), Readers::Usual, None)?;
+                write(&path, content.as_bytes(), true)?;
             }
         }
         print(&screen::text(&played.screen))?;
