@@ -53,7 +53,7 @@ impl Output {
     pub fn print(&self, answer: Answer) -> Result<()> {
         let content = sourced(answer, self.format);
         let Some(path) = &self.write else { return print(&content) };
-        let keep = Some("--write replaces nothing");
+        let (content, keep) = (printable::lines(&content), Some("--write replaces nothing"));
         new_file::write(path, content.as_bytes(), Readers::Usual, keep)?;
         if self.format == Format::Json {
             return Ok(());
@@ -62,10 +62,9 @@ impl Output {
     }
 }
 
-/// The answer in printable characters; with its provenance if it is a JSON document.
+/// The answer, with its provenance if it is a JSON document.
 pub fn sourced(answer: Answer, format: Format) -> String {
-    let told = answer.from(&provenance_file::of_process()).told(format);
-    printable::lines(&told).into_owned()
+    answer.from(&provenance_file::of_process()).told(format)
 }
 
 /// Number of columns of the terminal to which the output goes; `None` if it goes elsewhere.

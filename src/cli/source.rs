@@ -62,10 +62,7 @@ impl SourceOptions {
 
     /// The motion of the scene with this name, or what the options name, with the values set on the command line.
     pub fn case(&self, named: Option<&str>) -> Result<CommandCase> {
-        match self.machine()? {
-            Some(case) => Ok(case),
-            None => Ok(self.start.scene(named)?.problem.into()),
-        }
+        self.machine()?.map_or_else(|| Ok(self.start.scene(named)?.problem.into()), Ok)
     }
 
     /// The machine with the values set on the command line, if it is about one.

@@ -23,13 +23,17 @@ pub fn fit(fitted: &FitResult) -> Answer {
     let physical = rows(fitted)
         .into_iter()
         .map(|it| EstimateRow::known(it.name, it.value, it.standard_error, it.unit.to_owned()));
+    let tested = Columns::default()
+        .text("condition", |it: &Condition| it.name)
+        .text("result", Condition::verdict)
+        .text("what was found", |it| it.detail.clone());
     let table = |rows: Vec<EstimateRow>| estimate_columns().table(rows).lean();
     Answer::new(&fitted.name, subject(fitted))
         .and(&document(fitted, &statement))
         .csv(&name.and(estimate_columns()), numbers().chain(kick_rows(fitted)))
         .lines(broken.clone())
         .statement(statement.text.clone(), broken.is_none())
-        .table(tested(&statement.conditions).captioned("what the sentence rests on"))
+        .table(tested.table(&statement.conditions).captioned("what the sentence rests on"))
         .heading("Numbers")
         .table(table(numbers().collect()).captioned("standard errors; 95 % lie from .. to"))
         .table(table(physical.collect()).captioned("in SI units, with standard errors"))
@@ -293,15 +297,6 @@ fn correlations(fitted: &FitResult) -> Table {
         columns.text(other.name, move |row| format!("{:.3}", of(row)))
     });
     correlations.table(wanted.iter().copied())
-}
-
-/// The conditions with their results.
-fn tested(conditions: &[Condition]) -> Table {
-    Columns::default()
-        .text("condition", |it: &Condition| it.name)
-        .text("result", Condition::verdict)
-        .text("what was found", |it| it.detail.clone())
-        .table(conditions)
 }
 
 /// Where the samples lie that do not count.

@@ -22,16 +22,6 @@ struct MotionRow {
     bounds: Option<ProvedPoint>,
 }
 
-/// The columns of points.
-fn columns_of_points<'a>(about: &About, digits: usize) -> Columns<'a, MotionRow> {
-    let [time, length, speed] = ["s", "m", "m/s"].map(|unit| about.quantity(unit, digits));
-    Columns::default()
-        .word("what", |row: &MotionRow| row.what)
-        .number("tau", time, |row| row.tau)
-        .number("q", length, |row| row.q)
-        .number("v", speed, |row| row.v)
-}
-
 /// A motion: its start, every arrival at `v = 0` and its end, with what is proved of each; and where its energy goes.
 pub fn motion(
     about: &About,
@@ -43,7 +33,13 @@ pub fn motion(
     let machine = about.is_machine();
     let proved =
         Columns::default().part("certified", point_columns(), |row: &MotionRow| row.bounds);
-    let columns = columns_of_points(about, digits(problem.tolerance));
+    let digits = digits(problem.tolerance);
+    let [time, length, speed] = ["s", "m", "m/s"].map(|unit| about.quantity(unit, digits));
+    let columns = Columns::default()
+        .word("what", |row: &MotionRow| row.what)
+        .number("tau", time, |row| row.tau)
+        .number("q", length, |row| row.q)
+        .number("v", speed, |row| row.v);
     let energy = motion.ledger.as_ref().map(|ledger| energy(ledger, machine));
     let works = Columns::default().text("energy", |(name, _): &(String, f64)| name.clone()).number(
         "amount",

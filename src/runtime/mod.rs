@@ -27,7 +27,16 @@ pub mod standard;
 pub mod workers;
 
 pub use self::{
-    application::*, effects::Files, explorer::*, failure::Failure, launch::launch,
-    new_file::NewFile, new_file::Readers, pump::*, record::*, scan_file::ScanFile, scan_part::*,
-    standard::tell, workers::*,
+    application::*,
+    effects::Files,
+    explorer::*,
+    failure::Failure,
+    launch::launch,
+    new_file::{NewFile, Readers},
+    pump::*,
+    record::*,
+    scan_file::ScanFile,
+    scan_part::*,
+    standard::tell,
+    workers::*,
 };

@@ -104,11 +104,16 @@ impl StrokeSheet {
 
     fn extend(&mut self, cell: &Cell) {
         let Some(last) = self.strokes.last_mut() else { return };
-        let width = cell.symbol().width();
+        let symbol = cell.symbol();
+        let width = symbol.width();
         last.adopt(cell);
         last.width += u16::try_from(width).unwrap_or(1);
-        last.certain &= cell.symbol().width_cjk() == width;
-        push_printable(cell.symbol(), width, &mut self.text);
+        last.certain &= symbol.width_cjk() == width;
+        // As far as it is printable: ratatui adds invisible characters to the cell before.
+        let end = symbol.find(|char| !is_printable(char)).unwrap_or(symbol.len());
+        let seen = &symbol[..end];
+        self.text.push_str(seen);
+        self.text.extend(std::iter::repeat_n(' ', width.saturating_sub(seen.width())));
         last.text.end = self.text.len();
     }
 
@@ -143,14 +148,6 @@ impl StrokeSheet {
         }
         (out, hand)
     }
-}
-
-/// Appends a symbol of this width as far as it is printable: ratatui adds invisible characters to the cell before.
-fn push_printable(symbol: &str, width: usize, text: &mut String) {
-    let end = symbol.find(|char| !is_printable(char)).unwrap_or(symbol.len());
-    let seen = &symbol[..end];
-    text.push_str(seen);
-    text.extend(std::iter::repeat_n(' ', width.saturating_sub(seen.width())));
 }
 
 /// The cells of strokes that are not drawn yet: their present content does not matter.
@@ -215,17 +212,13 @@ pub fn draw(shown: &Buffer, picture: &Buffer, hand: TerminalState) -> (String, T
         sheet.put(x, y, cell, shown);
     }
     let size = picture.area.as_size();
-    let by_rows = sheet.draw(&sheet.strokes.iter().collect::<Vec<_>>(), hand, size);
-    let by_pens = sheet.draw(&pen_by_pen(&sheet.strokes), hand, size);
-    if by_pens.0.len() < by_rows.0.len() { by_pens } else { by_rows }
-}
-
-/// The strokes grouped by pen, in the order in which the pens first appear; strokes of blanks form a group too.
-fn pen_by_pen(strokes: &[Stroke]) -> Vec<&Stroke> {
+    let mut strokes: Vec<&Stroke> = sheet.strokes.iter().collect();
+    let by_rows = sheet.draw(&strokes, hand, size);
+    // In the order in which the pens first appear; strokes of blanks form a group too.
     let pens = distinct(strokes.iter().map(|stroke| stroke.pen));
-    let mut sorted: Vec<&Stroke> = strokes.iter().collect();
-    sorted.sort_by_key(|stroke| pens.iter().position(|pen| *pen == stroke.pen));
-    sorted
+    strokes.sort_by_key(|stroke| pens.iter().position(|pen| *pen == stroke.pen));
+    let by_pens = sheet.draw(&strokes, hand, size);
+    if by_pens.0.len() < by_rows.0.len() { by_pens } else { by_rows }
 }
 
 /// Writes the shorter of the absolute and the relative cursor move.

@@ -55,12 +55,12 @@ impl TryFrom<String> for Checksum {
     type Error = &'static str;
 
     fn try_from(text: String) -> Result<Self, Self::Error> {
-        let parts = text.strip_suffix(" rows").and_then(|text| text.split_once(" of "));
-        let read = parts.and_then(|(hash, rows)| {
+        let read = || {
+            let (hash, rows) = text.strip_suffix(" rows")?.split_once(" of ")?;
             let hash = u64::from_str_radix(hash, 16).ok()?;
             Some(Checksum { rows: rows.parse().ok()?, hash })
-        });
-        read.ok_or("not a checksum")
+        };
+        read().ok_or("not a checksum")
     }
 }
 

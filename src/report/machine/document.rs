@@ -81,7 +81,16 @@ fn motions(portrait: &Portrait) -> Document {
     // The right turning point beyond which motions are not known, and why.
     let limit =
         portrait.stop.map(|stop| Document::of("displacement", portrait.known).with("reason", stop));
-    Document::of("cycles", cycle_columns().objects(&portrait.cycles))
+    // Beside them `x` is the displacement.
+    let cycles = Columns::default()
+        .field("kind", Cycle::kind)
+        .field("overtakes", |cycle| cycle.overtakes)
+        .field("stable", |cycle| cycle.stable);
+    let cycles = of_machine()
+        .fold(cycles, |all, number| all.file(&number.physical_name(), number.value))
+        // Null for a multiplier of 0.
+        .field("log_multiplier", |cycle| cycle.log_multiplier);
+    Document::of("cycles", cycles.objects(&portrait.cycles))
         .with("neutral", portrait.neutral)
         .with("border", Document::of("kind", portrait.border))
         .with("margin", margin)
@@ -137,16 +146,4 @@ fn by_second(second: &Motion, first: Sample) -> Document {
         .with_any("end", end.ok().map(state))
         .with_any("difference", end.ok().map(less).map(state))
         .with_any("reason", end.err())
-}
-
-/// The columns of a cycle, beside which `x` is the displacement.
-fn cycle_columns<'a>() -> Columns<'a, Cycle> {
-    let columns = Columns::default()
-        .field("kind", Cycle::kind)
-        .field("overtakes", |cycle| cycle.overtakes)
-        .field("stable", |cycle| cycle.stable);
-    of_machine()
-        .fold(columns, |all, number| all.file(&number.physical_name(), number.value))
-        // Null for a multiplier of 0.
-        .field("log_multiplier", |cycle| cycle.log_multiplier)
 }
