@@ -142,6 +142,8 @@ pub fn command_line(session: &Session) -> String {
 
 /// The command for the machine that is drawn, with the numbers that are not those of its name or file; `None` without one.
 fn of_machine(session: &Session) -> Option<String> {
+    // Last, as these follow from the others where nothing is said.
+    const STATIC: [Knob; 2] = [Knob::StaticCoefficient, Knob::StaticGuide];
     let Problem { initial: State { q, v }, until, parameters, .. } = session.problem;
     let (source, units) = session.source(&parameters);
     let (belt, drawn) = (source.of_belt()?, &session.running()?.machine);
@@ -151,9 +153,12 @@ fn of_machine(session: &Session) -> Option<String> {
     let varied = diagram.map(|plot| plot.axes.machine);
     let command = if diagram.is_some() { "branch" } else { "trajectory" };
     let mut line = format!("hopfscope {command} --machine {}", shell_word(&drawn.name));
-    for knob in KNOBS.iter().map(|row| row.knob).filter(|knob| Some(*knob) != varied) {
+    let others = KNOBS.iter().map(|row| row.knob).filter(|knob| !STATIC.contains(knob));
+    let mut told = opened.belt.clone();
+    for knob in others.chain(STATIC).filter(|knob| Some(*knob) != varied) {
         let value = knob.of_belt(belt);
-        if let Some(value) = value.filter(|_| value != knob.of_belt(&opened.belt)) {
+        if let Some(value) = value.filter(|_| value != knob.of_belt(&told)) {
+            knob.set_in_belt(&mut told, value).ok()?;
             line += &set(knob, value);
         }
     }
