@@ -23,8 +23,8 @@ pub fn open(session: &mut Session, kind: ListKind) {
 pub fn toggle_letter(session: &mut Session, key: Key) {
     let view = session.view_in_use();
     let Some((_, layer)) = letters(view).find(|(letter, _)| key.typed() == Some(*letter)) else {
-        let text = format!("{} is not a layer of the {}", key.said(), view.spec().title);
-        return session.refuse(text);
+        let title = view.spec().title;
+        return session.refuse(format!("{} is not a layer of the {title}", key.said()));
     };
     if let Some(Overlay::List(ListKind::Layers, list)) = &session.overlay {
         let place = session.layer_rows(list).iter().position(|row| row.layer == layer);

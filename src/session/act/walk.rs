@@ -46,8 +46,7 @@ fn first(session: &Session) -> Result<BranchStop, &'static str> {
 
 /// Moves `count` points along the held piece of the branch.
 pub fn go(session: &mut Session, count: isize) {
-    let further = |way: &BranchPath, held: &BranchStop| way.further(held, count);
-    if !moved(session, further) {
+    if !moved(session, |way, held| way.further(held, count)) {
         let text = "the branch ends here; {walk-to-next} leads to the next special point or end";
         session.inform_of_keys(text);
     }

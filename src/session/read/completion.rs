@@ -71,8 +71,7 @@ pub fn properties() -> impl Iterator<Item = (String, (Ordinate, Unit))> {
 
 /// Candidates for an assignment: names with `=`, or after a name its present value.
 pub fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
-    let word = words.last().copied().unwrap_or_default();
-    match word.split_once('=') {
+    match words.last().copied().unwrap_or_default().split_once('=') {
         Some(("method", _)) => METHODS.iter().map(|row| format!("method={}", row.name)).collect(),
         Some((name, "")) => {
             let row = rows(session).find(|row| row.name() == name);

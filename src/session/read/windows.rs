@@ -3,7 +3,7 @@
 use crate::accuracy::TradePoint;
 use crate::closed_form::lyapunov;
 use crate::fit::{DropReason, RecordPoint, Signal};
-use crate::flow::{Motion, Outcome, Problem};
+use crate::flow::{Outcome, Problem};
 use crate::model::{Knob, Parameters, energy};
 use crate::numerics::{hypot, real, truncated};
 use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View, Window, usual_values};
@@ -183,12 +183,12 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     if shown(Layer::Friction) {
         values.extend([-r, r]);
     }
-    let end = |motion: &Motion| match motion.outcome {
+    let ends = motions.iter().map(|(_, motion)| match motion.outcome {
         Outcome::Captured { tau, .. } => (REST * tau).min(motion.problem.until),
         Outcome::Moving { tau, .. } => tau,
         Outcome::Escaped { tau } | Outcome::GaveUp { tau, .. } => ROOM * tau,
-    };
-    let end = motions.iter().map(|(_, motion)| end(motion)).fold(0.0, f64::max);
+    });
+    let end = ends.fold(0.0, f64::max);
     let record = session.fitted().filter(|_| shown(Layer::Record));
     let signal = record.map_or(Signal::default(), |fitted| fitted.record.signal);
     let record: &[RecordPoint] = record.map_or(&[], |fitted| &fitted.points);

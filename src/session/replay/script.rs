@@ -278,8 +278,8 @@ fn step(token: &str) -> Done<Instruction> {
     /// Longest part of a directive that is repeated where it is refused; it may hold a whole file.
     const REPEATED: usize = 60;
     if !token.starts_with('<') {
-        let char = token.chars().next().unwrap_or(' ');
-        return Ok(Instruction::Key { key: Key::plain(Code::Char(char)), count: 1 });
+        let code = Code::Char(token.chars().next().unwrap_or(' '));
+        return Ok(Instruction::Key { key: Key::plain(code), count: 1 });
     }
     let Some(name) = token[1..].strip_suffix('>') else {
         return Err("\"<\" without \">\" on its line; the character itself is <lt>".to_owned());
@@ -288,11 +288,11 @@ fn step(token: &str) -> Done<Instruction> {
     let Some(Directive { takes, read, .. }) = DIRECTIVES.iter().find(|row| row.word == word) else {
         return keys(name);
     };
-    let given = || match name.char_indices().nth(REPEATED) {
-        Some((end, _)) => format!("<{} ..", &name[..end]),
-        None => token.to_owned(),
-    };
-    read(rest.trim()).ok_or_else(|| format!("{}: {word} takes {takes}", given()))
+    read(rest.trim()).ok_or_else(|| {
+        let end = name.char_indices().nth(REPEATED);
+        let given = end.map_or(token.to_owned(), |(end, _)| format!("<{} ..", &name[..end]));
+        format!("{given}: {word} takes {takes}")
+    })
 }
 
 /// Seconds that pass: at most an hour.
