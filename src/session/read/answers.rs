@@ -31,7 +31,7 @@ impl Session {
     }
 
     pub fn cycles(&self) -> Option<&Drawing> {
-        self.answer(Topic::Cycles, self.plot)?.try_as_cycles_ref().map(|(drawn, _)| drawn)
+        Some(self.answer(Topic::Cycles, self.plot)?.try_as_cycles_ref()?.0)
     }
 
     pub fn balance(&self) -> Option<&HarmonicBalance> {
@@ -48,7 +48,7 @@ impl Session {
 
     /// The borders between bands of capture.
     pub fn borders(&self, plot: usize) -> Option<&Vec<Vec<State>>> {
-        self.answer(Topic::Capture, plot)?.try_as_capture_ref().map(|(borders, _)| borders)
+        Some(self.answer(Topic::Capture, plot)?.try_as_capture_ref()?.0)
     }
 
     pub fn return_map(&self, plot: usize) -> Option<&ReturnMap> {
@@ -140,7 +140,7 @@ impl Session {
     /// Whether there are answers on this topic for all problems that a plot shows.
     pub fn is_fresh(&self, topic: Topic, plot: usize) -> bool {
         let asked = self.requests(topic, plot);
-        asked.iter().all(|(_, request)| self.answers.standing(request).is_fresh())
+        asked.iter().flatten().all(|request| self.answers.standing(request).is_fresh())
     }
 
     /// Whether a question has neither an answer nor a failure.

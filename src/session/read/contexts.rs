@@ -76,9 +76,7 @@ impl Session {
         // It must not matter whether a layer asks: the answer may have been computed before the layer was
         // switched off.
         let is_open = |request: &Request| self.is_open(request);
-        let open = |topic| {
-            self.requests(topic, plot).into_iter().map(|(_, request)| request).find(is_open)
-        };
+        let open = |topic| self.requests(topic, plot).into_iter().flatten().find(is_open);
         command.needs.split(' ').find_map(|need| match need {
             "cycles-at-present" => self.request(Topic::Cycles, plot).filter(is_open),
             "motion-over-time" if self.plots[plot].view == View::TimeSeries => {

@@ -194,12 +194,12 @@ impl Session {
     ) -> Vec<(VariantTag, T)> {
         let starts = topic == Topic::Trajectory;
         let labels = labels(self.variants(plot).unwrap_or_default(), &self.problem, starts);
-        let found = |(index, request): (usize, Request)| {
-            let answer = self.answers.standing(&request).answer().and_then(read)?;
+        let found = |(index, request): (usize, Option<Request>)| {
+            let answer = self.answers.standing(&request?).answer().and_then(read)?;
             let label = labels.get(index).cloned().unwrap_or_default();
             Some((VariantTag { index, label }, answer))
         };
-        self.requests(topic, plot).into_iter().filter_map(found).collect()
+        self.requests(topic, plot).into_iter().enumerate().filter_map(found).collect()
     }
 
     /// The branches computed last over the parameter of a diagram, stale or not, each with its index among the
@@ -214,9 +214,8 @@ impl Session {
     /// The measure of heights for the cycles of a variant in a diagram, at the friction of the branch on show,
     /// stale or not.
     pub fn height(&self, plot: usize, variant: usize) -> Height {
-        let mut asked = self.requests(Topic::Branch, plot).into_iter();
-        let asked = asked.find(|(index, _)| *index == variant);
-        let reply = asked.and_then(|(_, request)| self.answers.standing(&request).reply());
+        let asked = self.requests(Topic::Branch, plot).into_iter().nth(variant).flatten();
+        let reply = asked.and_then(|request| self.answers.standing(&request).reply());
         let friction = match reply.map(|found| &found.request) {
             Some(Request::Branch { parameters, .. }) => parameters.r,
             _ => self.problem.parameters.r,

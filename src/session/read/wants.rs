@@ -50,13 +50,13 @@ impl Session {
     pub fn asks(&self) -> Vec<Request> {
         let of_plot = |plot| self.needs(plot).into_iter().map(move |topic| (topic, plot));
         let needed: BTreeSet<(Topic, usize)> = self.on_show().flat_map(of_plot).collect();
-        let each = needed.iter().flat_map(|(topic, plot)| self.requests(*topic, *plot));
+        let each = needed.iter().flat_map(|(topic, plot)| self.requests(*topic, *plot)).flatten();
         let measures = self.measures();
         let last = measures.then(|| self.request(Topic::Reference, self.plot)).flatten();
         let awaited = self.waiting.iter().map(|waiting| waiting.request.clone());
         let claims = matches!(self.overlay, Some(Overlay::List(ListKind::Paper, _)));
         let claims = claims.then_some(Request::Claims);
-        let all = awaited.chain(self.refit_request(false)).chain(claims).chain(each.map(|it| it.1));
+        let all = awaited.chain(self.refit_request(false)).chain(claims).chain(each);
         let proof = || self.request(Topic::Proof, self.plot);
         let proof = needed.iter().any(|(topic, _)| *topic == Topic::Cycles).then(proof).flatten();
         // The distribution of the margin is drawn, and the second status line tells of it.
@@ -69,7 +69,7 @@ impl Session {
     /// The questions of one plot.
     pub fn asked_by(&self, plot: usize) -> Vec<Request> {
         let needed = self.needs(plot).into_iter();
-        needed.flat_map(|topic| self.requests(topic, plot)).map(|(_, request)| request).collect()
+        needed.flat_map(|topic| self.requests(topic, plot)).flatten().collect()
     }
 
     /// The questions whose answers are drawn for the point that was left.
@@ -104,15 +104,14 @@ impl Session {
         needed
     }
 
-    /// The questions on this topic for each problem that a plot shows, with its index among these.
-    pub fn requests(&self, topic: Topic, plot: usize) -> Vec<(usize, Request)> {
+    /// The questions on this topic for each problem that a plot shows; none where there is nothing to ask.
+    pub fn requests(&self, topic: Topic, plot: usize) -> Vec<Option<Request>> {
         let problems = match self.variants(plot).filter(|_| topic.is_of_variants()) {
             Some(variants) => variants.iter().map(|variant| variant.of(self.problem)).collect(),
             None if topic == Topic::Trajectory => self.problems(),
             None => vec![self.problem],
         };
-        let request = |(index, it)| Some((index, self.request_for(topic, plot, it)?));
-        problems.into_iter().enumerate().filter_map(request).collect()
+        problems.into_iter().map(|it| self.request_for(topic, plot, it)).collect()
     }
 
     /// The question on this topic for the present problem, with exactly the inputs on which its answer depends.
@@ -271,7 +270,7 @@ impl Session {
             for layer in self.layers.iter().filter(|layer| self.shows_in(**layer, plot)) {
                 let LayerSpec { name, needs, .. } = layer.spec();
                 let each = needs.map(|topic| self.requests(topic, plot)).unwrap_or_default();
-                for (_, request) in each {
+                for request in each.into_iter().flatten() {
                     match found.iter_mut().find(|requirement| requirement.request == request) {
                         Some(known) if known.layers.contains(name) => {}
                         Some(known) => known.layers.push(name),

@@ -68,7 +68,8 @@ fn expected(session: &Session, row: Row) -> Vec<Request> {
     for plot in session.on_show() {
         for topic in session.needs(plot) {
             let depends = depends(topic, row) && is_free(session, topic, plot, row);
-            for (index, request) in session.requests(topic, plot) {
+            for (index, request) in session.requests(topic, plot).into_iter().enumerate() {
+                let Some(request) = request else { continue };
                 let held = topic.is_of_variants() && is_held(session, plot, index, row);
                 if depends && !held && !found.contains(&request) {
                     found.push(request);
