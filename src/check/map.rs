@@ -34,7 +34,7 @@ impl Map {
     pub fn images(&self, of: Interval) -> Interval {
         let mut at = of;
         for field in &self.fields {
-            if at == f64::INFINITY || at == f64::NEG_INFINITY {
+            if at == f64::INFINITY || at.upper() == f64::NEG_INFINITY {
                 return at;
             }
             let [low, high] = [at.lower(), at.upper()].map(|z| self.half(field, z));

@@ -27,17 +27,13 @@ pub struct MethodSpec {
 /// Every method as the lines of `assets/methods.txt` describe it, in display order.
 pub static METHODS: LazyLock<Vec<MethodSpec>> = LazyLock::new(|| {
     let described = include_str!("../../assets/methods.txt").lines().filter_map(cells);
-    described.filter_map(MethodSpec::read).collect()
-});
-
-impl MethodSpec {
-    /// A line of the table; `None` if there is no method of its name.
-    fn read([name, dial, events, guarantee]: [&'static str; 4]) -> Option<Self> {
-        let method = named(name)?;
+    // A line of another name than those of methods is none of the table.
+    let rows = described.filter_map(|[name, dial, events, guarantee]| {
         let dial = Knob::named(dial, &[Group::Setting]).ok();
-        Some(MethodSpec { method, name, dial, events: events == "events", guarantee })
-    }
-}
+        Some(MethodSpec { method: named(name)?, name, dial, events: events == "events", guarantee })
+    });
+    rows.collect()
+});
 
 /// An integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -23,12 +23,6 @@ pub const FINE: Grain = Grain { order: 32, tolerance: 1e-30 };
 /// Three digits fewer, with other steps: the difference between the two bounds the error of the finer one.
 pub const COARSE: Grain = Grain { order: 28, tolerance: 1e-27 };
 
-impl Grain {
-    fn stepper(self) -> Taylor<Twofold> {
-        Taylor::with_order(self.tolerance, self.order)
-    }
-}
-
 /// Computes the motion of a problem, ignoring its method and tolerance.
 ///
 /// Guarantee: the error is that of some hundred operations of relative error `1e-31`, amplified as the motion
@@ -38,7 +32,7 @@ impl Grain {
 /// [`Reason`] where the budget does not suffice (stiff motions) or a number leaves the range of doubles.
 pub fn precise(problem: &Problem, grain: Grain, limits: &Limits) -> Result<Motion<Twofold>> {
     let run = MotionRun::new(problem, Method::Taylor, Detail::default(), limits);
-    let found = run.go(&mut grain.stepper());
+    let found = run.go(&mut Taylor::with_order(grain.tolerance, grain.order));
     found.outcome.answered().map(|()| found)
 }
 
@@ -55,7 +49,7 @@ pub fn half_swing(
 ) -> Result<Option<(Twofold, Twofold)>> {
     /// Upper bound on the duration of any half swing that arrives.
     const PATIENCE: f64 = 1e100;
-    let mut stepper = grain.stepper();
+    let mut stepper = Taylor::with_order(grain.tolerance, grain.order);
     let point = StepPoint { x: -start, v: Twofold::default() };
     let watch = |_: &mut Taylor<Twofold>, _, _, _: &_| true;
     let found =

@@ -48,13 +48,6 @@ pub struct ProvedCycle {
     pub enclosure: Option<Enclosure>,
 }
 
-impl ProvedCycle {
-    /// One that is not enclosed yet.
-    pub(super) fn new(within: Interval, stable: bool) -> Self {
-        ProvedCycle { within, stable, enclosure: None }
-    }
-}
-
 /// The outcome for all gaps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Count {
@@ -141,7 +134,8 @@ impl Count {
         let Some(slope) = way.slope(over) else { return false };
         if !slope.contains(1.0) {
             if low != high {
-                self.cycles.push(ProvedCycle::new(over, low == Sign::Above));
+                let stable = low == Sign::Above;
+                self.cycles.push(ProvedCycle { within: over, stable, enclosure: None });
             }
             return true;
         }

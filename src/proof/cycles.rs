@@ -98,9 +98,9 @@ fn in_own_units(parameters: &ParameterBox) -> (ParameterBox, i32) {
 
 /// Counts cycles by the theorem, or by the return map.
 fn counted(theorem: Option<Theorem>, map: &ProvedMap) -> Count {
-    let everywhere = Interval::new(0.0, f64::INFINITY);
-    let one =
-        |stable| Count { cycles: vec![ProvedCycle::new(everywhere, stable)], open: Vec::new() };
+    let within = Interval::new(0.0, f64::INFINITY);
+    let cycles = |stable| vec![ProvedCycle { within, stable, enclosure: None }];
+    let one = |stable| Count { cycles: cycles(stable), open: Vec::new() };
     match theorem {
         Some(Theorem::OneWay | Theorem::Overdamped) => Count::default(),
         Some(Theorem::Affine) => one(false),

@@ -96,7 +96,7 @@ pub fn swing_below(
         ceiling: ceiling.upper(),
         steps: 0,
     };
-    run.to_end().unwrap_or(Passage::Unknown)
+    run.passage().unwrap_or(Passage::Unknown)
 }
 
 /// A half swing in progress.
@@ -117,7 +117,7 @@ struct SwingRun {
 
 impl SwingRun {
     /// Takes steps until the swing ends; `None` where nothing is certain about it.
-    fn to_end(&mut self) -> Option<Passage> {
+    fn passage(&mut self) -> Option<Passage> {
         while self.steps < MOST_STEPS {
             self.steps += 1;
             let ball = &mut self.ball;
