@@ -7,10 +7,9 @@ use crate::portrait::basin;
 use crate::scan::{Conditions, Measure, Scan, Sweep};
 use crate::scene::{Request, Span, View};
 use crate::session::act::parameters::put;
-use crate::session::act::prompt;
 use crate::session::act::screen_setup::{add, focus_on, show};
 use crate::session::{
-    Content, Done, Effect, Pane, Plot, SCANNING, ScanOnShow, ScanProgress, Session,
+    Content, Done, Effect, Overlay, Pane, Plot, Prompt, SCANNING, ScanOnShow, ScanProgress, Session,
 };
 use crate::words::{joined, resolved};
 
@@ -24,7 +23,7 @@ pub fn open(session: &mut Session) {
     let has = |scan: &Scan| scan.over().iter().all(|it| groups.contains(&it.symbol.spec().group));
     let last = session.scanned.as_ref().filter(|it| has(&it.scan));
     let last = last.map_or_else(|| usual(session), |scanned| typed(&scanned.scan));
-    prompt::open(session, format!("scan {last}"));
+    session.overlay = Some(Overlay::Prompt(Prompt::new(format!("scan {last}"))));
 }
 
 /// A scan as it is typed.
