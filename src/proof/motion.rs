@@ -210,8 +210,8 @@ pub fn state_at(
         let left = target - ball.time;
         if !(left > 4.0 * f64::EPSILON * target) {
             let off = (time - ball.elapsed(0.0)).magnitude();
-            let [x, v] = about(&ball.local.field, ball.state(), off)?;
-            let (x, v) = (scaled(x, ball.unit), scaled(v, ball.unit));
+            let around = about(&ball.local.field, ball.state(), off)?;
+            let [x, v] = around.map(|it| scaled(it, ball.unit));
             return (v.lower() >= 0.0).then_some((x, v));
         }
         ball.step(left)?;
