@@ -90,7 +90,13 @@ impl BeltCommand {
             timed(self.output.repeat, || self.answer(&case.described.subject, &about, second));
         let answer = found.map_err(troubled)?;
         if let Some(path) = &self.report {
-            let (pictures, provenance) = (pictures(&case)?, provenance_file::of_process());
+            // The plots of a mass on a belt in the explorer; none of a mode.
+            let mut pictures = Vec::new();
+            if let Some(scene) = case.scene()? {
+                let (mut session, plots) = completed(scene)?;
+                pictures = panels(&figure(&mut session, &plots, &Limits::PATIENT));
+            }
+            let provenance = provenance_file::of_process();
             let is_mass = answer.expansion.is_some();
             let kind = if is_mass { "A mass on a belt" } else { "A vibration mode" };
             let page = machine(&answer, seconds).page(kind, &pictures, &provenance, &case.sources);
@@ -152,11 +158,4 @@ impl BeltCommand {
         let steady = if self.elongation { portrait.model.pull } else { 0.0 };
         Some(portrait.rest_share((from - steady, to - steady), v).map(|share| share.part))
     }
-}
-
-/// The plots of a mass on a belt in the explorer; none of a mode.
-fn pictures(case: &CommandCase) -> Result<Vec<String>> {
-    let Some(scene) = case.scene()? else { return Ok(Vec::new()) };
-    let (mut session, plots) = completed(scene)?;
-    Ok(panels(&figure(&mut session, &plots, &Limits::PATIENT)))
 }

@@ -21,7 +21,7 @@ pub fn beside(path: &Path, ending: &str) -> PathBuf {
 }
 
 /// Who may read a file that was not there before.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 pub enum Readers {
     /// Whoever the user's umask allows.
     Usual,

@@ -6,7 +6,7 @@
 use crate::session::{Colors, DisplaySettings, Glyphs, Theme};
 
 /// The terminal, as far as it is known.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone)]
 pub struct Environment {
     /// Type of the terminal; empty if unknown.
     term: String,

@@ -15,7 +15,6 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use super::screen::{END, PLAIN};
 
 /// The sequences that turn a mode on and off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScreenMode {
     pub on: &'static str,
     pub off: &'static str,
@@ -48,14 +47,14 @@ fn leaving(mouse: bool) -> String {
 }
 
 /// Whether the terminal is taken, and whether mouse reports are wanted.
-#[derive(Debug, Default)]
+#[derive(Default)]
 struct GuardState {
     taken: bool,
     mouse: bool,
 }
 
 /// The terminal, taken or not. Clones share that state.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Guard {
     state: Arc<Mutex<GuardState>>,
     /// The terminal, to write frames to.

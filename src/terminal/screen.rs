@@ -38,7 +38,6 @@ const ERASE: &str = "\x1b[2J";
 const UNKNOWN: Size = Size { width: 80, height: 24 };
 
 /// A terminal to draw on, which understands ECMA-48 and has its cursor hidden.
-#[derive(Debug)]
 pub struct Screen<W: Write> {
     out: W,
     size: Size,
