@@ -284,7 +284,8 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
         COLUMNS[usize::from(units.is_some())].iter().take_while(fits).copied().collect();
     let aligned = |cells: [String; 5]| {
         let cells = cells.into_iter().zip(&columns);
-        cells.map(|(cell, (_, width))| format!("{cell:>width$}")).collect::<String>()
+        let cells = cells.map(|(cell, (_, width))| format!("{cell:>width$}"));
+        cells.collect::<String>()
     };
     let title = " cycles";
     let headings = columns.iter().map(|(name, width)| format!("{name:>width$}"));
