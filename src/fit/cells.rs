@@ -160,16 +160,16 @@ fn days(date: &str) -> Option<i64> {
 }
 
 /// Parts of the names of time columns, in lower case.
-const TIMES: [&str; 5] = ["time", "zeit", "temps", "tiempo", "seconds"];
+const TIMES: &str = "time zeit temps tiempo seconds";
 
 /// Parts of the names of displacement columns, in lower case, in order of preference, with blanks between them; single
 /// letters are whole names.
 const DISPLACEMENTS: &str = "displ weg auslenk deflec peak position amplitude extrem distance x q";
 
 /// Parts of the names of columns that hold other signals, in lower case.
-const SIGNALS: [(Signal, [&str; 3]); 2] = [
-    (Signal::Velocity, ["velocity", "geschw", "vitesse"]),
-    (Signal::Acceleration, ["accel", "beschl", "acc\u{e9}l"]),
+const SIGNALS: [(Signal, &str); 2] = [
+    (Signal::Velocity, "velocity geschw vitesse"),
+    (Signal::Acceleration, "accel beschl acc\u{e9}l"),
 ];
 
 /// Names and units of the columns.
@@ -195,9 +195,9 @@ pub fn seconds_in(unit: &str) -> Option<f64> {
 
 impl ColumnHeader {
     /// Whether one of these parts is in the name.
-    fn name_has(&self, parts: &[&str]) -> bool {
+    fn name_has(&self, parts: &str) -> bool {
         let name = self.name.to_lowercase();
-        parts.iter().any(|part| name.contains(part))
+        parts.split(' ').any(|part| name.contains(part))
     }
 
     /// The signal that the name suggests.
@@ -268,7 +268,7 @@ impl Header {
 
     /// The column of times. A column `T` holds temperatures.
     pub fn time(&self) -> Option<usize> {
-        let is_called = |it: &ColumnHeader| it.name_has(&TIMES);
+        let is_called = |it: &ColumnHeader| it.name_has(TIMES);
         self.find(None, is_called).or_else(|| self.find(None, |it| it.name == "t"))
     }
 
@@ -285,7 +285,7 @@ impl Header {
         DISPLACEMENTS.split(' ').find_map(|known| {
             let is_whole = known.len() == 1;
             self.find(time, |it| {
-                if is_whole { it.name.to_lowercase() == known } else { it.name_has(&[known]) }
+                if is_whole { it.name.to_lowercase() == known } else { it.name_has(known) }
             })
         })
     }

@@ -176,6 +176,7 @@ fn assessed(task: &Task, found: &[Optimum]) -> Option<(Estimate, Option<Optimum>
     };
     let (intervals, lower) = intervals(task, found, covariance.variance, &whiteness);
     let left_drift = LeftDrift::of(task, best, &covariance);
+    let (residuals, states) = best.seen.residuals.iter().map(|it| (it.value, it.at)).unzip();
     let estimate = Estimate {
         choice: Choice::default(),
         data: data.clone(),
@@ -184,8 +185,8 @@ fn assessed(task: &Task, found: &[Optimum]) -> Option<(Estimate, Option<Optimum>
         free: task.free,
         covariance,
         intervals,
-        residuals: best.seen.residuals.iter().map(|it| it.value).collect(),
-        states: best.seen.residuals.iter().map(|it| it.at).collect(),
+        residuals,
+        states,
         left_out: task.dropped.to_vec(),
         half_swings: best.seen.turns.len(),
         rests: best.seen.rests,
@@ -332,14 +333,15 @@ pub fn held(
     let autocorrelation = &estimate.whiteness.autocorrelation;
     let covariance = Covariance::at(&task, &optimum, autocorrelation).ok_or(NoEstimate::Blind)?;
     let half_swings = optimum.seen.turns.len();
+    let (residuals, states) = optimum.seen.residuals.iter().map(|it| (it.value, it.at)).unzip();
     Ok(Estimate {
         p: optimum.p,
         free: task.free,
         covariance,
         // The ends are not computed; it is assumed that the likelihood is quadratic where it was before.
         intervals: estimate.intervals.map(|it| ProfileInterval { lower: None, upper: None, ..it }),
-        residuals: optimum.seen.residuals.iter().map(|it| it.value).collect(),
-        states: optimum.seen.residuals.iter().map(|it| it.at).collect(),
+        residuals,
+        states,
         half_swings,
         rests: optimum.seen.rests,
         rivals: vec![Rival { half_swings, delta_chi2: 0.0, p: optimum.p }],

@@ -18,8 +18,7 @@ pub fn median(mut values: Vec<f64>) -> f64 {
     if values.is_empty() {
         return 0.0;
     }
-    let (_, found, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
-    *found
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 /// Average number of samples in a unit of time.

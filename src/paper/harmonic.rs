@@ -170,7 +170,7 @@ fn amplitude_and_extents(it: &ClaimCase, holds: fn(f64, f64, f64) -> bool) -> Re
         let certain = cycle.bounds.is_some_and(|it| {
             let [v, q] = [it.v_max, it.q_max];
             // The formula is rounded, and which of both extents is the larger one is certain.
-            let ordered = v.upper() < q.lower() || q.upper() < v.lower();
+            let ordered = v.intersection(q).is_none();
             let agrees = |a: f64, v: f64, q: f64| holds(a, v.min(q), v.max(q)) == value;
             let formula = [harmonic * (1.0 - 1e-9), harmonic * (1.0 + 1e-9)];
             ordered
