@@ -389,7 +389,7 @@ mod tests {
             let width = 1e-6;
             let size = jacobian.ncols();
             for column in 0..size {
-                let unit = DVector::from_fn(size, |row, _| f64::from(u8::from(row == column)));
+                let unit = DVector::from_fn(size, |row, _| f64::from(row == column));
                 let moved = |part| BalanceResidual::new(&parameters, 5, &residual.moved(&unit, part));
                 let at = |part| moved(part).values();
                 let slope = (at(width) - at(-width)) / (2.0 * width);

@@ -176,7 +176,7 @@ impl Distribution {
     /// Probability that a number of mean 0 and this spread is larger than `x`.
     fn above(self, x: f64, spread: f64) -> f64 {
         if spread == 0.0 {
-            return f64::from(u8::from(x <= 0.0));
+            return f64::from(x <= 0.0);
         }
         match self {
             Distribution::Normal => 0.5 * erfc(x / spread / SQRT_2),
@@ -189,7 +189,7 @@ impl Distribution {
         let scaled = x / spread;
         match self {
             Distribution::Normal => exp(-0.5 * scaled * scaled) / (spread * (2.0 * PI).sqrt()),
-            Distribution::Uniform => f64::from(u8::from(scaled.abs() <= 1.0)) / (2.0 * spread),
+            Distribution::Uniform => f64::from(scaled.abs() <= 1.0) / (2.0 * spread),
         }
     }
 
