@@ -25,7 +25,7 @@ pub struct Plan {
 }
 
 /// A batch engine.
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
+#[derive(Clone, Copy, ValueEnum)]
 enum Engine {
     /// A Snakefile.
     Snakemake,

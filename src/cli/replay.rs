@@ -37,7 +37,7 @@ pub struct ReplayCommand {
 }
 
 /// The form of a screen in a file.
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
+#[derive(Clone, Copy, ValueEnum)]
 enum ScreenFormat {
     /// Its characters, in UTF-8.
     Text,

@@ -18,7 +18,7 @@ const GAP: f64 = 6.0;
 const SPACING: f64 = 3.0;
 
 /// The box of a text, in pixels; y points down.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 struct Rectangle {
     left: f64,
     top: f64,

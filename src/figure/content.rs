@@ -15,7 +15,7 @@ use crate::scene::{Point, Span, Window, rectangle};
 use crate::words::provenance::Provenance;
 
 /// What plots show, as data.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Figure {
     /// The name of the scene.
     pub figure: String,
@@ -43,7 +43,7 @@ pub struct Figure {
 }
 
 /// A plot, as data.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Panel {
     /// What it is called.
     pub title: String,

@@ -14,7 +14,7 @@ use crate::session::VariantTag;
 pub type Text = Cow<'static, str>;
 
 /// How a line looks and what it is called: most are lines of `assets/lines.txt`, and known by their name.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct LineStyle {
     /// What it is; empty for lines that need no name.
     pub name: Text,
@@ -103,7 +103,7 @@ pub type Function<'a> = Box<dyn Fn(f64) -> Option<f64> + 'a>;
 pub type Flow<'a> = Box<dyn Fn(Point) -> Point + 'a>;
 
 /// Marks of one meaning.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Marks {
     pub mark: Mark,
     /// What they stand for, as far as their colour goes.

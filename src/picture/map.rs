@@ -55,7 +55,7 @@ pub fn nothing(scanned: &ScanOnShow, index: usize) -> Option<&'static str> {
 }
 
 /// The scale of a map: how dangerous a value is.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Danger {
     pub low: f64,
     pub high: f64,
@@ -109,7 +109,7 @@ impl Danger {
 }
 
 /// A map over two parameters: cells around the points of a grid.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct ScanMap {
     /// What is measured, with its unit.
     pub name: String,
@@ -124,7 +124,7 @@ pub struct ScanMap {
 }
 
 /// A number, or what it means that there is none.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 #[serde(untagged)]
 pub enum MapCell {
     Number(f64),

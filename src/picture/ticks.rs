@@ -16,7 +16,7 @@ use crate::numerics::{StepSize, decade, decimal, log10, pow};
 use crate::scene::Span;
 
 /// A tick: where it stands and what it says.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Tick {
     /// Fraction of the axis, from 0 to 1.
     pub fraction: f64,
@@ -25,7 +25,7 @@ pub struct Tick {
 }
 
 /// Evenly spaced round ticks.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Ticks {
     /// What to add to every label, where labels count from a number other than zero.
     pub base: Option<String>,

@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 use crate::words::printable;
 
 /// An object, told field by field.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 #[serde(transparent)]
 pub struct Document(Map<String, Value>);
 

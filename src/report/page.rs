@@ -6,7 +6,7 @@ use crate::words::printable::xml;
 use crate::words::provenance::Provenance;
 
 /// A file that an answer was computed from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct SourceFile {
     pub name: String,
     /// When it was last changed; `None` for a pipe and for a file of the program.

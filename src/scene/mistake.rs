@@ -9,7 +9,7 @@ use thiserror::Error;
 use crate::words::{joined, printable};
 
 /// A mistake in a file, and its place.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, Error)]
 #[error("{}:{line}:{column}: {}", printable::line(.file), printable::line(.message))]
 pub struct FileMistake {
     pub file: String,
@@ -22,7 +22,7 @@ pub struct FileMistake {
 }
 
 /// A complaint about a part of a text, given as a range of bytes: an empty one at its beginning until the place is known.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, Error)]
 #[error("{message}")]
 pub struct Complaint {
     pub at: Range<usize>,

@@ -127,7 +127,7 @@ impl Ordinate {
 }
 
 /// The measure of heights in a diagram: a property of cycles and its unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Height {
     pub ordinate: Ordinate,
     /// Unit of lengths.

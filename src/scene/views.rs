@@ -37,7 +37,7 @@ pub enum View {
 }
 
 /// What there must be for a view to show anything.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Needs {
     /// Nothing but the oscillator, which is always there.

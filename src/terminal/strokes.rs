@@ -15,7 +15,7 @@ use super::pen::Pen;
 use crate::numerics::distinct;
 use crate::words::printable::is_printable;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Cursor {
     /// Column and row, from 0.
     pub at: Position,
@@ -24,7 +24,7 @@ pub struct Cursor {
 }
 
 /// The known state of the terminal between two strokes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct TerminalState {
     /// The pen; `None` if unknown.
     pub pen: Option<Pen>,

@@ -22,7 +22,7 @@ use crate::picture::{Dash, Role};
 use crate::session::Glyphs;
 
 /// What a curve is drawn with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct DotPen {
     pub role: Role,
     pub dash: Dash,

@@ -24,7 +24,7 @@ const COLUMNS: [(u16, u16); 3] = [(150, 56), (110, 34), (0, 25)];
 const TALL: u16 = 24;
 
 /// The parts of the screen; an empty area is not shown.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Layout {
     pub title: Rect,
     pub parameters: Rect,

@@ -71,7 +71,7 @@ impl Symbols {
 }
 
 /// Everything that decides how the screen looks.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Look {
     /// How curves and symbols are drawn.
     pub glyphs: Glyphs,

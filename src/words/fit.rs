@@ -107,7 +107,7 @@ fn bounds(fitted: &FitResult) -> Vec<String> {
 }
 
 /// The sentence with its numbers.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Statement {
     /// From any rest position each impulse below this is survived; `None` if each is. In N s if a mass or stiffness is
     /// known, else as velocity over `omega0`, a length in the unit of the record.
@@ -134,7 +134,7 @@ pub struct Statement {
 }
 
 /// The units of the numbers of a statement.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct StatementUnits {
     /// Of `impulse`.
     pub impulse: String,

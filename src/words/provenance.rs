@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::joined;
 
 /// What computed an output, and how to compute it again.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Provenance {
     /// Name of the program.
     pub program: String,

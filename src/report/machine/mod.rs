@@ -52,7 +52,7 @@ impl MachineAnswer<'_> {
 }
 
 /// The friction needed for a margin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct DesignAnswer {
     /// The kick that is to be survived.
     pub kick: Kick,

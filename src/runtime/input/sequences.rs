@@ -27,7 +27,7 @@ const ESCAPE: u8 = 0x1b;
 const BELL: u8 = 0x07;
 
 /// A part of the input that has a meaning of its own.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum Sequence {
     /// A character or a whole control sequence.
     Whole(Vec<u8>),

@@ -14,7 +14,7 @@ use crate::model::{Belt, Body, Group, Knob, Model, RangeError, ReducedBelt, Stat
 use crate::numerics::powi;
 
 /// What a file describes: a machine or a vibration mode, and one motion of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Description {
     /// The name by which it is opened.
     pub name: String,

@@ -174,7 +174,7 @@ impl Session {
 }
 
 /// An entry of the footer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Hint {
     /// The keys of the commands that share the word.
     pub keys: Vec<Key>,

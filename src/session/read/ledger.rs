@@ -9,7 +9,7 @@ use crate::scene::Layer;
 use crate::session::Session;
 
 /// The owner of a part of the ledger.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Owner {
     /// One turn of a cycle.
     Cycle(Cycle),
@@ -17,7 +17,7 @@ pub enum Owner {
     Motion(usize, Option<usize>),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum LedgerLine {
     /// The owner of the works in the lines below.
     Title(Owner),

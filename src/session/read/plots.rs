@@ -142,7 +142,7 @@ impl Session {
 }
 
 /// One of the variants that a plot shows.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct VariantTag {
     /// Its place among them.
     pub index: usize,
@@ -151,7 +151,7 @@ pub struct VariantTag {
 }
 
 /// A motion that a plot shows, and what distinguishes it from the others there.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct ShownMotion {
     pub variant: VariantTag,
     pub problem: Problem,

@@ -9,7 +9,7 @@ use crate::scene::Span;
 use crate::session::BranchStop;
 
 /// The connected pieces of branches, each a list of stops.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct BranchPath {
     pieces: Vec<Vec<BranchStop>>,
     /// Width of the range of all values, the unit of distances.

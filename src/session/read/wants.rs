@@ -228,7 +228,7 @@ pub struct Requirement {
 }
 
 /// A row of the list of costs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct CostRow {
     /// A question, formulas, or a row that is stepped.
     pub name: &'static str,

@@ -10,7 +10,7 @@ const LINE: usize = 72;
 pub const HEADER: &str = "# A recording of hopfscope";
 
 /// The actions of a user, as steps of a keystroke file.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Recorder {
     /// How the session was started, in words, for the heading.
     started: String,

@@ -18,7 +18,7 @@ const MOST_STEPS: u64 = 20_000;
 const MOST: usize = 64;
 
 /// The state of the answer to a question.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum AnswerState<'a> {
     Fresh(&'a Reply),
     /// Only the answer to the draft is there.
