@@ -131,7 +131,11 @@ fn used(module: &[String], text: &str) -> Vec<Used> {
     while let Some(line) = lines.next() {
         let head = line.trim_start();
         let offers = head.starts_with("pub");
-        let start = if offers { head.find(" use ").map(|at| at + 1) } else { Some(0) };
+        let start = if offers {
+            head.find(" use ").map(|at| at + 1)
+        } else {
+            Some(0)
+        };
         let Some(tree) = start.and_then(|at| head[at..].strip_prefix("use ")) else {
             rest += line;
             continue;

@@ -69,7 +69,11 @@ fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
     let rung = |number: &f64| {
         let rung = Problem { method, ..*problem }.with_setting(*number);
         let smoothed = method.dial() == Knob::Epsilon;
-        if smoothed { Problem { tolerance: INTEGRATION * number, ..rung } } else { rung }
+        if smoothed {
+            Problem { tolerance: INTEGRATION * number, ..rung }
+        } else {
+            rung
+        }
     };
     let mut rungs: Vec<Problem> = numbers.iter().map(rung).collect();
     if method == problem.method && rungs.iter().all(|rung| rung.setting() != problem.setting()) {

@@ -106,7 +106,11 @@ pub fn branch(
     tracer.special_points()?;
     // The side of the first swing follows the sign of D2, so a curve in D2 is followed on each side of 0.
     let through = parameter == Knob::D2 && from < 0.0 && to > 0.0;
-    let parts = if through { vec![(from, 0.0), (0.0, to)] } else { vec![(from, to)] };
+    let parts = if through {
+        vec![(from, 0.0), (0.0, to)]
+    } else {
+        vec![(from, to)]
+    };
     for part in parts {
         tracer.range = part;
         tracer.trace()?;
@@ -177,7 +181,11 @@ impl CurveTracer<'_> {
         let mut curves = Vec::new();
         self.curve.side = first_side(&self.curve.parameters_at(0.5 * (from + to)));
         for fraction in PROBES {
-            let p = if fraction == 1.0 { to } else { from + fraction * (to - from) };
+            let p = if fraction == 1.0 {
+                to
+            } else {
+                from + fraction * (to - from)
+            };
             for seed in self.seeds(p, &self.known(&curves))? {
                 let graph = self.found.parameter != Knob::D2;
                 let covered = |curve: &Vec<CurvePoint>| {
@@ -186,7 +194,11 @@ impl CurveTracer<'_> {
                 if curves.iter().any(covered) {
                     continue;
                 }
-                let mut points = if fraction > 0.0 { self.follow(seed, -1.0)? } else { vec![seed] };
+                let mut points = if fraction > 0.0 {
+                    self.follow(seed, -1.0)?
+                } else {
+                    vec![seed]
+                };
                 points.reverse();
                 if fraction < 1.0 {
                     points.pop();
@@ -325,7 +337,11 @@ impl CurveTracer<'_> {
         for pair in points.windows(2) {
             let [one, other] = pair else { continue };
             let turns = (one.log_multiplier > 0.0) != (other.log_multiplier > 0.0);
-            let fold = if turns { self.curve.fold_between(one, other)? } else { None };
+            let fold = if turns {
+                self.curve.fold_between(one, other)?
+            } else {
+                None
+            };
             match fold {
                 Some(fold) if !self.reaches(fold.p) => {
                     // Between both points the curve leaves the range and comes back.
@@ -398,8 +414,11 @@ impl CurveTracer<'_> {
             Knob::D => [self.found.cost.spend(escape_point(&parameters, self.curve.limits)?), None],
             Knob::D2 | Knob::R if parameters.d3 == 0.0 => {
                 // Only the product of friction and asymmetric damping matters.
-                let other =
-                    if self.found.parameter == Knob::R { parameters.d2 } else { parameters.r };
+                let other = if self.found.parameter == Knob::R {
+                    parameters.d2
+                } else {
+                    parameters.r
+                };
                 let product = escape_product(parameters.d, self.curve.limits)?;
                 let value = self.found.cost.spend(product).map(|product| product / other.abs());
                 // Friction is never negative.

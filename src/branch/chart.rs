@@ -61,7 +61,11 @@ impl Chart {
 
     /// The point (right, up) at a place on a line.
     pub fn point(&self, at: f64, along: f64) -> (f64, f64) {
-        if self.plane.along() == self.plane.right { (along, at) } else { (at, along) }
+        if self.plane.along() == self.plane.right {
+            (along, at)
+        } else {
+            (at, along)
+        }
     }
 
     /// The regime at a point (right, up); `None` outside and where it could not be found out.
@@ -82,7 +86,11 @@ impl Chart {
                 |pair: &(&Band, &Band)| along <= pair.0.to + part * (pair.1.to - pair.0.to);
             return pairs.find(inside)?.0.regime;
         }
-        if part < 0.5 { before.regime_at(along) } else { after.regime_at(along) }
+        if part < 0.5 {
+            before.regime_at(along)
+        } else {
+            after.regime_at(along)
+        }
     }
 }
 

@@ -145,8 +145,11 @@ impl<'a> CycleCurve<'a> {
             let value = closing.node.value;
             // Where a swing begins at the very end of the sticking set the slope in u does not exist,
             // and across u it does not matter.
-            let in_u =
-                if tangent.p == 0.0 { 0.0 } else { closing.node.slope * UNIT_OF_U * tangent.p };
+            let in_u = if tangent.p == 0.0 {
+                0.0
+            } else {
+                closing.node.slope * UNIT_OF_U * tangent.p
+            };
             let along = match (before, self.slope_in_p) {
                 // A secant along the line, which renews the quotient on the way.
                 (Some((s_before, value_before)), _) => {
@@ -279,7 +282,11 @@ impl<'a> CycleCurve<'a> {
         /// As a fraction of the range, and of the unit of u or the depth.
         const LONGEST: f64 = 0.06;
         let friction = self.parameters_at(point.p).r;
-        let depth = if friction > 0.0 { (ln(friction) - point.u) / UNIT_OF_U } else { 0.0 };
+        let depth = if friction > 0.0 {
+            (ln(friction) - point.u) / UNIT_OF_U
+        } else {
+            0.0
+        };
         LONGEST * self.strides / tangent.p.abs().max(tangent.u.abs() / depth.max(1.0))
     }
 

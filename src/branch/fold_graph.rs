@@ -41,8 +41,11 @@ fn start(parameters: &Parameters) -> Option<(f64, f64, f64)> {
     // The first swing starts where its side's D2 brakes: the turning point displaced outwards.
     let shift = harmonic::mean(parameters.d2.abs(), estimate.amplitude).abs();
     let near = shift < NEAR.0 * estimate.amplitude && estimate.d > -NEAR.1;
-    let clearance =
-        if near { estimate.amplitude + shift - parameters.r } else { CLOSE * parameters.r };
+    let clearance = if near {
+        estimate.amplitude + shift - parameters.r
+    } else {
+        CLOSE * parameters.r
+    };
     let u = ln(clearance.max(CLOSE * parameters.r));
     Some((u, estimate.d.max(-0.5), if near { 0.2 } else { 0.5 }))
 }

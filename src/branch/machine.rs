@@ -262,7 +262,11 @@ fn test_functions(model: &Model, landmarks: Option<Landmarks>) -> TestFunctions 
     let jumps = lines.release > lines.fold;
     // A touch of an unstable cycle is where the stick-slip cycle ends.
     let ends = !jumps && grazing.log_slope > 0.0;
-    let at_touch = if ends { SpecialKind::Annihilation } else { SpecialKind::Grazing };
+    let at_touch = if ends {
+        SpecialKind::Annihilation
+    } else {
+        SpecialKind::Grazing
+    };
     // What is released comes to the lower end of the stick band, or to where motions do not stick any more.
     let overtaking = after_release.filter(|_| rides).map(|left| left - low_left);
     let unsticking = released.filter(|_| rides).zip(beyond).map(|(right, last)| right - last);

@@ -73,7 +73,11 @@ impl SpecialKind {
 
     /// Name, letter and meaning; those of a grazing where a fold is one.
     fn told(self, cycle: Option<&Cycle>) -> [&'static str; 3] {
-        let kind = if self.grazes(cycle) { SpecialKind::Grazing } else { self };
+        let kind = if self.grazes(cycle) {
+            SpecialKind::Grazing
+        } else {
+            self
+        };
         TOLD[kind as usize]
     }
 }

@@ -98,7 +98,11 @@ impl BeltCommand {
             }
             let provenance = provenance_file::of_process();
             let is_mass = answer.expansion.is_some();
-            let kind = if is_mass { "A mass on a belt" } else { "A vibration mode" };
+            let kind = if is_mass {
+                "A mass on a belt"
+            } else {
+                "A vibration mode"
+            };
             let page = machine(&answer, seconds).page(kind, &pictures, &provenance, &case.sources);
             write(path, page.as_bytes(), self.force)?;
         }

@@ -157,7 +157,11 @@ pub fn go(
     let options = Options { replay, recorder, record, keep, last, mouse, files };
     let ended =
         explore(session, environment, options).map_err(Failure::unanswered("the terminal"))?;
-    if ended == 0 { Ok(()) } else { Err(Failure::Said(ended)) }
+    if ended == 0 {
+        Ok(())
+    } else {
+        Err(Failure::Said(ended))
+    }
 }
 
 /// An interrupted session, with a summary of its content.
@@ -198,7 +202,11 @@ fn welcome(session: &mut Session, memory: &Memory) {
 /// The error for a first word that is neither a scene nor a command, with names that are similar.
 fn neither_scene_nor_command(name: &str, commands: &[&'static str]) -> Failure {
     let told = |found| {
-        let lead = if names().any(|scene| scene == found) { "" } else { "the command " };
+        let lead = if names().any(|scene| scene == found) {
+            ""
+        } else {
+            "the command "
+        };
         lead.to_owned() + found
     };
     let meant = similar(name, names().chain(commands.iter().copied())).into_iter();

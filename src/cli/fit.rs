@@ -56,7 +56,11 @@ pub struct FitCommand {
 
 fn not_negative(text: &str) -> Result<DimensionalNumber, String> {
     let read = measured(text)?;
-    if read.value >= 0.0 { Ok(read) } else { Err(format!("{text:?} is negative")) }
+    if read.value >= 0.0 {
+        Ok(read)
+    } else {
+        Err(format!("{text:?} is negative"))
+    }
 }
 
 impl FitCommand {
@@ -94,7 +98,11 @@ impl FitCommand {
         let disturbance = disturbance.map_err(bad)?;
         let FitCommand { draws, confidence, .. } = *self;
         let asked = MarginQuestion { draws, confidence, disturbance, half_widths, inertia };
-        let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
+        let place = if io::stderr().is_terminal() {
+            Outlet::Line
+        } else {
+            Outlet::Nowhere
+        };
         let line = RefCell::new(StatusLine::new(place));
         let report = |motions| line.borrow_mut().renew(|_| format!("fitting: {motions} motions"));
         let (found, seconds) =

@@ -168,7 +168,11 @@ fn margin(text: &str) -> Result<(Kick, f64), String> {
         _ => return Err(form()),
     };
     let size = knob.parse(size)?;
-    if size > 0.0 { Ok((kick, size)) } else { Err(format!("{text:?} is not positive")) }
+    if size > 0.0 {
+        Ok((kick, size))
+    } else {
+        Err(format!("{text:?} is not positive"))
+    }
 }
 
 /// A margin of a machine: the unit decides whether it is a displacement or an impulse.
@@ -181,7 +185,11 @@ pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
         Some(IMPULSE) => Kick::Impulse,
         _ => return Err(format!("{text:?} is not a margin; {EXPECTED}")),
     };
-    if read.value > 0.0 { Ok((kick, read.value)) } else { Err(format!("{text:?} is not positive")) }
+    if read.value > 0.0 {
+        Ok((kick, read.value))
+    } else {
+        Err(format!("{text:?} is not positive"))
+    }
 }
 
 /// The options whose values may begin with a minus, with blanks between them.
@@ -238,7 +246,11 @@ pub fn figure_file(text: &str) -> Result<(PathBuf, FigureForm), String> {
 pub fn page_file(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let is_page = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html"));
-    if is_page { Ok(path) } else { Err("a page ends in .html".to_owned()) }
+    if is_page {
+        Ok(path)
+    } else {
+        Err("a page ends in .html".to_owned())
+    }
 }
 
 /// A part of `x=..,v=..`.

@@ -130,7 +130,11 @@ impl ExtremesCommand {
             let judge = |case| judge(case, self.tol, limits);
             let verdicts: Vec<_> = cases.par_iter().map(judge).collect();
             // Comma-separated values have no place for those that have a name.
-            let named = if format == Format::Csv { Vec::new() } else { named(limits) };
+            let named = if format == Format::Csv {
+                Vec::new()
+            } else {
+                named(limits)
+            };
             extremes(&verdicts, &named, self.tol)
         };
         print(&sourced(answer, format))

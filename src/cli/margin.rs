@@ -86,7 +86,13 @@ impl BasinCommand {
         let case = asked.source.exact()?;
         let reach = window.unwrap_or(WINDOW).reach();
         let (about, (found, before)) = (case.about(), case.portrait(&asked.output, reach)?);
-        let usual = || if about.is_machine() { found.surroundings() } else { WINDOW };
+        let usual = || {
+            if about.is_machine() {
+                found.surroundings()
+            } else {
+                WINDOW
+            }
+        };
         let window = window.unwrap_or_else(usual);
         let count = || found.count(&window, self.grid, &Limits::PATIENT);
         let (counts, seconds) = asked.output.timed("the starts could not be counted", count)?;

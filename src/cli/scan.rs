@@ -151,8 +151,11 @@ impl ScanCommand {
         });
         progress.end();
         took.map_err(Failure::unanswered("cannot start threads for the scan"))?;
-        let lost =
-            if given_up > 0 { format!(", {given_up} of them given up") } else { String::new() };
+        let lost = if given_up > 0 {
+            format!(", {given_up} of them given up")
+        } else {
+            String::new()
+        };
         let tally = format!("{} of {left} rows{lost}", left - file.left());
         let (signal, path) = (stop.load(Ordering::Relaxed), self.output.as_ref());
         match broken {

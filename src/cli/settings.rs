@@ -35,7 +35,11 @@ impl Settings {
 
     /// The file that is read, whether it exists or not.
     pub fn path(&self) -> Option<PathBuf> {
-        if self.no_config { None } else { self.config.clone().or_else(own_settings) }
+        if self.no_config {
+            None
+        } else {
+            self.config.clone().or_else(own_settings)
+        }
     }
 }
 

@@ -35,7 +35,11 @@ pub struct SourceOptions {
 impl SourceOptions {
     /// The numbers by which the other options are read.
     pub fn numbers(&self) -> &'static Numbers {
-        if self.machine.is_some() { &MACHINE } else { &OSCILLATOR }
+        if self.machine.is_some() {
+            &MACHINE
+        } else {
+            &OSCILLATOR
+        }
     }
 
     /// The machine to which a question about all motions is put, if it is about one. These are followed by Taylor series

@@ -78,14 +78,22 @@ pub fn is_centre(parameters: &Parameters) -> bool {
 
 /// Mean `A0 = -(D2/2) A^2` (equation 40); infinite where it overflows, never NaN.
 pub fn mean(d2: f64, amplitude: f64) -> f64 {
-    if d2 == 0.0 { 0.0 } else { -0.5 * (d2 * amplitude) * amplitude }
+    if d2 == 0.0 {
+        0.0
+    } else {
+        -0.5 * (d2 * amplitude) * amplitude
+    }
 }
 
 /// The damping at which an amplitude `A > 0` is stationary: `D = -2 r/(pi A) - (3/8) D3 A^2`, equation
 /// (42) solved for D. `None` where that is not a finite number.
 pub fn damping_at(d3: f64, r: f64, amplitude: f64) -> Option<f64> {
     let friction = if r == 0.0 { 0.0 } else { 2.0 / PI * r / amplitude };
-    let cubic = if d3 == 0.0 { 0.0 } else { 0.375 * (d3 * amplitude) * amplitude };
+    let cubic = if d3 == 0.0 {
+        0.0
+    } else {
+        0.375 * (d3 * amplitude) * amplitude
+    };
     let d = -friction - cubic;
     (amplitude > 0.0 && d.is_finite()).then_some(d)
 }
@@ -154,7 +162,11 @@ fn supercritical(d: f64, d3: f64, r: f64) -> Vec<(f64, bool)> {
     // Below this argument the ratio is 1 to rounding, and its parts may be subnormal.
     let small = small_root(d, r) * if sine < 1e-9 { 1.0 } else { 3.0 * sin(third) / sine };
     let large = large_root(d, d3) * (SCALE * cos(FRAC_PI_6 + third));
-    if gap > 0.0 { vec![(small, false), (large, true)] } else { vec![(small, false)] }
+    if gap > 0.0 {
+        vec![(small, false), (large, true)]
+    } else {
+        vec![(small, false)]
+    }
 }
 
 /// The root for `D3 < 0`, `r > 0`.
@@ -169,7 +181,11 @@ fn subcritical(d: f64, d3: f64, r: f64) -> f64 {
     if delta.abs() > FAR {
         return if d < 0.0 { small_root(d, r) } else { large_root(d, d3) };
     }
-    let mut u = if delta < 0.0 { f64::min(1.0, -1.0 / delta) } else { 1.0 + delta.sqrt() };
+    let mut u = if delta < 0.0 {
+        f64::min(1.0, -1.0 / delta)
+    } else {
+        1.0 + delta.sqrt()
+    };
     // At most a factor of two away, and then quadratically.
     for _ in 0..9 {
         u -= (u * (u * u - delta) - 1.0) / (3.0 * u * u - delta);

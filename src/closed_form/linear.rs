@@ -150,7 +150,11 @@ impl LinearFlow {
 /// `numerator / phase`, or its limit 1 where the phase is zero.
 fn ratio(numerator: f64, phase: Twofold) -> f64 {
     let Twofold { high, low } = phase;
-    if high == 0.0 { 1.0 } else { numerator / high * (1.0 - low / high) }
+    if high == 0.0 {
+        1.0
+    } else {
+        numerator / high * (1.0 - low / high)
+    }
 }
 
 /// `amount * factor`, with nothing times infinity being nothing.

@@ -23,7 +23,11 @@ pub fn loops(edge: &[Pair], window: Window) -> Vec<Vec<Pair>> {
     }
     let mut closed = edge.to_vec();
     closed.extend(detour(*last, *first, window));
-    if contains(&closed, [0.0, 0.0]) { vec![closed] } else { vec![rectangle(window), closed] }
+    if contains(&closed, [0.0, 0.0]) {
+        vec![closed]
+    } else {
+        vec![rectangle(window), closed]
+    }
 }
 
 fn rectangle(window: Window) -> Vec<Pair> {

@@ -81,7 +81,11 @@ pub fn missed(line: &[[f64; 2]], window: Window) -> f64 {
         let turn = atan2(one.0 * other.1 - one.1 * other.0, one.0 * other.0 + one.1 * other.1);
         // The longer chord, turned by half of the angle at each of its ends.
         let length = hypot(one.0, one.1).max(hypot(other.0, other.1));
-        if turn.abs() < CORNER { length * turn.abs() / 8.0 } else { 0.0 }
+        if turn.abs() < CORNER {
+            length * turn.abs() / 8.0
+        } else {
+            0.0
+        }
     };
     let finite = |three: &&[[f64; 2]]| three.iter().flatten().all(|value| value.is_finite());
     let seen = line.windows(3).filter(finite).filter(|three| in_sight(three, window));

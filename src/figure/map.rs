@@ -93,7 +93,11 @@ pub fn scale(out: &mut String, map: &ScanMap, (x, y): Spot) {
         [(0.0, Anchor::Start, lowest), (0.5, Anchor::Middle, ""), (1.0, Anchor::End, highest)];
     for (part, anchor, end) in ends {
         let value = significant(scale.at(part), 4);
-        let words = if end.is_empty() { value } else { format!("{value} ({end})") };
+        let words = if end.is_empty() {
+            value
+        } else {
+            format!("{value} ({end})")
+        };
         text(out, (x + part * width, top + 22.0), anchor, "font-size=\"10\"", &words);
     }
 }

@@ -154,7 +154,11 @@ fn days(date: &str) -> Option<i64> {
         return None;
     }
     // If years begin in March, the leap day is their last day.
-    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
+    let (year, month) = if month > 2 {
+        (year, month - 3)
+    } else {
+        (year - 1, month + 9)
+    };
     let leap = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
     Some(365 * year + leap + (153 * month + 2) / 5 + day)
 }
@@ -285,7 +289,11 @@ impl Header {
         DISPLACEMENTS.split(' ').find_map(|known| {
             let is_whole = known.len() == 1;
             self.find(time, |it| {
-                if is_whole { it.name.to_lowercase() == known } else { it.name_has(known) }
+                if is_whole {
+                    it.name.to_lowercase() == known
+                } else {
+                    it.name_has(known)
+                }
             })
         })
     }

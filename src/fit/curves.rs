@@ -166,7 +166,11 @@ fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<PlotPoint>, Extent) {
     steps.push([to.max(finite.last().copied().unwrap_or(0.0)), share(finite.len())]);
     // The window zooms in on a narrow distribution.
     let near = shift.lower.unwrap_or(0.0).min(largest);
-    let from = if near > 0.7 * to { near - 0.3 * (to - near) } else { 0.0 };
+    let from = if near > 0.7 * to {
+        near - 0.3 * (to - near)
+    } else {
+        0.0
+    };
     (steps, [from, to, 0.0, 1.0])
 }
 

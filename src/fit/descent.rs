@@ -144,7 +144,11 @@ impl LinearModel {
             let short = |(value, by): &Bound| -> f64 {
                 let size = by.component_mul(&step).abs().sum();
                 let left = by.dot(&step) + value;
-                if left < -1e-9 * size { left / (size + value.abs()) } else { 0.0 }
+                if left < -1e-9 * size {
+                    left / (size + value.abs())
+                } else {
+                    0.0
+                }
             };
             let free = bounds.iter().filter(|bound| !fixed.contains(bound));
             let worst = free.min_by(|one, other| short(one).total_cmp(&short(other)));

@@ -370,7 +370,11 @@ fn risen(task: &Task, p: &Unknowns, along: Unknowns, (cost, rise): (f64, f64)) -
     /// Number of refits. Each corrects the distance by the rise found before, as for a quadratic loss; if
     /// the loss is quadratic, the first distance is right.
     const ROUNDS: usize = 3;
-    let farthest = if along[R] < 0.0 { -p[R] / along[R] } else { f64::INFINITY };
+    let farthest = if along[R] < 0.0 {
+        -p[R] / along[R]
+    } else {
+        f64::INFINITY
+    };
     let mut at = f64::min(1.0, farthest);
     for _ in 0..ROUNDS {
         let mut guess = p + at * along;

@@ -42,7 +42,11 @@ pub struct Guess {
 pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Guess> {
     /// Periods by which the release may be earlier or later.
     const PERIODS: [f64; 7] = [0.0, -0.2, 0.2, -1.0, 1.0, -2.0, 2.0];
-    let cleaned = if noise.has_outliers { without_jumps(x) } else { x.to_vec() };
+    let cleaned = if noise.has_outliers {
+        without_jumps(x)
+    } else {
+        x.to_vec()
+    };
     let (low, high) = range(&cleaned);
     let mut period = 1.0 / dominant_frequency(t, &cleaned)?;
     let mut extremes = Vec::new();
@@ -114,10 +118,18 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
         guesses.flat_map(at).collect()
     };
     let beginning = |start, certain| {
-        let guesses = if start == StartKind::Release { released() } else { moving() };
+        let guesses = if start == StartKind::Release {
+            released()
+        } else {
+            moving()
+        };
         Beginning { start, certain, guesses }
     };
-    let other = if is_held { StartKind::Moving } else { StartKind::Release };
+    let other = if is_held {
+        StartKind::Moving
+    } else {
+        StartKind::Release
+    };
     let beginnings = vec![beginning(start, certain), beginning(other, false)];
     if is_held && is_displacement {
         with_rest.insert(0, Extreme { t: begin, x: hold });

@@ -51,7 +51,11 @@ impl MotionPoint {
     /// A mass at rest.
     pub fn resting(q: f64, by: Unknowns, signal: Signal) -> Self {
         let point = MotionPoint { q, ..MotionPoint::default() };
-        if signal.is_displacement() { MotionPoint { signal: q, by, ..point } } else { point }
+        if signal.is_displacement() {
+            MotionPoint { signal: q, by, ..point }
+        } else {
+            point
+        }
     }
 }
 

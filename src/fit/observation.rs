@@ -16,7 +16,11 @@ use crate::numerics::real;
 impl Record {
     /// Number of residuals: of samples, or of displacements and times of peaks.
     pub fn residuals(&self) -> usize {
-        if self.has_peaks() { self.x.len() + self.t.len() } else { self.x.len() }
+        if self.has_peaks() {
+            self.x.len() + self.t.len()
+        } else {
+            self.x.len()
+        }
     }
 
     /// Whether turning points were measured.
@@ -26,7 +30,11 @@ impl Record {
 
     /// Average number of measurements in a period of the motion.
     pub(crate) fn samples_per_period(&self, omega0: f64) -> f64 {
-        if self.has_peaks() { 2.0 } else { rate(&self.t) * std::f64::consts::TAU / omega0 }
+        if self.has_peaks() {
+            2.0
+        } else {
+            rate(&self.t) * std::f64::consts::TAU / omega0
+        }
     }
 
     /// The time from the first measurement to the last one; 0 without times.
@@ -48,7 +56,11 @@ impl Record {
 /// The derivatives of the offset by [`SLOPE`] and [`BEND`] at a time.
 pub fn drift(t: &[f64], time: f64) -> [f64; 2] {
     let (first, last) = (t[0], t[t.len() - 1]);
-    let part = if last > first { (time - first) / (last - first) - 0.5 } else { 0.0 };
+    let part = if last > first {
+        (time - first) / (last - first) - 0.5
+    } else {
+        0.0
+    };
     [part, part * part - 1.0 / 12.0]
 }
 
@@ -98,7 +110,11 @@ impl Misfit {
         let last = last.take(if self.region.is_some() { 2 } else { 1 });
         let bound = |(index, turn): (usize, &FittedTurn)| {
             // A mass that rests has turned within the sticking set, and before that outside it.
-            let side = if self.region.is_some() && index == 0 { -1.0 } else { 1.0 };
+            let side = if self.region.is_some() && index == 0 {
+                -1.0
+            } else {
+                1.0
+            };
             let mut by = side * (turn.q.signum() * turn.q_by - direction(R));
             if start == StartKind::Release {
                 by[LAST] = 0.0;

@@ -176,8 +176,11 @@ impl<'a> PosteriorFrame<'a> {
         const NEGATIVE: usize = 3;
         /// How far the residuals may be from the errors, squared, in units of the noise.
         const NEAR: f64 = 1e-4;
-        let mut at =
-            if *from == self.estimate.p { self.straight(&(self.center - errors)) } else { *from };
+        let mut at = if *from == self.estimate.p {
+            self.straight(&(self.center - errors))
+        } else {
+            *from
+        };
         let mut before: Option<LastDraw> = None;
         let mut negative = 0;
         for _ in 0..ROUNDS {

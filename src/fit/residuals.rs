@@ -37,7 +37,11 @@ pub fn whiteness(residuals: &[f64], samples_per_period: f64) -> Whiteness {
     const FEWEST: usize = 24;
     let n = residuals.len();
     if n < FEWEST {
-        let correlation = if n > 2 { autocorrelations(residuals, &[1])[0] } else { 0.0 };
+        let correlation = if n > 2 {
+            autocorrelations(residuals, &[1])[0]
+        } else {
+            0.0
+        };
         return Whiteness { correlation, white: true, ..Whiteness::default() };
     }
     let rho = autocorrelations(residuals, &short_lags(n));
@@ -207,7 +211,11 @@ fn left_over(q: &[Unknowns], noise: &[f64], lags: usize) -> Vec<f64> {
     let qsq: UnknownsMatrix = q.iter().zip(&sq).map(|(one, other)| one * other.transpose()).sum();
     let twice: Vec<Unknowns> = q.iter().map(|row| qsq.tr_mul(row)).collect();
     let at = |lag: usize| -> f64 {
-        let rho = if lag == 0 { 1.0 } else { noise.get(lag - 1).copied().unwrap_or(0.0) };
+        let rho = if lag == 0 {
+            1.0
+        } else {
+            noise.get(lag - 1).copied().unwrap_or(0.0)
+        };
         let mut sum = rho * real(q.len() - lag);
         for (t, later) in q.iter().skip(lag).enumerate() {
             sum += twice[t].dot(later) - sq[t].dot(later) - q[t].dot(&sq[t + lag]);

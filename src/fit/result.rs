@@ -156,7 +156,11 @@ impl FitResult {
     #[must_use]
     pub fn unit_of(&self, row: &NameSpec) -> String {
         let length = row.unit(self.unit());
-        if row.place == OFFSET { self.record.signal.unit(&length) } else { length }
+        if row.place == OFFSET {
+            self.record.signal.unit(&length)
+        } else {
+            length
+        }
     }
 
     /// The fitted motion; the method and whatever else the fit does not determine are those of `before`.
@@ -336,7 +340,11 @@ pub fn combination(estimate: &Estimate) -> Option<Combination> {
         .filter_map(|row| Some((row, scale(row.place)?)))
         .filter(|(row, scale)| estimate.covariance.error(row.place) * scale > UNKNOWN * largest)
         .collect();
-    if unknown.len() < 2 { None } else { best_known(estimate, &unknown) }
+    if unknown.len() < 2 {
+        None
+    } else {
+        best_known(estimate, &unknown)
+    }
 }
 
 /// The combination with the smallest error: the principal direction of the information that remains when all other

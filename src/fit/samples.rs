@@ -19,7 +19,11 @@ use crate::numerics::{real, truncated};
 
 /// Fits a record of samples or of peaks. Fails with [`NoEstimate`].
 pub fn of_kind(record: &Record, question: &Question, runs: &Runs) -> Result<Estimate, NoEstimate> {
-    if question.peaks { peaks(record, question, runs) } else { samples(record, question, runs) }
+    if question.peaks {
+        peaks(record, question, runs)
+    } else {
+        samples(record, question, runs)
+    }
 }
 
 /// Fits a record of samples. Fails with [`NoEstimate`].
@@ -254,7 +258,11 @@ fn outliers(best: &Optimum, before: &[Option<DropReason>]) -> Vec<Option<DropRea
     };
     let now: Vec<_> = before.iter().zip(&values).map(why).collect();
     let outliers = now.iter().filter(|why| **why == Some(DropReason::Outlier)).count();
-    if real(outliers) > MOST * real(now.len()) { before.to_vec() } else { now }
+    if real(outliers) > MOST * real(now.len()) {
+        before.to_vec()
+    } else {
+        now
+    }
 }
 
 /// The size beyond which a residual does not belong to the motion: a multiple of the standard deviation of the

@@ -119,7 +119,11 @@ impl Task<'_> {
     /// motion, since otherwise the record shows no hold.
     fn is_better(&self, found: &Optimum, best: &Optimum) -> bool {
         let unit = self.unit(best.cost);
-        let needed = if found.start == StartKind::Release { 4.0 * unit } else { -4.0 * unit };
+        let needed = if found.start == StartKind::Release {
+            4.0 * unit
+        } else {
+            -4.0 * unit
+        };
         let needed = if self.data.has_peaks() { 0.0 } else { needed };
         found.cost < best.cost - needed
     }

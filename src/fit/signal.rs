@@ -79,7 +79,11 @@ impl Signal {
     #[must_use]
     pub fn unit(self, length: &str) -> String {
         let per_time = SIGNALS[self.order()].2[0];
-        if length.is_empty() { String::new() } else { format!("{length}{per_time}") }
+        if length.is_empty() {
+            String::new()
+        } else {
+            format!("{length}{per_time}")
+        }
     }
 }
 
@@ -153,7 +157,11 @@ pub fn measure(
                 certain = true;
                 // The unit of a displacement stays as it is written.
                 let is_plain = known.signal.is_displacement();
-                let length = if is_plain { Some(unit.to_owned()) } else { known.length };
+                let length = if is_plain {
+                    Some(unit.to_owned())
+                } else {
+                    known.length
+                };
                 found = SignalUnit { length, ..known };
             }
             None => found.length = Some(unit.to_owned()),

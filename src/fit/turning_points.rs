@@ -183,7 +183,11 @@ fn resampled(t: &[f64], x: &[f64], count: usize) -> Vec<f64> {
         let time = first + (last - first) * real(index) / real(count);
         let after = index_at(t, time).clamp(1, t.len() - 1);
         let step = t[after] - t[after - 1];
-        let part = if step > 0.0 { (time - t[after - 1]) / step } else { 0.0 };
+        let part = if step > 0.0 {
+            (time - t[after - 1]) / step
+        } else {
+            0.0
+        };
         x[after - 1] + part * (x[after] - x[after - 1])
     };
     (0..count).map(at).collect()

@@ -114,7 +114,11 @@ impl Covariance {
     /// The ratio of the variance of an unknown to that with white noise of the same size.
     pub fn inflation(&self, unknown: usize) -> f64 {
         let at = (unknown, unknown);
-        if self.free[unknown] { self.matrix[at] / self.white[at] } else { 1.0 }
+        if self.free[unknown] {
+            self.matrix[at] / self.white[at]
+        } else {
+            1.0
+        }
     }
 
     /// The number of independent residuals that would determine the variance of an unknown as well
@@ -125,8 +129,16 @@ impl Covariance {
     /// of this variance is `2 (1 + 2 I)/n`.
     pub fn independent(&self, unknown: usize) -> f64 {
         let inflation = self.inflation(unknown);
-        let repeated = if inflation == 1.0 { 1.0 } else { 1.0 + 2.0 * inflation.max(1.0) };
-        let freedom = if self.free[unknown] { self.freedoms[unknown] } else { self.freedom };
+        let repeated = if inflation == 1.0 {
+            1.0
+        } else {
+            1.0 + 2.0 * inflation.max(1.0)
+        };
+        let freedom = if self.free[unknown] {
+            self.freedoms[unknown]
+        } else {
+            self.freedom
+        };
         freedom / repeated
     }
 

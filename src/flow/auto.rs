@@ -179,7 +179,11 @@ impl Stepper for AutoStepper {
             }
             if self.stalled == STALLED {
                 self.implicit = false;
-                self.in_vain = if self.worthwhile { 0 } else { self.in_vain.saturating_add(1) };
+                self.in_vain = if self.worthwhile {
+                    0
+                } else {
+                    self.in_vain.saturating_add(1)
+                };
             }
             self.reached = step.duration;
             return Ok(step);

@@ -47,7 +47,11 @@ impl Stepper for ExactStepper {
             end: end.unwrap_or_else(|| self.at(longest)),
             crossed: arrival.is_some(),
         };
-        if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
+        if step.end.size().is_finite() {
+            Ok(step)
+        } else {
+            Err(Reason::OutOfRange)
+        }
     }
 
     fn at(&self, time: f64) -> StepPoint {

@@ -141,10 +141,18 @@ impl<const S: usize, const R: usize, F: Field> ExplicitStepper<S, R, F> {
             if error <= 1.0 && !turned {
                 (self.end, self.duration) = (end, length);
                 if !self.is_fixed() {
-                    let factor = if error == 0.0 { grow } else { factor(error).clamp(0.2, grow) };
+                    let factor = if error == 0.0 {
+                        grow
+                    } else {
+                        factor(error).clamp(0.2, grow)
+                    };
                     let next = (length * factor).min(LONGEST);
                     // A step cut short by the end time says nothing about the length of the next one.
-                    self.next = if length < self.next { self.next.max(next) } else { next };
+                    self.next = if length < self.next {
+                        self.next.max(next)
+                    } else {
+                        next
+                    };
                 }
                 return Ok((length, end));
             }

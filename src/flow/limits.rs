@@ -26,7 +26,11 @@ impl Limits<'_> {
 
     /// Nothing, unless the computation is to end. Fails with [`Reason::Interrupted`].
     pub(crate) fn go_on(&self) -> Result<()> {
-        if (self.interrupted)() { Err(Reason::Interrupted) } else { Ok(()) }
+        if (self.interrupted)() {
+            Err(Reason::Interrupted)
+        } else {
+            Ok(())
+        }
     }
 }
 

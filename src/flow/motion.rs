@@ -128,7 +128,11 @@ impl<N> Outcome<N> {
     /// # Errors
     /// Why it was.
     pub fn answered(&self) -> Result<()> {
-        if let Outcome::GaveUp { reason, .. } = self { Err(*reason) } else { Ok(()) }
+        if let Outcome::GaveUp { reason, .. } = self {
+            Err(*reason)
+        } else {
+            Ok(())
+        }
     }
 
     /// The word of files for it.
@@ -180,7 +184,11 @@ impl<N: Scalar> Outcome<N> {
     /// Why it was given up.
     pub fn rest(self) -> Result<Option<N>> {
         self.answered()?;
-        Ok(if let Outcome::Captured { tau, .. } = self { Some(tau) } else { None })
+        Ok(if let Outcome::Captured { tau, .. } = self {
+            Some(tau)
+        } else {
+            None
+        })
     }
 
     /// Displacement and velocity at the end, where these are known.

@@ -65,13 +65,21 @@ pub fn check_stability(step: f64, rate: f64) -> Result<()> {
 /// reach zero at this rate. Without this bound an arrival after 1e-300 would be sought in steps of 1.
 pub fn stopping_time(v: f64, acceleration: f64) -> f64 {
     const FEW: f64 = 4.0;
-    if v > 0.0 && acceleration < 0.0 { FEW * v / -acceleration } else { f64::INFINITY }
+    if v > 0.0 && acceleration < 0.0 {
+        FEW * v / -acceleration
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// A first step: the state may change by a hundredth of its size (Hairer, Norsett and Wanner II.4).
 pub fn first_length(from: StepPoint, acceleration: f64) -> f64 {
     let slope = from.v.abs().max(acceleration.abs());
-    if slope > 0.0 { (0.01 * from.size() / slope).min(LONGEST) } else { LONGEST }
+    if slope > 0.0 {
+        (0.01 * from.size() / slope).min(LONGEST)
+    } else {
+        LONGEST
+    }
 }
 
 /// An accepted step.

@@ -263,10 +263,18 @@ impl<F: PlaneField> StiffStepper<F> {
                     if error <= 1.0 && !turned {
                         let next = length * factor.clamp(0.2, grow);
                         // A step cut short by the end time says nothing about the length of the next one.
-                        self.next = if length < self.next { self.next.max(next) } else { next };
+                        self.next = if length < self.next {
+                            self.next.max(next)
+                        } else {
+                            next
+                        };
                         return Ok((length, end));
                     }
-                    if error.is_finite() { factor.clamp(0.1, 0.9) } else { 0.1 }
+                    if error.is_finite() {
+                        factor.clamp(0.1, 0.9)
+                    } else {
+                        0.1
+                    }
                 }
             };
             self.cost.rejected += 1;

@@ -60,7 +60,11 @@ impl ApproachToRest {
     /// How far it stops beyond a place that it has already `passed` by this much (negative: not yet), and the
     /// exponent of the unit of the result.
     pub fn beyond(&self, passed: f64) -> (f64, i32) {
-        if passed == 0.0 { (self.distance, self.unit) } else { (passed + self.way(), 0) }
+        if passed == 0.0 {
+            (self.distance, self.unit)
+        } else {
+            (passed + self.way(), 0)
+        }
     }
 }
 

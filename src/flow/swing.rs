@@ -122,7 +122,11 @@ fn progress<N: Scalar>(step: Step<N>, from: StepPoint<N>, longest: N) -> Step<N>
 pub(crate) fn blow_up(field: &HalfPlane, point: StepPoint) -> Option<(f64, f64)> {
     let v = point.v.abs();
     let (a, b) = (if point.v < 0.0 { field.d2 } else { -field.d2 }, -field.d3);
-    let drives = if a < 0.0 { b * v >= -2.0 * a } else { b >= 0.0 && (a > 0.0 || b > 0.0) };
+    let drives = if a < 0.0 {
+        b * v >= -2.0 * a
+    } else {
+        b >= 0.0 && (a > 0.0 || b > 0.0)
+    };
     if !drives {
         return None;
     }
@@ -144,7 +148,11 @@ fn time_to_infinity(a: f64, b: f64, v: f64) -> f64 {
     let s = b * v / a;
     if s.abs() <= LARGE {
         // For smaller s, 1/s would overflow; s ln(1/s) is negligible beside 1 long before.
-        let bend = if s.abs() < f64::MIN_POSITIVE { 0.0 } else { s * ln_1p(1.0 / s) };
+        let bend = if s.abs() < f64::MIN_POSITIVE {
+            0.0
+        } else {
+            s * ln_1p(1.0 / s)
+        };
         return (1.0 - bend) / (a * v);
     }
     // 1/(b v^2) times the sum of (-1/s)^k/(k + 2).

@@ -156,7 +156,13 @@ impl<N: Scalar> Taylor<N> {
     /// coefficient almost vanishes, and those of a pair of complex poles pass through zero now and then, so
     /// fewer would sometimes miss the trend.
     fn allowed(&self) -> Option<f64> {
-        let log2 = |size: f64| if size == 0.0 { f64::NEG_INFINITY } else { rough_log2(size) };
+        let log2 = |size: f64| {
+            if size == 0.0 {
+                f64::NEG_INFINITY
+            } else {
+                rough_log2(size)
+            }
+        };
         let (size, slope) = (log2(self.v[0].value().abs()), log2(self.v[1].value().abs()));
         let (mut by_size, mut by_slope) = (f64::INFINITY, f64::INFINITY);
         for k in self.order + 1 - TAIL..=self.order {
@@ -185,8 +191,11 @@ impl<N: Scalar> Taylor<N> {
         let (v, slope) = (self.v[0].value(), self.v[1].value());
         let bend = ((v_end - v) / end - slope) / end;
         let span = (slope * slope - 4.0 * bend * v).sqrt();
-        let guess =
-            if slope > 0.0 { (slope + span) / (-2.0 * bend) } else { 2.0 * v / (span - slope) };
+        let guess = if slope > 0.0 {
+            (slope + span) / (-2.0 * bend)
+        } else {
+            2.0 * v / (span - slope)
+        };
         let start = if guess > 0.0 && guess < end { guess } else { end };
         let rounded = self.v.map(N::value);
         let v = |t: f64| value_and_slope(&rounded[..=self.order], t);

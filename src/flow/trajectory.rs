@@ -204,8 +204,11 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             for index in 1..=count {
                 let offset = step.duration.value() * (real(index) / real(count));
                 let at_end = index == count;
-                let StepPoint { x, v } =
-                    if at_end { step.end.rounded() } else { stepper.at(offset) };
+                let StepPoint { x, v } = if at_end {
+                    step.end.rounded()
+                } else {
+                    stepper.at(offset)
+                };
                 // Near the largest numbers, a position measured from the centre of its spiral may overflow, and so may
                 // the polynomial of a step between two finite points.
                 if x.is_finite() && v.is_finite() {
@@ -231,7 +234,11 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     fn stopped(&self, StepPoint { x: q, v }: StepPoint<N>) -> Result<Outcome<N>> {
         let is_finite = q.value().is_finite() && v.value().is_finite();
         let tau = N::from(self.found.problem.until);
-        if is_finite { Ok(Outcome::Moving { tau, q, v }) } else { Err(Reason::OutOfRange) }
+        if is_finite {
+            Ok(Outcome::Moving { tau, q, v })
+        } else {
+            Err(Reason::OutOfRange)
+        }
     }
 }
 

@@ -50,12 +50,20 @@ pub struct Fall {
 impl Fall {
     /// How fast the mass slips on the belt.
     pub fn slip(&self, y: f64) -> f64 {
-        if self.above { (y - self.speed).max(0.0) } else { (self.speed - y).max(0.0) }
+        if self.above {
+            (y - self.speed).max(0.0)
+        } else {
+            (self.speed - y).max(0.0)
+        }
     }
 
     fn power(&self, slip: f64) -> f64 {
         let ratio = slip / self.velocity;
-        if self.exponent == 1.0 { ratio } else { pow(ratio, self.exponent) }
+        if self.exponent == 1.0 {
+            ratio
+        } else {
+            pow(ratio, self.exponent)
+        }
     }
 
     /// `drop exp(..)` with the sign with which it acts on the mass.
@@ -115,7 +123,11 @@ impl ForceBranch {
     /// The piece for a motion at `y` towards larger or smaller velocities; `None` beyond the law.
     pub fn piece(&self, y: f64, rising: bool) -> Option<&ForcePiece> {
         self.pieces.iter().find(|ForcePiece { low, high, .. }| {
-            if rising { *low <= y && y < *high } else { *low < y && y <= *high }
+            if rising {
+                *low <= y && y < *high
+            } else {
+                *low < y && y <= *high
+            }
         })
     }
 
@@ -183,7 +195,11 @@ impl LawParts {
 
 fn added(mut one: Vec<f64>, other: impl Iterator<Item = f64>) -> Vec<f64> {
     for (k, number) in other.enumerate() {
-        if k < one.len() { one[k] += number } else { one.push(number) }
+        if k < one.len() {
+            one[k] += number
+        } else {
+            one.push(number)
+        }
     }
     while one.len() > 1 && one.last() == Some(&0.0) {
         one.pop();

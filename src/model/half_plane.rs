@@ -42,7 +42,11 @@ impl Side {
     /// The other side.
     #[must_use]
     pub fn opposite(self) -> Self {
-        if self == Side::Upper { Side::Lower } else { Side::Upper }
+        if self == Side::Upper {
+            Side::Lower
+        } else {
+            Side::Upper
+        }
     }
 
     /// `+1` above, `-1` below.

@@ -223,7 +223,11 @@ impl Model {
     }
 
     pub(crate) fn side(&self, phase: Phase) -> &ForceBranch {
-        if phase == Phase::Above { &self.faster } else { &self.slower }
+        if phase == Phase::Above {
+            &self.faster
+        } else {
+            &self.slower
+        }
     }
 
     /// Where the spring's pull and the constant forces of a phase balance, with the sign reversed.

@@ -11,7 +11,11 @@ pub fn first_below_zero(law: &LawParts) -> f64 {
     }
     let zero = |(from, to, coefficients): &LawPiece| {
         let begins_below = polynomial::value(coefficients, 0.0) < 0.0;
-        let at = if begins_below { 0.0 } else { *zeros(coefficients, to - from).first()? };
+        let at = if begins_below {
+            0.0
+        } else {
+            *zeros(coefficients, to - from).first()?
+        };
         Some(from + at)
     };
     law.pieces.iter().find_map(zero).unwrap_or(f64::INFINITY)
@@ -24,7 +28,11 @@ fn falling_zero((drop, velocity, exponent): (f64, f64, f64), rest: &[f64]) -> f6
     const RUNGS: i32 = 32;
     // From where the law has hardly fallen to where only its straight part is left.
     let [kinetic, viscous] = [0, 1].map(|power| *rest.get(power).unwrap_or(&0.0));
-    let far = if viscous < 0.0 { 2.0 * (kinetic / viscous).abs() } else { 0.0 };
+    let far = if viscous < 0.0 {
+        2.0 * (kinetic / viscous).abs()
+    } else {
+        0.0
+    };
     let last = far.max(1024.0 * velocity);
     let doublings = (0..).map(|rung| f64::from(rung - 20 * RUNGS) / f64::from(RUNGS));
     let ladder = doublings.map(|power| velocity * exp2(power));
@@ -47,7 +55,11 @@ pub fn zeros(coefficients: &[f64], end: f64) -> Vec<f64> {
     if coefficients.len() < 2 {
         return Vec::new();
     }
-    let far = if end.is_finite() { end } else { beyond_zeros(coefficients) };
+    let far = if end.is_finite() {
+        end
+    } else {
+        beyond_zeros(coefficients)
+    };
     let mut found = Vec::new();
     let mut from = 0.0;
     for to in zeros(&polynomial::derivative(coefficients), far).into_iter().chain([far]) {

@@ -99,7 +99,11 @@ impl Source {
     /// The mass on a belt, if it is one.
     #[must_use]
     pub fn of_belt(&self) -> Option<&Belt> {
-        if let Body::Belt(belt) = &self.body { Some(belt) } else { None }
+        if let Body::Belt(belt) = &self.body {
+            Some(belt)
+        } else {
+            None
+        }
     }
 
     /// Its whole model.

@@ -129,7 +129,11 @@ pub fn measured(text: &str) -> Result<DimensionalNumber, String> {
     let is_sound = unit.is_empty() || unit.starts_with(begins_a_unit);
     let value = number.parse().ok().filter(|_| is_sound);
     let value: f64 = value.ok_or_else(|| format!("{text:?} is not a number"))?;
-    let unit = if unit.is_empty() { None } else { Some(read_unit(unit)?) };
+    let unit = if unit.is_empty() {
+        None
+    } else {
+        Some(read_unit(unit)?)
+    };
     let (value, dimension) =
         unit.map_or((value, None), |(factor, dimension)| (value * factor, Some(dimension)));
     if value.is_finite() {

@@ -18,7 +18,11 @@ pub fn shortest(value: f64) -> String {
 /// The same with an exponent where that saves zeros: `1e12`, but `1000`.
 pub fn brief(value: f64) -> String {
     let (plain, scientific) = (shortest(value), format!("{value:e}"));
-    if plain.len() > scientific.len() + 1 { scientific } else { plain }
+    if plain.len() > scientific.len() + 1 {
+        scientific
+    } else {
+        plain
+    }
 }
 
 /// Writes `value` with at most `digits` significant digits, without trailing zeros.
@@ -47,7 +51,11 @@ pub fn significant(value: f64, digits: usize) -> String {
 pub fn resolved(value: f64, resolution: f64) -> String {
     let ratio = log10(value.abs() / resolution);
     let digits = truncated((ratio.ceil() + 1.0).clamp(1.0, 17.0));
-    if ratio < 0.0 { "0".into() } else { significant(value, digits) }
+    if ratio < 0.0 {
+        "0".into()
+    } else {
+        significant(value, digits)
+    }
 }
 
 /// Writes `value` and its standard error, each with the digits that count, and their unit.
@@ -62,7 +70,11 @@ pub fn in_unit(number: &str, unit: &str) -> String {
 }
 
 fn without_trailing_zeros(text: &str) -> &str {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        text
+    }
 }
 
 /// A step size: 1, 2 or 5 times a power of ten.
@@ -164,7 +176,11 @@ pub fn decimal(number: i64, power: i32) -> f64 {
         return format!("{number}e{power}").parse().unwrap_or(0.0);
     }
     let factor = powi(10.0, power.abs());
-    if power < 0 { number as f64 / factor } else { number as f64 * factor }
+    if power < 0 {
+        number as f64 / factor
+    } else {
+        number as f64 * factor
+    }
 }
 
 /// The sum of two decimal numbers, rounded to the decimals that the larger one can have; never `-0.0`.

@@ -43,7 +43,11 @@ impl Interval {
 
     /// The numbers from `lower` to `upper`; all numbers if the bounds are out of order or NaN.
     pub const fn new(lower: f64, upper: f64) -> Self {
-        if lower <= upper { Interval { lower, upper } } else { Interval::ALL }
+        if lower <= upper {
+            Interval { lower, upper }
+        } else {
+            Interval::ALL
+        }
     }
 
     /// One double.
@@ -66,8 +70,16 @@ impl Interval {
     /// The interval one double beyond each of two rounded bounds.
     #[inline]
     fn outward(lower: f64, upper: f64) -> Self {
-        let lower = if lower.is_nan() { f64::NEG_INFINITY } else { lower.next_down() };
-        let upper = if upper.is_nan() { f64::INFINITY } else { upper.next_up() };
+        let lower = if lower.is_nan() {
+            f64::NEG_INFINITY
+        } else {
+            lower.next_down()
+        };
+        let upper = if upper.is_nan() {
+            f64::INFINITY
+        } else {
+            upper.next_up()
+        };
         Interval::new(lower, upper)
     }
 
@@ -84,7 +96,11 @@ impl Interval {
     /// A member near the middle; 0 if both bounds are infinite.
     pub fn middle(self) -> f64 {
         let middle = 0.5 * self.lower + 0.5 * self.upper;
-        if middle.is_nan() { 0.0 } else { middle.clamp(self.lower, self.upper) }
+        if middle.is_nan() {
+            0.0
+        } else {
+            middle.clamp(self.lower, self.upper)
+        }
     }
 
     /// Upper bound of the distance of any member from [`Interval::middle`].
@@ -96,7 +112,11 @@ impl Interval {
 
     /// Width, rounded up.
     pub fn width(self) -> f64 {
-        if self.is_point() { 0.0 } else { (self.upper - self.lower).next_up() }
+        if self.is_point() {
+            0.0
+        } else {
+            (self.upper - self.lower).next_up()
+        }
     }
 
     /// All numbers at most `off` from a member.
@@ -143,7 +163,11 @@ impl Interval {
     /// All squares of members.
     pub fn square(self) -> Self {
         let (one, other) = (self.lower * self.lower, self.upper * self.upper);
-        let smallest = if self.contains(0.0) { 0.0 } else { one.min(other).next_down() };
+        let smallest = if self.contains(0.0) {
+            0.0
+        } else {
+            one.min(other).next_down()
+        };
         Interval::new(smallest.max(0.0), one.max(other).next_up())
     }
 
@@ -326,7 +350,11 @@ fn product(one: Interval, other: Interval) -> Interval {
 }
 
 fn quotient(one: Interval, other: Interval) -> Interval {
-    if other.contains(0.0) { Interval::ALL } else { extremes(one, other, |a, b| a / b) }
+    if other.contains(0.0) {
+        Interval::ALL
+    } else {
+        extremes(one, other, |a, b| a / b)
+    }
 }
 
 /// The outward hull of the rounded results of an operation on the bounds. Since `min` and `max` ignore NaN, it is tested

@@ -38,12 +38,20 @@ impl Bracket {
 
     /// `place` if it lies between the ends, otherwise the middle.
     pub fn inside(&self, place: f64) -> f64 {
-        if place > self.low && place < self.high { place } else { self.middle() }
+        if place > self.low && place < self.high {
+            place
+        } else {
+            self.middle()
+        }
     }
 
     /// Moves one end to `place`, where the function has this value.
     pub fn narrow(&mut self, place: f64, value: f64) {
-        *(if (value > 0.0) == self.rising { &mut self.high } else { &mut self.low }) = place;
+        *(if (value > 0.0) == self.rising {
+            &mut self.high
+        } else {
+            &mut self.low
+        }) = place;
     }
 
     /// The same, with the place inside to which Newton's method goes from there; `None` from a zero, and where no double
@@ -188,7 +196,11 @@ pub fn illinois<E>(
         }
         moved = Some(first);
     }
-    Ok(if one.1.abs() < other.1.abs() { [one, other] } else { [other, one] })
+    Ok(if one.1.abs() < other.1.abs() {
+        [one, other]
+    } else {
+        [other, one]
+    })
 }
 
 /// A bracket at most `width` wide around the maximum of a function, by golden section search.

@@ -205,7 +205,11 @@ fn bump(x: &[f64], at: f64) -> f64 {
     // By the Cox-de Boor recurrence, whose terms are all positive.
     let hat = |i: usize| {
         let (a, b, c) = (x[i], x[i + 1], x[i + 2]);
-        let inside = if at < b { (at - a) / (b - a) } else { (c - at) / (c - b) };
+        let inside = if at < b {
+            (at - a) / (b - a)
+        } else {
+            (c - at) / (c - b)
+        };
         inside.max(0.0)
     };
     let smooth = (at - x[0]) / (x[2] - x[0]) * hat(0) + (x[3] - at) / (x[3] - x[1]) * hat(1);

@@ -28,7 +28,11 @@ impl<N: Scalar> Sum<N> {
     /// Adds a non-negative term.
     pub fn add(&mut self, term: N) {
         let sum = self.sum + term;
-        let (more, less) = if self.sum >= term { (self.sum, term) } else { (term, self.sum) };
+        let (more, less) = if self.sum >= term {
+            (self.sum, term)
+        } else {
+            (term, self.sum)
+        };
         let lost = (more - sum) + less;
         self.lost = self.lost + lost;
         self.sum = sum;

@@ -70,13 +70,21 @@ impl Twofold {
     /// The exponential as a double, accurate to its last digits even for large exponents.
     pub fn exp(self) -> f64 {
         let value = exp(self.high);
-        if value.is_finite() { value.mul_add(self.low, value) } else { value }
+        if value.is_finite() {
+            value.mul_add(self.low, value)
+        } else {
+            value
+        }
     }
 
     /// `exp(self) - 1` as a double.
     pub fn exp_m1(self) -> f64 {
         let value = exp_m1(self.high);
-        if value.is_finite() { (value + 1.0).mul_add(self.low, value) } else { value }
+        if value.is_finite() {
+            (value + 1.0).mul_add(self.low, value)
+        } else {
+            value
+        }
     }
 
     /// `(sin, cos)` as doubles.

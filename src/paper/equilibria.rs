@@ -58,7 +58,11 @@ pub(super) const CHECKS: &[Check] = &[
     worst("circle with D2", |it| {
         let evidence = Evidence::at_most(circle(it), least_kick(it)?);
         let full = lyapunov::full_disk(it);
-        Ok(if full.is_finite() { evidence.corrected(full) } else { evidence })
+        Ok(if full.is_finite() {
+            evidence.corrected(full)
+        } else {
+            evidence
+        })
     }),
     worst("periodic border", |it| {
         let found = it.edge()?;
@@ -158,7 +162,11 @@ fn shifted(it: &ClaimCase, shift: f64) -> Result<Evidence> {
     let growth = exp(-PI * it.d / (1.0 - it.d * it.d).sqrt());
     let around = |centre: f64| centre - (it.more - centre) * growth;
     let evidence = Evidence::equal(around(shift * it.r), end);
-    Ok(if shift < 0.0 { evidence } else { evidence.corrected(around(-it.r)) })
+    Ok(if shift < 0.0 {
+        evidence
+    } else {
+        evidence.corrected(around(-it.r))
+    })
 }
 
 /// Change of the energy along a motion by (19), with friction's part multiplied by `sign`.
@@ -167,7 +175,11 @@ fn energy(it: &ClaimCase, sign: f64) -> Result<Evidence> {
     let by_rate = |sign: f64| linear.value + sign * friction.value;
     let error = change.error + linear.error + friction.error;
     let evidence = Evidence::equal(by_rate(sign), Approximation { error, ..change });
-    Ok(if sign > 0.0 { evidence } else { evidence.corrected(by_rate(1.0)) })
+    Ok(if sign > 0.0 {
+        evidence
+    } else {
+        evidence.corrected(by_rate(1.0))
+    })
 }
 
 /// Radius (24).

@@ -237,8 +237,11 @@ fn asymptote(it: &ClaimCase) -> Result<(f64, Approximation)> {
 /// the smallest for n = 1, the largest for n = 2.
 pub(super) fn approached(it: &ClaimCase, [first, second]: [f64; 2]) -> Result<(f64, f64)> {
     let found = amplitudes(it);
-    let (formula, root) =
-        if it.more == 1.0 { (first, found.first()) } else { (second, found.last()) };
+    let (formula, root) = if it.more == 1.0 {
+        (first, found.first())
+    } else {
+        (second, found.last())
+    };
     let root = root.ok_or(missing("a stationary amplitude"))?;
     Ok((formula, root.amplitude))
 }

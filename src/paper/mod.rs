@@ -157,7 +157,11 @@ pub fn examine_all(limits: &Limits) -> Result<Vec<ClaimResult>> {
 /// Puts one claim to the test. Fails with [`Reason::Interrupted`] and no other: any other reason belongs to the
 /// answer.
 pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult> {
-    let lines = if claim.cases.is_empty() { &[""] } else { claim.cases.as_slice() };
+    let lines = if claim.cases.is_empty() {
+        &[""]
+    } else {
+        claim.cases.as_slice()
+    };
     let cases: Vec<_> = lines.iter().flat_map(|line| ClaimCase::all(line, limits)).collect();
     let evidence = Reason::tolerated(claim.test.run(&cases))?;
     let is_said = claim.section != UNSAID;

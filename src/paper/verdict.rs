@@ -67,9 +67,13 @@ impl Approximation {
     /// Whether it is larger than a number.
     pub fn exceeds(&self, limit: f64) -> Conclusion<bool> {
         let value = self.value > limit;
-        let certain = self
-            .bounds
-            .is_some_and(|it| if value { it.lower() > limit } else { it.upper() <= limit });
+        let certain = self.bounds.is_some_and(|it| {
+            if value {
+                it.lower() > limit
+            } else {
+                it.upper() <= limit
+            }
+        });
         Conclusion { value, certain }
     }
 
@@ -187,7 +191,11 @@ fn with_rounding(formula: f64, error: f64) -> Interval {
 fn miss(formula: Interval, bounds: Interval) -> Interval {
     let difference = formula - bounds;
     let zero = Interval::point(0.0);
-    let part = if formula == zero || bounds == zero { difference } else { difference / bounds };
+    let part = if formula == zero || bounds == zero {
+        difference
+    } else {
+        difference / bounds
+    };
     let size = part.square().sqrt();
     Interval::new(size.lower().max(0.0), size.upper())
 }
@@ -344,7 +352,11 @@ impl Evidence {
     /// What differences are measured against.
     pub fn scale(&self) -> f64 {
         let (formula, computed) = (self.paper.or(self.corrected), self.computed.value);
-        if formula == Some(0.0) || computed == 0.0 { 1.0 } else { computed.abs() }
+        if formula == Some(0.0) || computed == 0.0 {
+            1.0
+        } else {
+            computed.abs()
+        }
     }
 
     /// How near the claim is to failing, above 1 where it fails; for bounds, how little they leave.

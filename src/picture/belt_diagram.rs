@@ -20,7 +20,11 @@ const KINDS: [&str; 5] = [
 
 /// The one of [`KINDS`] to which a cycle belongs.
 fn kind(cycle: &Cycle) -> &'static str {
-    if cycle.sticks() { "branch of stick-slip cycles" } else { phase_plane::kind(cycle).0 }
+    if cycle.sticks() {
+        "branch of stick-slip cycles"
+    } else {
+        phase_plane::kind(cycle).0
+    }
 }
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
@@ -81,7 +85,11 @@ fn changes(picture: &mut Picture, special: &Special, unit: &str) {
     for (jump, name) in [jumps.up, jumps.down].into_iter().zip(ways) {
         let Some(jump) = jump else { continue };
         // What leaves all that is known leaves the picture.
-        let to = if jump.reach().is_finite() { jump.reach() } else { picture.window.y.to() };
+        let to = if jump.reach().is_finite() {
+            jump.reach()
+        } else {
+            picture.window.y.to()
+        };
         picture.curve(name, [[at, jump.from], [at, to]]);
     }
     let place = [at, special.q_max.unwrap_or(0.0)];

@@ -22,7 +22,11 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let (name, label) = (abscissa.spec().name, diagram.axes.label());
     let velocity = Axes { ordinate: Ordinate::VMax, ..diagram.axes }.label();
     let beside = session.layers.contains(&Layer::Extents) && velocity != label;
-    let label: Text = if beside { format!("{label}, {velocity}").into() } else { label.into() };
+    let label: Text = if beside {
+        format!("{label}, {velocity}").into()
+    } else {
+        label.into()
+    };
     let window = diagram.window;
     picture.varied = vec![abscissa];
     picture.cursor = held(session, index).or(picture.cursor);
@@ -210,7 +214,11 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
             picture.name_curve(&points, "", stability(stable), line.role);
         }
         if *beside {
-            let pale = if stable { Role::GhostStable } else { Role::GhostUnstable };
+            let pale = if stable {
+                Role::GhostStable
+            } else {
+                Role::GhostUnstable
+            };
             // Its values stand beside it.
             let name = format!("{} at other values", line.name);
             line = LineStyle::new(name, pale, line.dash).captioned();

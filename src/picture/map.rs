@@ -95,7 +95,11 @@ impl Danger {
 
     /// How strong a place this far on the way is: the stronger the more dangerous.
     pub fn strength(&self, part: f64) -> f64 {
-        if self.dangerous == Some(DangerousValues::Small) { 1.0 - part } else { part }
+        if self.dangerous == Some(DangerousValues::Small) {
+            1.0 - part
+        } else {
+            part
+        }
     }
 
     /// What the lowest and the highest value are.

@@ -22,7 +22,11 @@ use crate::words::significant;
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.axes("q", "v");
     if session.scene.machine.is_some() {
-        let model = if session.draws_whole() { "whole model" } else { "cubic expansion" };
+        let model = if session.draws_whole() {
+            "whole model"
+        } else {
+            "cubic expansion"
+        };
         picture.add_to_title(model);
     }
     let shows = |layer| session.layers.contains(&layer);
@@ -256,7 +260,11 @@ fn circle(picture: &mut Picture, ShownMotion { variant, problem, .. }: &ShownMot
 fn cycles(picture: &mut Picture, found: &Drawing, variant: &VariantTag, whole: bool) {
     for (cycle, curve) in found.cycles.iter().zip(&found.curves) {
         let plain = cycle_name(cycle.stable);
-        let (name, own) = if whole { kind(cycle) } else { (plain, variant.label.as_str()) };
+        let (name, own) = if whole {
+            kind(cycle)
+        } else {
+            (plain, variant.label.as_str())
+        };
         let points = Point::all(curve);
         let line = LineStyle::from(plain);
         picture.name_curve(&points, own, own, line.role);
@@ -274,7 +282,11 @@ fn ghost(picture: &mut Picture, session: &Session) {
             }
             Finding::Cycles(found, _) => {
                 for (cycle, curve) in found.cycles.iter().zip(&found.curves) {
-                    let role = if cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
+                    let role = if cycle.stable {
+                        Role::GhostStable
+                    } else {
+                        Role::GhostUnstable
+                    };
                     let line = LineStyle { role, ..LineStyle::from("cycle left") };
                     picture.curve(line, curve.iter().copied());
                 }
@@ -294,15 +306,26 @@ fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMo
         if session.contact_of(found).is_some() || rests {
             continue;
         }
-        let role = if family { Role::Trajectory } else { motion(session, place).role };
+        let role = if family {
+            Role::Trajectory
+        } else {
+            motion(session, place).role
+        };
         if let (Some(mark), Some(at)) = (end_mark(&found.outcome), found.outcome.state()) {
             picture.mark(mark, at, role);
         }
     }
-    let problems =
-        if family { shown.iter().map(|shown| shown.problem).collect() } else { session.problems() };
+    let problems = if family {
+        shown.iter().map(|shown| shown.problem).collect()
+    } else {
+        session.problems()
+    };
     for (place, Problem { parameters, initial, .. }) in problems.iter().enumerate() {
-        let role = if family { Role::Trajectory } else { motion(session, place).role };
+        let role = if family {
+            Role::Trajectory
+        } else {
+            motion(session, place).role
+        };
         if initial.v != 0.0 || initial.q.abs() > parameters.r {
             picture.mark(Mark::Start, Point::from(*initial), role);
         }
@@ -347,7 +370,11 @@ fn lost_part(session: &Session, index: usize) -> String {
     match session.answer(Topic::Kicks, index) {
         Some(Finding::Kicks(found, _)) if !session.is_stale(Topic::Kicks, index) => {
             let (part, error) = (significant(found.part, 4), significant(found.error, 2));
-            let of = if session.variants(index).is_some() { " at the present values" } else { "" };
+            let of = if session.variants(index).is_some() {
+                " at the present values"
+            } else {
+                ""
+            };
             format!("kicks lost{of} {part} +- {error}")
         }
         _ => "kicks lost: ..".to_owned(),

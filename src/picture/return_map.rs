@@ -82,7 +82,11 @@ fn turns(picture: &mut Picture, motion: &Motion, like: &LineStyle) {
         });
         let first = turns.first().map(|q| [*q, *q]);
         let line = LineStyle::new(format!("{}, turn by turn", like.name), like.role, like.dash);
-        let brief = if like.role == Role::Beside { "other motions" } else { "motion" };
+        let brief = if like.role == Role::Beside {
+            "other motions"
+        } else {
+            "motion"
+        };
         picture.curve(line.briefly(brief), first.into_iter().chain(steps));
         if let Some(start) = first {
             picture.mark(Mark::Start, start, like.role);

@@ -60,7 +60,11 @@ impl Scale {
 
     /// What the axis of a quantity is called where its ticks are labelled.
     pub fn title(self, name: &str) -> &str {
-        if let Scale::Times { name, .. } = self { name } else { name }
+        if let Scale::Times { name, .. } = self {
+            name
+        } else {
+            name
+        }
     }
 }
 

@@ -33,8 +33,11 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
 
 /// A method: its rows, and its name at the finest of them.
 fn method(picture: &mut Picture, found: &Trade, spec: &MethodSpec) {
-    let (role, dash) =
-        if spec.events { (Role::Trajectory, Dash::Solid) } else { (Role::Beside, Dash::Dotted) };
+    let (role, dash) = if spec.events {
+        (Role::Trajectory, Dash::Solid)
+    } else {
+        (Role::Beside, Dash::Dotted)
+    };
     let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
     let points: Vec<_> = own.filter_map(TradePoint::place).collect();
     // Where auto chooses a method, the curve of that method covers its own.

@@ -53,7 +53,11 @@ pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
 
 /// `name [unit]`.
 pub fn with_unit(name: &str, unit: &str) -> String {
-    if unit.is_empty() { name.into() } else { format!("{name} [{unit}]") }
+    if unit.is_empty() {
+        name.into()
+    } else {
+        format!("{name} [{unit}]")
+    }
 }
 
 /// The label of an axis over a number.
@@ -66,7 +70,11 @@ pub fn label(knob: Knob) -> String {
 pub fn said(scale: Scale, name: &str, value: f64, span: Span) -> String {
     /// Cells of a large plot: what a cursor can tell apart.
     const CELLS: f64 = 200.0;
-    let factor = if let Scale::Times { factor, .. } = scale { factor } else { 1.0 };
+    let factor = if let Scale::Times { factor, .. } = scale {
+        factor
+    } else {
+        1.0
+    };
     let number = resolved(factor * value, factor * span.width() / CELLS);
     match scale.title(name).split_once(" [") {
         Some((symbol, unit)) => format!("{symbol} {number} {}", unit.trim_end_matches(']')),

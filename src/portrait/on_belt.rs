@@ -18,7 +18,11 @@ pub fn first_at(motion: &Motion, velocity: f64) -> Option<(f64, f64)> {
         let (from, to) = (pair[0], pair[1]);
         let h = to.tau - from.tau;
         // Both ends of the pair belong to the half swing between them.
-        let side = if from.v + to.v >= 0.0 { Side::Upper } else { Side::Lower };
+        let side = if from.v + to.v >= 0.0 {
+            Side::Upper
+        } else {
+            Side::Lower
+        };
         // In the frame of the half plane, dry friction included.
         let (field, sign) = (HalfPlane::new(parameters, side), side.sign());
         let slope = |at: Sample| {

@@ -157,7 +157,11 @@ impl Portrait {
         let most = |far: f64, (right, up): (f64, f64)| {
             let fate = |kick: f64| self.fate(from + kick * right, kick * up * omega_0);
             let lost = |kick: f64| fate(kick) != Ok(Fate::Rest);
-            if lost(far) { bisect(0.0, far, HALVINGS, lost).0 } else { far }
+            if lost(far) {
+                bisect(0.0, far, HALVINGS, lost).0
+            } else {
+                far
+            }
         };
         let known = self.known;
         let (x, y) = if self.model.law_ends() {

@@ -116,7 +116,11 @@ impl Portrait {
         let arcs = orbits.iter().flat_map(|orbit| [&orbit.upper, &orbit.lower]);
         arcs.for_each(|arc| self.cost += arc.cost);
         self.borders = orbits.into_iter().map(|orbit| Edge::Orbit(Box::new(orbit))).collect();
-        self.reach = if self.has_basin() { self.reach_within() } else { Some(Reach::default()) };
+        self.reach = if self.has_basin() {
+            self.reach_within()
+        } else {
+            Some(Reach::default())
+        };
         self.margin = self.margin_within(self.model.guide_static, self.model.mass);
         self
     }

@@ -127,7 +127,11 @@ impl Walk {
         /// A fraction of what the image allows, so that rounding cannot matter.
         const PART: f64 = 0.95;
         let (from, (reach, fences)) = (self.at, self.reach());
-        let to = if reach < f64::INFINITY { most.min(from + PART * (reach - from)) } else { most };
+        let to = if reach < f64::INFINITY {
+            most.min(from + PART * (reach - from))
+        } else {
+            most
+        };
         if !(to > from && to < f64::INFINITY && self.steps.len() < MOST) {
             return Err(format!("a turn from the clearance {from:?} is not certain"));
         }
@@ -163,7 +167,11 @@ impl Walk {
             while self.at < from {
                 self.step(from)?;
             }
-            let kind = if cycle.stable { StepKind::Stable } else { StepKind::Unstable };
+            let kind = if cycle.stable {
+                StepKind::Stable
+            } else {
+                StepKind::Unstable
+            };
             self.add(kind, Some(to), Some(clearance), fences);
             self.above = !cycle.stable;
             return Ok(());

@@ -155,7 +155,11 @@ fn narrowed(map: &ProvedMap, (at, sign): GapEnd, which: Bound) -> f64 {
     let inwards = (which == Bound::Lower) == (sign == Sign::Above);
     let way = if inwards { &map.forward } else { &map.backward };
     let image = way.image_bound(at, which);
-    if which == Bound::Lower { image.max(at) } else { image.min(at) }
+    if which == Bound::Lower {
+        image.max(at)
+    } else {
+        image.min(at)
+    }
 }
 
 /// A point inside a gap where the sign is certain.
@@ -165,7 +169,11 @@ fn clear_middle(map: &ProvedMap, gap: Interval) -> Option<GapEnd> {
     let (low, high) = (gap.lower(), gap.upper());
     let wide = low > 0.0 && high > 4.0 * low;
     PARTS.iter().find_map(|&part| {
-        let at = if wide { low * pow(high / low, part) } else { low + part * (high - low) };
+        let at = if wide {
+            low * pow(high / low, part)
+        } else {
+            low + part * (high - low)
+        };
         let sign = (at > low && at < high).then(|| sign_at(map, at))??;
         Some((at, sign))
     })
@@ -210,7 +218,11 @@ fn inner_end(map: &ProvedMap) -> SearchEnd {
         if bound > 0.0 && bound < f64::INFINITY {
             // No image is smaller, provided that every motion returns.
             let returns = map.parameters.d3 > 0.0 && least[0] > 0.0;
-            let sign = if returns { Some(Sign::Above) } else { sign_at(map, bound) };
+            let sign = if returns {
+                Some(Sign::Above)
+            } else {
+                sign_at(map, bound)
+            };
             return sign.map(|sign| (bound, sign)).ok_or(0.0);
         }
         if bound == f64::INFINITY {
@@ -267,7 +279,11 @@ fn outer_end(map: &ProvedMap, inner: f64) -> SearchEnd {
     if bound < f64::INFINITY {
         // No image is larger: the map is not above the diagonal there, unless the motion never turns again.
         let returns = map.parameters.d3 > 0.0;
-        let sign = if returns { Some(Sign::Below) } else { sign_at(map, bound) };
+        let sign = if returns {
+            Some(Sign::Below)
+        } else {
+            sign_at(map, bound)
+        };
         return sign.map(|sign| (bound, sign)).ok_or(inner);
     }
     // The same for the inverse, all of whose images are below its greatest one.

@@ -91,7 +91,11 @@ pub(crate) fn stabilities(parameters: &ParameterBox) -> (Option<Vec<bool>>, u32)
 /// The parameters in units of `2^k`, and k: near the limits of the range of doubles, r is scaled to about 1,
 /// exactly or as an interval.
 fn in_own_units(parameters: &ParameterBox) -> (ParameterBox, i32) {
-    let unit = if parameters.r > 0.0 { exponent(parameters.r.middle()) } else { 0 };
+    let unit = if parameters.r > 0.0 {
+        exponent(parameters.r.middle())
+    } else {
+        0
+    };
     let unit = if unit.abs() > 300 { unit } else { 0 };
     (parameters.in_units_of(unit), unit)
 }

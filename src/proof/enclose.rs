@@ -95,7 +95,11 @@ fn newton(way: &HalfMaps, over: Interval) -> Option<Interval> {
 fn polished(way: &HalfMaps, near: f64) -> f64 {
     let Some((image, slope)) = way.image_and_slope(point(near)) else { return near };
     let next = near - (image.middle() - near) / (slope.middle() - 1.0);
-    if next > 0.5 * near && next < 2.0 * near { next } else { near }
+    if next > 0.5 * near && next < 2.0 * near {
+        next
+    } else {
+        near
+    }
 }
 
 /// All characteristics of the cycle with this clearance.
@@ -109,7 +113,11 @@ fn describe(map: &ProvedMap, clearance: Interval, stable: bool) -> Option<Enclos
     }
     let [from_right, from_left] = [(&way.0[0], clearance), (&way.0[1], left)]
         .map(|(half, clearance)| half.whole_swing(half.start(clearance)));
-    let [below, above] = if stable { [from_right, from_left] } else { [from_left, from_right] };
+    let [below, above] = if stable {
+        [from_right, from_left]
+    } else {
+        [from_left, from_right]
+    };
     // The contribution of D2 to the divergence vanishes around a closed curve.
     let cubic = |swing: &ProvedSwing| {
         let c = scaled(scaled(map.parameters.d3, swing.unit), swing.unit);

@@ -35,7 +35,11 @@ pub struct FieldBox {
 impl FieldBox {
     /// The field on one side of the switching line.
     pub fn new(parameters: &ParameterBox, side: Side) -> Self {
-        let b = if side == Side::Upper { parameters.d2 } else { -parameters.d2 };
+        let b = if side == Side::Upper {
+            parameters.d2
+        } else {
+            -parameters.d2
+        };
         FieldBox { a: parameters.d.twice(), b, c: parameters.d3 }
     }
 
@@ -94,7 +98,11 @@ impl FieldBox {
 pub fn scaled(value: Interval, k: i32) -> Interval {
     let bound = |bound: f64, widen: fn(f64) -> f64| {
         let scaled = times_power(bound, k);
-        if times_power(scaled, -k) == bound { scaled } else { widen(scaled) }
+        if times_power(scaled, -k) == bound {
+            scaled
+        } else {
+            widen(scaled)
+        }
     };
     Interval::new(bound(value.lower(), f64::next_down), bound(value.upper(), f64::next_up))
 }

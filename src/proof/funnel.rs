@@ -329,8 +329,16 @@ pub fn fences([a, b, c]: [f64; 3]) -> Option<(f64, f64)> {
     // The roots of f' = slope: the larger one for c > 0, both for c < 0.
     let root = |slope: f64| (b * b + 3.0 * c * (slope - a)).sqrt();
     let beyond_fold = || (root(at_fold) - b) / (3.0 * c);
-    let speed = if b >= 0.0 { (gentle - a) / (b + root(gentle)) } else { beyond_fold() };
-    let fastest = if c < 0.0 { (b + root(at_fold)) / (-3.0 * c) } else { f64::INFINITY };
+    let speed = if b >= 0.0 {
+        (gentle - a) / (b + root(gentle))
+    } else {
+        beyond_fold()
+    };
+    let fastest = if c < 0.0 {
+        (b + root(at_fold)) / (-3.0 * c)
+    } else {
+        f64::INFINITY
+    };
     (speed > 0.0 && speed.is_finite()).then_some((speed, fastest))
 }
 

@@ -171,7 +171,11 @@ fn pushed(
 /// Where to halve an interval of positive values: by their ratio where that is large.
 fn halving(over: Interval) -> f64 {
     let (low, high) = (over.lower(), over.upper());
-    if high > 4.0 * low { (low * high).sqrt() } else { over.middle() }
+    if high > 4.0 * low {
+        (low * high).sqrt()
+    } else {
+        over.middle()
+    }
 }
 
 /// An interval from the largest value that is certainly captured to the smallest that certainly is not,

@@ -160,7 +160,11 @@ impl Effort {
 impl ProvedHalf {
     /// Where a swing with a clearance starts.
     pub fn start(&self, clearance: Interval) -> Interval {
-        if self.backward { clearance + self.gap } else { clearance }
+        if self.backward {
+            clearance + self.gap
+        } else {
+            clearance
+        }
     }
 
     /// The clearances after swings that end at these positions; `-inf` where they end in the sticking set.

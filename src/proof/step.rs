@@ -47,7 +47,11 @@ impl Norm {
     pub fn new(skew: f64) -> Self {
         /// Beyond this skew the norm is too flat.
         const FLATTEST: f64 = 1.999;
-        let skew = if skew.is_nan() { 0.0 } else { skew.clamp(-FLATTEST, FLATTEST) };
+        let skew = if skew.is_nan() {
+            0.0
+        } else {
+            skew.clamp(-FLATTEST, FLATTEST)
+        };
         // 4 - s^2 is at least 0.0039; its absolute error of 4.5e-16 is a relative 1.2e-13.
         Norm { skew, stretch: 2.0 / (4.0 - skew * skew).sqrt() * INFLATE }
     }
@@ -290,7 +294,11 @@ impl StepField {
         let best = candidates
             .into_iter()
             .fold(before, |one, other| if cost(other) < cost(one) { other } else { one });
-        if cost(best) < cost(before) - WORTH { best } else { before }
+        if cost(best) < cost(before) - WORTH {
+            best
+        } else {
+            before
+        }
     }
 
     /// Carries a ball around the start of a series over a step of length h to its `end` by [`MotionSeries::at`];
@@ -359,7 +367,11 @@ impl StepField {
         let linear = [v.lower(), v.upper()].map(|v| 2.0 * b * v);
         // v^2 + v w + w^2 for v and w in one interval: between 0 (or 3/4 of the larger square) and 3 times that
         // square.
-        let least = if v.contains(0.0) { 0.0 } else { v.lower().abs().min(v.upper().abs()) };
+        let least = if v.contains(0.0) {
+            0.0
+        } else {
+            v.lower().abs().min(v.upper().abs())
+        };
         let cubic = [least, speed].map(|v| 3.0 * c * (v * v));
         let slope = |[a, b, c]: [f64; 3]| a + speed * (2.0 * b + 3.0 * c * speed);
         let blur = slope(self.spread) + ROUNDED * slope(self.most);

@@ -58,7 +58,11 @@ impl ProvedSwing {
 impl Passage {
     /// The swing, if it certainly arrives.
     pub fn arrived(self) -> Option<ProvedSwing> {
-        if let Passage::Arrives(swing) = self { Some(swing) } else { None }
+        if let Passage::Arrives(swing) = self {
+            Some(swing)
+        } else {
+            None
+        }
     }
 }
 

@@ -146,7 +146,11 @@ impl Fineness {
         if rough {
             return Resolution { lines: 4, chord: f64::INFINITY, tolerance: 1e-3 };
         }
-        let chord = if self == Self::SCREEN { f64::INFINITY } else { 4e-4 / f64::from(self.0) };
+        let chord = if self == Self::SCREEN {
+            f64::INFINITY
+        } else {
+            4e-4 / f64::from(self.0)
+        };
         Resolution { lines: 40, chord, tolerance: 1e-13 }
     }
 }
@@ -194,8 +198,11 @@ pub fn answer_for(request: &Request, fineness: Fineness, limits: &Limits) -> Res
         }
         Request::Branch { parameters, parameter, range, tolerance } => {
             let rough = *tolerance >= DRAFT.tolerance;
-            let points =
-                if rough { Points::Followed } else { Points::Even(fineness.points(160).into()) };
+            let points = if rough {
+                Points::Followed
+            } else {
+                Points::Even(fineness.points(160).into())
+            };
             Finding::Branch(branch(parameters, *parameter, *range, points, *tolerance, limits)?)
         }
         Request::Balance { parameters, harmonics } => {
@@ -246,7 +253,11 @@ fn along_number(
     const BESIDE: [f64; 6] = [-0.5, -0.1, -0.02, 0.02, 0.1, 0.5];
     let tolerance = rough.then_some(DRAFT.tolerance);
     let source = Source { tolerance, ..Source::from(belt) };
-    let values = if rough { (FEW, None) } else { (VALUES, Some(BESIDE.as_slice())) };
+    let values = if rough {
+        (FEW, None)
+    } else {
+        (VALUES, Some(BESIDE.as_slice()))
+    };
     let found = MachineBranch::along(&source, varied, range, values, limits);
     limits.go_on()?;
     found.map_err(|_| Reason::NotApplicable { needs: "a machine with that number" })

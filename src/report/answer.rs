@@ -107,13 +107,21 @@ impl Answer {
 
     /// With these rows in files.
     pub(super) fn csv<R>(self, columns: &Columns<R>, rows: impl RowsOf<R>) -> Self {
-        let csv = if self.makes(Format::Csv) { columns.csv(rows) } else { String::new() };
+        let csv = if self.makes(Format::Csv) {
+            columns.csv(rows)
+        } else {
+            String::new()
+        };
         Answer { csv, ..self }
     }
 
     /// With these rows for reading.
     pub(super) fn table_of<R>(self, columns: &Columns<R>, rows: impl RowsOf<R>) -> Self {
-        if self.makes(Format::Table) { self.table(columns.table(rows)) } else { self }
+        if self.makes(Format::Table) {
+            self.table(columns.table(rows))
+        } else {
+            self
+        }
     }
 
     /// With a table for reading; nothing if it has no rows.

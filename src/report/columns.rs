@@ -293,7 +293,11 @@ pub(super) fn ends(it: Interval) -> String {
         let near = significant(value, 6);
         let read: f64 = near.parse().unwrap_or(f64::NAN);
         let inside = sign * (value - read) > 0.0;
-        if inside { significant(value + sign * step(value), 6) } else { near }
+        if inside {
+            significant(value + sign * step(value), 6)
+        } else {
+            near
+        }
     };
     format!("{} .. {}", end(it.lower(), -1.0), end(it.upper(), 1.0))
 }

@@ -25,8 +25,11 @@ impl CycleNumber {
 
     /// Of the oscillator of the paper; by its logarithm where it overflows or underflows.
     pub(super) fn text(&self, cycle: &Cycle, places: usize) -> String {
-        let logarithm =
-            if self.name == "clearance" { cycle.log_clearance } else { cycle.log_multiplier };
+        let logarithm = if self.name == "clearance" {
+            cycle.log_clearance
+        } else {
+            cycle.log_multiplier
+        };
         let power = || format!("exp({})", significant(logarithm, places));
         (self.value)(cycle).map_or_else(power, |value| significant(value, places))
     }

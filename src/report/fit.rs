@@ -257,7 +257,11 @@ fn subject(fitted: &FitResult) -> String {
             StartKind::Moving => "in motion from its beginning",
         };
         let signal = fitted.record.signal;
-        let of = if signal.is_displacement() { String::new() } else { format!(" of a {signal}") };
+        let of = if signal.is_displacement() {
+            String::new()
+        } else {
+            format!(" of a {signal}")
+        };
         format!("{} samples{of} over {} s, {begin}", t.len(), significant(span, 4))
     };
     let end = if estimate.rests { ", at rest at its end" } else { "" };
@@ -316,7 +320,11 @@ fn places(fitted: &FitResult) -> String {
 
 /// What the table of the margins shows.
 fn draws(fitted: &FitResult) -> String {
-    let impulse = if fitted.inertia().is_none() { ", impulses as velocity/omega0" } else { "" };
+    let impulse = if fitted.inertia().is_none() {
+        ", impulses as velocity/omega0"
+    } else {
+        ""
+    };
     format!(
         "smallest kicks that are not survived, from the worst rest position and from q = 0{impulse};\n\
          95 % lie from .. to, by {} effective draws; none: the share of the draws without",

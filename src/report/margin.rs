@@ -140,7 +140,11 @@ pub fn kicks(about: &About, law: &RandomKick, found: &Survival, held: f64, secon
 /// What is lost, and the mean number of kicks until one is.
 fn lost(Survival { first, later, mean, error, .. }: &Survival) -> [String; 4] {
     let number = |value: f64| significant(value, 6);
-    let mean = if mean.is_finite() { number(*mean) } else { "none is ever lost".to_owned() };
+    let mean = if mean.is_finite() {
+        number(*mean)
+    } else {
+        "none is ever lost".to_owned()
+    };
     let (part, about) = (number(first.part), significant(first.error, 2));
     [
         format!("lost, of kicks from the middle of the rest  {part} +- {about}"),

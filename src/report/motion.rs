@@ -53,7 +53,11 @@ pub fn motion(
     let how = if machine { stop() } else { Some(how) };
     let outcome = Document::default().and(&motion.outcome);
     let rests = machine && matches!(motion.outcome, Outcome::Captured { .. });
-    let answer = if machine { about.answer() } else { about.answer_to(&from(problem)) };
+    let answer = if machine {
+        about.answer()
+    } else {
+        about.answer_to(&from(problem))
+    };
     answer
         .lines((!machine).then(|| sentence(motion, Notation::default())))
         .with("initial", problem.initial)
@@ -225,7 +229,11 @@ pub fn trade(about: &About, trade: &Trade, plot: &str) -> Answer {
     let end = known.end.map(|number| number.high);
     let notation = Notation(about.is_machine().then_some(Units::SI));
     let end = ended(&end, known.turns.len(), notation, 12);
-    let answer = if about.is_machine() { about.answer() } else { about.answer_to(&until) };
+    let answer = if about.is_machine() {
+        about.answer()
+    } else {
+        about.answer_to(&until)
+    };
     let all = [answered.as_slice(), &unanswered].concat();
     let answer = answer
         .with("initial", problem.initial)
@@ -243,7 +251,11 @@ pub fn trade(about: &About, trade: &Trade, plot: &str) -> Answer {
         .lines([format!("*: nothing else is better for less time{in_use}"), format!("\n{plot}")])
         .table(price(trade));
     let seconds = rows.iter().map(|row| row.seconds).sum();
-    if about.is_machine() { answer.cost(known.cost, seconds) } else { answer }
+    if about.is_machine() {
+        answer.cost(known.cost, seconds)
+    } else {
+        answer
+    }
 }
 
 /// The errors whose cost [`price`] shows.

@@ -67,7 +67,11 @@ fn section(parts: &[Part]) -> String {
         parts.iter().partition(|part| matches!(part, Part::Heading(_)));
     let html = |parts: Vec<&Part>| parts.into_iter().map(part_html).collect::<String>();
     let inside = html(parts);
-    if inside.is_empty() { inside } else { element("section", &(html(headings) + &inside)) }
+    if inside.is_empty() {
+        inside
+    } else {
+        element("section", &(html(headings) + &inside))
+    }
 }
 
 fn part_html(part: &Part) -> String {

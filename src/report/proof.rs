@@ -115,7 +115,11 @@ fn sentences(found: usize, proof: &Proof) -> Vec<String> {
     let cycles = cycles(found);
     if proof.is_complete() {
         let is_point = proof.parameters.is_point();
-        let of = if is_point { "the parameters as doubles" } else { "all of these parameters" };
+        let of = if is_point {
+            "the parameters as doubles"
+        } else {
+            "all of these parameters"
+        };
         return vec![format!("{cycles}, proved for {of}")];
     }
     let open = proof.open.iter().map(|gap| {

@@ -158,20 +158,32 @@ impl fmt::Display for Table {
             self.parts().iter().map(|columns| self.of(columns).lines()).collect()
         };
         out.write_str(&parts.join("\n"))?;
-        if self.caption.is_empty() { Ok(()) } else { writeln!(out, "{}", self.caption) }
+        if self.caption.is_empty() {
+            Ok(())
+        } else {
+            writeln!(out, "{}", self.caption)
+        }
     }
 }
 
 impl Alignment {
     fn title(&self, title: &str) -> String {
         let width = self.whole + self.part;
-        if self.is_number { format!("{title:>width$}") } else { format!("{title:width$}") }
+        if self.is_number {
+            format!("{title:>width$}")
+        } else {
+            format!("{title:width$}")
+        }
     }
 
     fn cell(&self, cell: &str) -> String {
         let Alignment { is_number, whole, part } = *self;
         let (before, after) = split(cell);
-        if is_number { format!("{before:>whole$}{after:part$}") } else { format!("{cell:whole$}") }
+        if is_number {
+            format!("{before:>whole$}{after:part$}")
+        } else {
+            format!("{cell:whole$}")
+        }
     }
 }
 

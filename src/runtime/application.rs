@@ -124,7 +124,11 @@ impl From<io::Error> for LoopEnd {
     /// If the terminal is gone, writing to it fails before the signal arrives.
     fn from(error: io::Error) -> Self {
         let is_gone = error.raw_os_error() == Some(Errno::IO.raw_os_error());
-        if is_gone { LoopEnd::Closed } else { LoopEnd::Broken(error.to_string()) }
+        if is_gone {
+            LoopEnd::Closed
+        } else {
+            LoopEnd::Broken(error.to_string())
+        }
     }
 }
 

@@ -30,7 +30,11 @@ impl Files {
     pub fn copy(&self, text: &str) -> Result<String, String> {
         /// Length in characters up to which the line quotes the text.
         const SHORT: usize = 60;
-        let told = if text.chars().count() <= SHORT && !text.contains('\n') { text } else { "" };
+        let told = if text.chars().count() <= SHORT && !text.contains('\n') {
+            text
+        } else {
+            ""
+        };
         let sent = format!("{told} sent to the terminal's clipboard").trim_start().to_owned();
         let Some(path) = &self.copies else { return Ok(sent) };
         let told = |line| format!("{sent}; {line}");

@@ -51,7 +51,11 @@ impl NewFile {
             // The folder alone does not decide: a file that may not be written is not replaced either.
             OpenOptions::new().write(true).open(&path)?;
         }
-        let mode = if old.is_none() && readers == Readers::Usual { 0o666 } else { 0o600 };
+        let mode = if old.is_none() && readers == Readers::Usual {
+            0o666
+        } else {
+            0o600
+        };
         let (file, beside) = temporary(&path, mode)?;
         let this = NewFile { path, beside: Some(beside), file };
         if let Some(old) = old {
@@ -107,7 +111,11 @@ pub(super) fn device(path: &Path) -> io::Result<File> {
     let file = file.map_err(|why| {
         let is_pipe = fs::metadata(path).is_ok_and(|file| file.file_type().is_fifo());
         let unread = || io::Error::new(why.kind(), "nobody reads from this pipe");
-        if is_pipe && why.kind() != ErrorKind::PermissionDenied { unread() } else { why }
+        if is_pipe && why.kind() != ErrorKind::PermissionDenied {
+            unread()
+        } else {
+            why
+        }
     })?;
     block(&file)?;
     Ok(file)
@@ -162,7 +170,11 @@ fn temporary(path: &Path, mode: u32) -> io::Result<(File, TempPath)> {
 /// Whether nothing is lost when the new content takes this path: the file is missing, empty, or holds the same.
 /// No more of it is read than there is new content.
 fn is_free(path: &Path, beside: &Path) -> io::Result<bool> {
-    let length = if path.try_exists()? { fs::metadata(path)?.len() } else { 0 };
+    let length = if path.try_exists()? {
+        fs::metadata(path)?.len()
+    } else {
+        0
+    };
     if length == 0 || length != fs::metadata(beside)?.len() {
         return Ok(length == 0);
     }

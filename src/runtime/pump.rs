@@ -341,7 +341,11 @@ impl<M: Application, W: Write> Pump<M, W> {
             let of_figure = matches!(effect, Effect::Write { content: Content::Figure { .. }, .. });
             let message = if of_figure { Msg::Written } else { Msg::Told };
             let notice = Notice { error: true, text };
-            return if notice.text.is_empty() { Ok(()) } else { self.told(notice, message) };
+            return if notice.text.is_empty() {
+                Ok(())
+            } else {
+                self.told(notice, message)
+            };
         }
         match effect {
             Effect::Quit => return Err(LoopEnd::Quit),

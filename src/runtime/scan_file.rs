@@ -79,7 +79,11 @@ impl ScanFile {
         let known = provenance_file::read(path).ok().and_then(|earlier| earlier.checksum);
         let reading = file.try_clone().map_err(unwritten)?;
         let (bytes, checksum) = kept(RowReader::new(&part, path, reading, known)?, known, limits)?;
-        let unchecked = if known == Some(checksum) { 0 } else { checksum.rows.saturating_sub(2) };
+        let unchecked = if known == Some(checksum) {
+            0
+        } else {
+            checksum.rows.saturating_sub(2)
+        };
         file.set_len(bytes).map_err(unwritten)?;
         file.seek(SeekFrom::End(0)).map_err(unwritten)?;
         if bytes == 0 {

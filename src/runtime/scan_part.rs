@@ -78,10 +78,18 @@ impl<'a> RowReader<'a> {
         if line.last() != Some(&b'\n') {
             let expected = part.beginning(self.next.min(part.points.end - 1));
             let is_own = line.iter().zip(expected.bytes()).all(|(own, other)| *own == other);
-            return if is_own { Ok(None) } else { Err(self.foreign(self.number, OTHER)) };
+            return if is_own {
+                Ok(None)
+            } else {
+                Err(self.foreign(self.number, OTHER))
+            };
         }
         let mut left = self.next..part.points.end;
-        let why = if left.is_empty() { "is one more than it has points" } else { OTHER };
+        let why = if left.is_empty() {
+            "is one more than it has points"
+        } else {
+            OTHER
+        };
         let own = left.find(|index| line.starts_with(part.beginning(*index).as_bytes()));
         let index = own.ok_or_else(|| self.foreign(self.number, why))?;
         self.next = index + 1;

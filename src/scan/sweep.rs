@@ -95,7 +95,11 @@ impl Sweep {
                 let rounding = 4.0 * f64::EPSILON * self.from.abs().max(self.to.abs());
                 // Where the ends have few digits the values between have few: -0.4, not -0.39999999999999997.
                 let short = format!("{value:.14e}").parse().unwrap_or(value);
-                if (short - value).abs() <= rounding { short } else { value }
+                if (short - value).abs() <= rounding {
+                    short
+                } else {
+                    value
+                }
             }
             Spacing::Logarithmic => {
                 let exponent = mean(log10(self.from.abs()), log10(self.to.abs()));

@@ -50,7 +50,11 @@ impl From<toml::de::Error> for Complaint {
 impl Complaint {
     /// The complaint, about this place unless it has one.
     pub fn or_at(self, at: Range<usize>) -> Self {
-        if self.at == (0..0) { Complaint { at, ..self } } else { self }
+        if self.at == (0..0) {
+            Complaint { at, ..self }
+        } else {
+            self
+        }
     }
 
     /// The complaint as a [`FileMistake`] at the line and column where its range begins.

@@ -145,7 +145,11 @@ impl Height {
     /// The height that corresponds to this value of the property; infinite or NaN in units of a friction that
     /// is zero.
     pub fn scaled(&self, value: f64, size: f64) -> f64 {
-        if self.is_ratio() { size / self.friction.unwrap_or(value) } else { size }
+        if self.is_ratio() {
+            size / self.friction.unwrap_or(value)
+        } else {
+            size
+        }
     }
 
     /// Whether heights are in units of r.
@@ -212,7 +216,11 @@ impl Default for Axes {
 impl Axes {
     /// The number to the right in a view.
     pub fn right(&self, view: View) -> Knob {
-        if view == View::BeltDiagram { self.machine } else { self.abscissa }
+        if view == View::BeltDiagram {
+            self.machine
+        } else {
+            self.abscissa
+        }
     }
 
     /// The same with another number to the right in a view.
@@ -323,7 +331,11 @@ mod tests {
                 Height { ordinate, unit: Unit::Friction, friction }.of(0.5, &cycle)
             };
             let plain = row.ordinate.of(&cycle);
-            let ratios = if row.ratio.is_some() { [plain / 0.25, plain / 0.5] } else { [plain; 2] };
+            let ratios = if row.ratio.is_some() {
+                [plain / 0.25, plain / 0.5]
+            } else {
+                [plain; 2]
+            };
             assert_eq!([height(Some(0.25)), height(None)], ratios, "{}", row.name);
             assert_eq!(row.ratio.is_some_and(|name| name.ends_with("/r")), row.ratio.is_some());
         }

@@ -68,7 +68,11 @@ impl Span {
             return None;
         }
         Span::new(from, to).ok().or_else(|| {
-            let half = if from == 0.0 { 1.0 } else { (0.5 * from.abs()).max(TINIEST) };
+            let half = if from == 0.0 {
+                1.0
+            } else {
+                (0.5 * from.abs()).max(TINIEST)
+            };
             Span::new(from - half, to + half).ok()
         })
     }
@@ -105,7 +109,11 @@ impl Span {
 
     /// The nearest value within; `NaN` becomes the middle.
     pub fn clamp(self, value: f64) -> f64 {
-        if value.is_nan() { self.center() } else { value.clamp(self.from, self.to) }
+        if value.is_nan() {
+            self.center()
+        } else {
+            value.clamp(self.from, self.to)
+        }
     }
 
     /// Position of a value: 0 at the left end, 1 at the right one.

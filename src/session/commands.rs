@@ -234,7 +234,11 @@ fn toggle(spec: &LayerSpec) -> Command {
     let leaked = |text: String| -> &'static str { Box::leak(text.into_boxed_str()) };
     Command {
         name: leaked(format!("toggle-{}", spec.name)),
-        keys: keys(if spec.layer == Layer::Whole { "everywhere |" } else { "everywhere" }),
+        keys: keys(if spec.layer == Layer::Whole {
+            "everywhere |"
+        } else {
+            "everywhere"
+        }),
         hint: "",
         doc: leaked(format!("Show or hide {}", spec.meaning)),
         arguments: "",

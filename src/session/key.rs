@@ -100,7 +100,11 @@ impl Key {
         }
         let written = self.to_string();
         let name = written.trim_start_matches('<').trim_end_matches('>');
-        if let Code::F(_) = self.code { name.replace('f', "F") } else { name.to_owned() }
+        if let Code::F(_) = self.code {
+            name.replace('f', "F")
+        } else {
+            name.to_owned()
+        }
     }
 
     /// Reads the text between angle brackets. Fails with one line, which has the most similar name.

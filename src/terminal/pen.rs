@@ -108,7 +108,13 @@ pub(super) fn push_colour(parameters: &mut Vec<u16>, colour: Color, base: u16) {
 
 /// Length of a select-graphic-rendition sequence with these parameters, without `ESC[`.
 fn length(parameters: &[u16]) -> usize {
-    let digits = |number: &u16| if *number < 10 { 1 } else { 2 + usize::from(*number > 99) };
+    let digits = |number: &u16| {
+        if *number < 10 {
+            1
+        } else {
+            2 + usize::from(*number > 99)
+        }
+    };
     parameters.iter().map(|number| digits(number) + 1).sum()
 }
 

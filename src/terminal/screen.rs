@@ -105,7 +105,11 @@ impl<W: Write> Screen<W> {
 
 /// The size, or the default one if it is empty.
 fn known(size: Size) -> Size {
-    if size.width == 0 || size.height == 0 { UNKNOWN } else { size }
+    if size.width == 0 || size.height == 0 {
+        UNKNOWN
+    } else {
+        size
+    }
 }
 
 #[cfg(test)]

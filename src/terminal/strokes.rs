@@ -218,7 +218,11 @@ pub fn draw(shown: &Buffer, picture: &Buffer, hand: TerminalState) -> (String, T
     let pens = distinct(strokes.iter().map(|stroke| stroke.pen));
     strokes.sort_by_key(|stroke| pens.iter().position(|pen| *pen == stroke.pen));
     let by_pens = sheet.draw(&strokes, hand, size);
-    if by_pens.0.len() < by_rows.0.len() { by_pens } else { by_rows }
+    if by_pens.0.len() < by_rows.0.len() {
+        by_pens
+    } else {
+        by_rows
+    }
 }
 
 /// Writes the shorter of the absolute and the relative cursor move.
@@ -249,12 +253,23 @@ fn relative_move(target: Position, cursor: Cursor, size: Size) -> Option<String>
         // Text that follows at once stays together, wherever the terminal has got to.
         let follows = inside && target == cursor.at;
         let is_known = target.x == 0 || (inside && target.y == y);
-        return if follows { Some(String::new()) } else { is_known.then_some(from_margin) };
+        return if follows {
+            Some(String::new())
+        } else {
+            is_known.then_some(from_margin)
+        };
     }
-    let along =
-        if target.x >= x { steps(target.x - x, "", 'C') } else { steps(x - target.x, "\x08", 'D') };
+    let along = if target.x >= x {
+        steps(target.x - x, "", 'C')
+    } else {
+        steps(x - target.x, "\x08", 'D')
+    };
     let directly = down + &along;
-    Some(if directly.len() <= from_margin.len() { directly } else { from_margin })
+    Some(if directly.len() <= from_margin.len() {
+        directly
+    } else {
+        from_margin
+    })
 }
 
 /// A move by `count` steps: repeated single characters if that is shorter, else a sequence.
@@ -265,7 +280,11 @@ fn steps(count: u16, single: &str, letter: char) -> String {
         _ => format!("\x1b[{count}{letter}"),
     };
     let is_shorter = !single.is_empty() && usize::from(count) < sequence.len();
-    if is_shorter { single.repeat(count.into()) } else { sequence }
+    if is_shorter {
+        single.repeat(count.into())
+    } else {
+        sequence
+    }
 }
 
 #[cfg(test)]

@@ -18,7 +18,11 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         SessionCaption::Tour(caption, place) => {
             let place = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));
             let named = caption.contains('{');
-            let on = if named { "keys named here work, any other: on" } else { "any key: on" };
+            let on = if named {
+                "keys named here work, any other: on"
+            } else {
+                "any key: on"
+            };
             let heading = format!(" {place}{on}, backspace: back, esc: leave ");
             (heading, vec![filled(caption)])
         }
@@ -32,7 +36,11 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let width = area.width.min(WIDTH);
     let inner = width.saturating_sub(4);
     // A tour is read from a distance.
-    let role = if session.caption == SessionCaption::Scene { Role::Text } else { Role::Title };
+    let role = if session.caption == SessionCaption::Scene {
+        Role::Text
+    } else {
+        Role::Title
+    };
     let styled = |text| Line::styled(text, look.style(role));
     let lines: Vec<Line> = paragraphs.into_iter().map(styled).collect();
     let height = pane::rows(&lines, inner).saturating_add(2).min(area.height);

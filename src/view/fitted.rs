@@ -101,7 +101,11 @@ fn shortened(text: &str, width: usize) -> String {
             break;
         }
         // `whatever a force does`, `against a force`.
-        let verb = if long.contains("whatever") && short.contains(long) { " does" } else { "" };
+        let verb = if long.contains("whatever") && short.contains(long) {
+            " does"
+        } else {
+            ""
+        };
         short = short.replace(long, brief).replacen(verb, "", 1);
     }
     short

@@ -96,8 +96,11 @@ fn allowed(row: Row, session: &Session) -> String {
         Row::BELT => "speed of the belt, such as 0.3 m/s or 30 cm/s".to_owned(),
         Row::Number(knob) if row.is_of_machine() => {
             let KnobSpec { meaning, unit, .. } = *knob.spec();
-            let unit =
-                if unit.is_empty() { "a number" } else { &format!("in {unit} or with its unit") };
+            let unit = if unit.is_empty() {
+                "a number"
+            } else {
+                &format!("in {unit} or with its unit")
+            };
             format!("{meaning}, {unit}")
         }
         Row::Number(Knob::Disturbance) => {
@@ -135,7 +138,11 @@ fn remark(prompt: &Prompt, session: &Session, look: &Look) -> Vec<Span<'static>>
         (None, Some(row), _) => allowed(row, session),
         (None, None, Some(completion)) => {
             let word = |(index, word): (usize, &String)| {
-                let role = if index == completion.at { Role::Key } else { Role::Quiet };
+                let role = if index == completion.at {
+                    Role::Key
+                } else {
+                    Role::Quiet
+                };
                 [Span::raw(" "), look.span(word.clone(), role)]
             };
             let words = completion.words.iter().enumerate().flat_map(word);
@@ -162,7 +169,11 @@ fn around(input: &Input, width: usize, look: &Look) -> [Span<'static>; 3] {
     let to = letters.len().min(from + width);
     let shown = |(at, letter): (usize, &char)| {
         let cut = (at == from && from > 0) || (at + 1 == to && to < letters.len());
-        if cut && at != caret { mark.to_owned() } else { letter.to_string() }
+        if cut && at != caret {
+            mark.to_owned()
+        } else {
+            letter.to_string()
+        }
     };
     let mut shown = letters.iter().enumerate().map(shown).take(to).skip(from);
     let style = look.style(Role::Text);

@@ -137,7 +137,11 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerT
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
     let area = parts.plots[index];
     let FramedPicture { picture, .. } = framed(area, session, index);
-    let area = if session.plots[index].view == View::Scan { scan::body(area) } else { area };
+    let area = if session.plots[index].view == View::Scan {
+        scan::body(area)
+    } else {
+        area
+    };
     let point = point_at(area, &picture, cell);
     point.map(|point| PointerTarget::Plot(index, point))
 }

@@ -43,7 +43,11 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
 fn palette(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     let found = session.palette_rows(list);
     for row in &found {
-        let heading = if list.search.is_empty() { session.heading(*row) } else { "" };
+        let heading = if list.search.is_empty() {
+            session.heading(*row)
+        } else {
+            ""
+        };
         let keys = keys_of(session, *row, look);
         let keys = pane::fitting([keys.join(" "), keys.concat()], KEYS);
         let keys = if keys.is_empty() { row.name().to_owned() } else { keys };
@@ -79,7 +83,11 @@ fn keys_of(session: &Session, row: PaletteRow, look: &Look) -> Vec<String> {
 fn scenes(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     let found = session.scene_rows(list);
     for scene in &found {
-        let heading = if list.search.is_empty() { SceneGroup::of(scene).title() } else { "" };
+        let heading = if list.search.is_empty() {
+            SceneGroup::of(scene).title()
+        } else {
+            ""
+        };
         let figure = scene.also.as_deref().unwrap_or_default();
         let cells = [
             look.span(format!("{:<14}", scene.name), Role::Key),
@@ -101,7 +109,11 @@ fn layers(content: &mut ListContent, session: &Session, list: &List, look: &Look
     for spec in session.layer_rows(list) {
         let letter = letters.iter().find(|(_, layer)| *layer == spec.layer);
         let letter = letter.map_or(' ', |(letter, _)| *letter);
-        let on = if session.layers.contains(&spec.layer) { "[x]" } else { "[ ]" };
+        let on = if session.layers.contains(&spec.layer) {
+            "[x]"
+        } else {
+            "[ ]"
+        };
         let meaning = session.not_drawn(spec.layer).unwrap_or(spec.meaning);
         let name = look.span(format!("{letter} {on} {:<16}", spec.name), Role::Key);
         content.row(spec.view.spec().title, [name, look.span(meaning, Role::Text)]);
@@ -292,7 +304,11 @@ fn heading(title: &str, list: &List) -> String {
 fn drawn(spans: Vec<Span<'static>>, selected: bool, look: &Look) -> Line<'static> {
     let pointer = if selected { &look.symbols().pointer } else { " " };
     let style = |span: Span<'static>| {
-        if selected { span.patch_style(look.style(Role::Selected)) } else { span }
+        if selected {
+            span.patch_style(look.style(Role::Selected))
+        } else {
+            span
+        }
     };
     let pointer = look.span(format!("{pointer} "), Role::Focus);
     std::iter::once(pointer).chain(spans.into_iter().map(style)).collect()

@@ -161,7 +161,11 @@ impl Look {
 
     /// The symbols of this set of glyphs.
     pub fn symbols(&self) -> &'static Symbols {
-        if self.glyphs == Glyphs::Ascii { &SETS.letters } else { &SETS.rich }
+        if self.glyphs == Glyphs::Ascii {
+            &SETS.letters
+        } else {
+            &SETS.rich
+        }
     }
 
     /// How a key is named on the screen: arrows as arrows, other keys by name, without brackets.

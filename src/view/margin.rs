@@ -56,7 +56,11 @@ impl KickNotation<'_> {
     }
 
     fn size(self, size: f64, unit: &str) -> String {
-        let size = if self.bound { rounded_down(size, self.places) } else { size };
+        let size = if self.bound {
+            rounded_down(size, self.places)
+        } else {
+            size
+        };
         with_unit(size, self.places, unit)
     }
 

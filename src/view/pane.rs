@@ -78,7 +78,11 @@ impl Surface<'_> {
     pub fn title(&mut self, area: Rect, title: &str, names: &str, heading: &Heading) {
         let look = self.look;
         let role = if heading.focused { Role::Focus } else { Role::Title };
-        let pointer = if heading.focused { &look.symbols().pointer } else { " " };
+        let pointer = if heading.focused {
+            &look.symbols().pointer
+        } else {
+            " "
+        };
         let width = usize::from(area.width);
         let mark = heading.mark.map(|mark| look.span(format!(" {mark}"), Role::Warning));
         let reading = heading.reading.as_ref();
@@ -101,7 +105,11 @@ impl Surface<'_> {
         let stump = heading.reading.is_some() && 2 * room < title.chars().count();
         let otherwise = (if stump { "" } else { title }, "");
         let (text, names) = beside.chain(alone).find(fits).unwrap_or(otherwise);
-        let names = if names.is_empty() { String::new() } else { format!("  {names}") };
+        let names = if names.is_empty() {
+            String::new()
+        } else {
+            format!("  {names}")
+        };
         let left = vec![look.span(format!("{pointer}{text}"), role), look.span(names, Role::Quiet)];
         let left = fitted(left.into(), room, look);
         self.both_ends(area, 0, left, right);
@@ -180,7 +188,11 @@ impl Heading {
     pub fn of(session: &Session, pane: Pane) -> Self {
         Heading {
             focused: session.focus == pane && session.overlay.is_none(),
-            mark: if let Pane::Plot(index) = pane { mark(session, index) } else { None },
+            mark: if let Pane::Plot(index) = pane {
+                mark(session, index)
+            } else {
+                None
+            },
             reading: None,
         }
     }

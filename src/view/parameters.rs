@@ -84,7 +84,11 @@ fn guide(area: Rect, session: &Session, screen: &mut Surface) {
     };
     // The text starts from the values with which the scene opens.
     let moved = session.setup() != Setup::of_scene(&session.scene);
-    let remark = if moved { "  as opened; {reset-scene} goes back" } else { "" };
+    let remark = if moved {
+        "  as opened; {reset-scene} goes back"
+    } else {
+        ""
+    };
     let watch = section("look", "", &session.scene.watch);
     let press = section("press", remark, &session.scene.press);
     let [short, _] = section("press", "  {explain} says what", "");
@@ -169,7 +173,11 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
     let text = text.filter(fits).unwrap_or(step);
     // Where there is no room behind the values, the selected one moves to the left.
     let blanks = if fits(&text) { 2 } else { 1 };
-    if text.is_empty() { text } else { format!("{:blanks$}{text}", "") }
+    if text.is_empty() {
+        text
+    } else {
+        format!("{:blanks$}{text}", "")
+    }
 }
 
 /// What a row means on the machine: the quantity and its value.

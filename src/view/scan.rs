@@ -46,8 +46,11 @@ pub fn draw(mut framed: FramedPicture, scanned: &ScanOnShow, screen: &mut Surfac
         None => look.span(meaning(scanned, width), Role::Quiet).into(),
     };
     let running = matches!(scanned.progress, ScanProgress::Running { .. });
-    let reading =
-        if running && !full { format!(" {}", progress(scanned)) } else { reading(scanned, width) };
+    let reading = if running && !full {
+        format!(" {}", progress(scanned))
+    } else {
+        reading(scanned, width)
+    };
     let reading = look.span(reading, Role::Cursor);
     let without = look.span(scan_map::without_numbers(scanned, width), Role::Quiet);
     let below = pane::below(area, area.height.saturating_sub(BELOW));
@@ -58,7 +61,11 @@ pub fn draw(mut framed: FramedPicture, scanned: &ScanOnShow, screen: &mut Surfac
 pub fn progress(scanned: &ScanOnShow) -> String {
     let (rows, points) = (scanned.rows.len(), scanned.scan.points());
     let given_up = scanned.rows.iter().filter(|row| row.reason.is_some()).count();
-    let given_up = if given_up > 0 { format!(" ({given_up} given up)") } else { String::new() };
+    let given_up = if given_up > 0 {
+        format!(" ({given_up} given up)")
+    } else {
+        String::new()
+    };
     match scanned.progress {
         ScanProgress::Done => format!("{points} points{given_up}"),
         ScanProgress::Stopped => format!("{rows} of {points}: stopped{given_up}"),
@@ -101,8 +108,13 @@ fn meaning(scanned: &ScanOnShow, width: usize) -> String {
     }
     let Some((low, high)) = scanned.range() else { return format!(" {name}") };
     let ends = Danger::of(scanned).map_or([""; 2], |scale| scale.ends());
-    let [lowest, highest] =
-        ends.map(|end| if end.is_empty() { String::new() } else { format!(" ({end})") });
+    let [lowest, highest] = ends.map(|end| {
+        if end.is_empty() {
+            String::new()
+        } else {
+            format!(" ({end})")
+        }
+    });
     let range = |digits: &usize| {
         let [low, high] = [low, high].map(|value| significant(value, *digits));
         format!(" {name} {low}{lowest} .. {high}{highest}")
@@ -130,7 +142,11 @@ fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
     };
     let widths: Vec<usize> = (0..names.len()).map(width).take_while(fits).collect();
     // Columns that are left out have a mark in place of their names.
-    let more = if widths.len() < names.len() { &look.symbols().more } else { "" };
+    let more = if widths.len() < names.len() {
+        &look.symbols().more
+    } else {
+        ""
+    };
     let line = |row: &[String]| {
         let cells = row.iter().zip(&widths).map(|(text, width)| format!("{text:>width$} "));
         cells.collect::<String>()

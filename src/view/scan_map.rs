@@ -28,7 +28,11 @@ const UNKNOWN: char = '?';
 
 /// The shades of a map, from the smallest value up.
 fn shades(scale: Danger, look: &Look) -> [char; STEPS] {
-    let mut shades = if look.glyphs == Glyphs::Ascii { LETTERS } else { SHADES };
+    let mut shades = if look.glyphs == Glyphs::Ascii {
+        LETTERS
+    } else {
+        SHADES
+    };
     if scale.dangerous == Some(DangerousValues::Small) {
         shades.reverse();
     }

@@ -28,7 +28,11 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         let (sentence, role) = verdict::outcome(session);
         let of = session.number(0).map_or_else(String::new, |number| format!("motion {number} "));
         // The symbol belongs to the motion: what else is said has none.
-        let symbol = if role == Role::Text { symbol(session, look) } else { String::new() };
+        let symbol = if role == Role::Text {
+            symbol(session, look)
+        } else {
+            String::new()
+        };
         (format!("{symbol}{of}{sentence}"), role)
     };
     let busy = busy(session, look);
@@ -136,7 +140,11 @@ fn work(session: &Session, look: &Look, shorter: usize) -> String {
         parts.push(format!("{measured} {}", significant(least, 2)));
     } else if let Some(ledger) = motion.ledger.as_ref().filter(|_| !session.draws_whole()) {
         let largest = ledger.start.max(ledger.end);
-        let error = if largest > 0.0 { (ledger.residual / largest).abs() } else { 0.0 };
+        let error = if largest > 0.0 {
+            (ledger.residual / largest).abs()
+        } else {
+            0.0
+        };
         let why = why.map_or(String::new(), |why| format!(" ({why})"));
         parts.push(format!("energy error {}{why}", significant(error, 1)));
     } else if let Some(why) = why {

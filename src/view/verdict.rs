@@ -27,7 +27,11 @@ pub fn outcome(session: &Session) -> (String, Role) {
     }
     let Some(found) = session.trajectory() else {
         // Where no plot shows it, it is not computed.
-        let text = if asked { "computing the motion" } else { "the motion is not shown" };
+        let text = if asked {
+            "computing the motion"
+        } else {
+            "the motion is not shown"
+        };
         return (text.into(), Role::Quiet);
     };
     let running = session.running().filter(|_| session.draws_whole());
@@ -74,7 +78,11 @@ fn verdict(end: End, among: Option<&Drawing>, motion: &Motion, notation: Notatio
         border if border.parts_without_cycle() => Some("separatrix"),
         _ => found.cycles.iter().any(|cycle| !cycle.stable).then_some("unstable cycle"),
     });
-    let side = if matches!(end, End::Rests | End::Decays) { "inside" } else { "outside" };
+    let side = if matches!(end, End::Rests | End::Decays) {
+        "inside"
+    } else {
+        "outside"
+    };
     let why = border.map_or_else(String::new, |border| format!(" ({side} the {border})"));
     let end = match (end, motion.outcome) {
         (End::OnTheEdge { distance }, _) => {

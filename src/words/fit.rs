@@ -164,7 +164,11 @@ pub fn signed(fitted: &FitResult) -> Statement {
     let MarginQuestion { confidence, disturbance, .. } = margins.question;
     let velocity = |omega0: f64, margin: &Margin| Some(margin.from_rest.impulse? * omega0);
     let has_mass = fitted.inertia().is_some();
-    let length = if fitted.unit().is_empty() { "unit" } else { fitted.unit() };
+    let length = if fitted.unit().is_empty() {
+        "unit"
+    } else {
+        fitted.unit()
+    };
     let units = if has_mass { ["N s", "m", "N"] } else { [length; 3] };
     let [impulse, displacement, disturbed] = units.map(str::to_owned);
     // Those of a displacement and of a velocity over omega0.
@@ -229,7 +233,11 @@ fn sentence(fitted: &FitResult, statement: &Statement) -> String {
     };
     let sentence = format!("From any rest position, with {confidence}, {kicks}{whatever}.");
     let Condition { holds, detail, .. } = amplitudes(fitted, statement.reach);
-    if holds { sentence } else { format!("{sentence} Extrapolated by the model: {detail}.") }
+    if holds {
+        sentence
+    } else {
+        format!("{sentence} Extrapolated by the model: {detail}.")
+    }
 }
 
 /// `a force of at most 0.5 N`.
@@ -249,7 +257,11 @@ fn changes(fitted: &FitResult) -> String {
     let rows = NAMES.iter().filter(|row| row.place >= D).zip(widths).filter(|it| it.1 > 0.0);
     let mut all = String::new();
     for (row, half) in rows {
-        let (start, verb) = if all.is_empty() { (", even if", " changes") } else { (" and", "") };
+        let (start, verb) = if all.is_empty() {
+            (", even if", " changes")
+        } else {
+            (" and", "")
+        };
         let half = in_unit(&significant(half, 6), &row.unit(fitted.unit()));
         all += &format!("{start} {}{verb} by up to {half}", row.name);
     }
@@ -264,7 +276,11 @@ fn lost(fitted: &FitResult, force: Option<String>) -> String {
     let alone = force.map_or("the mass leaves its rest by itself".to_owned(), |force| {
         format!("{force} alone may carry the mass away")
     });
-    let unknown = if *failed > 0 { ", or its margin could not be computed" } else { "" };
+    let unknown = if *failed > 0 {
+        ", or its margin could not be computed"
+    } else {
+        ""
+    };
     format!("in {share} % of what the record allows, {alone}{unknown}")
 }
 

@@ -59,7 +59,11 @@ fn written(
     }
     let mut out = String::with_capacity(2 * text.len());
     for char in text.chars() {
-        if is_kept(char) { out.push(char) } else { escape(char, &mut out) }
+        if is_kept(char) {
+            out.push(char)
+        } else {
+            escape(char, &mut out)
+        }
     }
     out.into()
 }

@@ -110,7 +110,11 @@ fn a_page_of_a_fit_says_what_its_document_says() {
         else {
             panic!("{condition}")
         };
-        let held = if condition["holds"] == true { "pass" } else { "caution" };
+        let held = if condition["holds"] == true {
+            "pass"
+        } else {
+            "caution"
+        };
         assert_eq!(
             (result.as_str(), detail.as_str()),
             (held, condition["detail"].as_str().unwrap()),

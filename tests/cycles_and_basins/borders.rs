@@ -98,7 +98,13 @@ fn beside_the_border(found: &Portrait, part: f64) -> Vec<(State, bool)> {
     const BESIDE: f64 = 1e-5;
     let r = found.model.guide;
     let Edge::Orbit(border) = &found.borders[0] else { panic!("no belt") };
-    let reach = |clearance: f64| if clearance.is_finite() { r + clearance } else { 5.0 * r };
+    let reach = |clearance: f64| {
+        if clearance.is_finite() {
+            r + clearance
+        } else {
+            5.0 * r
+        }
+    };
     let left = -reach(border.upper.clearance().value);
     let right = reach(border.lower.clearance().value);
     let q = left + part * (right - left);
@@ -232,7 +238,11 @@ fn the_motions_of_a_centre_are_neutral() {
         let place = |step: i32| -3.0 + 6.0 * f64::from(index * step % 400) / 399.0;
         let start = State { q: place(1), v: place(37) };
         let first_integral = 0.5 * start.v * start.v + start.q - 1.0;
-        let expected = if first_integral < 0.0 { Fate::Neutral } else { Fate::Escapes };
+        let expected = if first_integral < 0.0 {
+            Fate::Neutral
+        } else {
+            Fate::Escapes
+        };
         assert_eq!(found.fate(start.q, start.v), Ok(expected), "{start:?}");
     }
     assert_eq!(found.area(), None);

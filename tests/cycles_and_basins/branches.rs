@@ -82,10 +82,15 @@ fn complaint(path: &Path, points: Points) -> Option<String> {
         return Some(format!("outside: {special:?}"));
     }
     let strays = found.pieces.iter().find_map(|piece| out_of_order(path, piece));
-    strays
-        .or_else(|| no_cycles(path, &found, points))
-        .or_else(|| no_folds(path, &found))
-        .or_else(|| if points == Points::Followed { None } else { ends_missed(path, &found) })
+    strays.or_else(|| no_cycles(path, &found, points)).or_else(|| no_folds(path, &found)).or_else(
+        || {
+            if points == Points::Followed {
+                None
+            } else {
+                ends_missed(path, &found)
+            }
+        },
+    )
 }
 
 /// Along a curve the parameter turns back only where the stability changes, and for a given clearance one value of D, D3
@@ -108,7 +113,11 @@ fn out_of_order(path: &Path, piece: &[BranchPoint]) -> Option<String> {
     // The clearance of the first swing, in whose frame D2 is not negative.
     let clearance = |point: &BranchPoint| {
         let r = set(&path.parameters, path.symbol, point.value).r;
-        let far = if path.parameters.d2 < 0.0 { point.cycle.q_max } else { -point.cycle.q_min };
+        let far = if path.parameters.d2 < 0.0 {
+            point.cycle.q_max
+        } else {
+            -point.cycle.q_min
+        };
         (far - r, 1e-12 * far + 1e-9 * (far - r))
     };
     let ways: Vec<bool> = piece

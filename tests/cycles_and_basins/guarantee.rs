@@ -117,7 +117,11 @@ fn extent(
             let (mut before, mut after) = (0.0, STEP);
             for _ in 0..40 {
                 let middle = 0.5 * (before + after);
-                if side * advance(middle).1 > 0.0 { before = middle } else { after = middle }
+                if side * advance(middle).1 > 0.0 {
+                    before = middle
+                } else {
+                    after = middle
+                }
             }
             (q, v, side) = (advance(before).0, 0.0, 0.0);
         }

@@ -21,7 +21,11 @@ fn any_number() -> impl Strategy<Value = f64> {
 
 /// A number that the program takes: 0, or 1e-150 .. 1e150 in magnitude.
 fn within_range(number: f64) -> f64 {
-    if number.abs() < 1e-150 { 0.0 } else { number.clamp(-1e150, 1e150) }
+    if number.abs() < 1e-150 {
+        0.0
+    } else {
+        number.clamp(-1e150, 1e150)
+    }
 }
 
 fn any_parameters() -> impl Strategy<Value = Parameters> {

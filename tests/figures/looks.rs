@@ -120,7 +120,11 @@ fn a_circle_looks_like_one_in_every_phase_plane() {
 fn the_map_of_a_scan_has_its_cells_and_its_scale_in_every_form() {
     let mut session = Session::new(find("regimes").unwrap(), Size { width: 120, height: 40 });
     for letter in ":scan D=-0.9:0:10 D3=-0.5:1:7 margin".chars() {
-        let key = if letter == ' ' { "<space>".to_owned() } else { letter.to_string() };
+        let key = if letter == ' ' {
+            "<space>".to_owned()
+        } else {
+            letter.to_string()
+        };
         update(&mut session, Msg::Key(key.parse().unwrap()));
     }
     update(&mut session, Msg::Key("<enter>".parse().unwrap()));

@@ -240,7 +240,12 @@ fn decay_of(signal: Signal) -> String {
             let tau = std::f64::consts::PI / root * f64::from(step) / 20.0;
             let swing = -side * (from - 0.05) * exp(-0.02 * tau);
             let (v, a) = (sin(root * tau) / root, cos(root * tau) - 0.02 * sin(root * tau) / root);
-            let seen = swing * if signal == Signal::Velocity { 10.0 * v } else { 100.0 * a };
+            let seen = swing
+                * if signal == Signal::Velocity {
+                    10.0 * v
+                } else {
+                    100.0 * a
+                };
             text += &format!("{:.5},{seen:.2}\n", (t + tau) / 10.0);
         }
         t += std::f64::consts::PI / root;

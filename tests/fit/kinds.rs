@@ -40,7 +40,11 @@ fn outcome(kind: &'static str, seed: u64, draws: usize) -> Option<Outcome> {
     let numbers = found.wanted().map(|row| {
         let index = NAMES.iter().position(|other| other == row).unwrap();
         let (value, interval) = (found.p[row.place], found.intervals[row.place]);
-        let end = if truth[index] < value { interval.lower } else { interval.upper };
+        let end = if truth[index] < value {
+            interval.lower
+        } else {
+            interval.upper
+        };
         let off = end.map_or(0.0, |end| 1.96 * ((truth[index] - value) / (end - value)).abs());
         (row.name, off <= 1.96, off)
     });

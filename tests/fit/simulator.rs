@@ -76,7 +76,11 @@ fn motion(law: &Law, start: [f64; 2], times: &[f64]) -> (Vec<[f64; 3]>, Vec<[f64
             seen.resize(times.len(), [at[0], 0.0, 0.0]);
             break;
         }
-        let s = if at[1] == 0.0 { -at[0].signum() } else { at[1].signum() };
+        let s = if at[1] == 0.0 {
+            -at[0].signum()
+        } else {
+            at[1].signum()
+        };
         let turned = |h: f64| s * stepped(law, s, at, h)[1] <= 0.0;
         let mut h = STEP;
         let arrives = turned(h);
@@ -162,12 +166,20 @@ pub fn simulated(kind: &str, seed: u64) -> Simulation {
     let unit = powi(omega0, i32::try_from(order).unwrap());
     let (a, offset, noise) = (unit * a, unit * offset, unit * noise);
     let drift = drift(kind, &t, a, noise, &mut chance);
-    let memory = if kind == "filtered" { chance.between(0.3, 0.8) } else { 0.0 };
+    let memory = if kind == "filtered" {
+        chance.between(0.3, 0.8)
+    } else {
+        0.0
+    };
     let step = noise * chance.log(0.5, 5.0);
     let full = a * chance.between(0.5, 0.85);
     let mut error = 0.0;
     let read = |(index, seen): (usize, [f64; 3])| {
-        let fresh = if kind == "heavy" { chance.heavy() } else { chance.0.normal() };
+        let fresh = if kind == "heavy" {
+            chance.heavy()
+        } else {
+            chance.0.normal()
+        };
         error = memory * error + (1.0 - memory * memory).sqrt() * fresh;
         let x = offset + drift[index] + unit * seen[order] + noise * error;
         match kind {
@@ -267,7 +279,11 @@ fn drift(kind: &str, t: &[f64], a: f64, noise: f64, chance: &mut Chance) -> Vec<
     }
     let sign = if chance.0.even() < 0.5 { -1.0 } else { 1.0 };
     let height = sign * chance.log(3.0 * noise, 0.4 * a);
-    let bend = if bends { chance.between(0.5, 2.0) * height } else { 0.0 };
+    let bend = if bends {
+        chance.between(0.5, 2.0) * height
+    } else {
+        0.0
+    };
     let span = t[t.len() - 1] - t[0];
     t.iter()
         .map(|time| (time - t[0]) / span - 0.5)
@@ -286,7 +302,11 @@ fn listed(
     let law = [law[0], 0.05 * chance.0.normal() / a, 0.0, a * chance.log(0.01, 0.03)];
     let (_, turns) = motion(&law, [a, 0.0], &[20.0 * PI]);
     let more = [1, 2].map(|peaks| peaks * usize::from(chance.0.even() < 0.5));
-    let count = if kind == "brief" { 7 + more[1] / 2 + more[0] } else { 9 + more[0] + more[1] };
+    let count = if kind == "brief" {
+        7 + more[1] / 2 + more[0]
+    } else {
+        9 + more[0] + more[1]
+    };
     let noise = a * chance.log(0.0005, 0.003);
     let turns: Vec<[f64; 2]> = turns.into_iter().take(count).collect();
     let x = turns.iter().map(|turn| offset + turn[1] + noise * chance.0.normal()).collect();

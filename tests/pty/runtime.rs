@@ -70,7 +70,11 @@ impl Application for Machinery {
     }
 
     fn wants(&self) -> Vec<Request> {
-        if self.confirmed.is_none() { vec![request(self.count)] } else { vec![] }
+        if self.confirmed.is_none() {
+            vec![request(self.count)]
+        } else {
+            vec![]
+        }
     }
 
     fn what_to_keep(&self) -> Option<String> {
@@ -102,7 +106,14 @@ fn machinery() {
     let options = Options { keep, ..Options::default() };
     let ended = launch(Machinery::default(), std::sync::Arc::new(confirm), options).unwrap();
     let failed = ended != 0;
-    println!("{}", if failed { "ended by a signal" } else { "left by the user" });
+    println!(
+        "{}",
+        if failed {
+            "ended by a signal"
+        } else {
+            "left by the user"
+        }
+    );
     std::process::exit(if failed { 77 } else { 0 });
 }
 

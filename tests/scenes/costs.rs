@@ -274,7 +274,11 @@ fn diagram(request: &Request, extent: Option<f64>) -> (Vec<Vec<(f64, f64)>>, f64
 fn distance((x, y): (f64, f64), from: (f64, f64), to: (f64, f64)) -> f64 {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let square = dx * dx + dy * dy;
-    let part = if square > 0.0 { ((x - from.0) * dx + (y - from.1) * dy) / square } else { 0.0 };
+    let part = if square > 0.0 {
+        ((x - from.0) * dx + (y - from.1) * dy) / square
+    } else {
+        0.0
+    };
     let part = part.clamp(0.0, 1.0);
     hypot(x - from.0 - part * dx, y - from.1 - part * dy)
 }

@@ -198,7 +198,13 @@ fn cut_numbers(scene: &str, keys: &str) -> Vec<String> {
         session,
         &format!("{scene} [{keys}]"),
         // Letters stand where dots do.
-        |width| if width == 80 { vec![braille(), letters()] } else { vec![braille()] },
+        |width| {
+            if width == 80 {
+                vec![braille(), letters()]
+            } else {
+                vec![braille()]
+            }
+        },
         |session, screen| {
             let known = &on_axes(session) | &anywhere;
             numbers(screen).into_iter().filter(|number| !is_among(&known, number)).collect()

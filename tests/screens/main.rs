@@ -194,7 +194,11 @@ fn of_a_long_command_the_part_around_the_caret_is_seen_and_the_reason_of_a_refus
 fn the_layer_list_says_which_are_on() {
     let screen = text(&draw(&settled("plain", 80, 70, "v"), letters()));
     for row in LAYERS.iter() {
-        let on = if find("plain").unwrap().layers.contains(&row.layer) { "[x]" } else { "[ ]" };
+        let on = if find("plain").unwrap().layers.contains(&row.layer) {
+            "[x]"
+        } else {
+            "[ ]"
+        };
         assert!(screen.contains(&format!("{on} {}", row.name)), "{screen}");
     }
 }

@@ -116,7 +116,11 @@ impl Machine {
             return if x.value().abs() <= self.guide {
                 ContactState::Rests
             } else {
-                ContactState::Slips(if x.value() > 0.0 { Phase::Below } else { Phase::Between })
+                ContactState::Slips(if x.value() > 0.0 {
+                    Phase::Below
+                } else {
+                    Phase::Between
+                })
             };
         }
         let damper = self.speed * (self.damping + self.cubic * self.speed * self.speed);
@@ -195,7 +199,11 @@ impl Machine {
                     for _ in 0..100 {
                         let half = (low + high).times(0.5);
                         let side = (at(ys, half) - two(*level)).value();
-                        if side * (middle - level) < 0.0 { high = half } else { low = half }
+                        if side * (middle - level) < 0.0 {
+                            high = half
+                        } else {
+                            low = half
+                        }
                     }
                     return Some((high, *level));
                 }

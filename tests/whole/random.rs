@@ -23,13 +23,21 @@ fn any_machine(chance: &mut Random) -> Belt {
             viscous: 0.0,
         }
     };
-    let guide = if between(0.0, 1.0) < 0.4 { 0.0 } else { between(0.003, 0.2) };
+    let guide = if between(0.0, 1.0) < 0.4 {
+        0.0
+    } else {
+        between(0.003, 0.2)
+    };
     let held = law.mu(0.0).unwrap() * between(1.0, 1.5);
     Belt {
         mass: 1.0,
         stiffness: 1.0,
         damping: between(-0.2, 0.4),
-        cubic_damping: if between(0.0, 1.0) < 0.5 { 0.0 } else { between(0.0, 0.2) },
+        cubic_damping: if between(0.0, 1.0) < 0.5 {
+            0.0
+        } else {
+            between(0.0, 0.2)
+        },
         normal_force: between(0.3, 3.0),
         friction: guide,
         belt_speed: between(0.1, 2.0),

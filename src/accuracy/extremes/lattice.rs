@@ -59,7 +59,11 @@ fn escaping(parameters: &Parameters) -> State {
     let Parameters { d, d2, d3, r } = *parameters;
     let others = 1.0 + 2.0 * d.abs();
     let quadratic = if d2 == 0.0 { 0.0 } else { others / d2.abs() };
-    let cubic = if d3 == 0.0 { 0.0 } else { others.sqrt() / d3.abs().sqrt() };
+    let cubic = if d3 == 0.0 {
+        0.0
+    } else {
+        others.sqrt() / d3.abs().sqrt()
+    };
     let beyond = BEYOND * quadratic.max(cubic).max(r.sqrt()).max(1.0);
     State { q: 0.0, v: if d2 > 0.0 { -beyond } else { beyond } }
 }

@@ -140,7 +140,11 @@ fn between_lines_boundaries_are_followed_as_closely_as_asked() {
     // Where the boundary comes into the range, just below D3 = kappa / 0.25, nothing is left blank.
     let enters = kappa / 0.25;
     for part in [0.7, 0.9, 0.99, 1.01, 1.1] {
-        let expected = if part < 1.0 { Regime::Coexisting } else { Regime::Global };
+        let expected = if part < 1.0 {
+            Regime::Coexisting
+        } else {
+            Regime::Global
+        };
         assert_eq!(close.regime_at(0.4999, enters * part), Some(expected), "{part}");
     }
     assert!(close.lines.windows(2).all(|pair| pair[0].at < pair[1].at));

@@ -62,11 +62,19 @@ impl Plane {
 
     /// The other parameter, at a value of which each line stands.
     pub fn across(&self) -> Knob {
-        if self.along() == self.right { self.up } else { self.right }
+        if self.along() == self.right {
+            self.up
+        } else {
+            self.right
+        }
     }
 
     pub fn range(&self, symbol: Knob) -> (f64, f64) {
-        if symbol == self.right { self.right_range } else { self.up_range }
+        if symbol == self.right {
+            self.right_range
+        } else {
+            self.up_range
+        }
     }
 }
 

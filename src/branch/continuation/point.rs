@@ -92,7 +92,11 @@ pub fn passes(curve: &[CurvePoint], point: &CurvePoint) -> bool {
         if point.p < low - slack || point.p > high + slack {
             return false;
         }
-        let fraction = if one.p == other.p { 0.5 } else { (point.p - one.p) / (other.p - one.p) };
+        let fraction = if one.p == other.p {
+            0.5
+        } else {
+            (point.p - one.p) / (other.p - one.p)
+        };
         let u = one.u + fraction * (other.u - one.u);
         (u - point.u).abs() <= 0.25 * (other.u - one.u).abs() + 1e-6
     })

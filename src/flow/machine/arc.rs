@@ -150,14 +150,22 @@ impl<'a> Flow<'a> {
         let rising = rising.unwrap_or_else(|| {
             let rate = forward * known.unwrap_or_else(|| model.force(phase, y).0 - x);
             // Without acceleration the speed has its maximum here.
-            if rate == 0.0 { phase == Phase::Below } else { rate > 0.0 }
+            if rate == 0.0 {
+                phase == Phase::Below
+            } else {
+                rate > 0.0
+            }
         });
         let piece = side.piece(y, rising).ok_or_else(|| self.outside(phase, y))?;
         self.series.expand((side, piece), (x, y), forward, known);
         self.steps += 1;
         let (series, left) = (&self.series, self.series.left);
         let length = series.length(model.tolerance);
-        let length = if model.tolerance > FINEST { length.min(LONGEST) } else { length };
+        let length = if model.tolerance > FINEST {
+            length.min(LONGEST)
+        } else {
+            length
+        };
         if !(length > 0.0 && length.is_finite()) {
             // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
             let settles = length == f64::INFINITY;
@@ -177,7 +185,11 @@ impl<'a> Flow<'a> {
         let end = StepPoint { x: value(&series.step.x, duration), v: level.unwrap_or(last) };
         let (place, offset) = (ContactState::Slips(phase), model.offset(phase));
         let is_last = |level: f64| {
-            let outer = if level == high { side.pieces.last() } else { side.pieces.first() };
+            let outer = if level == high {
+                side.pieces.last()
+            } else {
+                side.pieces.first()
+            };
             outer.is_some_and(|outer| outer.low == piece.low)
         };
         Ok(PhaseStep {

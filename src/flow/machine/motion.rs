@@ -94,7 +94,11 @@ struct MotionRecorder {
 impl MotionRecorder {
     /// Follows the motion leg by leg. Returns why it ends; `None` where its time is up.
     fn run(&mut self, flow: &mut Flow) -> Option<Reason> {
-        let most = if flow.stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
+        let most = if flow.stepper.is_some() {
+            stepped::STEPS
+        } else {
+            MOST_STEPS
+        };
         let model = flow.model;
         let (mut x, mut y) = self.state;
         let mut place = model.place(x, y);

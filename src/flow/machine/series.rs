@@ -145,7 +145,11 @@ impl PhaseSeries {
         let size = self.step.x[0].abs().max(self.step.y[0].abs());
         let allowed = |k: usize| {
             let term = self.step.x[k].abs().max(self.step.y[k].abs());
-            if term > 0.0 { log2(aim * size / term) * INVERSE[k] } else { f64::INFINITY }
+            if term > 0.0 {
+                log2(aim * size / term) * INVERSE[k]
+            } else {
+                f64::INFINITY
+            }
         };
         exp2((ORDER - 2..=ORDER).map(allowed).fold(f64::INFINITY, f64::min))
     }

@@ -106,7 +106,11 @@ fn lagrange(nodes: &[Twofold], own: usize) -> Vec<Twofold> {
         let distance = nodes[own] - node;
         coefficients.push(Twofold::default());
         for power in (0..coefficients.len()).rev() {
-            let shifted = if power == 0 { Twofold::default() } else { coefficients[power - 1] };
+            let shifted = if power == 0 {
+                Twofold::default()
+            } else {
+                coefficients[power - 1]
+            };
             coefficients[power] = (shifted - node * coefficients[power]) / distance;
         }
     }

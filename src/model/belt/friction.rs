@@ -158,7 +158,11 @@ impl LawParts {
 fn stretched_exponential(u: f64, exponent: f64) -> Derivatives {
     // Derivatives of the power; a factor of 0 wins over an infinite power (whole exponents at u = 0).
     let power = |factor: f64, order: f64| {
-        if factor == 0.0 { 0.0 } else { factor * pow(u, exponent - order) }
+        if factor == 0.0 {
+            0.0
+        } else {
+            factor * pow(u, exponent - order)
+        }
     };
     let n = exponent;
     let p = Derivatives {

@@ -145,12 +145,20 @@ impl Belt {
             let (exact, cubic) = (law(v), mu.cubic(-v));
             let difference = (exact - cubic).abs();
             // What rounding leaves of a law that is its own cubic is not an error of the expansion.
-            if difference <= ROUNDING * (exact.abs() + cubic.abs()) { 0.0 } else { difference }
+            if difference <= ROUNDING * (exact.abs() + cubic.abs()) {
+                0.0
+            } else {
+                difference
+            }
         };
         let change = |v: f64| (law(v) - mu.value).abs();
         let step = (range.1 - range.0) / f64::from(INTERVALS);
         let place = |index: u32| {
-            if index == INTERVALS { range.1 } else { range.0 + f64::from(index) * step }
+            if index == INTERVALS {
+                range.1
+            } else {
+                range.0 + f64::from(index) * step
+            }
         };
         let places = (0..=INTERVALS).map(place);
         let worst = places.clone().max_by(by_number(|v: &f64| difference(*v)));
@@ -158,7 +166,11 @@ impl Belt {
         let [from, to] = [worst - step, worst + step].map(|v| v.clamp(range.0, range.1));
         let (from, to) = maximum(from, to, FLAT * (to - from), difference);
         let polished = f64::midpoint(from, to);
-        let at = if difference(polished) > difference(worst) { polished } else { worst };
+        let at = if difference(polished) > difference(worst) {
+            polished
+        } else {
+            worst
+        };
         let force = self.normal_force * difference(at);
         let least_mu = places.clone().map(law).fold(mu.value, f64::min);
         let largest = places.map(change).fold(0.0, f64::max);

@@ -103,7 +103,11 @@ impl Knob {
         let KnobSpec { min, max, least, .. } = *self.spec();
         let is_large_enough = value == 0.0 || value.abs() >= least;
         let is_allowed = is_large_enough && (min..=max).contains(&value);
-        if is_allowed { Ok(value) } else { Err(RangeError { knob: self, value }) }
+        if is_allowed {
+            Ok(value)
+        } else {
+            Err(RangeError { knob: self, value })
+        }
     }
 
     /// Reads a value with or without its unit: `0.2`, `20 cm/s`.

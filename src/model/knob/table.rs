@@ -88,7 +88,11 @@ impl KnobSpec {
             group,
             min: range.0,
             max: range.1,
-            least: if matches!(group, Group::Motion) { 1.0 / FAR } else { 0.0 },
+            least: if matches!(group, Group::Motion) {
+                1.0 / FAR
+            } else {
+                0.0
+            },
             default: None,
             step: 0.05,
             drawn: (-1.0, 1.0),

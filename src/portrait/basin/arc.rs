@@ -131,7 +131,11 @@ impl Arc {
     /// The clearance at which the swing starts: 0 where it leaves a node that repels, infinite where it comes
     /// from infinity.
     pub fn clearance(&self) -> Length {
-        if self.direction == Direction::Forward { self.clearance } else { self.swing.end }
+        if self.direction == Direction::Forward {
+            self.clearance
+        } else {
+            self.swing.end
+        }
     }
 
     /// The integrals of powers of the speed over time: that of `v^2` is the area between the arc and `v = 0`.

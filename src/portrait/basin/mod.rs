@@ -85,7 +85,11 @@ pub(crate) fn evenly((from, to): (f64, f64), count: usize) -> impl Iterator<Item
         if index + 1 == count && count > 1 {
             return to;
         }
-        let fraction = if count > 1 { real(index) / real(count - 1) } else { 0.5 };
+        let fraction = if count > 1 {
+            real(index) / real(count - 1)
+        } else {
+            0.5
+        };
         from + fraction * (to - from)
     })
 }

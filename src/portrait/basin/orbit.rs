@@ -165,7 +165,11 @@ fn attracting(
     let directions = [Direction::Backward, Direction::Forward];
     let mut best = None;
     let mut change = f64::INFINITY;
-    for direction in if backward { directions } else { [directions[1], directions[0]] } {
+    for direction in if backward {
+        directions
+    } else {
+        [directions[1], directions[0]]
+    } {
         let (from, to) = match direction {
             Direction::Forward => (start, next.plus(2.0 * parameters.r)),
             Direction::Backward => (next, start),

@@ -196,10 +196,18 @@ fn brackets(
     let high = upper_end(&parameters);
     let fine = equation.tolerance();
     let rough = fine.max(ROUGH);
-    let (step, blur) = if parameters.d.abs() < WEAK { (fine, 0.0) } else { (rough, BLUR * rough) };
+    let (step, blur) = if parameters.d.abs() < WEAK {
+        (fine, 0.0)
+    } else {
+        (rough, BLUR * rough)
+    };
     let mut rough = equation.again(step);
     let mut function = |u: f64, fine: bool| {
-        if fine { resolved(equation, u) } else { Ok(rough.at(Route::Mixed, u)?.node) }
+        if fine {
+            resolved(equation, u)
+        } else {
+            Ok(rough.at(Route::Mixed, u)?.node)
+        }
     };
     let mut search = RootSearch { finest: FINEST, ..RootSearch::default() };
     // Where the next unknown interval begins, at or beyond a place.
@@ -216,7 +224,11 @@ fn brackets(
         let next = function(ahead.fold((here.at + stride).min(high), f64::min), exact)?;
         search.between(here, next, blur, &mut function)?;
         let beyond = unknown(next.at);
-        here = if beyond > next.at { function(beyond, exact)? } else { next };
+        here = if beyond > next.at {
+            function(beyond, exact)?
+        } else {
+            next
+        };
         // A swing that never starts out, or never ends, is not an end of the domain: from further out it may.
         let escapes = here.rise == f64::INFINITY || here.fall == f64::INFINITY;
         // One of them may turn out to be no cycle.

@@ -81,7 +81,11 @@ pub struct Equation<'a> {
 
 /// The side in whose frame `D2 >= 0`.
 pub fn first_side(parameters: &Parameters) -> Side {
-    if parameters.d2 < 0.0 { Side::Lower } else { Side::Upper }
+    if parameters.d2 < 0.0 {
+        Side::Lower
+    } else {
+        Side::Upper
+    }
 }
 
 impl<'a> Equation<'a> {
@@ -233,7 +237,11 @@ impl<'a> Equation<'a> {
         swings: [HalfSwing; 2],
     ) -> SwingPair {
         let gap = 2.0 * self.parameters.r;
-        let start = if route == Route::Backward { rise } else { clearances[0] };
+        let start = if route == Route::Backward {
+            rise
+        } else {
+            clearances[0]
+        };
         let slope = exp(rise.log_gain) - exp(fall.log_gain);
         let node = Node::new(start.length.log, rise.length.log, fall.length.log, slope);
         let noise = [rise, fall].map(|end| end.error + rounding(end.length));
@@ -341,7 +349,11 @@ impl Equation<'_> {
     pub fn rim(&mut self) -> Result<f64> {
         let [first, second] = self.ends_from_rim()?;
         let beyond = |end: f64| ln((end - 2.0 * self.parameters.r).max(0.0));
-        Ok(if first.is_finite() { beyond(second) } else { f64::INFINITY })
+        Ok(if first.is_finite() {
+            beyond(second)
+        } else {
+            f64::INFINITY
+        })
     }
 
     /// Where the first and the second swing end that leave the end of the sticking set.
@@ -404,8 +416,11 @@ mod tests {
             let mut equation = Equation::new(&parameters, 1e-10, limits);
             let beyond = equation.at(Route::Mixed, 3.0).unwrap().node;
             let within = equation.at(Route::Mixed, 0.0).unwrap().node;
-            let (known, escaped) =
-                if finite { (beyond.rise, beyond.fall) } else { (beyond.fall, beyond.rise) };
+            let (known, escaped) = if finite {
+                (beyond.rise, beyond.fall)
+            } else {
+                (beyond.fall, beyond.rise)
+            };
             assert_eq!(escaped, f64::INFINITY);
             let inner = if finite { within.rise } else { within.fall };
             assert!(known > inner && known < 3.0, "{beyond:?} {within:?}");

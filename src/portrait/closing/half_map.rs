@@ -60,12 +60,20 @@ impl Length {
 
     /// Difference of the logarithms, which is the relative difference where that is small.
     pub fn apart(self, other: Self) -> f64 {
-        if self.log == other.log { 0.0 } else { (self.log - other.log).abs() }
+        if self.log == other.log {
+            0.0
+        } else {
+            (self.log - other.log).abs()
+        }
     }
 
     /// This length and another one put together.
     pub fn plus(self, more: f64) -> Self {
-        if more == 0.0 { self } else { Length::new(self.value + more) }
+        if more == 0.0 {
+            self
+        } else {
+            Length::new(self.value + more)
+        }
     }
 }
 
@@ -121,7 +129,11 @@ impl HalfSwing {
             duration: f64::INFINITY,
             square: 0.0,
             fastest: 0.0,
-            log_elasticity: if end == Length::ZERO { f64::NEG_INFINITY } else { f64::NAN },
+            log_elasticity: if end == Length::ZERO {
+                f64::NEG_INFINITY
+            } else {
+                f64::NAN
+            },
             errors: [Errors::default(); 2],
         }
     }

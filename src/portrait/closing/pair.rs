@@ -39,7 +39,11 @@ pub struct PreciseSwingPair {
 
 /// `d ln(c + gap) / d ln(c)`.
 pub fn share(clearance: Length, gap: f64) -> f64 {
-    if gap == 0.0 { 1.0 } else { clearance.value / (clearance.value + gap) }
+    if gap == 0.0 {
+        1.0
+    } else {
+        clearance.value / (clearance.value + gap)
+    }
 }
 
 /// Relative error that a rounded logarithm leaves of a length.

@@ -63,7 +63,11 @@ pub fn polish_near(
 ) -> Result<Option<SwingPair>> {
     /// How far in `ln c0` the guess may be off: where another cycle may be near, and where none is.
     const WIDTHS: (f64, f64) = (0.05, 0.5);
-    let width = if log_multiplier.abs() < 1.0 { WIDTHS.0 } else { WIDTHS.1 };
+    let width = if log_multiplier.abs() < 1.0 {
+        WIDTHS.0
+    } else {
+        WIDTHS.1
+    };
     let sign = log_multiplier.signum();
     let end = |side| Node::new(u + side * width, sign * side * width, 0.0, sign);
     equation.want_fastest();
@@ -158,7 +162,11 @@ impl Steps<'_, '_> {
     /// The closing at `u` along the route at hand, weighed if it is to be.
     fn along_route(&mut self, u: f64) -> Result<(SwingPair, Option<Weighed>)> {
         let weighs = self.weigh && self.route == Route::Mixed;
-        match if weighs { weighed_closing(self.equation, u)? } else { None } {
+        match if weighs {
+            weighed_closing(self.equation, u)?
+        } else {
+            None
+        } {
             Some((closing, energy)) => Ok((closing, Some(energy))),
             None => Ok((self.equation.at(self.route, u)?, None)),
         }
@@ -182,12 +190,21 @@ fn beyond_the_end(nodes: &[Node]) -> Route {
 /// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
 /// use forward: backward it contracts.
 fn closest(equation: &mut Equation, u: f64) -> Result<SwingPair> {
-    let worst =
-        |it: &SwingPair| if it.node.value.is_finite() { it.uncertainty } else { f64::INFINITY };
+    let worst = |it: &SwingPair| {
+        if it.node.value.is_finite() {
+            it.uncertainty
+        } else {
+            f64::INFINITY
+        }
+    };
     let mut best = equation.at(Route::Mixed, u)?;
     for route in [Route::Backward, Route::Forward] {
         let closing = equation.at(route, u)?;
-        best = if worst(&closing) < worst(&best) { closing } else { best };
+        best = if worst(&closing) < worst(&best) {
+            closing
+        } else {
+            best
+        };
     }
     Ok(best)
 }

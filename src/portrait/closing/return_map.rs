@@ -49,7 +49,11 @@ pub fn return_map(
     let mut cost = Cost::default();
     let mut side = |side: Side| {
         // Turning points on the right enter the lower half plane.
-        let (near, far) = if side == Side::Lower { range } else { (-range.1, -range.0) };
+        let (near, far) = if side == Side::Lower {
+            range
+        } else {
+            (-range.1, -range.0)
+        };
         let mut equation = Equation::on_side(parameters, side, STEP, limits);
         let found = equation.returns_between(near.max(parameters.r), far, count);
         cost += equation.cost();

@@ -33,7 +33,13 @@ impl Errors {
     /// These errors and `factor` times others.
     pub fn plus(self, other: Errors, factor: f64) -> Errors {
         // Nothing times an infinite sensitivity is nothing.
-        let times = |value: f64| if factor == 0.0 || value == 0.0 { 0.0 } else { factor * value };
+        let times = |value: f64| {
+            if factor == 0.0 || value == 0.0 {
+                0.0
+            } else {
+                factor * value
+            }
+        };
         Errors {
             length: self.length + times(other.length),
             duration: self.duration + times(other.duration),

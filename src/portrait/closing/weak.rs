@@ -62,7 +62,11 @@ pub fn is_one_way(parameters: &Parameters) -> bool {
 /// Whether there is a cycle for certain (see [`crate::branch::regime::Regime::of`]).
 pub fn has_cycle(parameters: &Parameters) -> bool {
     let Parameters { d, d3, r, .. } = *parameters;
-    if r > 0.0 { d3 < 0.0 && d > -1.0 } else { (d < 0.0 && d3 > 0.0) || (d > 0.0 && d3 < 0.0) }
+    if r > 0.0 {
+        d3 < 0.0 && d > -1.0
+    } else {
+        (d < 0.0 && d3 > 0.0) || (d > 0.0 && d3 < 0.0)
+    }
 }
 
 #[cfg(test)]

@@ -96,7 +96,11 @@ impl Corners {
         }
         let left = |force: f64| {
             let left = force - known.disturbance;
-            if known.disturbance > 0.0 { left.next_down() } else { left }
+            if known.disturbance > 0.0 {
+                left.next_down()
+            } else {
+                left
+            }
         };
         let holds = known.interval(Knob::StaticGuide, belt);
         Ok(Some(Corners {
@@ -114,7 +118,11 @@ impl Corners {
     fn farthest_rest(&self) -> f64 {
         let held = self.most(|model| model.guide_static);
         let softest = self.least(|model| model.stiffness);
-        if self.pushed > 0.0 { (held + self.pushed / softest).next_up() } else { held }
+        if self.pushed > 0.0 {
+            (held + self.pushed / softest).next_up()
+        } else {
+            held
+        }
     }
 
     /// The machine at a corner with the least friction of all, and less by `less` (a length).

@@ -47,7 +47,11 @@ impl TwoSidedOscillator {
     }
 
     fn on(&self, side: Side) -> &Parameters {
-        if side == Side::Upper { &self.upper } else { &self.lower }
+        if side == Side::Upper {
+            &self.upper
+        } else {
+            &self.lower
+        }
     }
 
     fn field(&self, side: Side) -> HalfPlane {
@@ -89,7 +93,11 @@ impl TwoSidedOscillator {
             return Ok(SwingPair::linear(&self.upper).map(|closing| (closing, NOISE)));
         }
         let Some(bracket) = innermost_bracket(equation)? else {
-            return if has_cycle(&self.upper) { Err(Reason::OutOfRange) } else { Ok(None) };
+            return if has_cycle(&self.upper) {
+                Err(Reason::OutOfRange)
+            } else {
+                Ok(None)
+            };
         };
         equation.want_fastest();
         let closing = polish(equation, bracket)?;
@@ -144,7 +152,11 @@ pub fn guaranteed(
     }
     // How far out the mass may rest before the kick: at the smallest friction, because the gap to the border only grows
     // with it, and on the side to which the disturbance pushes.
-    let pushed = if disturbance > 0.0 { (friction + disturbance).next_up() } else { friction };
+    let pushed = if disturbance > 0.0 {
+        (friction + disturbance).next_up()
+    } else {
+        friction
+    };
     let margin = surely_within(&worst, pushed, error);
     Ok(Ok((worst, margin)))
 }

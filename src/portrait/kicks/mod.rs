@@ -158,7 +158,11 @@ impl From<RandomKick> for String {
 
 impl fmt::Display for RandomKick {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let law = if self.law == Distribution::Uniform { "uniform:" } else { "" };
+        let law = if self.law == Distribution::Uniform {
+            "uniform:"
+        } else {
+            ""
+        };
         let (q, v) = (self.q, self.v);
         write!(out, "{law}q={}+-{},v={}+-{}", q.0, q.1, v.0, v.1)
     }

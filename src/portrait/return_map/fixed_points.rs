@@ -65,7 +65,11 @@ fn unit(model: &Model, marks: Option<Landmarks>) -> f64 {
     let lengths = [model.guide_static, model.pull, model.speed].into_iter();
     let lengths = lengths.chain(marks.flatten()).chain(model.velocities());
     let largest = lengths.filter(|x| x.is_finite()).fold(0.0, f64::max);
-    if largest > 0.0 { times_power(1.0, exponent(largest) + 1) } else { 1.0 }
+    if largest > 0.0 {
+        times_power(1.0, exponent(largest) + 1)
+    } else {
+        1.0
+    }
 }
 
 /// The search for the fixed points, over the logarithm of right turning points in a unit.
@@ -109,7 +113,11 @@ impl FixedPointSearch<'_, '_> {
         let mut smallest = caught.max(beyond(held));
         let slips = smallest.is_finite();
         // A cycle that repels so strongly that the map itself cannot resolve it is met a few turns before rest.
-        let innermost = if held > 0.0 && slips { self.settled_backward(smallest)? } else { None };
+        let innermost = if held > 0.0 && slips {
+            self.settled_backward(smallest)?
+        } else {
+            None
+        };
         if let Some((x, image)) = innermost {
             self.divides.push((x, Divide::Cycle(image)));
             smallest = x;
@@ -219,7 +227,11 @@ impl FixedPointSearch<'_, '_> {
 
     /// The zero of the growth in a bracket, by Newton's method.
     fn zero(&mut self, (left, right): Bracket) -> Result<f64> {
-        let best = if left.value.abs() < right.value.abs() { left } else { right };
+        let best = if left.value.abs() < right.value.abs() {
+            left
+        } else {
+            right
+        };
         if best.value == 0.0 {
             return Ok(best.at);
         }
@@ -284,7 +296,11 @@ impl FixedPointSearch<'_, '_> {
                     self.portrait.stop = Some(stop);
                     // Where motions take too many steps, finding the first of them costs too much.
                     let dear = stop == Reason::Steps;
-                    return Ok(if dear { last } else { self.edge(last, ln(x / self.unit)) });
+                    return Ok(if dear {
+                        last
+                    } else {
+                        self.edge(last, ln(x / self.unit))
+                    });
                 }
             }
             let grows_less = last.value < CONTRACTS && last.value < before.value;
@@ -386,7 +402,11 @@ impl Model {
     pub fn linear_growth(&self) -> f64 {
         let d = 0.5 * self.damping;
         let turning = (1.0 - d * d).sqrt();
-        if turning > 0.0 { -std::f64::consts::TAU * d / turning } else { f64::NEG_INFINITY * d }
+        if turning > 0.0 {
+            -std::f64::consts::TAU * d / turning
+        } else {
+            f64::NEG_INFINITY * d
+        }
     }
 
     /// Velocities at which the force changes its form.

@@ -22,7 +22,11 @@ impl Add for CountedErrors {
 
     fn add(self, other: CountedErrors) -> CountedErrors {
         let size = self.size + other.size;
-        let own = if self.size == 0.0 || other.size == 0.0 { 0.0 } else { size };
+        let own = if self.size == 0.0 || other.size == 0.0 {
+            0.0
+        } else {
+            size
+        };
         CountedErrors { size, roundings: self.roundings + other.roundings + own }
     }
 }
@@ -480,7 +484,11 @@ fn the_roundings_of_an_area_are_held() {
     series.square[0] = 1.0;
     for k in 1..ORDER {
         let lane_of_the_first = k % LANES == 0;
-        let size = if lane_of_the_first || k == 1 || k == 2 { little } else { 0.0 };
+        let size = if lane_of_the_first || k == 1 || k == 2 {
+            little
+        } else {
+            0.0
+        };
         series.square[k] = size * f64::from(u8::try_from(k + 1).unwrap());
     }
     let sums = Sums::of(&series, h);

@@ -27,7 +27,11 @@ pub(super) fn statement(answer: &MachineAnswer) -> (String, bool) {
         }
     };
     let varying = joined(answer.varying(), ", ");
-    let whichever = if varying.is_empty() { varying } else { format!(", with {varying}") };
+    let whichever = if varying.is_empty() {
+        varying
+    } else {
+        format!(", with {varying}")
+    };
     let whatever = answer.disturbance().map_or_else(
         || "provided that no other force acts".to_owned(),
         |force| format!("whatever a force of at most {force} does"),

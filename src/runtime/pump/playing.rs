@@ -72,8 +72,11 @@ impl<M: Application, W: Write> Pump<M, W> {
         } else if is_key(&msg, Code::Char(' ')) {
             let wished = playing.pause == Pause::Wished;
             playing.pause = if wished { Pause::Not } else { Pause::Wished };
-            let text =
-                if wished { "" } else { "replay held: space continues, esc stops, q leaves" };
+            let text = if wished {
+                ""
+            } else {
+                "replay held: space continues, esc stops, q leaves"
+            };
             return self.tell(Notice { error: false, text: text.to_owned() });
         }
         Ok(())

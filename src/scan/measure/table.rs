@@ -155,7 +155,11 @@ pub enum Value {
 
 impl From<f64> for Value {
     fn from(value: f64) -> Self {
-        if value.is_finite() { Value::Number(value) } else { Value::Nothing }
+        if value.is_finite() {
+            Value::Number(value)
+        } else {
+            Value::Nothing
+        }
     }
 }
 

@@ -184,7 +184,11 @@ impl ScaledMachine {
 fn rest_of(total: f64, part: f64) -> f64 {
     const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
     let rest = total - part;
-    if rest.abs() <= ROUNDINGS * (total.abs() + part.abs()) { 0.0 } else { rest }
+    if rest.abs() <= ROUNDINGS * (total.abs() + part.abs()) {
+        0.0
+    } else {
+        rest
+    }
 }
 
 /// The speed of a belt and the other numbers of a machine that were changed, in SI units.

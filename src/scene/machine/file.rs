@@ -140,7 +140,11 @@ impl MachineReader<'_> {
         let numbers = numbers(self.is_mode);
         let known = numbers.clone().map(|knob| knob.spec().name);
         read.has_only(&known.chain(other_names(self.is_mode).to_vec()).collect::<Vec<_>>())?;
-        let (body, section) = if self.is_mode { self.mode(read)? } else { self.belt(read)? };
+        let (body, section) = if self.is_mode {
+            self.mode(read)?
+        } else {
+            self.belt(read)?
+        };
         let mut source = Source::from(body);
         for knob in numbers {
             let is_given = read.entries.contains_key(knob.spec().name);

@@ -35,7 +35,11 @@ pub fn unlikely(body: &Body, (x, v): (f64, f64)) -> Option<String> {
     sizes.extend([(DISPLACEMENT, x.abs()), (VELOCITY, v.abs())]);
     let ((name, meaning, unit, [least, most]), size) =
         sizes.into_iter().find(|((.., [least, most]), size)| !(*least..=*most).contains(size))?;
-    let (side, bound) = if size > most { ("above", most) } else { ("below", least) };
+    let (side, bound) = if size > most {
+        ("above", most)
+    } else {
+        ("below", least)
+    };
     let [size, bound] = [significant(size, 2), shortest(bound)];
     Some(format!(
         "{name} = {size} {unit}, the {meaning}, is {side} {bound} {unit}: is a unit missing?"

@@ -182,5 +182,9 @@ fn over(knob: Knob, window: Span) -> String {
 fn shell_word(text: &str) -> String {
     let is_plain = |char: char| char.is_alphanumeric() || "_./-".contains(char);
     let quoted = || format!("'{}'", text.replace('\'', r"'\''"));
-    if text.chars().all(is_plain) { text.to_owned() } else { quoted() }
+    if text.chars().all(is_plain) {
+        text.to_owned()
+    } else {
+        quoted()
+    }
 }

@@ -103,7 +103,11 @@ pub fn quit(session: &mut Session) {
 
 /// Adds the digit of this key to a count, and waits for more.
 pub fn count(session: &mut Session, key: Key) {
-    let before = if let Some(PendingInput::Count(before)) = session.pending { before } else { 0 };
+    let before = if let Some(PendingInput::Count(before)) = session.pending {
+        before
+    } else {
+        0
+    };
     let digit = key.typed().and_then(|char| char.to_digit(10)).unwrap_or(0);
     session.pending = Some(PendingInput::Count((10 * before + digit).min(LARGEST_COUNT)));
 }

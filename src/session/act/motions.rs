@@ -84,7 +84,13 @@ fn beside(session: &Session, factor: f64) -> Done<f64> {
         edge.ok_or("there is no border to start beside: neither cycle nor separatrix")?;
     let r = session.problem.parameters.r;
     let outside = factor > 1.0;
-    let keeps_side = |q: &f64| if outside { q - r > clearance } else { q - r < clearance };
+    let keeps_side = |q: &f64| {
+        if outside {
+            q - r > clearance
+        } else {
+            q - r < clearance
+        }
+    };
     // Three digits are enough and easy to read, unless the border is very close to the sticking set.
     let short = format!("{:.2e}", factor * clearance).parse().unwrap_or(clearance);
     let candidates = [decimal_sum(r, short), r + factor * clearance];
@@ -109,7 +115,11 @@ pub fn play(session: &mut Session) -> Done {
         *at = Some(0.0);
     }
     let playing = *playing;
-    let text = if playing { format!("playing: {}", session.pace()) } else { "held".to_owned() };
+    let text = if playing {
+        format!("playing: {}", session.pace())
+    } else {
+        "held".to_owned()
+    };
     session.inform(text);
     Ok(())
 }

@@ -62,7 +62,11 @@ fn step_number(session: &mut Session, knob: Knob, count: i32) -> Done {
     let KnobSpec { symbol, min, max, .. } = *knob.spec();
     let value = session.value(knob);
     let wanted = session.steps.of(knob).from(value, count);
-    let within = if knob.is_of_machine() { wanted } else { wanted.clamp(min, max) };
+    let within = if knob.is_of_machine() {
+        wanted
+    } else {
+        wanted.clamp(min, max)
+    };
     let stepped = session.with(&session.setup(), knob, within)?;
     if put(session, stepped) {
         Ok(())
@@ -80,7 +84,11 @@ pub fn half_width(session: &mut Session, count: i32) -> Done {
     let half = session.steps.of(knob).from(present.doubt.half_width(knob), count).max(0.0);
     let doubt = present.doubt.with_half_width(knob, half)?;
     let differs = put(session, Setup { doubt, ..present });
-    if differs { Ok(()) } else { Err(format!("{knob} has no half width")) }
+    if differs {
+        Ok(())
+    } else {
+        Err(format!("{knob} has no half width"))
+    }
 }
 
 /// Makes the step size of the selected row this many places larger.
@@ -101,7 +109,11 @@ pub fn reset_row(session: &mut Session) {
         Row::Number(knob) => {
             *session.steps.of_mut(knob) = StepSizes::of_scene(&session.scene).of(knob);
             let follows = session.scene.recording.is_some() && Knob::MOTION.contains(&knob);
-            let half = if follows { 0.0 } else { of_scene.doubt.half_width(knob) };
+            let half = if follows {
+                0.0
+            } else {
+                of_scene.doubt.half_width(knob)
+            };
             reset.doubt = reset.doubt.with_half_width(knob, half).unwrap_or(reset.doubt);
             if follows {
                 reset.doubt.held[knob as usize] = false;
@@ -121,7 +133,11 @@ pub fn dial(session: &mut Session, finer: bool) -> Done {
     session.measuring = true;
     let quality = session.problem.next_quality(finer).ok_or_else(|| {
         let [coarsest, .., finest] = QUALITIES.map(|quality| quality.name);
-        let (end, name) = if finer { ("finest", finest) } else { ("coarsest", coarsest) };
+        let (end, name) = if finer {
+            ("finest", finest)
+        } else {
+            ("coarsest", coarsest)
+        };
         format!("the accuracy is at its {end}, {name}")
     })?;
     change(session, session.problem.at(quality));
@@ -138,7 +154,11 @@ fn turn(session: &mut Session, decades: i32) -> Done {
     // Parsed, because the power of ten must be exact to the last bit, which powi does not guarantee.
     let setting = format!("1e{exponent}").parse().unwrap_or(max).clamp(min, max);
     let turned = session.problem.with_setting(setting);
-    if change(session, turned) { Ok(()) } else { Err(knob.at_end(setting)) }
+    if change(session, turned) {
+        Ok(())
+    } else {
+        Err(knob.at_end(setting))
+    }
 }
 
 /// Selects the next method of the list, cycling.
@@ -171,7 +191,11 @@ impl Session {
     /// The session after a step of a row; at the end of its range, in the other direction.
     pub fn stepped_once(&self, row: Row) -> Session {
         let up = self.stepped(row, 1);
-        if up.setup() == self.setup() { self.stepped(row, -1) } else { up }
+        if up.setup() == self.setup() {
+            self.stepped(row, -1)
+        } else {
+            up
+        }
     }
 
     /// Makes this setup the present one. There is a setting of the machine if and only if there is a machine; one with

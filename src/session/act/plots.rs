@@ -73,7 +73,11 @@ fn moved(span: Span, value: f64, count: i32) -> f64 {
 /// moves the cursor there.
 pub fn point_at(session: &mut Session, point: Point) -> Done {
     session.plots[session.plot].cursor = Some(point);
-    if session.view_in_use() == View::Phase { start_here(session) } else { Ok(()) }
+    if session.view_in_use() == View::Phase {
+        start_here(session)
+    } else {
+        Ok(())
+    }
 }
 
 /// Removes the cursor of the plot in focus.
@@ -201,7 +205,11 @@ pub fn next_abscissa(session: &mut Session, upwards: bool) {
     let place = all.iter().position(|knob| *knob == present).unwrap_or(0);
     let mut later = all.iter().copied().cycle().skip(place + 1);
     let Some(knob) = later.find(|knob| !(chart && *knob == other)) else { return };
-    let axes = if upwards { Axes { against: knob, ..axes } } else { axes.with_right(view, knob) };
+    let axes = if upwards {
+        Axes { against: knob, ..axes }
+    } else {
+        axes.with_right(view, knob)
+    };
     if chart {
         // No scene sets a window for these axes: starts from the usual one, which is then fitted to include the
         // present point.

@@ -82,7 +82,11 @@ pub fn recall(session: &mut Session, by: isize) {
         prompt.draft = prompt.input.text();
     }
     let draft = std::mem::take(&mut prompt.draft);
-    let text = if back == 0 { &draft } else { &lines[lines.len() - back] };
+    let text = if back == 0 {
+        &draft
+    } else {
+        &lines[lines.len() - back]
+    };
     *prompt = Prompt { back, ..Prompt::new(text) };
     prompt.draft = draft;
 }

@@ -50,7 +50,11 @@ fn usual(session: &Session) -> String {
     }
     let symbol = session.selected.knob_in(&session.problem);
     if whole {
-        let knob = if symbol.is_of_machine() { symbol } else { Knob::BeltSpeed };
+        let knob = if symbol.is_of_machine() {
+            symbol
+        } else {
+            Knob::BeltSpeed
+        };
         return over(knob, session.values_around(knob).ends());
     }
     if !Knob::MOTION.contains(&symbol) {
@@ -190,7 +194,11 @@ pub fn scan(session: &mut Session, rest: &str) -> Done {
     let groups = session.scanned_groups();
     let over = sweeps.into_iter().map(|text| Sweep::read(text, groups));
     let over = over.collect::<Result<Vec<_>, _>>()?;
-    let measures = if measures.is_empty() { "from-rest".to_owned() } else { measures.join(",") };
+    let measures = if measures.is_empty() {
+        "from-rest".to_owned()
+    } else {
+        measures.join(",")
+    };
     let measures = measures.split(',').map(|name| Measure::named(name.trim()));
     let measures = measures.collect::<Result<Vec<_>, _>>()?;
     // Of a machine by the model that is drawn; the window for `stability` is that of a phase plane on show.

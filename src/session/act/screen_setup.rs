@@ -77,7 +77,11 @@ pub fn next_view(session: &mut Session, by: isize) {
     let present = session.view_in_use();
     let before = can.iter().filter(|view| **view < present).count();
     // From a view that is not among them, the next one is the first behind it.
-    let from = if can.get(before) == Some(&present) || by < 0 { by } else { by - 1 };
+    let from = if can.get(before) == Some(&present) || by < 0 {
+        by
+    } else {
+        by - 1
+    };
     show(session, can[cycled(before, from, can.len())]);
 }
 

@@ -137,7 +137,11 @@ pub fn kicks(session: &mut Session, rest: &str) -> Done {
         None => kicks,
     };
     session.layers.insert(Layer::Kicks);
-    let of = if units.is_some() { "in m and m/s" } else { "in q and v" };
+    let of = if units.is_some() {
+        "in m and m/s"
+    } else {
+        "in q and v"
+    };
     session.inform(format!("{} kicks {kicks}, {of}", kicks.law.name()));
     Ok(())
 }

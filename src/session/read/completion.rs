@@ -39,7 +39,11 @@ pub fn values<T: NamedValue>(_: &Session, _: &[&str]) -> Vec<String> {
 }
 
 pub fn switch(_: &Session, given: &[&str]) -> Vec<String> {
-    if given.len() == 1 { all(["on", "off"]) } else { Vec::new() }
+    if given.len() == 1 {
+        all(["on", "off"])
+    } else {
+        Vec::new()
+    }
 }
 
 /// A number of the diagram in use, then a property of the cycles.
@@ -148,7 +152,11 @@ pub(crate) fn typed(setup: &Setup, row: Row) -> Option<String> {
     let knob = row.knob_in(&setup.problem);
     let value = knob.print(setup.get(knob)?);
     let half_width = setup.doubt.half_width(knob);
-    Some(if half_width > 0.0 { format!("{value}+-{}", shortest(half_width)) } else { value })
+    Some(if half_width > 0.0 {
+        format!("{value}+-{}", shortest(half_width))
+    } else {
+        value
+    })
 }
 
 /// The present value of a row in a single word: a number in SI units without its unit.

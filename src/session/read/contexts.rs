@@ -69,7 +69,14 @@ impl Session {
     /// The question that must be answered before a command that is run by name, in the pane where it applies.
     fn awaited_by_command(&self, command: &Command) -> Option<Request> {
         let pane = place(self, command).ok()?.unwrap_or(self.focus);
-        self.awaited_by(command, if let Pane::Plot(index) = pane { index } else { self.plot })
+        self.awaited_by(
+            command,
+            if let Pane::Plot(index) = pane {
+                index
+            } else {
+                self.plot
+            },
+        )
     }
 
     fn awaited_by(&self, command: &Command, plot: usize) -> Option<Request> {

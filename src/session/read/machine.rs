@@ -84,7 +84,11 @@ impl Session {
     pub fn machine_margins(&self) -> Option<MachineMargins> {
         let (found, other) = self.answer(Topic::Cycles, self.plot)?.try_as_cycles_ref()?;
         let (drawn, other) = (found.margin, (*other)?);
-        let (whole, cubic) = if self.draws_whole() { (drawn, other) } else { (other, drawn) };
+        let (whole, cubic) = if self.draws_whole() {
+            (drawn, other)
+        } else {
+            (other, drawn)
+        };
         Some(MachineMargins { whole, cubic })
     }
 

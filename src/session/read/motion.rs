@@ -159,8 +159,11 @@ impl Session {
             (Pace::Period(seconds), None) => format!("a period in {seconds} s"),
             (Pace::Period(seconds), Some(machine)) => {
                 let slower = machine.reduced.units.omega_0 * seconds / TAU;
-                let (times, way) =
-                    if slower >= 1.0 { (slower, "slower") } else { (1.0 / slower, "faster") };
+                let (times, way) = if slower >= 1.0 {
+                    (slower, "slower")
+                } else {
+                    (1.0 / slower, "faster")
+                };
                 format!("{times:.1} times {way} than real time")
             }
             (Pace::Real, _) => "in real time".to_owned(),

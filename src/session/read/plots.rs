@@ -22,7 +22,11 @@ impl Session {
 
     /// The indices of the plots on show.
     pub fn on_show(&self) -> std::ops::Range<usize> {
-        if self.enlarged { self.plot..self.plot + 1 } else { 0..self.plots.len() }
+        if self.enlarged {
+            self.plot..self.plot + 1
+        } else {
+            0..self.plots.len()
+        }
     }
 
     pub fn focused(&self) -> Option<&Plot> {
@@ -68,7 +72,11 @@ impl Session {
         }
         let shows = |layer: &Layer| self.shows_in(*layer, index);
         let on = view == View::Scan || self.layers.iter().any(shows);
-        let text = if on { view.spec().nothing } else { "no layer is on: {layers} lists them" };
+        let text = if on {
+            view.spec().nothing
+        } else {
+            "no layer is on: {layers} lists them"
+        };
         Some(text.to_owned())
     }
 
@@ -104,7 +112,11 @@ impl Session {
 
     /// The numbers over which the model that is drawn is scanned.
     pub(crate) fn scanned_groups(&self) -> &'static [Group] {
-        if self.draws_whole() { &[Group::Machine, Group::Law] } else { &[Group::Motion] }
+        if self.draws_whole() {
+            &[Group::Machine, Group::Law]
+        } else {
+            &[Group::Motion]
+        }
     }
 
     /// The numbers over which a view can be drawn.

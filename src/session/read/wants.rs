@@ -301,7 +301,11 @@ pub fn consequence(reused: &[Topic], anew: &[Topic]) -> String {
     let parts = [("recomputes", anew), ("reuses", reused)].into_iter();
     let parts = parts.filter(|(_, topics)| !topics.is_empty());
     let said = joined(parts.map(|(verb, topics)| format!("{verb} {}", named(topics, ", "))), "; ");
-    if said.is_empty() { "nothing is asked".to_owned() } else { said }
+    if said.is_empty() {
+        "nothing is asked".to_owned()
+    } else {
+        said
+    }
 }
 
 /// The names of topics as they first occur, with a count for those that occur several times.

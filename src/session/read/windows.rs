@@ -159,7 +159,11 @@ fn diagram(session: &Session, plot: usize) -> Option<Window> {
     let ends = [1.0 - QUANTILE, QUANTILE].into_iter().filter_map(quantile);
     let span = Span::covering(special.into_iter().chain(zero).chain(ends))?;
     // A window with an end at zero gets room only at the other end.
-    let about = if span.contains(0.0) && zero.is_some() { 0.0 } else { span.center() };
+    let about = if span.contains(0.0) && zero.is_some() {
+        0.0
+    } else {
+        span.center()
+    };
     Some(Window { x, y: span.scaled(about, ROOM) })
 }
 

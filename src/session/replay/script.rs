@@ -121,7 +121,11 @@ impl Instruction {
 
     /// Number of times that it is done.
     pub(super) fn length(&self) -> u64 {
-        if let Instruction::Key { count, .. } = self { u64::from(*count) } else { 1 }
+        if let Instruction::Key { count, .. } = self {
+            u64::from(*count)
+        } else {
+            1
+        }
     }
 }
 
@@ -166,7 +170,11 @@ impl fmt::Display for Instruction {
             let key = key.to_string();
             let name = key.strip_prefix('<').and_then(|name| name.strip_suffix('>'));
             let name = name.unwrap_or(&key);
-            return if *count == 1 { out.write_str(&key) } else { write!(out, "<{name}*{count}>") };
+            return if *count == 1 {
+                out.write_str(&key)
+            } else {
+                write!(out, "<{name}*{count}>")
+            };
         }
         let (word, rest) = self.written().unwrap_or_default();
         let blank = if rest.is_empty() { "" } else { " " };

@@ -33,7 +33,11 @@ impl<'a> AnswerState<'a> {
     /// The answer that is there, with its question.
     pub fn reply(self) -> Option<&'a Reply> {
         use AnswerState::{Draft, Fresh, Stale};
-        if let Fresh(found) | Draft(found) | Stale(found) = self { Some(found) } else { None }
+        if let Fresh(found) | Draft(found) | Stale(found) = self {
+            Some(found)
+        } else {
+            None
+        }
     }
 
     /// What is there to be drawn.

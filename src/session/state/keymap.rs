@@ -46,7 +46,11 @@ impl PartialEq for Command {
 impl Command {
     /// What completes the words after its name; `None` if it takes none.
     pub fn words(&self) -> Option<Candidates> {
-        if let CommandAction::Line(words, _) = self.run { Some(words) } else { None }
+        if let CommandAction::Line(words, _) = self.run {
+            Some(words)
+        } else {
+            None
+        }
     }
 
     /// The contexts where it applies.
@@ -306,6 +310,10 @@ impl Context {
 
     /// The view that must have the focus for this context to hold; `None` if it depends on no view.
     pub fn view(self) -> Option<View> {
-        if let Context::View(view) = self { Some(view) } else { None }
+        if let Context::View(view) = self {
+            Some(view)
+        } else {
+            None
+        }
     }
 }

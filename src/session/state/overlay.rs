@@ -42,7 +42,11 @@ pub enum ListKind {
 impl Overlay {
     /// What kind of overlay this is, whatever it contains.
     pub fn kind(&self) -> (Discriminant<Self>, Option<ListKind>) {
-        let kind = if let Overlay::List(kind, _) = self { Some(*kind) } else { None };
+        let kind = if let Overlay::List(kind, _) = self {
+            Some(*kind)
+        } else {
+            None
+        };
         (discriminant(self), kind)
     }
 }

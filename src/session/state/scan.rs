@@ -129,7 +129,11 @@ impl ScanOnShow {
         let over = self.scan.over();
         let place = self.scan.place(index);
         let coordinate = |which: usize| Self::coordinate(&over[which], place[which]);
-        let y = if self.is_grid() { coordinate(1) } else { self.height(index)? };
+        let y = if self.is_grid() {
+            coordinate(1)
+        } else {
+            self.height(index)?
+        };
         Some(Point { x: coordinate(0), y })
     }
 }

@@ -123,7 +123,11 @@ impl Uncertainty {
 
     /// The half width of a number; 0 for a number that has none.
     pub fn half_width(&self, symbol: Knob) -> f64 {
-        if symbol.is_parameter() { self.half_widths[symbol.place()] } else { 0.0 }
+        if symbol.is_parameter() {
+            self.half_widths[symbol.place()]
+        } else {
+            0.0
+        }
     }
 
     /// This doubt with another half width of a parameter. Fails with one line if `symbol` is none.
@@ -228,12 +232,20 @@ impl Row {
 
     /// The name on the screen; that of the tolerance depends on the method.
     pub fn name_in(self, problem: &Problem) -> &'static str {
-        if self == Row::Method { "method" } else { self.knob_in(problem).spec().symbol }
+        if self == Row::Method {
+            "method"
+        } else {
+            self.knob_in(problem).spec().symbol
+        }
     }
 
     /// The number, if keys change it by a step; not so the tolerance, whose step is a factor of ten.
     pub fn stepped(self) -> Option<Knob> {
-        if let Row::Number(knob) = self { Some(knob) } else { None }
+        if let Row::Number(knob) = self {
+            Some(knob)
+        } else {
+            None
+        }
     }
 
     /// Whether it is a number of a machine or its friction law.

@@ -104,7 +104,11 @@ fn ratios_to_r_are_another_look_at_the_same_branch() {
         trial.press(keys);
         let point = trial.branch(plot).pieces[0][1];
         let height = trial.session.height(plot, 0);
-        let r = if own { point.value } else { trial.session.problem.parameters.r };
+        let r = if own {
+            point.value
+        } else {
+            trial.session.problem.parameters.r
+        };
         assert_eq!(height.of(point.value, &point.cycle), point.cycle.q_max / r);
     }
     trial.goes(&[

@@ -52,7 +52,11 @@ const COST: u64 = 100;
 
 /// The list that is open.
 fn open_list(session: &Session) -> Option<&List> {
-    if let Some(Overlay::List(_, list)) = &session.overlay { Some(list) } else { None }
+    if let Some(Overlay::List(_, list)) = &session.overlay {
+        Some(list)
+    } else {
+        None
+    }
 }
 
 impl Trial {

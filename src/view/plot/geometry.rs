@@ -117,7 +117,11 @@ pub fn middle(inner: Rect, column: u16, row: u16) -> [f64; 2] {
 pub fn along(fraction: f64, count: f64) -> f64 {
     const ROUNDING: f64 = 1e-9;
     let place = fraction * count + ROUNDING;
-    if (place - count).abs() <= 2.0 * ROUNDING { count } else { place }
+    if (place - count).abs() <= 2.0 * ROUNDING {
+        count
+    } else {
+        place
+    }
 }
 
 /// The cell in which a fraction of the axis lies.

@@ -142,10 +142,18 @@ impl Canvas<'_> {
     /// Writes a number beside the line `x = 0`, with as many of the digits as there is room for.
     pub fn beside_zero(&mut self, y: f64, value: f64, digits: usize, right: bool) {
         let Some((column, row)) = self.cell(Point { x: 0.0, y }) else { return };
-        let room = if right { i32::from(self.inner.width) - column - 2 } else { column };
+        let room = if right {
+            i32::from(self.inner.width) - column - 2
+        } else {
+            column
+        };
         let text = usize::try_from(room).ok().and_then(|room| fitting(value, digits, room));
         let Some(text) = text else { return };
-        let start = if right { column + 2 } else { (column - length(&text) - 1).max(0) };
+        let start = if right {
+            column + 2
+        } else {
+            (column - length(&text) - 1).max(0)
+        };
         self.letters((start, row), &text, Role::Text);
     }
 
