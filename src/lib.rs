@@ -24,7 +24,7 @@
 //!   is a graph over q, so basins and margins are comparisons ([`portrait::basin`]). On a belt one return map, which never
 //!   decreases, orders all cycles, and what a start ends as is read off the next turning point ([`portrait::return_map`]).
 //! - [`branch`] follows cycles along a number by continuation; folds are roots of their own ([`branch::extended`],
-//!   [`mod@branch::fold`]), and boundaries of regimes are curves over two numbers ([`branch::chart`]).
+//!   [`mod@branch::fold`]), and boundaries of regimes are curves over two numbers ([`mod@branch::chart`]).
 //! - [`scan`] measures at many points; [`accuracy`] holds methods against each other and against references, to the
 //!   extremes; [`paper`] puts the paper's own equations and sentences to the test.
 //! - [`fit`] turns a recorded motion into estimates of all these numbers, with their errors, and the margin

@@ -196,9 +196,9 @@ impl LawParts {
 fn added(mut one: Vec<f64>, other: impl Iterator<Item = f64>) -> Vec<f64> {
     for (k, number) in other.enumerate() {
         if k < one.len() {
-            one[k] += number
+            one[k] += number;
         } else {
-            one.push(number)
+            one.push(number);
         }
     }
     while one.len() > 1 && one.last() == Some(&0.0) {

@@ -60,9 +60,9 @@ fn written(
     let mut out = String::with_capacity(2 * text.len());
     for char in text.chars() {
         if is_kept(char) {
-            out.push(char)
+            out.push(char);
         } else {
-            escape(char, &mut out)
+            escape(char, &mut out);
         }
     }
     out.into()

@@ -118,9 +118,9 @@ fn extent(
             for _ in 0..40 {
                 let middle = 0.5 * (before + after);
                 if side * advance(middle).1 > 0.0 {
-                    before = middle
+                    before = middle;
                 } else {
-                    after = middle
+                    after = middle;
                 }
             }
             (q, v, side) = (advance(before).0, 0.0, 0.0);

@@ -200,9 +200,9 @@ impl Machine {
                         let half = (low + high).times(0.5);
                         let side = (at(ys, half) - two(*level)).value();
                         if side * (middle - level) < 0.0 {
-                            high = half
+                            high = half;
                         } else {
-                            low = half
+                            low = half;
                         }
                     }
                     return Some((high, *level));
