@@ -18,7 +18,7 @@
     reason = "a comparison with what is not a number fails, and its negation is the safe side"
 )]
 
-use crate::numerics::{Interval, bisect, point, pow, powi, real};
+use crate::numerics::{Interval, bisect, pow, powi, real};
 
 /// The field of a half plane.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +65,7 @@ impl FencedField {
     /// decrease from e on, and `4 (a - 3 c v^2) <= f'^3`, motions fall through `v = e` between `x = -f(e)` and
     /// `x = -f(e) + 2 e/f'(e)`.
     pub fn new(coefficients: [Interval; 3], velocity: f64) -> Self {
-        let (field, e) = (FencedField { coefficients, fence: None }, point(velocity));
+        let (field, e) = (FencedField { coefficients, fence: None }, Interval::point(velocity));
         let [a, b, c] = coefficients;
         let slope = field.slope(e);
         let grows = c.lower() >= 0.0 && (b + c * e * 3.0).lower() >= 0.0;
@@ -94,18 +94,18 @@ impl FencedField {
     /// The Taylor coefficients of all motions from a box.
     fn series(&self, [x, v]: StateBox) -> Series {
         let [a, b, c] = self.coefficients;
-        let mut found = [[point(0.0); 4]; ORDER + 1];
+        let mut found = [[Interval::point(0.0); 4]; ORDER + 1];
         (found[0][0], found[0][1]) = (x, v);
         for k in 0..ORDER {
             let product = |found: &Series, i: usize| {
-                (0..=k).fold(point(0.0), |sum, j| sum + found[j][i] * found[k - j][1])
+                (0..=k).fold(Interval::point(0.0), |sum, j| sum + found[j][i] * found[k - j][1])
             };
             found[k][3] = if k == 0 { v.square() } else { product(&found, 1) };
             let [position, velocity, _, square] = found[k];
             let force = a * velocity + b * square + c * product(&found, 3);
-            let constant = if k == 0 { a } else { point(0.0) };
+            let constant = if k == 0 { a } else { Interval::point(0.0) };
             let damping = constant + b.twice() * velocity + c * square * 3.0;
-            let rates = [velocity, -(position + force), damping, point(0.0)];
+            let rates = [velocity, -(position + force), damping, Interval::point(0.0)];
             found[k + 1] = rates.map(|rate| rate / real(k + 1));
         }
         found
@@ -116,7 +116,7 @@ impl FencedField {
     /// not negative from v on.
     fn never_returns(&self, [x, v]: StateBox) -> bool {
         let [a, b, c] = self.coefficients;
-        let at = point(v.lower());
+        let at = Interval::point(v.lower());
         let m = at - x.upper();
         let p0 = m - at * (a + 2.0 + at * (b + at * c));
         let p1 = -(a + 2.0 + at * (b.twice() + at * c * 3.0));
@@ -140,21 +140,21 @@ impl FencedField {
     /// of time and area is small.
     fn fall(&self, [e, piece]: Fence, first: SwingBounds, reach: f64) -> Option<SwingBounds> {
         let [a, b, c] = self.coefficients;
-        let rate = point(a.lower().min(0.0)) / e + b.twice() + c * e * 3.0;
+        let rate = Interval::point(a.lower().min(0.0)) / e + b.twice() + c * e * 3.0;
         let gained = (rate * (piece - first.end)).lower().max(0.0);
         let before = first.damping + gained;
-        let from = |x: f64| self.follow(Disc::new([point(x), e]), reach, None);
+        let from = |x: f64| self.follow(Disc::new([Interval::point(x), e]), reach, None);
         let (Some(low), Some(high)) = (from(piece.lower()), from(piece.upper())) else {
             return self.beyond_fold([e, piece], before);
         };
         let end = Interval::new(low.end.lower(), high.end.upper());
-        let w = (point(end.upper()) * end.width() * 3.0).sqrt().upper();
+        let w = (Interval::point(end.upper()) * end.width() * 3.0).sqrt().upper();
         let drag = self.force(Interval::new(0.0, w)).magnitude();
-        let rate = point(end.lower()) - drag;
+        let rate = Interval::point(end.lower()) - drag;
         if !(rate > 0.0 && drag <= 0.49 * end.upper()) {
             return Some(SwingBounds { end, ..UNKNOWN });
         }
-        let late = (point(w) / rate).upper();
+        let late = (Interval::point(w) / rate).upper();
         let time = low.time.hull(high.time).widened(late) - low.time;
         let way = (end - piece) - (low.end - piece.lower());
         let after = low.damping + a * time + b.twice() * way - c * e * piece.width() * 3.0;
@@ -167,8 +167,8 @@ impl FencedField {
     /// damping below e (lemma 12).
     fn far(&self, z: Interval, [e, piece]: Fence, reach: f64) -> Option<SwingBounds> {
         let slow = Interval::new(0.0, e.upper());
-        let half = point(z.lower()) / 2.0;
-        let rate = point((half - self.force(slow).magnitude()).lower());
+        let half = Interval::point(z.lower()) / 2.0;
+        let rate = Interval::point((half - self.force(slow).magnitude()).lower());
         let time = e / rate;
         let way = e * time;
         let least = time * self.slope(slow).lower().min(0.0);
@@ -189,8 +189,9 @@ impl FencedField {
         let last = e.twice() + k.upper().max(piece.upper());
         let end = Interval::new(piece.lower(), last.upper());
         let w = (-b / (c * 3.0)).upper();
-        let rate = point((self.force(Interval::new(0.0, w)) + piece.lower()).lower());
-        let time = point((end - piece).upper()) / point(w) + point(w) / rate;
+        let rate = Interval::point((self.force(Interval::new(0.0, w)) + piece.lower()).lower());
+        let time =
+            Interval::point((end - piece).upper()) / Interval::point(w) + Interval::point(w) / rate;
         let least = (a - b.square() / (c * 3.0)).lower().min(0.0);
         let damping = Interval::new((time * least + before).lower(), f64::INFINITY);
         (rate > 0.0).then_some(SwingBounds { end, damping, ..UNKNOWN })
@@ -199,7 +200,9 @@ impl FencedField {
     /// Upper bound of all ends, however far out a motion starts: the end of the motion from the right end of
     /// the fence.
     pub fn greatest(&self) -> Interval {
-        let from = |[e, piece]: Fence| self.follow(Disc::new([point(piece.upper()), e]), 0.0, None);
+        let from = |[e, piece]: Fence| {
+            self.follow(Disc::new([Interval::point(piece.upper()), e]), 0.0, None)
+        };
         self.fence.and_then(from).unwrap_or(UNKNOWN).end
     }
 
@@ -208,10 +211,10 @@ impl FencedField {
     /// `x (2 k^2 + |c|) <= k - |b|` (lemma 10).
     pub fn least(&self) -> Interval {
         let [a, b, c] = self.coefficients;
-        let [b, c] = [b, c].map(|it| point(it.magnitude()));
+        let [b, c] = [b, c].map(|it| Interval::point(it.magnitude()));
         let k = b.twice() + 1.0;
-        let x = point(1e-3 * ((k - b) / (k.square().twice() + c)).lower());
-        let v = point((x - k * x.square()).lower());
+        let x = Interval::point(1e-3 * ((k - b) / (k.square().twice() + c)).lower());
+        let v = Interval::point((x - k * x.square()).lower());
         let leaves = a.upper() <= -2.0 && x > 0.0 && v > 0.0;
         leaves.then(|| self.run(Disc::new([x, v]), 0.0)).flatten().unwrap_or(UNKNOWN).end
     }
@@ -221,7 +224,7 @@ impl FencedField {
         if !(z > 0.0) {
             return UNKNOWN;
         }
-        let near = self.run(Disc::new([-z, point(0.0)]), reach);
+        let near = self.run(Disc::new([-z, Interval::point(0.0)]), reach);
         let far = || self.far(z, self.fence?, reach);
         near.or_else(far).unwrap_or(UNKNOWN)
     }
@@ -234,7 +237,7 @@ impl FencedField {
     /// The half swing of all motions from a disc; they are at rest if its centre is. `None` where it is not certain.
     fn follow(&self, mut disc: Disc, reach: f64, fence: Option<Fence>) -> Option<SwingBounds> {
         for _ in 0..STEPS {
-            let series = self.series(disc.centre.map(point));
+            let series = self.series(disc.centre.map(Interval::point));
             let last = series[ORDER][0].magnitude().max(series[ORDER][1].magnitude());
             let longest = pow(1e-6 * SMALL * disc.size() / last, 1.0 / 22.0).min(0.4);
             // The polynomial of the velocity gives the approximate time of its zero; no bound depends on it.
@@ -256,10 +259,10 @@ impl FencedField {
                 return None;
             }
             if self.never_returns(place) {
-                return Some(SwingBounds { end: point(f64::INFINITY), ..UNKNOWN });
+                return Some(SwingBounds { end: Interval::point(f64::INFINITY), ..UNKNOWN });
             }
             if self.stays(place, reach) {
-                return Some(SwingBounds { end: point(f64::NEG_INFINITY), ..UNKNOWN });
+                return Some(SwingBounds { end: Interval::point(f64::NEG_INFINITY), ..UNKNOWN });
             }
             if let Some(fence) = fence.filter(|[e, _]| place[1] > e.upper()) {
                 return self.fall(fence, disc.swing(), reach);
@@ -282,7 +285,7 @@ impl Disc {
     /// The disc around a box with one side of zero width.
     fn new(place: StateBox) -> Self {
         let radius = place[0].radius().max(place[1].radius());
-        let (centre, none) = (place.map(Interval::middle), point(0.0));
+        let (centre, none) = (place.map(Interval::middle), Interval::point(0.0));
         Disc { centre, radius, time: none, damping: none }
     }
 
@@ -325,11 +328,12 @@ impl Disc {
             return None;
         }
         let [x, v, damping] = [0, 1, 2].map(|column| {
-            let sum = (0..ORDER).rev().fold(point(0.0), |sum, k| sum * h + series[k][column]);
+            let sum =
+                (0..ORDER).rev().fold(Interval::point(0.0), |sum, k| sum * h + series[k][column]);
             sum + last[column]
         });
         let [_, b, c] = field.coefficients;
-        let growth = (point((-field.slope(place[1]).lower()).max(0.0)) * h).exp();
+        let growth = (Interval::point((-field.slope(place[1]).lower()).max(0.0)) * h).exp();
         let spread = growth * self.radius;
         // How much `f'` may differ between two motions, from `f''`.
         let unlike = spread * (b + c * place[1] * 3.0).magnitude() * 2.0;
@@ -344,9 +348,10 @@ impl Disc {
     /// at most `m^2/A`.
     fn end(&self, field: &FencedField) -> Option<SwingBounds> {
         let [x, v] = self.square();
-        let m = point(v.magnitude());
+        let m = Interval::point(v.magnitude());
         let slow = m.hull(-m);
-        let rate = point(-field.acceleration([x * Interval::new(0.9, 1.1), slow]).upper());
+        let rate =
+            Interval::point(-field.acceleration([x * Interval::new(0.9, 1.1), slow]).upper());
         let lag = m / rate;
         let way = (m * lag).upper();
         if !(rate > 0.0 && x > 0.0 && way < 0.05 * x.lower()) {
@@ -366,15 +371,15 @@ mod tests {
     use crate::numerics::elementary::{atan, exp, hypot, sin_cos};
 
     fn field(coefficients: [f64; 3]) -> FencedField {
-        FencedField::new(coefficients.map(point), 0.0)
+        FencedField::new(coefficients.map(Interval::point), 0.0)
     }
 
     fn disc(x: f64, v: f64, radius: f64) -> Disc {
-        Disc { centre: [x, v], radius, time: point(0.0), damping: point(0.0) }
+        Disc { centre: [x, v], radius, time: Interval::point(0.0), damping: Interval::point(0.0) }
     }
 
     fn stepped(field: &FencedField, disc: &Disc, h: f64) -> Option<Disc> {
-        disc.step(field, &field.series(disc.centre.map(point)), h)
+        disc.step(field, &field.series(disc.centre.map(Interval::point)), h)
     }
 
     /// A velocity displacement of a linear swing after the time h.
@@ -404,7 +409,10 @@ mod tests {
     /// Motions under different damping separate; the disc contains both, and its radius is their difference in velocity.
     #[test]
     fn a_disc_holds_the_motions_of_all_coefficients() {
-        let wide = FencedField::new([Interval::new(0.9, 1.1), point(0.0), point(0.0)], 0.0);
+        let wide = FencedField::new(
+            [Interval::new(0.9, 1.1), Interval::point(0.0), Interval::point(0.0)],
+            0.0,
+        );
         let h = 0.01;
         let after = stepped(&wide, &disc(0.0, 1.0, 0.0), h).unwrap();
         let velocity = |a: f64| {
@@ -469,7 +477,7 @@ mod tests {
     #[test]
     fn the_piece_of_a_fence_reaches_to_the_slow_line() {
         let (a, e) = (2.001, 0.3);
-        let fence = |a: f64| FencedField::new([a, 1e-9, 0.0].map(point), e).fence;
+        let fence = |a: f64| FencedField::new([a, 1e-9, 0.0].map(Interval::point), e).fence;
         let [_, piece] = fence(a).unwrap();
         let slow = (a - f64::sqrt(a * a - 4.0)) / 2.0;
         let at = -e / slow;
@@ -499,7 +507,7 @@ mod tests {
             ([-3.0, -1.0, 0.0], [0.0, 0.0], false),
             ([-3.0, -1.0, 1e-9], [-1.0, 0.0], false),
         ] {
-            let found = field(coefficients).never_returns(place.map(point));
+            let found = field(coefficients).never_returns(place.map(Interval::point));
             assert_eq!(found, never, "{coefficients:?} {place:?}");
         }
     }
@@ -513,7 +521,7 @@ mod tests {
             let least = node.least().lower();
             assert!(least > 0.0, "{coefficients:?}");
             for z in [1e-9, 1e-5, 1e-3, 0.1] {
-                let end = node.swing(point(z), 0.0).end;
+                let end = node.swing(Interval::point(z), 0.0).end;
                 assert!(
                     end.is_finite() && end.upper() >= least,
                     "{coefficients:?} {z}: {end} {least}"

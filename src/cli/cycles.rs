@@ -60,10 +60,10 @@ impl CyclesCommand {
     /// Writes the certificate, if asked for.
     fn certify(&self, proof: &Proof) -> Result<()> {
         let Some(path) = &self.certificate else { return Ok(()) };
-        let failed = "no certificate";
-        let made = certificate(proof).map_err(Failure::unanswered(failed))?;
-        let text = text(&made).map_err(Failure::unanswered(failed))?;
-        check(&text).map_err(Failure::unanswered(failed))?;
+        let failed = |why: String| Failure::unanswered("no certificate", why);
+        let made = certificate(proof).map_err(failed)?;
+        let text = text(&made).map_err(|error| failed(error.to_string()))?;
+        check(&text).map_err(failed)?;
         write(path, text.as_bytes(), self.force)?;
         provenance_file::write(path, &provenance_file::of_process())
     }
@@ -71,7 +71,7 @@ impl CyclesCommand {
     /// The cycles, their proof, and the harmonic balance if asked for.
     fn find(&self, parameters: &Parameters) -> Result<(Cycles, Proof, Rungs)> {
         let limits = &Limits::PATIENT;
-        let gave_up = Failure::unanswered::<Reason>("the search gave up");
+        let gave_up = |why: Reason| Failure::unanswered("the search gave up", why);
         let found = cycles(parameters, limits).map_err(&gave_up)?;
         let proof = proved(&found).map_err(|wrong| Failure::Unanswered(wrong.to_string()))?;
         let balance = |rung| compare(parameters, &found.cycles, rung, 0, limits);

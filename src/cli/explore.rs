@@ -155,8 +155,8 @@ pub fn go(
     let (keep, last) = memory.map(|memory| (memory.keep, memory.last)).unzip();
     let replay = (!play.is_empty()).then(|| Script::of(play.to_vec()));
     let options = Options { replay, recorder, record, keep, last, mouse, files };
-    let ended =
-        explore(session, environment, options).map_err(Failure::unanswered("the terminal"))?;
+    let ended = explore(session, environment, options)
+        .map_err(|why| Failure::unanswered("the terminal", why))?;
     if ended == 0 {
         Ok(())
     } else {

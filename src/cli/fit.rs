@@ -82,8 +82,8 @@ impl FitCommand {
             write(path, page.as_bytes(), self.force)?;
         }
         self.output.print(forms::fit(&fitted))?;
-        let failure = Failure::unanswered(&fitted.name);
-        signed(&fitted).broken().map_or(Ok(()), |line| Err(failure(line)))
+        let broken = signed(&fitted).broken();
+        broken.map_or(Ok(()), |line| Err(Failure::unanswered(&fitted.name, line)))
     }
 
     fn fitted(&self, bytes: &[u8]) -> Result<FitResult> {
@@ -112,7 +112,7 @@ impl FitCommand {
             NoEstimate::TooFew { .. } | NoEstimate::NotAlternating { .. } => {
                 bad(reason.to_string())
             }
-            _ => Failure::unanswered(&name)(reason),
+            _ => Failure::unanswered(&name, reason),
         })?;
         let OpenedRecord { name, record, .. } = opened;
         Ok(FitResult { seconds, ..FitResult::new(name, record, estimate, margins) })

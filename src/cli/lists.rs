@@ -188,7 +188,7 @@ fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>> {
             }
             Err(reason) => {
                 let question = format!("scene {}: {}", scene.name, topic.name());
-                failed = Some(Failure::unanswered(question)(reason));
+                failed = Some(Failure::unanswered(question, reason));
                 None
             }
         }

@@ -125,7 +125,7 @@ pub fn troubled(trouble: Reason) -> Failure {
     if trouble.is_of_the_machine() {
         trouble.to_string().into()
     } else {
-        Failure::unanswered("the machine could not be computed")(trouble)
+        Failure::unanswered("the machine could not be computed", trouble)
     }
 }
 

@@ -80,7 +80,7 @@ impl TrajectoryCommand {
         match found.outcome {
             Outcome::GaveUp { tau, reason } if !is_machine => {
                 let place = format!("gave up at tau = {tau:?} of {:?}", problem.until);
-                Err(Failure::unanswered(place)(reason))
+                Err(Failure::unanswered(place, reason))
             }
             outcome => outcome.answered().map_err(troubled),
         }
@@ -104,7 +104,7 @@ impl TradeCommand {
         let machine = asked.model.as_ref();
         let unmeasured = |reason| match machine {
             Some(_) => troubled(reason),
-            None => Failure::unanswered("there is nothing to measure errors against")(reason),
+            None => Failure::unanswered("there is nothing to measure errors against", reason),
         };
         let found = Trade::of(machine, &asked.problem, &Limits::PATIENT);
         let mut found = found.map_err(unmeasured)?;

@@ -40,7 +40,7 @@ impl Output {
         compute: impl FnMut() -> Result<T, Reason>,
     ) -> Result<(T, f64)> {
         let (found, seconds) = timed(self.repeat, compute);
-        Ok((found.map_err(Failure::unanswered(failed))?, seconds))
+        Ok((found.map_err(|why| Failure::unanswered(failed, why))?, seconds))
     }
 
     /// The width of the terminal in which the answer is shown, if it is shown in one.
@@ -79,7 +79,7 @@ pub const CERTIFY: &str = "Encloses the answer between proved bounds, or says wh
 pub fn print(text: &str) -> Result<()> {
     match standard::print(text) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::unanswered("cannot write to standard output")(error))
+            Err(Failure::unanswered("cannot write to standard output", error))
         }
         _ => Ok(()),
     }

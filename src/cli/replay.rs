@@ -68,7 +68,7 @@ impl ReplayCommand {
         }
         print(&screen::text(&played.screen))?;
         let why = played.unmet.map(|unmet| unmet.to_string()).or(played.unwritten);
-        why.map_or(Ok(()), |why| Err(Failure::unanswered(self.file.display())(why)))
+        why.map_or(Ok(()), |why| Err(Failure::unanswered(self.file.display(), why)))
     }
 }
 

@@ -150,7 +150,7 @@ impl ScanCommand {
             ControlFlow::Continue(())
         });
         progress.end();
-        took.map_err(Failure::unanswered("cannot start threads for the scan"))?;
+        took.map_err(|why| Failure::unanswered("cannot start threads for the scan", why))?;
         let lost = if given_up > 0 {
             format!(", {given_up} of them given up")
         } else {
@@ -164,7 +164,7 @@ impl ScanCommand {
             Some(error) => {
                 let path = path.map(|path| path.display().to_string());
                 let to = path.unwrap_or_else(|| "standard output".to_owned());
-                return Err(Failure::unanswered(to)(format!("{error}; {tally}")));
+                return Err(Failure::unanswered(to, format!("{error}; {tally}")));
             }
             None if signal != 0 && file.left() > 0 => {
                 let again = if path.is_some() { "; --resume continues" } else { "" };
@@ -278,7 +278,8 @@ fn stop_signal() -> Result<Arc<AtomicI32>> {
     let came = Arc::new(AtomicI32::new(0));
     let told = Arc::clone(&came);
     let signals = Signals::new([SIGINT, SIGTERM, SIGHUP]);
-    let mut signals = signals.map_err(Failure::unanswered("cannot listen for signals"))?;
+    let mut signals =
+        signals.map_err(|why| Failure::unanswered("cannot listen for signals", why))?;
     std::thread::spawn(move || {
         for signal in signals.forever() {
             if told.swap(signal, Ordering::Relaxed) != 0 {

@@ -53,7 +53,7 @@ impl ManualCommand {
             let page = Man::new(command.name(&name)).title(name.to_uppercase()).date(DATE);
             let page = page.source(concat!("hopfscope ", env!("CARGO_PKG_VERSION")));
             let mut text = Vec::new();
-            page.render(&mut text).map_err(Failure::unanswered("no manual"))?;
+            page.render(&mut text).map_err(|why| Failure::unanswered("no manual", why))?;
             let text = tidied(&String::from_utf8_lossy(&text));
             write(&self.folder.join(page.get_filename()), text.as_bytes(), self.force)?;
         }

@@ -161,8 +161,8 @@ impl SampleSelection<'_> {
         if loss != LossName::Auto {
             return Some(());
         }
-        // If the search used a robust loss, as with outliers, even an unchanged selection is fitted again.
-        self.is_due = noise.has_outliers;
+        // If the search used a robust loss, even an unchanged selection is fitted again.
+        self.is_due = self.task.loss.name == LossName::SoftL1;
         self.task.loss = Loss::LINEAR;
         self.leave_out(4, polish, |_, best, before| outliers(best, before))?;
         // If no motion fits, it is not known where the mass rests.
@@ -229,7 +229,7 @@ fn alike_at_rest(
     let held = index_at(t, release);
     let end = best.seen.turns.last().filter(|_| best.seen.rests);
     let rest = end.map_or(t.len(), |turn| index_at(t, release + turn.tau / best.p[OMEGA0]));
-    let kept = truncated(enough.ceil()).max(FEWEST);
+    let kept = truncated(enough.ceil().min(1e9)).max(FEWEST);
     let mut dropped = before.to_vec();
     for stretch in [0..held, rest..t.len()] {
         let length = stretch.len();

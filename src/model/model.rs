@@ -68,7 +68,7 @@ pub struct Model {
     pub mass: f64,
     /// Stiffness, in N/m.
     pub stiffness: f64,
-    /// Speed of the belt; infinite where there is none.
+    /// Speed of the belt, exactly that of the belt in m/s divided by the natural frequency; infinite where there is none.
     pub speed: f64,
     /// Friction of the guide while the mass moves.
     pub guide: f64,

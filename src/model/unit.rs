@@ -154,24 +154,28 @@ pub struct TolerancedNumber {
     pub ends: Interval,
 }
 
-/// Reads a number that is exact or has a tolerance: `1 N +- 0.2 N`, `1 N +- 5 %`, `0.8 N .. 1.2 N`.
+/// Reads two numbers of a text that have one unit, or none; 0 has that of the other one.
+///
+/// # Errors
+/// One line that says what could not be read, or that the units differ.
+pub fn in_one_unit(text: &str, one: &str, other: &str) -> Result<(DimensionalNumber, f64), String> {
+    let (mut one, mut other) = (measured(one)?, measured(other)?);
+    let written = (one.dimension, other.dimension);
+    for (zero, beside) in [(&mut one, written.1), (&mut other, written.0)] {
+        if zero.value == 0.0 {
+            zero.dimension = zero.dimension.or(beside);
+        }
+    }
+    let unlike = || format!("{text:?}: both numbers take the same unit, or none (SI units)");
+    (one.dimension == other.dimension).then_some((one, other.value)).ok_or_else(unlike)
+}
+
+/// Reads a number that is exact or has a tolerance: `1 N +- 0.2 N`, `1 N +- 5 %`, `0.8 N .. 1.2 N`, `0 .. 1.2 N`.
 ///
 /// # Errors
 /// One line that says what could not be read.
 pub fn toleranced(text: &str) -> Result<TolerancedNumber, String> {
     let text = &text.replace('\u{b1}', "+-");
-    let both = |one: &str, other: &str| {
-        let (mut one, mut other) = (measured(one)?, measured(other)?);
-        // 0 is the same in every unit.
-        let written = (one.dimension, other.dimension);
-        for (zero, beside) in [(&mut one, written.1), (&mut other, written.0)] {
-            if zero.value == 0.0 {
-                zero.dimension = zero.dimension.or(beside);
-            }
-        }
-        let unlike = || format!("{text:?}: both numbers take the same unit, or none (SI units)");
-        (one.dimension == other.dimension).then_some((one, other.value)).ok_or_else(unlike)
-    };
     let around = |middle: DimensionalNumber, half_width: f64| {
         (middle, half_width, Interval::around(middle.value, half_width.max(0.0)))
     };
@@ -181,11 +185,11 @@ pub fn toleranced(text: &str) -> Result<TolerancedNumber, String> {
                 let middle = measured(value)?;
                 (middle, 0.01 * measured(percent)?.value * middle.value.abs())
             }
-            None => both(value, half)?,
+            None => in_one_unit(text, value, half)?,
         };
         around(middle, half_width)
     } else if let Some((low, high)) = text.split_once("..") {
-        let (low, high) = both(low, high)?;
+        let (low, high) = in_one_unit(text, low, high)?;
         let middle = DimensionalNumber { value: 0.5 * low.value + 0.5 * high, ..low };
         (middle, 0.5 * high - 0.5 * low.value, Interval::new(low.value, high))
     } else {

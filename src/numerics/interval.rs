@@ -52,13 +52,13 @@ impl Interval {
 
     /// One double.
     pub const fn point(value: f64) -> Self {
-        point(value)
+        Interval::new(value, value)
     }
 
     /// The numbers within `radius` of `middle`.
     pub fn around(middle: f64, radius: f64) -> Self {
         if radius == 0.0 {
-            return point(middle);
+            return Interval::point(middle);
         }
         let (lower, upper) = (middle - radius, middle + radius);
         let Interval { lower: below, upper: above } = Interval::outward(lower, upper);
@@ -208,13 +208,8 @@ impl Interval {
 
     /// The polynomial with these coefficients, lowest power first, by Horner's rule.
     pub fn polynomial(self, coefficients: &[Interval]) -> Self {
-        coefficients.iter().rev().fold(point(0.0), |sum, &next| sum * self + next)
+        coefficients.iter().rev().fold(Interval::point(0.0), |sum, &next| sum * self + next)
     }
-}
-
-/// One double, in formulas.
-pub const fn point(value: f64) -> Interval {
-    Interval::new(value, value)
 }
 
 /// `exp(value)`.
@@ -235,8 +230,8 @@ fn exp(value: f64) -> Interval {
     if turns < -1022.0 {
         return Interval::new(0.0, f64::MIN_POSITIVE);
     }
-    let high = point(turns * LN_2_HIGH);
-    let y = point(value) - high - LN_2_LOW * turns;
+    let high = Interval::point(turns * LN_2_HIGH);
+    let y = Interval::point(value) - high - LN_2_LOW * turns;
     if !(y.magnitude() < 0.36) {
         return Interval::ALL;
     }
@@ -253,7 +248,7 @@ fn ln(value: f64) -> Interval {
         return Interval::ALL;
     }
     let y = elementary::ln(value);
-    let one = point(1.0);
+    let one = Interval::point(1.0);
     let ratio = exp(-y) * value;
     let off = Interval::new((one - one / ratio).lower, (ratio - one).upper);
     off + y
@@ -266,13 +261,13 @@ fn exp_m1(value: f64) -> Interval {
     if !(value.abs() <= 0.5) {
         return exp(value) - 1.0;
     }
-    let y = point(value);
+    let y = Interval::point(value);
     y * nested(y, 2, 18).widened(REMAINDER)
 }
 
 /// `1 + y/first (1 + y/(first + 1) (1 + ... (1 + y/last)))`, parts of the series of the exponential.
 fn nested(y: Interval, first: u32, last: u32) -> Interval {
-    let one = point(1.0);
+    let one = Interval::point(1.0);
     (first..=last).rev().fold(one, |sum, k| one + y * sum / f64::from(k))
 }
 
@@ -289,12 +284,12 @@ fn atan(value: f64) -> Interval {
         let right = Interval::outward(PI.lower / 2.0, PI.upper / 2.0);
         return if value > 0.0 { right } else { -right };
     }
-    let one = point(1.0);
-    let mut y = point(value);
+    let one = Interval::point(1.0);
+    let mut y = Interval::point(value);
     for _ in 0..3 {
         y = y / (one + (one + y.square()).sqrt());
     }
-    let (square, mut sum, mut odd) = (y.square(), point(0.0), 29.0);
+    let (square, mut sum, mut odd) = (y.square(), Interval::point(0.0), 29.0);
     for _ in 0..15 {
         sum = one / odd - square * sum;
         odd -= 2.0;
@@ -326,7 +321,7 @@ macro_rules! operation {
             type Output = Interval;
 
             fn $method(self, other: f64) -> Interval {
-                $of(self, point(other))
+                $of(self, Interval::point(other))
             }
         }
     };
@@ -371,7 +366,7 @@ fn extremes(one: Interval, other: Interval, of: impl Fn(f64, f64) -> f64) -> Int
 
 impl PartialEq<f64> for Interval {
     fn eq(&self, other: &f64) -> bool {
-        *self == point(*other)
+        *self == Interval::point(*other)
     }
 }
 

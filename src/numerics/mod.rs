@@ -30,4 +30,3 @@ pub(crate) use self::{
     scalar::*, scaling::*, similar::*, spline::*, sum::*, table::*, twofold::*,
 };
 pub use interval::Interval;
-pub(crate) use interval::point;

@@ -122,7 +122,7 @@ impl<T: Copy + PartialEq> Conclusion<T> {
     }
 }
 
-/// What is certain about a claim; of two cases what is further down.
+/// What is certain about a claim; about several cases, the variant among them that stands last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Certainty {
     /// It holds in all cases that were tested.

@@ -11,31 +11,27 @@ use crate::model::{State, energy};
 use crate::scene::{Layer, Point};
 use crate::session::{Session, motion::friction_force};
 
-/// A quantity over time: its layer, its name, which ends with its letter, and how it is read from a state.
-type Quantity = (Layer, &'static str, fn(State) -> f64);
+/// A quantity over time: its layer, its letter, its name, and how it is read from a state.
+type Quantity = (Layer, &'static str, &'static str, fn(State) -> f64);
 
 const QUANTITIES: [Quantity; 3] = [
-    (Layer::Energy, "energy V", energy),
-    (Layer::Velocity, "velocity v", |state| state.v),
-    (Layer::Position, "displacement q", |state| state.q),
+    (Layer::Energy, "V", "energy V", energy),
+    (Layer::Velocity, "v", "velocity v", |state| state.v),
+    (Layer::Position, "q", "displacement q", |state| state.q),
 ];
-
-fn letter(name: &'static str) -> &'static str {
-    &name[name.len() - 1..]
-}
 
 pub fn draw(picture: &mut Picture, session: &Session) {
     let (window, [time, upward]) = (picture.window, picture.scales);
     let shows = |layer| session.layers.contains(&layer);
     let shown = || quantities_on_show(session).rev();
     let friction = shows(Layer::Friction).then_some("f");
-    let letters: Vec<&str> = shown().map(|(_, name, _)| letter(name)).chain(friction).collect();
+    let letters: Vec<&str> = shown().map(|(_, letter, ..)| letter).chain(friction).collect();
     picture.axes("tau", letters.join(" "));
     picture.reading = picture.cursor.map(|Point { x: tau, .. }| {
         let time = said(time, "tau", tau, window.x);
         let Some(state) = session.state_at(tau) else { return time };
-        shown().fold(time, |line, (_, name, read)| {
-            format!("{line} {}", said(upward, letter(name), read(state), window.y))
+        shown().fold(time, |line, (_, letter, .., read)| {
+            format!("{line} {}", said(upward, letter, read(state), window.y))
         })
     });
     picture.level(LineStyle::guide(), 0.0);
@@ -99,7 +95,7 @@ fn record(picture: &mut Picture, session: &Session) {
 /// The quantities of the motion in this place among those on show, the present one the first.
 fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: usize) {
     let LineStyle { name: of, role: beside, .. } = phase_plane::motion(session, place);
-    for (layer, name, read) in quantities_on_show(session) {
+    for (layer, letter, name, read) in quantities_on_show(session) {
         let points = curve(motion, motion.problem.until, read);
         let (Some(first), Some(end)) = (points.first().copied(), points.last().copied()) else {
             continue;
@@ -119,7 +115,7 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: 
             picture.caption(end, number, role);
         }
         let number = number.filter(|_| place > 0);
-        picture.caption(first, number.unwrap_or(letter(name).to_owned()), role);
+        picture.caption(first, number.unwrap_or(letter.to_owned()), role);
     }
 }
 

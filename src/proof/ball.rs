@@ -1,7 +1,7 @@
 //! A ball of motions that is carried through a half plane, step by step.
 
 use super::{FieldBox, INFLATE, MotionSeries, Norm, StepEnd, StepField, UNIT, scaled};
-use crate::numerics::{Interval, exponent, point};
+use crate::numerics::{Interval, exponent};
 
 /// Steps after which a swing is abandoned: a smooth one takes ten, a stiff one any number.
 pub const MOST_STEPS: u32 = 250;
@@ -18,7 +18,7 @@ pub struct StartBox {
 impl StartBox {
     /// A start at rest with this clearance from the sticking set.
     pub fn at_rest(clearance: Interval) -> Self {
-        StartBox { x: -clearance, v: point(0.0) }
+        StartBox { x: -clearance, v: Interval::point(0.0) }
     }
 }
 
@@ -141,7 +141,7 @@ impl Ball {
 /// it the acceleration is at least `P(v) + v`. So if P is not negative from v on, motions above the line and
 /// faster than v stay so.
 pub fn never_returns(field: &FieldBox, x: f64, v: f64) -> bool {
-    let at = point(v);
+    let at = Interval::point(v);
     let m = at - x;
     if !(field.c.upper() <= 0.0 && m > 0.0 && v >= 0.0) {
         return false;
@@ -170,7 +170,7 @@ pub fn never_returns(field: &FieldBox, x: f64, v: f64) -> bool {
     if holds(linear) {
         return holds(p0);
     }
-    let t = point((-linear / (half * 3.0)).sqrt().upper());
+    let t = Interval::point((-linear / (half * 3.0)).sqrt().upper());
     holds(p0 - half * 2.0 * t * t * t) && holds(linear + half * 3.0 * t * t)
 }
 

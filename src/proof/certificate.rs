@@ -6,7 +6,7 @@
 use super::{Proof, ProvedCycle, ProvedHalf, ProvedMap, Theorem, fences};
 use crate::check::map::Map;
 use crate::check::{Bounds, Certificate, CertificateStep, StepKind};
-use crate::numerics::{Interval, point};
+use crate::numerics::Interval;
 
 /// Makes the certificate of a proof.
 ///
@@ -83,13 +83,13 @@ impl Walk {
     /// repelling node.
     fn begin(&mut self, proof: &Proof) -> Result<(), String> {
         let map = ProvedMap::new(&proof.parameters);
-        let before = |at: f64, it: &ProvedHalf| it.image(point(at)).lower();
+        let before = |at: f64, it: &ProvedHalf| it.image(Interval::point(at)).lower();
         let first = map.backward.0.iter().fold(0.0, before);
         let known = first > 0.0 && first < f64::INFINITY;
         let mut to = if known { 0.95 * first } else { map.gap.upper() };
         for _ in 0..40 {
             for (fences, map) in self.maps(false) {
-                if map.images(point(to)) < 0.0 {
+                if map.images(Interval::point(to)) < 0.0 {
                     self.add(StepKind::Within, Some(to), None, fences);
                     return Ok(());
                 }
@@ -115,7 +115,7 @@ impl Walk {
     /// How far the image of the current point lets the walk go (infinitely far if it never turns), and the
     /// fences used.
     fn reach(&self) -> (f64, Fences) {
-        let at = point(self.at);
+        let at = Interval::point(self.at);
         let reach = |(fences, map): (Fences, Map)| (map.images(at).lower(), fences);
         let [plain, fenced] = self.maps(!self.above);
         let (end, fences) = reach(plain);
@@ -154,7 +154,7 @@ impl Walk {
                 let slope = map.slope(Interval::new(from, to));
                 from > self.at && slope.is_some_and(|slope| slope < 1.0)
             };
-            let image = |z: f64| map.images(point(z));
+            let image = |z: f64| map.images(Interval::point(z));
             if !image(bounds.middle()).is_finite() {
                 continue;
             }

@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 use super::{
     Bound, Enclosure, FieldBox, Funnel, HalfMaps, ProvedHalf, ProvedMap, StartBox, swing_below,
 };
-use crate::numerics::{Interval, point, pow, times_power};
+use crate::numerics::{Interval, pow, times_power};
 
 /// Relative width below which a gap is not halved any more.
 const NARROWEST: f64 = 1e-13;
@@ -143,7 +143,7 @@ impl Count {
             return false;
         }
         // Whether the distance from the diagonal in the middle exceeds any approach towards an end.
-        let middle = point(over.middle());
+        let middle = Interval::point(over.middle());
         let away = way.image(middle) - middle;
         let sway = (slope - 1.0) * (over - middle);
         !(away + sway).contains(0.0)
@@ -199,7 +199,7 @@ fn inner_end(map: &ProvedMap) -> SearchEnd {
     // The largest clearances from which the second swing, and both swings, end in the sticking set.
     let mut largest = 0.0;
     for half in &map.backward.0 {
-        largest = half.image(point(largest)).lower();
+        largest = half.image(Interval::point(largest)).lower();
         if largest == f64::INFINITY {
             return Err(f64::INFINITY);
         }
@@ -211,9 +211,9 @@ fn inner_end(map: &ProvedMap) -> SearchEnd {
     if map.forward.0[0].field.a.upper() <= -2.0 {
         let least = map.forward.0.each_ref().map(|half| {
             let end = least_end(&half.field, half.funnel());
-            (point(end) - gap).lower()
+            (Interval::point(end) - gap).lower()
         });
-        let passed = map.forward.0[1].image(point(least[0])).lower();
+        let passed = map.forward.0[1].image(Interval::point(least[0])).lower();
         let bound = passed.max(least[1]);
         if bound > 0.0 && bound < f64::INFINITY {
             // No image is smaller, provided that every motion returns.
@@ -230,7 +230,7 @@ fn inner_end(map: &ProvedMap) -> SearchEnd {
         }
     }
     let mut trials = (0..HALVINGS).map(|halvings| times_power(gap.lower(), -halvings));
-    let rests = trials.find(|&at| map.forward.image(point(at)) == f64::NEG_INFINITY);
+    let rests = trials.find(|&at| map.forward.image(Interval::point(at)) == f64::NEG_INFINITY);
     rests.map(|at| (at, Sign::Below)).ok_or(0.0)
 }
 
@@ -243,15 +243,15 @@ fn least_end(field: &FieldBox, funnel: Option<&Funnel>) -> f64 {
     /// Fraction of the largest admissible point at which the motion is started, so that its exact start does
     /// not matter.
     const NEAR: f64 = 1e-3;
-    let [b, c] = [field.b, field.c].map(|it| point(it.magnitude()));
-    let k = point(2.0 * b.upper() + 1.0);
+    let [b, c] = [field.b, field.c].map(|it| Interval::point(it.magnitude()));
+    let k = Interval::point(2.0 * b.upper() + 1.0);
     let bound = (k - b) / (k.square() * 2.0 + c);
-    let at = point(NEAR * bound.lower());
+    let at = Interval::point(NEAR * bound.lower());
     let v = at - k * at.square();
     if !(at > 0.0 && v > 0.0) {
         return 0.0;
     }
-    let start = StartBox { x: at, v: point(v.lower()) };
+    let start = StartBox { x: at, v: Interval::point(v.lower()) };
     let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
     let field = field.strongest();
     let passage = swing_below(&field, &start, ceiling, false);
@@ -262,13 +262,13 @@ fn least_end(field: &FieldBox, funnel: Option<&Funnel>) -> f64 {
 fn outer_end(map: &ProvedMap, inner: f64) -> SearchEnd {
     /// How often a clearance is quadrupled in search of an escape.
     const QUADRUPLINGS: i32 = 200;
-    let greatest = |half: &ProvedHalf| point(half.greatest(f64::INFINITY)) - map.gap;
+    let greatest = |half: &ProvedHalf| Interval::point(half.greatest(f64::INFINITY)) - map.gap;
     let [first, second] = map.forward.0.each_ref().map(|half| greatest(half).upper());
     if first <= 0.0 || second <= 0.0 {
         return Err(f64::INFINITY);
     }
     let through = if first < f64::INFINITY {
-        map.forward.0[1].image(point(first)).upper()
+        map.forward.0[1].image(Interval::point(first)).upper()
     } else {
         f64::INFINITY
     };
@@ -288,7 +288,7 @@ fn outer_end(map: &ProvedMap, inner: f64) -> SearchEnd {
     }
     // The same for the inverse, all of whose images are below its greatest one.
     let [back, whole] = map.backward.0.each_ref().map(|half| half.greatest(f64::INFINITY));
-    let through = map.backward.0[1].image(point(back)).upper();
+    let through = map.backward.0[1].image(Interval::point(back)).upper();
     let bound = through.min(whole);
     if bound < f64::INFINITY && bound > inner {
         return Ok((bound, Sign::Above));
@@ -298,13 +298,13 @@ fn outer_end(map: &ProvedMap, inner: f64) -> SearchEnd {
     let trials = (1..=QUADRUPLINGS).map(|times| times_power(size, 2 * times));
     let escapes = trials
         .take_while(|at| at.is_finite())
-        .find(|&at| map.forward.image(point(at)) == f64::INFINITY);
+        .find(|&at| map.forward.image(Interval::point(at)) == f64::INFINITY);
     escapes.map(|at| (at, Sign::Above)).ok_or(inner)
 }
 
 /// The side of the diagonal on which the map certainly lies at a clearance.
 pub fn sign_at(map: &ProvedMap, clearance: f64) -> Option<Sign> {
-    match map.forward.image(point(clearance)).partial_cmp(&clearance)? {
+    match map.forward.image(Interval::point(clearance)).partial_cmp(&clearance)? {
         Ordering::Greater => Some(Sign::Above),
         Ordering::Less => Some(Sign::Below),
         Ordering::Equal => None,

@@ -3,8 +3,8 @@
 
 use super::field::ParameterBox;
 use super::{HalfMaps, ProvedMap, ProvedSwing, scaled};
+use crate::numerics::Interval;
 use crate::numerics::interval::PI;
-use crate::numerics::{Interval, point};
 use serde::Serialize;
 
 /// Bounds of the characteristics of one limit cycle.
@@ -84,7 +84,7 @@ pub fn enclose(map: &ProvedMap, guess: f64, within: Interval, stable: bool) -> O
 /// One step of the interval Newton method. All fixed points in `over` lie in the result; if the result lies in
 /// the interior of `over`, there is exactly one.
 fn newton(way: &HalfMaps, over: Interval) -> Option<Interval> {
-    let middle = point(over.middle());
+    let middle = Interval::point(over.middle());
     let off = way.image(middle) - middle;
     let slope = way.slope(over)? - 1.0;
     let step = off / slope;
@@ -93,7 +93,7 @@ fn newton(way: &HalfMaps, over: Interval) -> Option<Interval> {
 
 /// A step of Newton's method in plain numbers.
 fn polished(way: &HalfMaps, near: f64) -> f64 {
-    let Some((image, slope)) = way.image_and_slope(point(near)) else { return near };
+    let Some((image, slope)) = way.image_and_slope(Interval::point(near)) else { return near };
     let next = near - (image.middle() - near) / (slope.middle() - 1.0);
     if next > 0.5 * near && next < 2.0 * near {
         next
@@ -138,7 +138,7 @@ fn describe(map: &ProvedMap, clearance: Interval, stable: bool) -> Option<Enclos
     if multiplier.contains(1.0)
         && let Some(slope) = way.slope(clearance)
     {
-        let over = |bound: f64| point(1.0) / bound;
+        let over = |bound: f64| Interval::point(1.0) / bound;
         let repelling = Interval::new(over(slope.upper()).lower(), over(slope.lower()).upper());
         let forward = if stable { slope } else { repelling };
         multiplier = multiplier.intersection(forward)?;
@@ -161,7 +161,7 @@ fn describe(map: &ProvedMap, clearance: Interval, stable: bool) -> Option<Enclos
 /// `2 r/(exp(x) - 1)`. Clearance and velocity are written with `exp(-x)`, which does not overflow.
 pub fn affine_cycle(parameters: &ParameterBox) -> Option<Enclosure> {
     let ParameterBox { d, r, .. } = *parameters;
-    let one = point(1.0);
+    let one = Interval::point(1.0);
     let omega = ((one + d) * (one - d)).sqrt();
     let steepness = -d / omega;
     let x = PI * steepness;

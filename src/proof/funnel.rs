@@ -10,7 +10,7 @@ use std::cell::Cell;
 
 use super::swing::swing;
 use super::{FieldBox, Passage, ProvedSwing, StartBox, scaled};
-use crate::numerics::{Interval, cbrt, exponent, point};
+use crate::numerics::{Interval, cbrt, exponent};
 
 /// The beginning of motions, until all of them are faster than the speed of the funnel.
 #[derive(Clone, Copy, Debug)]
@@ -52,18 +52,18 @@ impl Funnel {
         let mut funnel = Self::in_units(&local)?;
         let follow = |field: &FieldBox, x: f64| {
             swings.update(|swings| swings + 1);
-            let [x, v] = [x, funnel.speed].map(point);
+            let [x, v] = [x, funnel.speed].map(Interval::point);
             swing(field, &StartBox { x, v }).arrived().map(|it| it.times_power(unit))
         };
         funnel.low = follow(&local.strongest(), funnel.entry.lower());
         funnel.high = follow(&local.weakest(), funnel.entry.upper());
-        let length = |it: f64| scaled(point(it), unit);
+        let length = |it: f64| scaled(Interval::point(it), unit);
         Some(Funnel {
             speed: length(funnel.speed).upper(),
             ceiling: length(funnel.ceiling).upper(),
             reach: length(funnel.reach).lower(),
             entry: scaled(funnel.entry, unit),
-            rate: scaled(point(funnel.rate), -unit).lower(),
+            rate: scaled(Interval::point(funnel.rate), -unit).lower(),
             beyond_fold: scaled(funnel.beyond_fold, unit),
             ..funnel
         })
@@ -77,13 +77,13 @@ impl Funnel {
         let (speed, fastest) = fences([a, b, c].map(Interval::lower))?;
         let (speed, fastest) = (speed * (1.0 + ROOM), fastest * (1.0 - ROOM));
         let FieldBox { a, b, c } = *field;
-        let v = point(speed);
+        let v = Interval::point(speed);
         let (top, reach) = if c.lower() >= 0.0 {
             // The slope is convex and increases from the speed on.
             let convex = (b + c * 3.0 * v).lower() >= 0.0;
             (if convex { v } else { return None }, f64::INFINITY)
         } else if c < 0.0 && fastest > speed {
-            let top = point(fastest);
+            let top = Interval::point(fastest);
             (top, field.force(top).lower())
         } else {
             return None;
@@ -91,8 +91,8 @@ impl Funnel {
         // Done piece by piece, because the slope, which is smallest at an end of each piece, varies strongly.
         let mut from = v;
         loop {
-            let to = point((2.0 * from.lower()).min(top.lower()));
-            let least = point(field.slope(from).lower().min(field.slope(to).lower()));
+            let to = Interval::point((2.0 * from.lower()).min(top.lower()));
+            let least = Interval::point(field.slope(from).lower().min(field.slope(to).lower()));
             let excess = (a - c * 3.0 * to.square()) * 4.0;
             if !(least > 0.0 && excess.upper() <= (least * least.square()).lower()) {
                 return None;
@@ -102,10 +102,10 @@ impl Funnel {
             }
             from = to;
         }
-        let least = point(field.slope(v).lower());
+        let least = Interval::point(field.slope(v).lower());
         let force = field.force(v);
         let entry = Interval::new(-force.upper(), (v * 2.0 / least + -force.lower()).upper());
-        let rate = point(a.lower().min(0.0)) / v + b.twice() + c * 3.0 * top;
+        let rate = Interval::point(a.lower().min(0.0)) / v + b.twice() + c * 3.0 * top;
         let rate = rate.lower().max(0.0);
         let known = entry.is_finite() && speed > 0.0 && reach > 0.0;
         let beyond_fold = beyond_fold(field, entry, v).unwrap_or(Interval::ALL);
@@ -149,11 +149,11 @@ impl Funnel {
 
     /// The climb from rest far out, where nothing slows motions down yet (lemma 12).
     pub fn climb_from(&self, field: &FieldBox, start: Interval) -> Option<Climb> {
-        let positive = |it: Interval| point(it.upper().max(0.0));
-        let v = point(self.ceiling);
+        let positive = |it: Interval| Interval::point(it.upper().max(0.0));
+        let v = Interval::point(self.ceiling);
         let drag = field.map(positive).force(v);
-        let half = point(start.lower()) / 2.0;
-        let rate = point((half - drag).lower());
+        let half = Interval::point(start.lower()) / 2.0;
+        let rate = Interval::point((half - drag).lower());
         let time = v / rate;
         let way = v * time;
         if !(rate > 0.0 && way.upper() <= half.lower()) {
@@ -171,23 +171,23 @@ impl Funnel {
 
     /// The climb from the ceiling to the speed (lemma 12).
     fn run_away(&self, field: &FieldBox, position: f64, divergence: f64) -> Option<Climb> {
-        let (speed, v) = (point(self.speed), point(self.ceiling));
+        let (speed, v) = (Interval::point(self.speed), Interval::point(self.ceiling));
         if speed == v {
             return Some(Climb { position, divergence });
         }
         let FieldBox { a, b, c } = *field;
         // Half of the excess of the square over the cube remains after all other terms.
         let half = (-b - c * speed) / 2.0;
-        let half = point(half.lower());
+        let half = Interval::point(half.lower());
         // At least the logarithm of the ratio of the two velocities.
         let doublings = f64::from(exponent((speed / v).upper()) + 1);
-        let logarithm = point(doublings) * 0.7;
+        let logarithm = Interval::point(doublings) * 0.7;
         let position = logarithm / half + position;
         let brake = v * a.upper().max(0.0) + position.upper().max(0.0);
         if !(half > 0.0 && brake.upper() <= (half * v.square()).lower()) {
             return None;
         }
-        let push = point((-a).upper().max(0.0));
+        let push = Interval::point((-a).upper().max(0.0));
         let gained = push / (half * v) + (-b).twice() * logarithm / half;
         Some(Climb { position: position.upper(), divergence: (gained + divergence).upper() })
     }
@@ -205,9 +205,9 @@ impl Funnel {
         }
         let end = self.arrivals();
         let after = self.damping_after(field, end).or_else(|| self.damping_beyond_fold(field))?;
-        let creep = point(self.entry.lower()) - climb.position;
-        let creep = point(self.rate) * creep.lower().max(0.0);
-        let exponent = point(climb.divergence) - creep - after;
+        let creep = Interval::point(self.entry.lower()) - climb.position;
+        let creep = Interval::point(self.rate) * creep.lower().max(0.0);
+        let exponent = Interval::point(climb.divergence) - creep - after;
         let slope = (start / end * exponent.exp()).upper();
         (slope < f64::INFINITY).then(|| (end, Interval::new(0.0, slope)))
     }
@@ -228,12 +228,12 @@ impl Funnel {
         let [late, squares] = self.after(field, end, unit)?;
         let field = field.in_units_of(unit);
         let FieldBox { a, b, c } = field;
-        let [x, v, entry, e] =
-            [fallen.end, fallen.speed, self.entry, point(self.speed)].map(|it| scaled(it, -unit));
+        let [x, v, entry, e] = [fallen.end, fallen.speed, self.entry, Interval::point(self.speed)]
+            .map(|it| scaled(it, -unit));
         // Between the fences `x + f` is at least 0 and at most `2 v/f'`, which is at most this.
-        let beside = point(2.0) / scaled(point(self.rate), unit);
+        let beside = Interval::point(2.0) / scaled(Interval::point(self.rate), unit);
         let beside = Interval::new(0.0, beside.upper());
-        let one = point(1.0);
+        let one = Interval::point(1.0);
         let time = entry / e - x / v + a * (v / e).ln() + (v - e) * (b + c * (v + e) / 2.0)
             - beside * (one / e - one / v);
         let work = |v: Interval| v.square() * (a / 2.0 + v * (b / 3.0 + v * c / 4.0));
@@ -243,7 +243,7 @@ impl Funnel {
         let square = fallen.square_in(unit) + positive(square)? + squares;
         let path = scaled(end + start, -unit);
         let divergence = -field.damping(duration, path, square);
-        let speed = point(0.0);
+        let speed = Interval::point(0.0);
         Some(ProvedSwing { end, speed, duration, divergence, square, unit, ..*fallen })
     }
 
@@ -258,16 +258,17 @@ impl Funnel {
     /// The time from the line `v = speed` on, and the integral of `v^2` in units of `2^(2 unit)`.
     fn after(&self, field: &FieldBox, end: Interval, unit: i32) -> Option<[Interval; 2]> {
         let (low, high) = (self.low?, self.high?);
-        let [end, entry, speed] = [end, self.entry, point(self.speed)].map(|it| scaled(it, -unit));
+        let [end, entry, speed] =
+            [end, self.entry, Interval::point(self.speed)].map(|it| scaled(it, -unit));
         // How fast a motion can still be when it has reached the first of the two ends, and for how long.
-        let speed_left = (point(3.0 * end.upper()) * end.width()).sqrt().upper();
+        let speed_left = (Interval::point(3.0 * end.upper()) * end.width()).sqrt().upper();
         let left = Interval::new(0.0, speed_left);
         let drag = field.in_units_of(unit).force(left).magnitude();
-        let rate = point(end.lower()) - drag;
+        let rate = Interval::point(end.lower()) - drag;
         if !(rate > 0.0 && drag <= 0.49 * end.upper()) {
             return None;
         }
-        let late = (point(speed_left) / rate.lower()).upper();
+        let late = (Interval::point(speed_left) / rate.lower()).upper();
         let (first, last) = (high.duration.lower(), low.duration.upper());
         let duration = Interval::new(first, last.max(first)).widened(late);
         let rim = (speed * entry.width()).upper();
@@ -288,13 +289,13 @@ impl Funnel {
         let [entry, end] = [self.entry, self.beyond_fold].map(|it| scaled(it, -unit));
         let least = (a - b.square() / (c * 3.0)).lower().min(0.0);
         let turning = -b / (c * 3.0);
-        let half = point(turning.upper());
+        let half = Interval::point(turning.upper());
         // The force decreases up to the fold, so at up to half of the velocity there it is not below this.
         let force = half.square() * (b + c * half) + half * a.lower().min(0.0);
         let rate = force + entry.lower();
-        let way = point((end - entry).upper());
+        let way = Interval::point((end - entry).upper());
         let within = half.upper() <= turning.twice().lower()
-            && half < scaled(point(self.speed), -unit).lower();
+            && half < scaled(Interval::point(self.speed), -unit).lower();
         if !(rate > 0.0 && within) {
             return None;
         }

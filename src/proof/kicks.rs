@@ -11,7 +11,7 @@ use super::range::narrowed;
 use super::swing::swing;
 use super::{Passage, Proof, ProvedCycle, ProvedHalf, ProvedMap, StartBox, Theorem};
 use crate::model::{Border, Kicks, Margin, RestKicks};
-use crate::numerics::{Interval, point, powi};
+use crate::numerics::{Interval, powi};
 
 /// The smallest kicks that are not captured: kicks below the lower bound come to rest, kicks above the upper
 /// bound do not.
@@ -46,7 +46,7 @@ pub fn kicks(proof: &Proof, near: &Margin) -> ProvedKicks {
     };
     let impulse = at(r, near.impulse);
     // Over the rest positions the edge is lowest at an end (lemma 22).
-    let ends = [point(0.0), r + r];
+    let ends = [Interval::point(0.0), r + r];
     let rest_impulse = smaller(ends.map(|x| at(x, near.from_rest.impulse)));
     let from_rest =
         RestKicks { displacement: smaller(clearances.map(Some)), impulse: rest_impulse };
@@ -119,11 +119,11 @@ fn is_bounded(map: &ProvedMap, proof: &Proof) -> bool {
 ///
 /// `known` bounds the edge: starts below it are captured, starts above it are not. The answer updates it.
 fn at_rest(map: &ProvedMap, half: usize, from: f64, known: &mut Interval) -> Option<bool> {
-    let mut at = point(from);
+    let mut at = Interval::point(from);
     for _ in 0..TURNS {
         let before = at;
         for index in [half, 1 - half] {
-            // Each half swing may take what it takes.
+            // Each half swing may take what it takes; nothing else counts these steps.
             map.effort.steps.set(0);
             at = map.forward.0[index].image(at);
         }
@@ -153,7 +153,7 @@ fn pushed(
     speed: f64,
     edge: [Interval; 2],
 ) -> Option<bool> {
-    let start = StartBox { x, v: point(speed) };
+    let start = StartBox { x, v: Interval::point(speed) };
     let passage = swing(&map.forward.0[half].field, &start);
     let Passage::Arrives(swing) = passage else {
         return (passage == Passage::Never).then_some(false);

@@ -12,7 +12,7 @@ use super::ball::MOST_STEPS;
 use super::field::ParameterBox;
 use super::{FieldBox, Funnel, Passage, ProvedSwing, StartBox, scaled, swing_below};
 use crate::model::Side;
-use crate::numerics::{Interval, point};
+use crate::numerics::Interval;
 
 /// The map from one right turning point to the next.
 ///
@@ -117,7 +117,7 @@ impl HalfMaps {
 
     /// The images of an interval of clearances, and the derivative over it.
     pub fn image_and_slope(&self, over: Interval) -> Option<(Interval, Interval)> {
-        let (mut at, mut product) = (over, point(1.0));
+        let (mut at, mut product) = (over, Interval::point(1.0));
         for half in &self.0 {
             let (end, slope) = half.end_slope(half.start(at))?;
             product = product * slope;
@@ -150,7 +150,7 @@ impl Effort {
 
     /// The swings from rest in an interval of starts that end lowest and highest (lemma 8).
     pub fn extremes(&self, field: &FieldBox, start: Interval) -> Option<[ProvedSwing; 2]> {
-        let [first, last] = [start.lower(), start.upper()].map(point);
+        let [first, last] = [start.lower(), start.upper()].map(Interval::point);
         let low = self.run(&field.strongest(), first, None).arrived()?;
         let high = self.run(&field.weakest(), last, None).arrived()?;
         Some([low, high])
@@ -208,13 +208,13 @@ impl ProvedHalf {
         const SHORTENINGS: i32 = 6;
         let (funnel, field) = (self.funnel(), self.field.strongest());
         if let Some(far) = funnel
-            && far.climb_from(&field, point(start)).is_some()
+            && far.climb_from(&field, Interval::point(start)).is_some()
         {
             return far.arrivals().lower();
         }
         let mut from = start;
         for _ in 0..SHORTENINGS {
-            match self.effort.run(&field, point(from), funnel) {
+            match self.effort.run(&field, Interval::point(from), funnel) {
                 Passage::Unknown => from *= 0.25,
                 known => return Funnel::least_after(funnel, &field, &known),
             }
@@ -225,9 +225,9 @@ impl ProvedHalf {
     /// Upper bound of the end of a swing.
     fn most(&self, start: f64) -> f64 {
         let (funnel, field) = (self.funnel(), self.field.weakest());
-        let far = funnel.and_then(|it| it.climb_from(&field, point(start)));
+        let far = funnel.and_then(|it| it.climb_from(&field, Interval::point(start)));
         if start < f64::INFINITY && far.is_none() {
-            let passage = self.effort.run(&field, point(start), funnel);
+            let passage = self.effort.run(&field, Interval::point(start), funnel);
             if let Passage::Arrives(swing) = passage {
                 return swing.end.upper();
             }
@@ -254,7 +254,7 @@ impl ProvedHalf {
         if from == f64::INFINITY || (!self.backward && from <= 0.0) {
             return if from > 0.0 { from } else { f64::NEG_INFINITY };
         }
-        let start = self.start(point(from));
+        let start = self.start(Interval::point(from));
         let end = match which {
             Bound::Lower => self.least(start.lower()),
             Bound::Upper => self.most(start.upper()),
@@ -262,7 +262,7 @@ impl ProvedHalf {
         if end.is_infinite() {
             return if self.backward { end.max(0.0) } else { end };
         }
-        let after = self.after(point(end));
+        let after = self.after(Interval::point(end));
         match which {
             Bound::Lower => after.lower(),
             Bound::Upper => after.upper(),

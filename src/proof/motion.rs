@@ -8,7 +8,7 @@ use super::swing::swing;
 use super::{
     Ball, Effort, FieldBox, Passage, ProvedMap, ProvedSwing, StartBox, never_returns, scaled,
 };
-use crate::numerics::{Interval, cbrt, point};
+use crate::numerics::{Interval, cbrt};
 
 /// A point of a motion, as far as it is enclosed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +79,7 @@ fn followed(
     until: f64,
     turns: &mut Vec<ProvedPoint>,
 ) -> (ProvedFate, ProvedPoint) {
-    let (r, none) = (parameters.r, point(0.0));
+    let (r, none) = (parameters.r, Interval::point(0.0));
     let at = |tau| ProvedPoint { tau, q: None, v: None, open: None };
     let captured = |tau, q| (ProvedFate::Captured, ProvedPoint { q: Some(q), ..at(tau) });
     let open = |tau, reason| (ProvedFate::Open, ProvedPoint { open: Some(reason), ..at(tau) });
@@ -103,10 +103,10 @@ fn followed(
     while turns.len() < MOST {
         let field = map.forward.0[index].field;
         let moving = || {
-            let time = (until < f64::INFINITY).then(|| point(until) - tau)?;
+            let time = (until < f64::INFINITY).then(|| Interval::point(until) - tau)?;
             let (x, v) = state_at(&field, &start, time)?;
             let (q, v) = (turned(index, x - r), turned(index, v));
-            Some((ProvedFate::Moving, ProvedPoint::of(point(until), q, v)))
+            Some((ProvedFate::Moving, ProvedPoint::of(Interval::point(until), q, v)))
         };
         let found = match swing(&field, &start) {
             Passage::Arrives(found) => found,
@@ -177,20 +177,20 @@ impl Ball {
             return None;
         }
         let FieldBox { a, b, c } = self.local.field.strongest();
-        let at = point(v);
-        let k0 = self.local.field.strongest().acceleration(point(x), at);
+        let at = Interval::point(v);
+        let k0 = self.local.field.strongest().acceleration(Interval::point(x), at);
         let k1 = -(a + 1.0 + at * (b * 2.0 + at * c * 3.0));
         let k2 = -(b + at * c * 3.0);
         let k3 = -c;
         if !(k0 > 0.0 && [k1, k2, k3].iter().all(|it| it.lower() >= 0.0)) {
             return None;
         }
-        let up_to = |u: f64| point(u) / k0;
+        let up_to = |u: f64| Interval::point(u) / k0;
         let square = (k0.lower() / k2.lower()).sqrt();
         let cube = cbrt(k0.lower() / k3.lower());
-        let one = point(1.0);
+        let one = Interval::point(1.0);
         let by_square = up_to(square) + one / (k2 * square);
-        let by_cube = up_to(cube) + one / (k3 * 2.0 * point(cube).square());
+        let by_cube = up_to(cube) + one / (k3 * 2.0 * Interval::point(cube).square());
         let least = by_square.upper().min(by_cube.upper());
         least.is_finite().then_some(least)
     }

@@ -4,7 +4,7 @@
 use super::field::ParameterBox;
 use super::stabilities;
 use crate::model::Knob;
-use crate::numerics::{Interval, point, powi};
+use crate::numerics::{Interval, powi};
 
 /// Part of a range, with what is proved for all values in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,8 +116,9 @@ pub fn range(base: &ParameterBox, symbol: Knob, (low, high): (f64, f64)) -> Rang
             && below != above
         {
             let mut near = Inquiry::new(base, symbol, MOST_FOR_CHANGE);
-            let between =
-                narrowed(open.over, [below, above], Interval::middle, |at| near.cycles(point(at)));
+            let between = narrowed(open.over, [below, above], Interval::middle, |at| {
+                near.cycles(Interval::point(at))
+            });
             asked.steps += near.steps;
             changes.push(CountChange { between, below: below.clone(), above: above.clone() });
         }
@@ -174,7 +175,7 @@ pub(super) fn bracket<T: PartialEq>(
 /// The change between the values `at - away abs(at)` and `at + away abs(at)`, if there is one.
 pub fn change_within(base: &ParameterBox, knob: Knob, at: f64, away: f64) -> Option<CountChange> {
     let mut asked = Inquiry::new(base, knob, MOST_FOR_CHANGE);
-    let mut ask = |value: f64| asked.cycles(point(value));
+    let mut ask = |value: f64| asked.cycles(Interval::point(value));
     let (low, high) = (at - away * at.abs(), at + away * at.abs());
     let (below, above) = (ask(low)?, ask(high)?);
     let between = Interval::new(low, high);
@@ -187,5 +188,5 @@ pub fn change_near(base: &ParameterBox, symbol: Knob, hint: f64) -> Option<Inter
     const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;
     let mut asked = Inquiry::new(base, symbol, MOST_STEPS);
     let distances = AWAY.map(|power| powi(10.0, power));
-    bracket(hint, distances, |at| asked.cycles(point(at)))
+    bracket(hint, distances, |at| asked.cycles(Interval::point(at)))
 }

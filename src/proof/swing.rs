@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use super::ball::MOST_STEPS;
 use super::{Ahead, Ball, FieldBox, INFLATE, StartBox, StepEnd, UNIT, never_returns, scaled};
-use crate::numerics::{Bracket, Interval, PlaceTolerance, illinois, newton, point, powi};
+use crate::numerics::{Bracket, Interval, PlaceTolerance, illinois, newton, powi};
 
 /// A half swing that arrives at `v = 0`; each interval holds the values of all starts and fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,8 @@ pub fn swing_below(
         return Passage::Unknown;
     }
     let Some(ball) = Ball::new(field, start) else { return Passage::Unknown };
-    let [x, v, ceiling] = [start.x, start.v, point(ceiling)].map(|it| scaled(it, -ball.unit));
+    let [x, v, ceiling] =
+        [start.x, start.v, Interval::point(ceiling)].map(|it| scaled(it, -ball.unit));
     if never_returns(&ball.local.field, x.upper(), v.lower()) {
         return Passage::Never;
     }
@@ -167,14 +168,14 @@ impl SwingRun {
         let field = self.ball.local.field;
         let speed = Interval::new(-most, most);
         // Whether the motion continues or is followed back, x only grows.
-        let rate = point(x.lower()) - field.force(speed).magnitude();
-        let lag = (point(most) / rate.lower()).upper();
-        let along = (point(most) * lag).upper();
-        let end = Interval::new(x.lower(), (point(x.upper()) + along).upper());
+        let rate = Interval::point(x.lower()) - field.force(speed).magnitude();
+        let lag = (Interval::point(most) / rate.lower()).upper();
+        let along = (Interval::point(most) * lag).upper();
+        let end = Interval::new(x.lower(), (Interval::point(x.upper()) + along).upper());
         if !(rate > 0.0 && end > 0.0) {
             return None;
         }
-        self.finish((end, point(0.0)), lag)
+        self.finish((end, Interval::point(0.0)), lag)
     }
 
     /// Notes the largest velocity if it is reached within this step; `None` where its bounds are not certain enough.
@@ -186,7 +187,7 @@ impl SwingRun {
         /// An error in the moment costs only its square.
         const NEAR: f64 = 1e-10;
         let (ball, field) = (&self.ball, self.ball.local.field);
-        let [x, v] = [end.x, end.v].map(point);
+        let [x, v] = [end.x, end.v].map(Interval::point);
         if field.acceleration(x, v).middle() > 0.0 {
             return Some(());
         }
@@ -197,15 +198,15 @@ impl SwingRun {
         });
         let near = ball.carried((near.0, ball.series.at(near.0)))?;
         let (x, v) = ball.around(near.x, near.v, near.radius);
-        let unbalanced = point(field.acceleration(x, v).magnitude());
+        let unbalanced = Interval::point(field.acceleration(x, v).magnitude());
         let cap = v.upper() * 1.01;
         let slope = field.slope(Interval::new(v.lower(), cap)).magnitude();
-        let bend = point(v.lower()) - unbalanced * slope;
+        let bend = Interval::point(v.lower()) - unbalanced * slope;
         if !(bend > 0.0) {
             return None;
         }
         let rise = (unbalanced.square() / bend).upper();
-        let top = (point(v.upper()) + rise).upper();
+        let top = (Interval::point(v.upper()) + rise).upper();
         self.fastest = (top <= cap).then_some(Interval::new(v.lower(), top));
         self.fastest.map(|_| ())
     }

@@ -307,15 +307,17 @@ fn cycles(
     points: u16,
     limits: &Limits,
 ) -> Result<Finding> {
-    let mut shown = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
-    let mut margin = None;
-    if let Some(belt) = machine {
-        let mut other = Portrait::of_belt(belt);
-        if whole {
-            std::mem::swap(&mut shown, &mut other);
-        }
-        let known = other.map(|other| other.in_drawing(&other.margin)).ok();
-        margin = known.or(whole.then_some(Margin::ENDLESS));
-    }
+    let expansion = Portrait::of_oscillator(parameters, picture_reach(parameters.d2), limits);
+    let Some(belt) = machine else {
+        return Ok(Finding::Cycles(expansion?.drawn(parameters, points)?, None));
+    };
+    let found = Portrait::of_belt(belt);
+    let (shown, other) = if whole {
+        (found, expansion)
+    } else {
+        (expansion, found)
+    };
+    let other = other.map(|other| other.in_drawing(&other.margin)).ok();
+    let margin = other.or(whole.then_some(Margin::ENDLESS));
     Ok(Finding::Cycles(shown?.drawn(parameters, points)?, margin))
 }

@@ -210,8 +210,9 @@ fn split(cell: &str) -> (&str, &str) {
 
 /// Number of digits to show for a tolerance, 3 to 16.
 pub(super) fn digits(tolerance: f64) -> usize {
-    let found = (3..16).zip(3..).find(|(_, digits)| powi(10.0, -digits) <= tolerance * 1.5);
-    found.map_or(16, |(digits, _)| digits)
+    (3..16)
+        .find(|&digits| powi(10.0, -digits) <= tolerance * 1.5)
+        .map_or(16, |digits| usize::try_from(digits).unwrap_or(16))
 }
 
 #[cfg(test)]

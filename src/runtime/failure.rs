@@ -26,10 +26,16 @@ pub enum Failure {
     Said(u8),
 }
 
-/// A line that says what is wrong with something is about the input.
-impl<L: Into<String>> From<L> for Failure {
-    fn from(line: L) -> Self {
-        Failure::Usage(line.into())
+/// A line that says what is wrong with something is about the input; what could not be computed is [`Failure::unanswered`].
+impl From<String> for Failure {
+    fn from(line: String) -> Self {
+        Failure::Usage(line)
+    }
+}
+
+impl From<&str> for Failure {
+    fn from(line: &str) -> Self {
+        Failure::Usage(line.to_owned())
     }
 }
 
@@ -43,9 +49,9 @@ const NO_FILE: [ErrorKind; 5] = [
 ];
 
 impl Failure {
-    /// By which part of the work there is no answer, and why.
-    pub fn unanswered<E: fmt::Display>(what: impl fmt::Display) -> impl Fn(E) -> Self {
-        move |why| Failure::Unanswered(format!("{what}: {why}"))
+    /// What could not be computed or shown, and why.
+    pub fn unanswered(what: impl fmt::Display, why: impl fmt::Display) -> Self {
+        Failure::Unanswered(format!("{what}: {why}"))
     }
 
     /// A file that cannot be read, or holds what it should not.

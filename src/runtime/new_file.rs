@@ -43,7 +43,11 @@ impl NewFile {
     /// written, or nobody reads from the pipe.
     pub fn begin(path: &Path, readers: Readers) -> io::Result<NewFile> {
         let path = behind_links(path)?;
-        let old = path.try_exists()?.then(|| fs::metadata(&path)).transpose()?;
+        let old = match fs::metadata(&path) {
+            Ok(old) => Some(old),
+            Err(why) if why.kind() == ErrorKind::NotFound => None,
+            Err(why) => return Err(why),
+        };
         if !is_regular(&path) {
             return Ok(NewFile { file: device(&path)?, path, beside: None });
         }
@@ -170,15 +174,16 @@ fn temporary(path: &Path, mode: u32) -> io::Result<(File, TempPath)> {
 /// Whether nothing is lost when the new content takes this path: the file is missing, empty, or holds the same.
 /// No more of it is read than there is new content.
 fn is_free(path: &Path, beside: &Path) -> io::Result<bool> {
-    let length = if path.try_exists()? {
-        fs::metadata(path)?.len()
-    } else {
-        0
+    let old = match fs::metadata(path) {
+        Ok(old) if old.len() > 0 => old,
+        Ok(_) => return Ok(true),
+        Err(why) if why.kind() == ErrorKind::NotFound => return Ok(true),
+        Err(why) => return Err(why),
     };
-    if length == 0 || length != fs::metadata(beside)?.len() {
-        return Ok(length == 0);
+    if old.len() != fs::metadata(beside)?.len() {
+        return Ok(false);
     }
-    let old = BufReader::new(File::open(path)?.take(length)).bytes();
+    let old = BufReader::new(File::open(path)?.take(old.len())).bytes();
     let mut pairs = old.zip(BufReader::new(File::open(beside)?).bytes());
     pairs.try_fold(true, |same, (old, new)| Ok(same && old? == new?))
 }

@@ -15,7 +15,8 @@ pub fn complete(session: &mut Session, fineness: Fineness, limits: &Limits) -> R
         let open = session.wants().into_iter().find(|request| session.is_open(request));
         let Some(request) = open else { return Ok(()) };
         let failed = format!("{} not computed", request.topic().name());
-        ask(session, request, fineness, limits).map_err(Failure::unanswered(failed))?;
+        let asked = ask(session, request, fineness, limits);
+        asked.map_err(|why| Failure::unanswered(failed, why))?;
     }
 }
 

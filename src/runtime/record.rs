@@ -1,7 +1,7 @@
 //! A recording that is written as it grows, so that it survives whatever ends the program.
 
 use std::fs::{File, OpenOptions};
-use std::io::Read;
+use std::io::{self, Read};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
@@ -42,10 +42,11 @@ impl RecordingFile {
         Files::admit(path, true)?;
         let path = at_home(path);
         let name = path.display();
-        if replace || path.try_exists().is_ok_and(|there| !there) {
-            return Ok(());
-        }
-        let begin = File::open(&path).map_err(|why| format!("{name}: {why}"))?;
+        let begin = match File::open(&path) {
+            _ if replace => return Ok(()),
+            Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(()),
+            begin => begin.map_err(|why| format!("{name}: {why}"))?,
+        };
         let mut head = String::new();
         // A file that is not text is not a recording.
         let read = begin.take(HEADER.len() as u64).read_to_string(&mut head);

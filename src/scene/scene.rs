@@ -71,7 +71,8 @@ fn named_or_whole<'de, D: Deserializer<'de>>(
     };
     let (name, speed) = text.split_once(' ').map_or((&*text, None), |(name, it)| (name, Some(it)));
     let machine = library::find(name).map_err(D::Error::custom)?;
-    let refused = |it| D::Error::custom(format!("{it:?} is no speed of its belt: a number of m/s"));
+    let refused =
+        |it| D::Error::custom(format!("\"{it}\" is no speed of its belt: a number of m/s"));
     let speed = speed.map(|it| it.parse().map_err(|_| refused(it))).transpose()?;
     let speed = speed.unwrap_or(machine.belt.belt_speed);
     let scaled = Setting::of_speed(speed).on(machine).map_err(D::Error::custom)?;

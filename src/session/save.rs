@@ -159,6 +159,7 @@ pub fn open(session: &mut Session, text: &str) -> Done {
 
     let mut opened = Session::new(Arc::clone(&file.present.scene), session.size);
     restore(&mut opened, file.present, file.plots);
+    // Of a file that was edited by hand, the focus says which plot is in use.
     opened.plot = plot - 1;
     focus_on(&mut opened, Pane::numbered(focus));
     (opened.selected, opened.marks) = (selected, marks);

@@ -273,9 +273,10 @@ impl HalfMap {
     }
 }
 
-/// The linear spiral about the centre of a half plane, `abs(D) < 1`.
+/// The linear spiral about the centre of a half plane.
 struct Spiral {
     d: f64,
+    /// Not a number where nothing swings: at `abs(D) > 1`.
     omega: f64,
 }
 

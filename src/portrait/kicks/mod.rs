@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Edge, Portrait, Share, over_scales, support};
 use crate::flow::{Reason, Result};
-use crate::model::{Border, toleranced};
+use crate::model::{Border, in_one_unit};
 use crate::numerics::{Integral, erfc, exp, named};
 
 /// How a random number is spread.
@@ -60,19 +60,20 @@ impl RandomKick {
         let mut kicks = RandomKick { law, q: (0.0, 0.0), v: (0.0, 0.0) };
         for part in parts.split(',') {
             let (name, interval) = part.split_once('=').ok_or_else(form)?;
-            if interval.contains("..") {
-                return Err(form());
-            }
             let (place, unit) = match name.trim() {
                 "q" => (&mut kicks.q, units[0]),
                 "v" => (&mut kicks.v, units[1]),
                 _ => return Err(form()),
             };
             let refused = |why| format!("{name}: {why}");
-            let read = toleranced(interval).map_err(refused)?;
-            let mean = read.middle.in_unit(unit);
+            let (mean, spread) = interval.split_once("+-").unwrap_or((interval, "0"));
+            let (mean, spread) = in_one_unit(interval, mean, spread).map_err(refused)?;
+            let mean = mean.in_unit(unit);
             let mean = mean.map_err(|why| refused(format!("{interval:?} {why}")))?;
-            *place = (mean, read.half_width);
+            if spread < 0.0 {
+                return Err(refused(format!("the spread {spread} is negative")));
+            }
+            *place = (mean, spread);
         }
         kicks.checked()
     }
@@ -234,7 +235,7 @@ mod tests {
         assert_eq!((kicks.q, kicks.v), ((0.0, 0.1), (0.2, 0.05)));
         assert_eq!(kicks.to_string(), "q=0+-0.1,v=0.2+-0.05");
         assert_eq!(read("uniform:v=1+-1").unwrap().law, Distribution::Uniform);
-        for text in ["q", "x=1", "cauchy:q=1", "q=1+-", "q=1+--1", "q=inf", "q=-1..1"] {
+        for text in ["q", "x=1", "cauchy:q=1", "q=1+-", "q=1+--1", "q=inf", "q=-1..1", "q=1+-5%"] {
             assert!(read(text).is_err(), "{text}");
         }
         let measured = |text: &str| RandomKick::read(text, ["m", "m/s"]);

@@ -58,13 +58,11 @@ enum FirstBytes {
     Noise,
 }
 
-use FirstBytes::{Alt, Noise, PasteBegin, Whole};
-
 /// What some input begins with, and how many bytes of it; `None` for the beginning of a sequence, as far as it has
 /// arrived.
 type Begin = Option<(FirstBytes, usize)>;
 
-const ALT: Begin = Some((Alt, 2));
+const ALT: Begin = Some((FirstBytes::Alt, 2));
 
 impl Divider {
     /// How long to wait for the rest of what has arrived; `None` if nothing is unfinished.
@@ -130,10 +128,10 @@ impl Divider {
             }
             let Some((kind, length)) = first(rest) else { break };
             match kind {
-                Noise => {}
-                Whole => send(Sequence::Whole(rest[..length].to_vec())),
-                Alt => send(Sequence::Alt(rest[1])),
-                PasteBegin => self.paste = Some(Vec::new()),
+                FirstBytes::Noise => {}
+                FirstBytes::Whole => send(Sequence::Whole(rest[..length].to_vec())),
+                FirstBytes::Alt => send(Sequence::Alt(rest[1])),
+                FirstBytes::PasteBegin => self.paste = Some(Vec::new()),
             }
             rest = &rest[length..];
         }
@@ -156,7 +154,9 @@ impl Divider {
 
 /// Whether these bytes are more than one key.
 fn is_several(bytes: &[u8]) -> bool {
-    first(bytes).is_some_and(|(kind, length)| matches!(kind, Whole | Noise) && length < bytes.len())
+    first(bytes).is_some_and(|(kind, length)| {
+        matches!(kind, FirstBytes::Whole | FirstBytes::Noise) && length < bytes.len()
+    })
 }
 
 /// Whether an unfinished sequence can be what a person has pressed: it has no parameters.
@@ -200,14 +200,14 @@ fn first(bytes: &[u8]) -> Begin {
         [ESCAPE] | [ESCAPE, b'O' | b'[' | b']' | b'P'] => None,
         // The first one is the key. The second one may begin a sequence, such as a report that arrives while
         // the key is pressed.
-        [ESCAPE, ESCAPE, ..] => Some((Whole, 1)),
-        [ESCAPE, b'O', b'@'..=b'~', ..] => Some((Whole, 3)),
+        [ESCAPE, ESCAPE, ..] => Some((FirstBytes::Whole, 1)),
+        [ESCAPE, b'O', b'@'..=b'~', ..] => Some((FirstBytes::Whole, 3)),
         [ESCAPE, b'O', ..] => ALT,
         [ESCAPE, b'[', rest @ ..] => control(rest),
         [ESCAPE, b']' | b'P', ..] => string(bytes),
         [ESCAPE, rest @ ..] => match character(rest)? {
-            (Whole, length) => Some((Whole, 1 + length)),
-            _ => Some((Whole, 1)),
+            (FirstBytes::Whole, length) => Some((FirstBytes::Whole, 1 + length)),
+            _ => Some((FirstBytes::Whole, 1)),
         },
         _ => character(bytes),
     }
@@ -218,10 +218,14 @@ fn control(rest: &[u8]) -> Begin {
     match rest {
         // The function keys of the Linux console.
         [b'['] => return None,
-        [b'[', b'A'..=b'E', ..] => return Some((Whole, 4)),
+        [b'[', b'A'..=b'E', ..] => return Some((FirstBytes::Whole, 4)),
         // A report of the mouse, as terminals send it that know no decimal coordinates.
         [b'M', places @ ..] if places.iter().take(3).all(|place| *place >= b' ') => {
-            return if places.len() < 3 { None } else { Some((Whole, 6)) };
+            return if places.len() < 3 {
+                None
+            } else {
+                Some((FirstBytes::Whole, 6))
+            };
         }
         _ => {}
     }
@@ -229,13 +233,13 @@ fn control(rest: &[u8]) -> Begin {
     let length = 2 + parameters + 1;
     match (rest.first(), rest.get(parameters)) {
         (_, None) => None,
-        (_, Some(b'~')) if rest[..parameters] == *b"200" => Some((PasteBegin, length)),
+        (_, Some(b'~')) if rest[..parameters] == *b"200" => Some((FirstBytes::PasteBegin, length)),
         (
             Some(b'0'..=b'9' | b'<' | b'>' | b'?' | b'@'..=b'Z' | b'\\'..=b'~'),
             Some(b'@'..=b'~'),
-        ) => Some((Whole, length)),
-        (Some(_), Some(b'@'..=b'~')) if parameters > 0 => Some((Noise, length)),
-        (Some(_), Some(_)) if parameters > 0 => Some((Noise, length - 1)),
+        ) => Some((FirstBytes::Whole, length)),
+        (Some(_), Some(b'@'..=b'~')) if parameters > 0 => Some((FirstBytes::Noise, length)),
+        (Some(_), Some(_)) if parameters > 0 => Some((FirstBytes::Noise, length - 1)),
         _ => ALT,
     }
 }
@@ -249,9 +253,9 @@ fn string(bytes: &[u8]) -> Begin {
     let text = bytes.iter().skip(2).take_while(|byte| **byte >= b' ').count();
     match &bytes[2 + text..] {
         [] | [ESCAPE] => None,
-        [BELL, ..] if is_command => Some((Whole, 2 + text + 1)),
-        [ESCAPE, b'\\', ..] => Some((Whole, 2 + text + 2)),
-        _ if is_command => Some((Noise, 2 + text)),
+        [BELL, ..] if is_command => Some((FirstBytes::Whole, 2 + text + 1)),
+        [ESCAPE, b'\\', ..] => Some((FirstBytes::Whole, 2 + text + 2)),
+        _ if is_command => Some((FirstBytes::Noise, 2 + text)),
         _ => ALT,
     }
 }
@@ -263,12 +267,12 @@ fn character(bytes: &[u8]) -> Begin {
         0xc2..=0xdf => 2,
         0xe0..=0xef => 3,
         0xf0..=0xf4 => 4,
-        _ => return Some((Noise, 1)),
+        _ => return Some((FirstBytes::Noise, 1)),
     };
     let end = bytes.len().min(length);
     match bytes[1..end].iter().position(|byte| !(0x80..0xc0).contains(byte)) {
-        Some(broken) => Some((Noise, 1 + broken)),
+        Some(broken) => Some((FirstBytes::Noise, 1 + broken)),
         None if end < length => None,
-        None => Some((Whole, length)),
+        None => Some((FirstBytes::Whole, length)),
     }
 }

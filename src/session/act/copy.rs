@@ -140,51 +140,46 @@ pub fn command_line(session: &Session) -> String {
     }
 }
 
-/// The command for the machine that is drawn, with the numbers that are not those of its name or file; `None` without one.
+/// The command for the machine that is drawn, by its name and the numbers that are not those of the name; `None` without a
+/// machine of the program: only these have a name that says all.
 fn of_machine(session: &Session) -> Option<String> {
     // Last, as these follow from the others where nothing is said.
     const STATIC: [Knob; 2] = [Knob::StaticCoefficient, Knob::StaticGuide];
-    let Problem { initial: State { q, v }, until, parameters, .. } = session.problem;
+    let Problem { initial: State { q, v }, until, parameters, method, tolerance, .. } =
+        session.problem;
     let (source, units) = session.source(&parameters);
-    let (belt, drawn) = (source.of_belt()?, &session.running()?.machine);
-    let known = library::find(&drawn.name).ok();
-    let opened = known.or(session.scene.machine.as_ref().map(|scaled| &scaled.machine))?;
+    let (belt, machine) = (source.of_belt()?, &session.running()?.machine);
+    let mut told = library::find(&machine.name).ok()?.belt.clone();
     let diagram = session.focused().filter(|plot| plot.view == View::BeltDiagram);
     let varied = diagram.map(|plot| plot.axes.machine);
     let command = if diagram.is_some() { "branch" } else { "trajectory" };
-    let mut line = format!("hopfscope {command} --machine {}", shell_word(&drawn.name));
+    let mut line = format!("hopfscope {command} --machine {}", machine.name);
     let others = KNOBS.iter().map(|row| row.knob).filter(|knob| !STATIC.contains(knob));
-    let mut told = opened.belt.clone();
-    for knob in others.chain(STATIC).filter(|knob| Some(*knob) != varied) {
+    for knob in others.chain(STATIC) {
         let value = knob.of_belt(belt);
         if let Some(value) = value.filter(|_| value != knob.of_belt(&told)) {
             knob.set_in_belt(&mut told, value).ok()?;
-            line += &set(knob, value);
+            if Some(knob) != varied {
+                line += &set(knob, value);
+            }
         }
     }
-    if let Some(plot) = diagram {
-        return Some(line + &over(plot.axes.machine, plot.window.x));
-    }
-    let start = set(Knob::X, q * units.displacement) + &set(Knob::V, v * units.velocity);
-    Some(format!("{line}{start} --until {}", shortest(until * units.time)))
+    line += &if let Some(plot) = diagram {
+        over(plot.axes.machine, plot.window.x)
+    } else {
+        let start = set(Knob::X, q * units.displacement) + &set(Knob::V, v * units.velocity);
+        let [until, tolerance] = [until * units.time, tolerance].map(shortest);
+        format!("{start} --until {until} --method {method} --tol {tolerance}")
+    };
+    (told == *belt).then_some(line)
 }
 
 fn set(knob: Knob, value: f64) -> String {
     format!(" --set {knob}={}", shortest(value))
 }
 
+/// The part of a window within the range of a number.
 fn over(knob: Knob, window: Span) -> String {
-    let [from, to] = window.ends().map(shortest);
+    let [from, to] = window.allowed(knob).unwrap_or(window).ends().map(shortest);
     format!(" --over {knob}={from}:{to}:{BRANCH_POINTS}")
-}
-
-/// A text as one word of a shell.
-fn shell_word(text: &str) -> String {
-    let is_plain = |char: char| char.is_alphanumeric() || "_./-".contains(char);
-    let quoted = || format!("'{}'", text.replace('\'', r"'\''"));
-    if text.chars().all(is_plain) {
-        text.to_owned()
-    } else {
-        quoted()
-    }
 }

@@ -141,7 +141,9 @@ impl Keymap {
 
     /// Removes all keys of a command in a context.
     pub fn unbind(&mut self, context: Context, command: &Command) {
-        self.bindings.entry(context).or_default().retain(|(_, bound)| *bound != command);
+        if let Some(bindings) = self.bindings.get_mut(&context) {
+            bindings.retain(|(_, bound)| *bound != command);
+        }
     }
 
     /// Binds a key to a command in a context. Fails with one line if the key means something else where this

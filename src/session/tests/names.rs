@@ -1,7 +1,10 @@
 //! Commands by their names: the palette and the command line.
 
+use std::sync::Arc;
+
 use super::facts::refuses;
 use super::{Trial, open_list};
+use crate::model::FrictionLaw;
 use crate::scene::View;
 use crate::session::read::completion::completion;
 use crate::session::{Effect, List, run_line};
@@ -266,10 +269,17 @@ fn the_copied_command_of_a_machine_asks_about_the_machine() {
         }
     };
     let bstab = "hopfscope trajectory --machine bstab";
-    let start = "--set x=1.4 --set v=0 --until 120";
+    let start = "--set x=1.4 --set v=0 --until 120 --method auto --tol 1e-10";
     assert_eq!(copied("benchmark", "<C-y>"), format!("{bstab} {start}"));
     let set = format!("{bstab} --set R=2 {start}");
     assert_eq!(copied("benchmark", ":set<space>R=2<space>N<enter><C-y>"), set);
     let diagram = "hopfscope branch --machine textbook --over v0=0.05:0.5:200";
     assert_eq!(copied("slow-belt", "<tab><tab><tab><tab><C-y>"), diagram);
+    // A machine of a file, which has no name that says all, is told by the equation, even if its file is named like another.
+    let mut trial = Trial::open("benchmark");
+    let scaled = Arc::make_mut(&mut trial.session.scene).machine.as_mut().unwrap();
+    scaled.machine.belt.law = FrictionLaw::Constant { mu: 0.3 };
+    trial.press(":set<space>R=2<space>N<enter><C-y>");
+    let Some(Effect::Copy(text)) = trial.effects.last() else { panic!("nothing copied") };
+    assert!(text.starts_with("hopfscope trajectory --set D="), "{text}");
 }
