@@ -102,7 +102,11 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: 
         };
         // A displacement in metres has its own letter.
         let metres = layer == Layer::Position && matches!(picture.scales[1], Scale::Times { .. });
-        let name = if metres { "displacement x" } else { name };
+        let (letter, name) = if metres {
+            ("x", "displacement x")
+        } else {
+            (letter, name)
+        };
         let mut line = LineStyle::from(name);
         if place > 0 {
             let name = format!("{}, {of}", line.name);
