@@ -314,7 +314,11 @@ impl Portrait {
     #[must_use]
     pub fn surroundings(&self) -> StartWindow {
         const ROOM: f64 = 1.5;
-        let far = |(low, high): (f64, f64)| low.abs().max(high.abs());
+        // A border that comes from infinity crosses an axis once.
+        let far = |(low, high): (f64, f64)| {
+            let ends = [low.abs(), high.abs()].into_iter();
+            ends.filter(|end| end.is_finite()).fold(0.0, f64::max)
+        };
         let size = |it: &Cycle| (far((it.q_min, it.q_max)), far((it.v_min, it.v_max)));
         let sizes = self.cycles.iter().map(size);
         let margin = self.reach.map(|reach| (far(reach.displacement), far(reach.velocity)));

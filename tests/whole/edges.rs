@@ -2,7 +2,7 @@
 //! that end beyond the cycles.
 
 use super::portrait;
-use hopfscope::flow::{Fate, Flow, Reason};
+use hopfscope::flow::{Fate, Flow, Limits, Reason};
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, Body, Mode, Source};
 use hopfscope::numerics::elementary::exp;
@@ -376,4 +376,18 @@ fn a_mode_that_asymmetric_damping_drives_away_survives_what_the_paper_says() {
             }
         }
     }
+}
+
+#[test]
+fn a_window_around_a_basin_that_is_open_to_infinity_is_finite_and_holds_its_border() {
+    let damping_ratio = vec![0.05, -0.6];
+    let mode = Mode { frequency: 0.5, mass: 2.0, damping_ratio, friction: 0.3, static_guide: None };
+    let found = Source::from(Body::Mode(mode)).portrait().unwrap();
+    let window = found.surroundings();
+    // The border crosses the axis of displacements once, at -0.165 m; growing motions reach it from infinity.
+    let left = -found.reach.unwrap().displacement.1;
+    assert!((left + 0.165_020_703_730_114_32).abs() < 1e-12, "{left}");
+    assert!((window.q.0 - 1.5 * left).abs() < 1e-12 && window.reach().is_finite(), "{window:?}");
+    let counts = found.count(&window, (16, 16), &Limits::PATIENT).unwrap();
+    assert!(counts.captured > 0 && counts.escaped > 0 && counts.undecided == 0, "{counts:?}");
 }
