@@ -421,7 +421,7 @@ impl CurveTracer<'_> {
                 };
                 let product = escape_product(parameters.d, self.curve.limits)?;
                 let value = self.found.cost.spend(product).map(|product| product / other.abs());
-                // Friction is never negative.
+                // One of them at most lies within a range of friction, which is never negative.
                 [value, value.map(|value| -value)]
             }
             _ => [None; 2],

@@ -214,9 +214,9 @@ impl ScanCommand {
         let Subject { tolerances, motion, .. } = &mut case.described.subject;
         motion.until = until.unwrap_or(motion.until);
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
-        half_widths(&self.half_width)?;
-        let wide = self.half_width.iter().filter(|(_, half)| *half > 0.0);
-        tolerances.half_widths.extend(wide.map(|(knob, half)| (knob.to_string(), *half)));
+        let half_widths = Knob::PARAMETERS.into_iter().zip(half_widths(&self.half_width)?);
+        let wide = half_widths.filter(|(_, half_width)| *half_width > 0.0);
+        tolerances.half_widths.extend(wide.map(|(knob, half)| (knob.to_string(), half)));
         let subject = case.checked()?.described.subject;
         let machine = subject.paper().is_none();
         for measure in self.measure.iter().filter(|_| machine) {

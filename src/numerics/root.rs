@@ -1,9 +1,8 @@
 //! Zeros of functions of one variable, inside brackets.
 //!
 //! [`newton`] is for functions with a known derivative, [`illinois`] for those without, [`bisect`] for
-//! conditions, and [`maximum`] for the largest value. Each ends after a fixed
-//! number of evaluations, whatever the function does. The versions named `try_..` are for functions that may
-//! fail; they stop at the first error.
+//! conditions, and [`maximum`] for the largest value. Each ends after a fixed number of evaluations, whatever
+//! the function does. The versions named `try_..` are for functions that may fail; they stop at the first error.
 
 use std::convert::Infallible;
 

@@ -84,7 +84,12 @@ impl FieldBox {
     }
 
     /// The integral of the slope of the damping over time, from the duration, the way and the integral of `v^2`.
-    pub fn damping(&self, duration: Interval, way: Interval, square: Interval) -> Interval {
+    pub fn integrated_slope(
+        &self,
+        duration: Interval,
+        way: Interval,
+        square: Interval,
+    ) -> Interval {
         self.a * duration + (self.b * way).twice() + self.c * square * 3.0
     }
 

@@ -242,7 +242,7 @@ impl Funnel {
         let duration = fallen.duration + positive(time)? + late;
         let square = fallen.square_in(unit) + positive(square)? + squares;
         let path = scaled(end + start, -unit);
-        let divergence = -field.damping(duration, path, square);
+        let divergence = -field.integrated_slope(duration, path, square);
         let speed = Interval::point(0.0);
         Some(ProvedSwing { end, speed, duration, divergence, square, unit, ..*fallen })
     }
@@ -252,7 +252,7 @@ impl Funnel {
         let unit = exponent(self.speed);
         let [duration, squares] = self.after(field, end, unit)?;
         let way = scaled(end, -unit) - scaled(self.entry, -unit);
-        Some(field.in_units_of(unit).damping(duration, way, squares))
+        Some(field.in_units_of(unit).integrated_slope(duration, way, squares))
     }
 
     /// The time from the line `v = speed` on, and the integral of `v^2` in units of `2^(2 unit)`.

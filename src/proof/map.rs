@@ -312,7 +312,7 @@ impl ProvedHalf {
         let square = Interval::new(squares[0].lower(), squares[1].upper());
         let square = square.intersection(whole.square)?;
         let path = scaled(end + start, -unit);
-        let divergence = -field.in_units_of(unit).damping(whole.duration, path, square);
+        let divergence = -field.in_units_of(unit).integrated_slope(whole.duration, path, square);
         Some(ProvedSwing { end, divergence, square, ..whole })
     }
 }

@@ -218,7 +218,7 @@ impl SwingRun {
         // Beyond the end of the step v stays below its bound there, whose square times the lag bounds the integral.
         let beyond = lag * powi(ball.v.abs() + ball.off(), 2);
         let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);
-        let divergence = -ball.local.field.damping(duration, end - self.start, square);
+        let divergence = -ball.local.field.integrated_slope(duration, end - self.start, square);
         let known = duration.is_finite() && divergence.is_finite() && duration > 0.0;
         let length = |it| scaled(it, ball.unit);
         known.then(|| ProvedSwing {

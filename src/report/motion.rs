@@ -41,11 +41,9 @@ pub fn motion(
         .number("q", length, |row| row.q)
         .number("v", speed, |row| row.v);
     let energy = motion.ledger.as_ref().map(|ledger| energy(ledger, machine));
-    let works = Columns::default().text("energy", |(name, _): &(String, f64)| name.clone()).number(
-        "amount",
-        about.quantity("J", 6),
-        |(_, amount)| *amount,
-    );
+    let name = |(name, _): &(String, f64)| name.clone();
+    let works = Columns::default().text("energy", name);
+    let works = works.number("amount", about.quantity("J", 6), |(_, amount)| *amount);
     let Motion { method, cost: Cost { steps, rejected, .. }, .. } = motion;
     let tolerance = shortest(problem.tolerance);
     let how = format!("method {method}, tolerance {tolerance}: {steps} steps, {rejected} rejected");

@@ -25,7 +25,7 @@ pub const METHODS: [Method; 6] = {
     [Auto, Exact, Taylor, Dop853, Dopri5, Stiff]
 };
 
-/// Those of them that serve a motion.
+/// Those of them that serve a motion: `exact` only a piecewise linear one.
 pub(super) fn methods(linear: bool) -> impl Iterator<Item = Method> {
     METHODS.into_iter().filter(move |method| linear || *method != Method::Exact)
 }

@@ -68,15 +68,11 @@ impl Session {
 
     /// The question that must be answered before a command that is run by name, in the pane where it applies.
     fn awaited_by_command(&self, command: &Command) -> Option<Request> {
-        let pane = place(self, command).ok()?.unwrap_or(self.focus);
-        self.awaited_by(
-            command,
-            if let Pane::Plot(index) = pane {
-                index
-            } else {
-                self.plot
-            },
-        )
+        let plot = match place(self, command).ok()?.unwrap_or(self.focus) {
+            Pane::Plot(index) => index,
+            Pane::Parameters => self.plot,
+        };
+        self.awaited_by(command, plot)
     }
 
     fn awaited_by(&self, command: &Command, plot: usize) -> Option<Request> {
@@ -111,7 +107,8 @@ pub fn forgets(message: &Msg) -> bool {
 }
 
 impl Session {
-    /// The contexts that hold at present, the most specific first: one of the chains of [`CONTEXTS`](crate::session::state::keymap::CONTEXTS).
+    /// The contexts that hold at present, the most specific first: one of the chains of
+    /// [`CONTEXTS`](crate::session::state::keymap::CONTEXTS).
     pub fn contexts(&self) -> &'static [Context] {
         match self.pending {
             Some(pending) => &pending.context().spec().chain,

@@ -237,16 +237,18 @@ fn short_names_of_other_programs_are_known() {
     ]);
 }
 
+/// What keys in a scene copy, or else what is said.
+fn copied(scene: &str, keys: &str) -> String {
+    let mut trial = Trial::open(scene);
+    trial.press(keys);
+    match trial.effects.last() {
+        Some(Effect::Copy(text)) => text.clone(),
+        _ => trial.notice().to_owned(),
+    }
+}
+
 #[test]
 fn numbers_points_and_rows_are_copied() {
-    let copied = |scene: &str, keys: &str| {
-        let mut trial = Trial::open(scene);
-        trial.press(keys);
-        match trial.effects.last() {
-            Some(Effect::Copy(text)) => text.clone(),
-            _ => trial.notice().to_owned(),
-        }
-    };
     assert_eq!(copied("supercritical", "y"), "-0.3");
     assert_eq!(copied("supercritical", "<A-r>"), "D=-0.3 D2=0 D3=0.5 r=0.1 q0=0.3 v0=0");
     assert_eq!(copied("supercritical", "<tab>y"), "nothing is pointed at: arrows show a cursor");
@@ -260,14 +262,6 @@ fn numbers_points_and_rows_are_copied() {
 
 #[test]
 fn the_copied_command_of_a_machine_asks_about_the_machine() {
-    let copied = |scene: &str, keys: &str| {
-        let mut trial = Trial::open(scene);
-        trial.press(keys);
-        match trial.effects.last() {
-            Some(Effect::Copy(text)) => text.clone(),
-            _ => trial.notice().to_owned(),
-        }
-    };
     let bstab = "hopfscope trajectory --machine bstab";
     let start = "--set x=1.4 --set v=0 --until 120 --method auto --tol 1e-10";
     assert_eq!(copied("benchmark", "<C-y>"), format!("{bstab} {start}"));
@@ -275,7 +269,8 @@ fn the_copied_command_of_a_machine_asks_about_the_machine() {
     assert_eq!(copied("benchmark", ":set<space>R=2<space>N<enter><C-y>"), set);
     let diagram = "hopfscope branch --machine textbook --over v0=0.05:0.5:200";
     assert_eq!(copied("slow-belt", "<tab><tab><tab><tab><C-y>"), diagram);
-    // A machine of a file, which has no name that says all, is told by the equation, even if its file is named like another.
+    // A machine of a file has no name that says all, even if its file is named like one of the program: it is told by
+    // the equation.
     let mut trial = Trial::open("benchmark");
     let scaled = Arc::make_mut(&mut trial.session.scene).machine.as_mut().unwrap();
     scaled.machine.belt.law = FrictionLaw::Constant { mu: 0.3 };
