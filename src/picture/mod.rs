@@ -6,6 +6,7 @@
 
 mod belt;
 mod belt_diagram;
+mod compare;
 mod construction;
 mod diagram;
 mod eigenvalues;
@@ -46,8 +47,17 @@ pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
 const EXPANDED: [View; 5] =
     [View::Diagram, View::ReturnMap, View::Regimes, View::EnergyRate, View::Trade];
 
-/// What the plot with this index shows.
+/// What the plot with this index shows, and of the point that the present one is compared with.
 pub fn of(session: &Session, index: usize) -> Picture<'_> {
+    let mut picture = alone(session, index);
+    compare::add(&mut picture, session, index);
+    let beside = session.beside(index).map(|other| other.problem.parameters);
+    picture.variants.extend(beside);
+    picture
+}
+
+/// What it shows of the present point alone.
+fn alone(session: &Session, index: usize) -> Picture<'_> {
     let Plot { view, window, cursor, .. } = session.plots[index];
     let scales = scales(session, index);
     let mut picture = Picture { scales, cursor, ..Picture::new(view.spec().title, "", "", window) };

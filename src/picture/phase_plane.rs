@@ -1,7 +1,7 @@
 //! The phase plane: where motions go, where they rest, and what separates those that do.
 //!
 //! Layers from back to front: directions of the flow, shading of the basin, borders of the capture bands,
-//! the point left for a mark, random kicks, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking
+//! random kicks, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking
 //! set, markers, cursor. Formulas show the present parameters; computed layers show the last answer, and the title
 //! says when that is stale.
 
@@ -10,7 +10,7 @@ use super::{
 };
 use crate::closed_form::lyapunov;
 use crate::fit::{FitResult, Signal};
-use crate::flow::{Motion, Outcome, Problem, Sample};
+use crate::flow::{Motion, Outcome, Problem};
 use crate::model::{Field, HalfPlane, Parameters, Side};
 use crate::numerics::hypot;
 use crate::portrait::{Border, Cycle, Distribution, Drawing, RandomKick, Ride};
@@ -58,9 +58,6 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         for border in session.borders(index).into_iter().flatten() {
             picture.curve("border of a band of capture", border.iter().copied());
         }
-    }
-    if shows(Layer::Ghost) && session.variants(index).is_none() {
-        ghost(picture, session);
     }
     kicks(picture, session, index);
     picture.level(LineStyle::guide(), 0.0);
@@ -270,29 +267,6 @@ fn cycles(picture: &mut Picture, found: &Drawing, variant: &VariantTag, whole: b
         picture.name_curve(&points, own, own, line.role);
         // Of a machine the caption says of which kind it is.
         picture.curve(LineStyle { name: name.into(), ..line.briefly(plain) }.of(variant), points);
-    }
-}
-
-/// Motion and cycles of the point that was left for a mark.
-fn ghost(picture: &mut Picture, session: &Session) {
-    for answer in session.answers_left() {
-        match answer {
-            Finding::Trajectory(found) => {
-                picture.curve("motion left", found.samples.iter().map(Sample::state));
-            }
-            Finding::Cycles(found, _) => {
-                for (cycle, curve) in found.cycles.iter().zip(&found.curves) {
-                    let role = if cycle.stable {
-                        Role::GhostStable
-                    } else {
-                        Role::GhostUnstable
-                    };
-                    let line = LineStyle { role, ..LineStyle::from("cycle left") };
-                    picture.curve(line, curve.iter().copied());
-                }
-            }
-            _ => {}
-        }
     }
 }
 

@@ -11,8 +11,8 @@ use crate::scene::{LAYERS, Layer, LayerSpec, VIEWS, library};
 use crate::session::CommandAction::{self, Act, Line, Move, Press, Toggle, Try};
 use crate::session::ListKind::{Cost, Layers, Palette as Everything, Paper, Scenes, Views};
 use crate::session::act::{
-    copy, files, general, history, lists, motions, parameters, plots, prompt, scan, screen_setup,
-    values, walk,
+    compare, copy, files, general, history, lists, motions, parameters, plots, prompt, scan,
+    screen_setup, values, walk,
 };
 use crate::session::read::completion::{self, all, nothing};
 use crate::session::{
@@ -75,6 +75,7 @@ const ACTIONS: &[(&str, CommandAction)] = &[
             lists::with(s, |list| list.searching = true);
         })),
     ("prompt", Act(|s| prompt::open(s, ""))),
+    ("type-parameter", Act(|s| prompt::open(s, "set D"))),
     ("scenes", Act(|s| lists::open(s, Scenes))),
     ("layers", Act(|s| lists::open(s, Layers))),
     ("undo", Try(history::undo)),
@@ -98,6 +99,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("forget-pending", Act(|s| s.pending = None)),
     ("set-mark", Act(|s| s.pending = Some(PendingInput::Mark))),
     ("go-to-mark", Act(|s| s.pending = Some(PendingInput::GoTo))),
+    ("pin", Act(compare::pin)),
+    ("swap", Try(compare::swap)),
 
     ("explain", Act(|s| s.caption.explain())),
     ("tour", Try(files::tour)),
@@ -160,8 +163,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     (":save-scan", Line(nothing, scan::save)),
     (":harmonics", Line(nothing, values::harmonics)),
     (":kicks", Line(nothing, values::kicks)),
-    (":mark", Line(completion::marks, |s, rest| values::letter(rest).map(|it| history::set_mark(s, it)))),
-    (":goto", Line(completion::marks, |s, rest| history::go_to_mark(s, values::letter(rest)?))),
+    (":mark", Line(completion::marks, |s, rest| values::letter(rest).map(|it| compare::set_mark(s, it)))),
+    (":goto", Line(completion::marks, |s, rest| compare::go_to_mark(s, values::letter(rest)?))),
     (":write", Line(nothing, |s, rest| files::write(s, rest, false))),
     (":write!", Line(nothing, |s, rest| files::write(s, rest, true))),
     (":open", Line(nothing, |s, rest| files::ask(s, rest, Purpose::Open))),
@@ -286,7 +289,7 @@ mod tests {
 
     #[test]
     fn what_a_command_waits_for_is_a_topic_or_has_a_meaning_of_its_own() {
-        let own = ["cycles-at-present", "motion-over-time", "window", "comparison", "everything"];
+        let own = ["cycles-at-present", "motion-over-time", "window", "everything"];
         for command in table() {
             for need in command.needs.split_whitespace() {
                 let topic = TOPICS.iter().any(|topic| topic.name() == need);

@@ -20,11 +20,12 @@ use crate::model::{Knob, State};
 use crate::numerics::shortest;
 use crate::portrait::RandomKick;
 use crate::scene::{FileMistake, Point, Scene, Setting, find, placed};
+use crate::session::act::compare;
 use crate::session::act::history::{restore, snapshot};
 use crate::session::act::screen_setup::focus_on;
 use crate::session::read::completion::difference;
 use crate::session::{
-    Bookmark, Bookmarks, DisplaySettings, Done, EarlierState, History, Instruction, MOST_HARMONICS,
+    Bookmarks, DisplaySettings, Done, EarlierState, History, Instruction, Letter, MOST_HARMONICS,
     Msg, NamedValue, Overlay, Pane, Plot, Prompt, Row, Session, Setup, Snapshot, Uncertainty,
     check_number,
 };
@@ -74,6 +75,9 @@ struct SavedSession {
     left_belt: Option<Setting>,
     #[serde(default, skip_serializing_if = "Uncertainty::is_none")]
     left_doubt: Uncertainty,
+    /// What the point left is called if it is pinned.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pinned: Option<Letter>,
     /// Recorded keys of earlier versions, which are dropped.
     #[serde(default, skip_serializing)]
     #[expect(dead_code, reason = "a file that has them is still read")]
@@ -86,7 +90,7 @@ struct SavedSession {
 
 /// The session as the text of a file. Fails with one line if the text cannot be made; no such session is known.
 pub fn text(session: &Session) -> Done<String> {
-    let left = session.marks.left.clone().map(|mark| mark.setup);
+    let left = session.marks.left.clone();
     let file = SavedSession {
         hopfscope: VERSION,
         selected: session.selected.name().to_owned(),
@@ -107,6 +111,7 @@ pub fn text(session: &Session) -> Done<String> {
         left_belt: left.as_ref().and_then(|setup| setup.setting.clone()),
         left_doubt: left.as_ref().map(|setup| setup.doubt).unwrap_or_default(),
         left_beside: left.map(|setup| setup.others).unwrap_or_default(),
+        pinned: session.marks.pinned,
         registers: IgnoredAny,
         past: session.history.past.clone(),
         future: session.history.future.clone(),
@@ -119,7 +124,7 @@ pub fn text(session: &Session) -> Done<String> {
 /// A value for each mark that has one.
 fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<char, T> {
     let marks = session.marks.places.iter();
-    marks.filter_map(|(name, mark)| Some((*name, of(&mark.setup)?))).collect()
+    marks.filter_map(|(name, mark)| Some((*name, of(mark)?))).collect()
 }
 
 /// Changes a session to that of a file. Appearance, keys and size stay, and so do answers that fit. Fails with
@@ -142,7 +147,7 @@ pub fn open(session: &mut Session, text: &str) -> Done {
     let mark = |problem, others, setting, doubt| {
         let setup = Setup { problem, others, setting, doubt };
         setup.check()?;
-        Ok::<_, String>(Bookmark { setup, asked: Vec::new() })
+        Ok::<_, String>(setup)
     };
     let mut marks = Bookmarks::default();
     for (name, problem) in file.marks {
@@ -153,6 +158,7 @@ pub fn open(session: &mut Session, text: &str) -> Done {
     }
     if let Some(left) = file.left {
         marks.left = Some(mark(left, file.left_beside, file.left_belt, file.left_doubt)?);
+        marks.pinned = file.pinned;
     }
     let is_place = |at: &Point| at.x.is_finite() && at.y.is_finite();
     file.plots.iter_mut().for_each(|plot| plot.cursor = plot.cursor.filter(is_place));
@@ -168,6 +174,7 @@ pub fn open(session: &mut Session, text: &str) -> Done {
     opened.lines = file.lines;
     opened.history = History { past: file.past, future: file.future };
     opened.answers = std::mem::take(&mut session.answers);
+    compare::follow(&mut opened);
     opened.answers.ask(opened.asks());
     opened.answers.forget_others();
     opened.keymap = Arc::clone(&session.keymap);
@@ -219,6 +226,7 @@ impl Session {
     pub fn is_worth_keeping(&self) -> bool {
         self.history.depth() != (0, 0)
             || !self.marks.places.is_empty()
+            || self.marks.pinned.is_some()
             || matches!(self.overlay, Some(Overlay::Prompt(Prompt { row: Some(_), .. })))
     }
 }

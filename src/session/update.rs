@@ -8,12 +8,12 @@ use crate::flow::Reason;
 use crate::question::NoAnswer;
 use crate::scene::{Reply, Request};
 use crate::session::act::run::{ENTER, run, run_line, run_where_it_belongs};
-use crate::session::act::{answers, files, history, plots, prompt, walk};
+use crate::session::act::{answers, compare, files, history, plots, prompt, values, walk};
 use crate::session::read::contexts;
 use crate::session::replay::script::parse;
 use crate::session::{
     Context, Effect, Key, Msg, Overlay, Pane, PendingInput, Price, Prompt, Row, Session,
-    SessionCaption, Size, WaitingPress, elsewhere,
+    SessionCaption, Size, WaitingPress, called, elsewhere,
 };
 
 /// Takes a message in; a press that needs an answer that is still being computed waits for it.
@@ -91,10 +91,12 @@ fn take_in(session: &mut Session, message: Msg) {
     }
     answers::follow_fit(session);
     keep_selection(session);
-    let asked = session.asks().into_iter().chain(session.compared().cloned()).collect();
-    session.answers.ask(asked);
+    compare::follow(session);
+    session.answers.ask(session.asks());
     answers::resolve(session);
     session.keep_course();
+    // It has the windows that were fitted just now.
+    compare::follow(session);
     walk::keep_hold(session);
     if session.chord > 0 && session.overlay.is_none() && session.pending.is_none() {
         session.asked = std::mem::take(&mut session.chord);
@@ -106,7 +108,8 @@ pub fn is_press(message: &Msg) -> bool {
     matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_))
 }
 
-/// Pasted text goes into the open line, a number into a new line; keystrokes are offered as a replay.
+/// Pasted text goes into the open line, a number into a new line; assignments are made, and keystrokes are offered as a
+/// replay.
 fn paste(session: &mut Session, text: &str) {
     session.notice = None;
     if session.contexts()[0].takes_text() {
@@ -118,6 +121,9 @@ fn paste(session: &mut Session, text: &str) {
         let entry = Prompt::of_row(session.selected, text.trim());
         session.overlay = Some(Overlay::Prompt(entry));
         return;
+    }
+    if session.overlay.is_none() && called(text).0 == "set" {
+        return session.attempt(|session| values::paste(session, text));
     }
     // Text that names no key in angle brackets was probably pasted by mistake.
     if !text.contains('<') && !text.trim_start().starts_with('#') {
@@ -197,13 +203,13 @@ fn resolve(session: &mut Session, pending: PendingInput, key: Key) {
     let letter = key.typed().filter(char::is_ascii_lowercase);
     match (pending, letter) {
         (PendingInput::Count(count), _) => repeat(session, key, count.max(1)),
-        (PendingInput::Mark, Some(name)) => history::set_mark(session, name),
+        (PendingInput::Mark, Some(name)) => compare::set_mark(session, name),
         (PendingInput::GoTo, Some(name)) => {
-            session.attempt(|session| history::go_to_mark(session, name));
+            session.attempt(|session| compare::go_to_mark(session, name));
         }
         // The key that asked for the letter, pressed again, means the last point.
         (PendingInput::GoTo, None) if again.is_some_and(|it| it.name == "go-to-mark") => {
-            session.attempt(history::go_back);
+            session.attempt(compare::go_back);
         }
         (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),
         (_, None) => session.refuse(format!("{} is not a letter from a to z", key.said())),

@@ -5,6 +5,7 @@
 //! decided in [`look`] alone.
 
 pub mod caption;
+mod compare;
 pub mod dots;
 pub mod energy_ledger;
 mod fitted;

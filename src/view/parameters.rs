@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use super::fitted::{fitted, spread};
 use super::pane::{self, Heading};
-use super::{Look, Surface, margin, verdict::multiplier};
+use super::{Look, Surface, compare, margin, verdict::multiplier};
 use crate::accuracy::BalanceResult;
 use crate::flow::Problem;
 use crate::model::{Knob, Units};
@@ -15,7 +15,9 @@ use crate::picture::{Role, cycle_mark, cycle_name, cycle_role, units};
 use crate::portrait::{Border, Cycle, Drawing, compare};
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
-use crate::words::{Notation, cycles as cycles_in_words, exact, fitting, significant, with_unit};
+use crate::words::{
+    Notation, cycles as cycles_in_words, exact, fitting, joined, significant, with_unit,
+};
 
 /// Columns up to the end of the values.
 const VALUES: usize = 17;
@@ -33,10 +35,12 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let heading = Heading::of(session, Pane::Parameters);
     let (rows, shown) = (session.rows(), shown(session, area.height));
-    let of = match session.number(0) {
-        Some(number) => format!("of motion {number}"),
-        None if shown.len() < rows.len() => format!("+{} more", rows.len() - shown.len()),
-        None => String::new(),
+    let letter = session.letters().map(|both| both[0].name().to_owned());
+    let number = session.number(0).map(|number| format!("motion {number}"));
+    let of = match &joined(letter.into_iter().chain(number), ", ")[..] {
+        "" if shown.len() < rows.len() => format!("+{} more", rows.len() - shown.len()),
+        "" => String::new(),
+        whose => format!("of {whose}"),
     };
     screen.title(area, "parameters", &of, &heading);
     let rows = rows[shown].iter().copied();
@@ -115,8 +119,7 @@ fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'stati
     // Two blanks before the value and, where there is room, two behind it.
     let end = VALUES.min(usize::from(width).saturating_sub(tail.chars().count()));
     let room = end.saturating_sub(3 + name.len());
-    let sign = &look.symbols().plus_minus;
-    let text = |setup: &Setup| value(session, setup, row, room, sign);
+    let text = |setup: &Setup| value(session, setup, row, room, look);
     let (value, of_scene) = (text(&session.setup()), text(&Setup::of_scene(&session.scene)));
     let changed = value != of_scene;
     // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
@@ -141,6 +144,10 @@ fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'stati
 
 /// What stands behind a value: its step, and what the number means.
 fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
+    let beside = usize::from(width).saturating_sub(VALUES + 2);
+    if let Some(text) = compare::row(session, row, beside, look) {
+        return format!("  {text}");
+    }
     let selected = row == session.selected;
     let step = step(session, row).filter(|_| selected || is_wide(width));
     // On a narrow pane the error of a fitted number matters more than its step.
@@ -207,8 +214,8 @@ fn physical(session: &Session, row: Row) -> Option<String> {
     (!unit.is_empty()).then(|| format!("{name} {}", with_unit(value, 4, unit)))
 }
 
-fn value(session: &Session, setup: &Setup, row: Row, width: usize, sign: &str) -> String {
-    let Setup { problem, doubt, .. } = setup;
+pub fn value(session: &Session, setup: &Setup, row: Row, width: usize, look: &Look) -> String {
+    let (Setup { problem, doubt, .. }, sign) = (setup, &look.symbols().plus_minus);
     match row {
         Row::Number(knob) if row.is_of_machine() => exact(session.value_in(setup, knob), width),
         Row::Number(knob) => {
@@ -316,6 +323,9 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
 
 /// How many cycles there are, and whether that is proved.
 fn counted(session: &Session, found: &Drawing, width: usize) -> (String, Role) {
+    if let Some(both) = compare::counts(session) {
+        return (both, Role::Text);
+    }
     let count = cycles_in_words(found.cycles.len());
     let Some(proof) = session.proof().filter(|_| found.parameters == session.problem.parameters)
     else {

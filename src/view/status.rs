@@ -3,7 +3,7 @@
 
 use ratatui::layout::Rect;
 
-use super::{Look, Surface, fitted::UNRELIABLE, margin, pane, verdict};
+use super::{Look, Surface, compare, fitted::UNRELIABLE, margin, pane, verdict};
 use crate::flow::choice;
 use crate::picture::{Role, end_mark};
 use crate::scene::Topic;
@@ -26,6 +26,8 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         (held, Role::Cursor)
     } else {
         let (sentence, role) = verdict::outcome(session);
+        let letter =
+            session.letters().map_or_else(String::new, |both| format!("{} ", both[0].name()));
         let of = session.number(0).map_or_else(String::new, |number| format!("motion {number} "));
         // The symbol belongs to the motion: what else is said has none.
         let symbol = if role == Role::Text {
@@ -33,19 +35,23 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         } else {
             String::new()
         };
-        (format!("{symbol}{of}{sentence}"), role)
+        (format!("{symbol}{letter}{of}{sentence}"), role)
     };
     let busy = busy(session, look);
     // That a computation is running matters more than the end of the sentence.
     let room = usize::from(area.width).saturating_sub(busy.chars().count());
-    let text = pane::cut(&shorter(session, format!(" {text}"), room), room, look);
+    let both = compare::outcomes(session).filter(|_| role == Role::Text);
+    let both = both.map(|both| format!(" {both}")).filter(|both| both.chars().count() <= room);
+    let text = both.unwrap_or_else(|| shorter(session, format!(" {text}"), room));
+    let text = pane::cut(&text, room, look);
     let left = look.span(text, role);
     screen.both_ends(area, 0, left, look.span(busy, Role::Warning));
 
     let quiet = |text| look.span(text, Role::Quiet);
     // While the accuracy is changed, the cost stands here; at other times a key of its own lists it.
     if !session.measures() {
-        let text = margin::status(session).unwrap_or_default();
+        let both = compare::margins(session, usize::from(area.width).saturating_sub(1));
+        let text = both.or_else(|| margin::status(session)).unwrap_or_default();
         let failed = text.starts_with(UNRELIABLE);
         let role = if failed { Role::Warning } else { Role::Quiet };
         return screen.line(area, 1, look.span(format!(" {text}"), role));

@@ -78,7 +78,8 @@ fn point(session: &Session) -> Vec<NamedNumber> {
     let (x, y) = match plot.view {
         View::Diagram => (abscissa.spec().name, ordinate.spec().name),
         View::Regimes => (abscissa.spec().name, against.spec().name),
-        View::BeltDiagram => (machine.spec().name, "x_max"),
+        // As it is set: its name alone is that of the initial velocity.
+        View::BeltDiagram => (machine.spec().symbol, "x_max"),
         view => view.spec().coordinates,
     };
     vec![named(x, at.x), named(y, at.y)]
@@ -87,6 +88,10 @@ fn point(session: &Session) -> Vec<NamedNumber> {
 /// The numbers that belong to it: the others of a cycle or of a row of a scan, and the parameters.
 fn belonging(session: &Session) -> Vec<NamedNumber> {
     let mut all = Vec::new();
+    // The parameters on show are those of another number of the machine.
+    if session.focused().is_some_and(|plot| plot.view == View::BeltDiagram) {
+        return all;
+    }
     if let Some(cycle) = session.held.and_then(|held| held.cycle) {
         all.extend([
             named("q_min", cycle.q_min),

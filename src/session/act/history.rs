@@ -1,20 +1,15 @@
-//! Undo and redo, opening scenes, which can be undone, too, and marks.
-//!
-//! Coming back to a mark recomputes nothing, because answers are stored by their questions. The point that was left is
-//! drawn dimmed behind the other one.
+//! Undo and redo, and opening scenes, which can be undone, too.
 
 use std::sync::Arc;
 
 use crate::fit::NoEstimate;
 use crate::model::Knob;
-use crate::scene::{Finding, Layer, PlotSetup, Reply, Scene, Topic};
-use crate::session::act::parameters::put;
+use crate::scene::{Finding, PlotSetup, Reply, Scene, Topic};
+use crate::session::act::compare;
 use crate::session::act::screen_setup::set_up;
 use crate::session::read::completion::difference;
-use crate::session::read::wants::COMPARED;
 use crate::session::{
-    Bookmark, Done, EarlierState, Framing, Pane, Playback, Plot, Row, ScreenSetup, Session,
-    Snapshot,
+    Done, EarlierState, Framing, Pane, Playback, Plot, Row, ScreenSetup, Session, Snapshot,
 };
 use crate::words::joined;
 
@@ -52,6 +47,7 @@ pub fn stop_fitting(session: &mut Session) {
 fn present(session: &Session, other: &EarlierState) -> EarlierState {
     match other {
         EarlierState::Setup(_) => EarlierState::Setup(Box::new(session.setup())),
+        EarlierState::Swap(_) => EarlierState::Swap(Box::new(session.setup())),
         EarlierState::ScreenSetup(_) => EarlierState::ScreenSetup(session.screen_setup()),
         EarlierState::Scene { .. } => whole(session),
     }
@@ -79,6 +75,11 @@ fn bring_back(session: &mut Session, name: &str, state: EarlierState) {
     match state {
         EarlierState::Setup(setup) => {
             session.inform(format!("{name}: {}", difference(&session.setup(), &setup)));
+            session.set_setup(*setup);
+        }
+        EarlierState::Swap(setup) => {
+            session.inform(format!("{name}: {}", difference(&session.setup(), &setup)));
+            compare::exchange_back(session, &setup);
             session.set_setup(*setup);
         }
         EarlierState::ScreenSetup(ScreenSetup { arrangement, plots }) => {
@@ -114,6 +115,7 @@ fn opened(plots: &[PlotSetup]) -> Vec<Plot> {
 
 /// Makes this the present state.
 pub fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot>) {
+    compare::keep(session, &snapshot.scene);
     session.scene = snapshot.scene;
     session.set_setup(snapshot.setup);
     session.steps = snapshot.steps;
@@ -155,45 +157,4 @@ pub fn reset_scene(session: &mut Session) {
     let scene = Arc::clone(&session.scene);
     session.inform(format!("scene {} as it was opened", scene.name));
     open_scene(session, scene);
-}
-
-/// Marks the present point.
-pub fn set_mark(session: &mut Session, name: char) {
-    session.marks.places.insert(name, bookmark(session));
-    let key = session.keymap.key_of("go-to-mark");
-    let back = key.map(|key| format!("; {key}{name} comes back")).unwrap_or_default();
-    session.inform(format!("mark {name} is here{back}"));
-}
-
-/// Goes to a mark.
-pub fn go_to_mark(session: &mut Session, name: char) -> Done {
-    let mark = session.marks.places.get(&name).cloned();
-    go(session, mark.ok_or_else(|| format!("there is no mark {name}"))?);
-    Ok(())
-}
-
-/// Goes to the point that was left last.
-pub fn go_back(session: &mut Session) -> Done {
-    let mark = session.marks.left.clone();
-    go(session, mark.ok_or("no mark has been visited yet")?);
-    Ok(())
-}
-
-/// Goes to a point, as a change that can be undone, and keeps the point that is left for comparison.
-fn go(session: &mut Session, mark: Bookmark) {
-    let here = bookmark(session);
-    if mark.setup == here.setup {
-        return session.inform("here already");
-    }
-    let moved = difference(&here.setup, &mark.setup);
-    put(session, mark.setup);
-    session.marks.left = Some(here);
-    session.layers.insert(Layer::Ghost);
-    session.inform(moved);
-}
-
-/// The present point, and what is drawn of it once it is left.
-fn bookmark(session: &Session) -> Bookmark {
-    let asked = COMPARED.into_iter().filter_map(|topic| session.request(topic, session.plot));
-    Bookmark { setup: session.setup(), asked: asked.collect() }
 }

@@ -1,6 +1,7 @@
 //! The effects of commands on a session, one family of commands per file; and what they say.
 
 pub mod answers;
+pub mod compare;
 pub mod copy;
 pub mod files;
 pub mod general;

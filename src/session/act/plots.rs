@@ -9,7 +9,7 @@ use crate::session::act::general::flip;
 use crate::session::act::motions::start;
 use crate::session::act::parameters::{change, put};
 use crate::session::act::screen_setup::focus_on;
-use crate::session::act::{history, lists, scan};
+use crate::session::act::{compare, history, lists, scan};
 use crate::session::{
     Done, Effect, Framing, Gesture, MouseAction, Pane, Plot, PointerTarget, Session,
 };
@@ -80,7 +80,7 @@ pub fn point_at(session: &mut Session, point: Point) -> Done {
     }
 }
 
-/// Removes the cursor of the plot in focus.
+/// Stops what is under way; otherwise removes the cursor of the plot in focus; without one, lets go of the pinned point.
 pub fn drop_cursor(session: &mut Session) {
     if session.writing.is_some() {
         session.effects.push(Effect::StopWriting);
@@ -88,8 +88,10 @@ pub fn drop_cursor(session: &mut Session) {
         history::stop_fitting(session);
     } else if session.focuses_scan() {
         scan::stop(session);
-    } else if session.focused().is_some() {
+    } else if session.focused().is_some_and(|plot| plot.cursor.is_some()) {
         session.plots[session.plot].cursor = None;
+    } else {
+        compare::let_go(session);
     }
 }
 

@@ -13,7 +13,7 @@ use crate::session::act::screen_setup::show_from_list;
 use crate::session::act::values::{belt, set_row};
 use crate::session::read::completion::completion;
 use crate::session::{
-    Completion, Done, Input, List, ListKind, Overlay, PaletteRow, Prompt, Session, full_name,
+    Completion, Done, Input, List, ListKind, Overlay, PaletteRow, Prompt, Session, called,
 };
 use crate::words::printable::is_printable;
 
@@ -55,7 +55,10 @@ pub fn accept(session: &mut Session) {
 /// The palette with a search for a line that begins with no command; `None` if the line begins with a command
 /// or nothing is found.
 fn search(session: &Session, text: &str) -> Option<List> {
-    let name = full_name(text.split_whitespace().next()?);
+    let (name, _) = called(text);
+    if name.is_empty() {
+        return None;
+    }
     if session.keymap.named(name).is_some() || session.keymap.line(name).is_some() {
         return None;
     }

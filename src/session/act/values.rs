@@ -5,11 +5,14 @@ use std::sync::Arc;
 use crate::model::{Knob, unknown};
 use crate::numerics::named;
 use crate::portrait::RandomKick;
-use crate::scene::{Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find, machine};
+use crate::scan::MEASURES;
+use crate::scene::{
+    Axes, LAYERS, Layer, ORDINATES, ScaledMachine, Span, VIEWS, View, Window, find, machine,
+};
 use crate::session::act::{general, history, parameters, plots, screen_setup};
-use crate::session::read::completion::{properties, rows};
+use crate::session::read::completion::{difference, properties, rows};
 use crate::session::{Done, Framing, MOST_HARMONICS, Pane, Plot, Row, Session};
-use crate::words::one_of;
+use crate::words::{joined, one_of};
 
 /// The row of the parameter pane with this name.
 fn row_named(session: &Session, name: &str) -> Done<Row> {
@@ -19,8 +22,39 @@ fn row_named(session: &Session, name: &str) -> Done<Row> {
     found.ok_or_else(|| unknown(name, &rows(session).map(Row::name).collect::<Vec<_>>()))
 }
 
+/// Sets the numbers of a text that was copied, as one change; what it says of results is left out.
+pub fn paste(session: &mut Session, text: &str) -> Done {
+    let results = MEASURES.iter().flat_map(|row| row.columns.iter().copied());
+    let results =
+        results.chain(VIEWS.iter().flat_map(|row| [row.coordinates.0, row.coordinates.1]));
+    let results = results.chain(ORDINATES.iter().map(|row| row.name)).chain(["v_min"]);
+    let results: Vec<&str> = results.filter(|name| row_named(session, name).is_err()).collect();
+    let (text, mut taken) = (spaced(text), true);
+    let words = text.split_whitespace().filter(|word| {
+        taken = word.split_once('=').map_or(taken, |(name, _)| !results.contains(&name));
+        taken
+    });
+    let before = session.setup();
+    set(session, &joined(words, " ")).map_err(|why| format!("pasted: {why}"))?;
+    if session.notice.is_none() {
+        session.inform(match &*difference(&before, &session.setup()) {
+            "" => "pasted: nothing differs".to_owned(),
+            changed => format!("pasted: {changed}"),
+        });
+    }
+    Ok(())
+}
+
+/// Assignments with nothing around their signs, and no commas between them.
+fn spaced(text: &str) -> String {
+    let text = text.replace('=', " = ");
+    let words = text.split_whitespace().map(|word| word.trim_end_matches([',', ';']));
+    joined(words, " ").replace(" = ", "=")
+}
+
 /// Runs `NAME=VALUE ..` as one change. A word without `=` is the unit of the value before it.
 pub fn set(session: &mut Session, rest: &str) -> Done {
+    let rest = &spaced(rest);
     let mut given: Vec<(&str, String)> = Vec::new();
     let takes_unit = |row: Row| row.is_of_machine() || row == Row::Number(Knob::Disturbance);
     for word in rest.split_whitespace() {

@@ -6,7 +6,7 @@ use crate::numerics::shortest;
 use crate::scan::MEASURES;
 use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, Window};
 use crate::session::{
-    Command, Completion, Context, Keymap, NamedValue, Row, Session, Setup, choices,
+    Command, Completion, Context, Keymap, NamedValue, Row, Session, Setup, called, choices,
 };
 use crate::words::{counted, joined};
 
@@ -134,7 +134,7 @@ pub fn completion(session: &Session, text: &str) -> Option<Completion> {
 /// The syntax and the explanation of the command with which a line begins; of a measure at the end of a scan, its name
 /// and its meaning.
 pub fn described(keymap: &Keymap, text: &str) -> Option<(&'static str, &'static str)> {
-    let name = text.split_whitespace().next()?;
+    let (name, _) = called(text);
     let last = text.rsplit([' ', ',']).next().filter(|_| name == "scan");
     if let Some(row) = MEASURES.iter().find(|row| Some(row.name) == last) {
         return Some((row.name, row.meaning));

@@ -9,7 +9,6 @@
 use std::collections::BTreeSet;
 
 use crate::scene::{Request, TOPICS, Topic, VIEWS, View};
-use crate::session::read::wants::COMPARED;
 use crate::session::read::windows;
 use crate::session::{
     Code, Command, Context, Key, ListKind, MouseAction, Msg, Overlay, PaletteRow, Pane,
@@ -34,8 +33,7 @@ impl Session {
             Some(pending) if self.keymap.command(&[pending.context()], key).is_some() => {
                 return None;
             }
-            Some(PendingInput::GoTo) => return self.awaited_by_line("goto"),
-            Some(PendingInput::Mark) => return None,
+            Some(PendingInput::GoTo | PendingInput::Mark) => return None,
             Some(PendingInput::Count(_)) | None => {}
         }
         let Some(command) = self.keymap.command(self.contexts_at_rest(), key) else {
@@ -86,12 +84,6 @@ impl Session {
                 open(Topic::Trajectory)
             }
             "window" => windows::awaited(self, plot),
-            // Of the point that is left, only answers that layers ask for are drawn.
-            "comparison" => {
-                let asks = self.asks();
-                let asked = |request: &Request| asks.contains(request);
-                COMPARED.into_iter().find_map(|topic| open(topic).filter(asked))
-            }
             "everything" => {
                 let mut wants = self.wants().into_iter();
                 wants.find(|request| !request.is_long() && is_open(request))

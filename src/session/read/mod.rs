@@ -1,6 +1,7 @@
 //! Questions about a session, each answered by a pure function of its state.
 
 pub mod answers;
+pub(crate) mod compare;
 pub mod completion;
 pub mod contexts;
 pub mod fate;

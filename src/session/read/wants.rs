@@ -11,16 +11,13 @@ use crate::branch::Plane;
 use crate::flow::{Cost, Problem};
 use crate::model::Knob;
 use crate::numerics::{distinct, exp2, hypot, log2};
-use crate::scene::{Finding, Layer, LayerSpec, Reply, Request, Span, TOPICS, Topic, View, Window};
+use crate::scene::{Layer, LayerSpec, Reply, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::{Framing, List, ListKind, Overlay, Pane, Plot, Row, Session};
 use crate::words::{count, duration, joined};
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
 /// questions on it are first answered by drafts.
 const LONG: u64 = 100_000;
-
-/// The topics that are drawn of the point that was left for a mark.
-pub(crate) const COMPARED: [Topic; 2] = [Topic::Trajectory, Topic::Cycles];
 
 /// Maximum number of bands of capture that are drawn: more would fill the plane.
 const MOST_BANDS: usize = 24;
@@ -56,7 +53,8 @@ impl Session {
         let awaited = self.waiting.iter().map(|waiting| waiting.request.clone());
         let claims = matches!(self.overlay, Some(Overlay::List(ListKind::Paper, _)));
         let claims = claims.then_some(Request::Claims);
-        let all = awaited.chain(self.refit_request(false)).chain(claims).chain(each);
+        let beside = self.on_show().flat_map(|plot| self.compared(plot));
+        let all = awaited.chain(self.refit_request(false)).chain(claims).chain(each).chain(beside);
         let proof = || self.request(Topic::Proof, self.plot);
         let proof = needed.iter().any(|(topic, _)| *topic == Topic::Cycles).then(proof).flatten();
         // The distribution of the margin is drawn, and the second status line tells of it.
@@ -69,18 +67,8 @@ impl Session {
     /// The questions of one plot.
     pub fn asked_by(&self, plot: usize) -> Vec<Request> {
         let needed = self.needs(plot).into_iter();
-        needed.flat_map(|topic| self.requests(topic, plot)).flatten().collect()
-    }
-
-    /// The questions whose answers are drawn for the point that was left.
-    pub(crate) fn compared(&self) -> impl Iterator<Item = &Request> {
-        let left = self.marks.left.iter().filter(|_| self.shows(Layer::Ghost));
-        left.flat_map(|left| &left.asked)
-    }
-
-    /// The answers for the point that was left.
-    pub fn answers_left(&self) -> impl Iterator<Item = &Finding> {
-        self.compared().filter_map(|request| self.answers.standing(request).fresh().answer())
+        let own = needed.flat_map(|topic| self.requests(topic, plot)).flatten();
+        own.chain(self.compared(plot)).collect()
     }
 
     /// Whether to measure the error of the motion on show: the row of the accuracy or of the method is

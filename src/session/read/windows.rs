@@ -38,8 +38,21 @@ const BELT: f64 = 2.0;
 /// to infinity need not.
 const QUANTILE: f64 = 0.9;
 
-/// The window that shows the whole content of a plot; `None` if there is none yet.
+/// The window that shows the whole content of a plot, and that of a pinned point; `None` if there is none yet.
 pub fn fitted(session: &Session, index: usize) -> Option<Window> {
+    let own = alone(session, index)?;
+    let beside = session.pinned().and(session.beside(index));
+    let Some(theirs) = beside.and_then(|other| alone(other, index)) else { return Some(own) };
+    let [across, up] = session.units_beside(index);
+    let both = |own: Span, theirs: Span, by: f64| {
+        let ends = own.ends().into_iter().chain(theirs.ends().map(|end| by * end));
+        Span::covering(ends).unwrap_or(own)
+    };
+    Some(Window { x: both(own.x, theirs.x, across), y: both(own.y, theirs.y, up) })
+}
+
+/// The window that shows the whole content of a plot at the present point alone.
+fn alone(session: &Session, index: usize) -> Option<Window> {
     let view = session.plots[index].view;
     let usual = view.spec().window;
     match view {

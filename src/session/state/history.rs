@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use strum::IntoStaticStr;
 
 use crate::flow::Problem;
-use crate::scene::{Arrangement, Layer, MOST_PLOTS, PlotSetup, Request, Scene, find};
+use crate::scene::{Arrangement, Layer, MOST_PLOTS, PlotSetup, Scene, find};
 use crate::session::{Done, Setup, StepSizes};
 
 /// The state before a change, limited to what the change affects.
@@ -18,6 +19,8 @@ pub enum EarlierState {
     /// A number was changed. Undoing that leaves zoom and layers alone.
     #[serde(rename = "motions")]
     Setup(Box<Setup>),
+    /// The present state was exchanged with the pinned one.
+    Swap(Box<Setup>),
     /// A plot was added, removed or moved, or its view was changed.
     #[serde(rename = "plots")]
     ScreenSetup(ScreenSetup),
@@ -29,7 +32,7 @@ impl EarlierState {
     /// Fails with one line that names the first number that is not within its range.
     pub(crate) fn check(&self) -> Done {
         match self {
-            EarlierState::Setup(setup) => setup.check(),
+            EarlierState::Setup(setup) | EarlierState::Swap(setup) => setup.check(),
             EarlierState::ScreenSetup(screen_setup) => check_number(&screen_setup.plots),
             EarlierState::Scene { plots, show } => check_number(plots).and_then(|()| show.check()),
         }
@@ -44,6 +47,7 @@ enum SavedEarlierState {
     Motion(Problem),
     #[serde(alias = "motion-on-belt")]
     Motions(Box<Setup>),
+    Swap(Box<Setup>),
     Plots(ScreenSetup),
     Scene {
         plots: Vec<PlotSetup>,
@@ -56,6 +60,7 @@ impl From<SavedEarlierState> for EarlierState {
         match saved {
             SavedEarlierState::Motion(problem) => EarlierState::Setup(Setup::alone(problem).into()),
             SavedEarlierState::Motions(setup) => EarlierState::Setup(setup),
+            SavedEarlierState::Swap(setup) => EarlierState::Swap(setup),
             SavedEarlierState::Plots(screen_setup) => EarlierState::ScreenSetup(screen_setup),
             SavedEarlierState::Scene { plots, show } => EarlierState::Scene { plots, show },
         }
@@ -136,7 +141,7 @@ impl History {
     pub fn forget_windows(&mut self) {
         for before in self.past.iter_mut().chain(&mut self.future) {
             let plots = match before {
-                EarlierState::Setup(_) => continue,
+                EarlierState::Setup(_) | EarlierState::Swap(_) => continue,
                 EarlierState::ScreenSetup(screen_setup) => &mut screen_setup.plots,
                 EarlierState::Scene { plots, .. } => plots,
             };
@@ -169,16 +174,32 @@ impl History {
 /// Points of the parameters to come back to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bookmarks {
-    pub places: BTreeMap<char, Bookmark>,
-    /// The point that was left last, for comparison.
-    pub left: Option<Bookmark>,
+    pub places: BTreeMap<char, Setup>,
+    /// The other point of a comparison: the one that is pinned, otherwise the one that was left last for a mark.
+    pub left: Option<Setup>,
+    /// What the pinned point is called; `None` where none is pinned.
+    pub pinned: Option<Letter>,
 }
 
-/// A point of the parameters, and what is drawn of it beside the present one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Bookmark {
-    /// The motion and the speed of its belt.
-    pub setup: Setup,
-    /// The questions for its motion and its cycles; empty until the point was on show.
-    pub asked: Vec<Request>,
+/// The names of the two points of a comparison: the one that is pinned begins as A.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
+pub enum Letter {
+    #[default]
+    A,
+    B,
+}
+
+impl Letter {
+    /// The name as text.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+
+    /// The name of the other point.
+    pub fn other(self) -> Self {
+        match self {
+            Letter::A => Letter::B,
+            Letter::B => Letter::A,
+        }
+    }
 }

@@ -89,8 +89,13 @@ pub fn full_name(word: &str) -> &str {
     OTHERS.get(word).copied().unwrap_or(word)
 }
 
-/// The name of the command that a line calls, and the words after it.
+/// The name of the command that a line calls, and the words after it: assignments alone are those of `set`.
 pub fn called(line: &str) -> (&str, &str) {
+    let line = line.trim();
+    let assigned = line.split_once('=').map_or("", |(name, _)| name.trim());
+    if !assigned.is_empty() && assigned.chars().all(|it| it.is_ascii_alphanumeric() || it == '_') {
+        return ("set", line);
+    }
     let (name, words) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
     (full_name(name), words.trim())
 }

@@ -133,6 +133,8 @@ pub struct Session {
     pub asked: u32,
     /// Points to come back to, and the point for comparison.
     pub marks: Bookmarks,
+    /// The session at the point for comparison, if that is on show: it has the same plots and answers.
+    pub other: Option<Box<Session>>,
     /// The caption above the status lines.
     pub caption: SessionCaption,
     /// Interrupted sessions that can be continued, the most recent first.

@@ -82,7 +82,7 @@ fn fact(session: &Session, name: &str) -> String {
         "pending" => session.pending.map_or_else(|| "none".to_owned(), |it| format!("{it:?}")),
         "scanned" => session.scanned.as_ref().expect("a scan").at.to_string(),
         "ghost" => {
-            let left = session.marks.left.as_ref().map(|mark| mark.setup.problem.parameters.d);
+            let left = session.marks.left.as_ref().map(|left| left.problem.parameters.d);
             left.map_or_else(|| "none".to_owned(), |d| d.to_string())
         }
         _ => overlay(session, name)

@@ -1,7 +1,6 @@
 //! Combinations of keys: counts and marks.
 
 use super::Trial;
-use crate::scene::Finding;
 
 #[test]
 fn a_count_presses_the_next_key_so_often_as_one_change() {
@@ -39,9 +38,10 @@ fn between_two_marks_nothing_is_computed_twice_and_the_other_one_is_a_ghost() {
     let mut trial = Trial::open("plain");
     trial
         .goes(&[("\"a <right*5> \"b", "D -0.05"), ("'a", "asked | D -0.1 | +ghost | ghost -0.05")]);
-    let left: Vec<&Finding> = trial.session.answers_left().collect();
-    let [Finding::Trajectory(motion), Finding::Cycles(_, _)] = left[..] else { panic!("{left:?}") };
-    assert_eq!(motion.problem, trial.session.marks.left.as_ref().unwrap().setup.problem);
+    let other = trial.session.other.as_deref().expect("the point left is on show");
+    let left = trial.session.marks.left.as_ref().unwrap();
+    assert_eq!(other.trajectory().map(|found| found.problem), Some(left.problem));
+    assert!(other.cycles().is_some_and(|it| it.parameters == left.problem.parameters));
     trial.goes(&[
         ("'b", "asked"),
         ("''", "asked | D -0.1"),

@@ -3,6 +3,7 @@
 
 mod axes;
 mod belt;
+mod compare;
 mod dependence;
 mod dial;
 mod screen_setup;

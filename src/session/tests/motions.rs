@@ -72,7 +72,7 @@ fn a_saved_session_keeps_motions_their_marks_and_their_history() {
     let mut opened = reopened(&trial.session);
     let text = save::text(&opened).unwrap();
     assert_eq!(opened.problems().len(), 2);
-    assert_eq!(opened.marks.places[&'a'].setup.others.len(), 2);
+    assert_eq!(opened.marks.places[&'a'].others.len(), 2);
 
     let one = Trial::open("supercritical");
     assert!(!save::text(&one.session).unwrap().contains("beside"), "as files were before");

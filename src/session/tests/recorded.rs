@@ -47,8 +47,7 @@ fn alike(session: &Session) -> Session {
     session.price = crate::session::Price::default();
     (session.chord, session.asked) = (0, 0);
     session.answers = Answers::default();
-    session.marks.places.values_mut().for_each(|mark| mark.asked.clear());
-    session.marks.left.iter_mut().for_each(|mark| mark.asked.clear());
+    session.other = None;
     session.interrupted.clear();
     session.history.forget_windows();
     session

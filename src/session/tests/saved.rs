@@ -15,7 +15,7 @@ use crate::session::{
 /// Everything of a session that its file holds.
 fn essence(session: &Session) -> impl PartialEq + use<> {
     let marks: Vec<(char, Setup)> =
-        session.marks.places.iter().map(|(name, mark)| (*name, mark.setup.clone())).collect();
+        session.marks.places.iter().map(|(name, mark)| (*name, mark.clone())).collect();
     let plots: Vec<_> = session
         .plots
         .iter()

@@ -49,7 +49,7 @@ fn type_ahead(trial: &mut Trial, keys: &str) -> Vec<String> {
 }
 
 /// For each command that needs an answer, keys that ask something new and run the command at once.
-const HASTY: [(&str, &str, &str); 27] = [
+const HASTY: [(&str, &str, &str); 26] = [
     ("start-inside", "supercritical", "<right>i"),
     // The first plot is a diagram with variants; the border is that of the present friction.
     ("start-inside", "fig16a", "<right>i"),
@@ -86,7 +86,6 @@ const HASTY: [(&str, &str, &str); 27] = [
     ("zoom-in", "supercritical", "<right><tab>0++"),
     ("pan-left", "supercritical", "<right><tab>0H"),
     ("next-ordinate", "supercritical", "<tab*2>XY"),
-    ("goto", "linear", "\"a<right*3>'a"),
     ("retry", "linear", "<right><f5>"),
 ];
 
