@@ -11,13 +11,13 @@ use super::{
 use crate::closed_form::lyapunov;
 use crate::fit::{FitResult, Signal};
 use crate::flow::{Motion, Outcome, Problem};
-use crate::model::{Field, HalfPlane, Parameters, Side};
+use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::hypot;
 use crate::portrait::{Border, Cycle, Distribution, Drawing, RandomKick, Ride};
 use crate::question::Extent;
 use crate::scene::{Finding, Layer, Point, Topic, rectangle};
 use crate::session::{Session, ShownMotion, VariantTag};
-use crate::words::significant;
+use crate::words::{significant, with_unit};
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.axes("q", "v");
@@ -94,6 +94,9 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     if shows(Layer::Belt) {
         belt(picture, session);
     }
+    if (shows(Layer::Margin) || session.kicking) && session.variants(index).is_none() {
+        margin(picture, session);
+    }
     if shows(Layer::Trajectory) {
         ends(picture, session, index, &shown);
     }
@@ -111,6 +114,24 @@ fn record(picture: &mut Picture, fitted: &FitResult) {
     let counted = fitted.points.iter().filter(|point| point.dropped.is_none());
     let line = LineStyle { dash: Dash::Dotted, ..LineStyle::from("record") };
     picture.curve(line, counted.map(|point| [point.q, point.v]));
+}
+
+/// An arrow to the border of the basin: from where the mass was kicked in the direction of the kick, otherwise from where
+/// the smallest impulse is lost.
+fn margin(picture: &mut Picture, session: &Session) {
+    /// Half the width and the length of its head, as parts of the window.
+    const HEAD: [f64; 2] = [0.012, 0.03];
+    let State { q, v } = session.problem.initial;
+    let kick = session.kick().filter(|_| session.kicking);
+    let tried = kick.and_then(|kick| Some(State { q, v: kick.border?.copysign(v) }));
+    let Some(State { q, v }) = tried.or_else(|| session.cycles()?.nearest) else { return };
+    let [aside, back] = [HEAD[0] * picture.window.x.width(), HEAD[1] * picture.window.y.width()];
+    let below = v - back.min(0.5 * v.abs()).copysign(v);
+    let shaft = [[q, 0.0], [q, v], [q - aside, below], [q, v], [q + aside, below]];
+    picture.curve("margin", shaft);
+    let (one, unit) = session.unit_of_kick(false);
+    let text = format!("margin {}", with_unit(v.abs() * one, 4, unit));
+    picture.caption([q, 0.6 * v], text, Role::Special);
 }
 
 /// The velocity at which the mass sticks to its belt, and where the motion reaches it.

@@ -220,7 +220,7 @@ fn estimate_columns<'a>() -> Columns<'a, EstimateRow> {
         .text("unit", |row| row.unit.1.clone())
 }
 
-/// The smallest kicks that are not survived, and those that are guaranteed.
+/// The margins, and those that are guaranteed.
 fn kick_rows(fitted: &FitResult) -> Vec<EstimateRow> {
     let Margins { kicks, guaranteed, .. } = &fitted.margins;
     let kicks = EstimateRow::of_kicks(fitted, "margin", kicks);
@@ -326,7 +326,7 @@ fn draws(fitted: &FitResult) -> String {
         ""
     };
     format!(
-        "smallest kicks that are not survived, from the worst rest position and from q = 0{impulse};\n\
+        "margins, the smallest kicks not survived, from the worst rest position and from q = 0{impulse};\n\
          95 % lie from .. to, by {} effective draws; none: the share of the draws without",
         significant(fitted.margins.effective, 3)
     )

@@ -8,7 +8,7 @@ use crate::words::significant;
 /// What a margin is called, and how large it is.
 pub(super) type MarginRow = (&'static str, Margin);
 
-/// The name of a margin that holds for certain.
+/// The name of a margin that holds whatever is not known exactly, and whatever disturbs.
 pub(super) const GUARANTEED: &str = "guaranteed";
 
 /// The columns of margins.
@@ -26,13 +26,13 @@ fn sizes(about: &About, digits: usize) -> [Quantity; 2] {
     ["m", "N s"].map(|unit| about.quantity(unit, digits).or("none"))
 }
 
-/// A margin that holds for certain, which text must not round up.
+/// A guaranteed margin, which text must not round up.
 pub(super) fn guaranteed(about: &About, margin: Margin, digits: usize) -> MarginRow {
     let [length, impulse] = sizes(about, digits);
     (GUARANTEED, margin.map(|size| length.down(size), |size| impulse.down(size)))
 }
 
-/// The margins, nominal and those for certain whatever a force of at most `disturbance` does: a row for each, or why
+/// The margins, nominal and guaranteed whatever a force of at most `disturbance` does: a row for each, or why
 /// nothing is guaranteed.
 pub fn margins(
     about: &About,
@@ -87,7 +87,7 @@ pub fn basin(
         Columns::default().number("lyapunov_share", Quantity::pure(4), move |_: &MarginRow| share);
     let proved = certified
         .map(|kicks| Columns::default().part("certified", kick_columns(), move |_| Some(kicks)));
-    let heading = "starts of the window, smallest kicks not captured";
+    let heading = "starts of the window, margins";
     let columns = Columns::default()
         .text(heading, |(name, _): &MarginRow| *name)
         .word("captured", move |_| counts.captured)

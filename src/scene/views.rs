@@ -125,6 +125,7 @@ pub enum Layer {
     Sticking,
     Cycles,
     Basin,
+    Margin,
     Field,
     Lyapunov,
     Bands,

@@ -11,7 +11,7 @@ use crate::scene::{LAYERS, Layer, LayerSpec, VIEWS, library};
 use crate::session::CommandAction::{self, Act, Line, Move, Press, Toggle, Try};
 use crate::session::ListKind::{Cost, Layers, Palette as Everything, Paper, Scenes, Views};
 use crate::session::act::{
-    compare, copy, files, general, history, lists, motions, parameters, plots, prompt, scan,
+    compare, copy, files, general, history, kick, lists, motions, parameters, plots, prompt, scan,
     screen_setup, values, walk,
 };
 use crate::session::read::completion::{self, all, nothing};
@@ -87,6 +87,10 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("play-motion", Try(motions::play)),
     ("motion-by", Move(|s, [by, _]| s.attempt(|s| motions::step(s, f64::from(by))))),
     ("motion-pace", Act(motions::pace)),
+    ("try-kick", Try(kick::kick)),
+    ("kick-by", Move(|s, [by, _]| s.attempt(|s| kick::resize(s, by)))),
+    ("kick-turn", Try(kick::turn)),
+    ("kick-let-go", Act(|s| s.kicking = false)),
     ("unfold", Act(|s| s.unfolded = !s.unfolded)),
     ("reset-scene", Act(history::reset_scene)),
     ("accuracy", Move(|s, [by, _]| s.attempt(|s| parameters::dial(s, by > 0)))),

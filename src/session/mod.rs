@@ -25,7 +25,8 @@ pub mod state;
 pub(crate) mod tests;
 pub mod update;
 
-pub use self::{message::*, read::contexts::*, read::lists::*, read::machine::*, read::plots::*};
+pub use self::{message::*, read::contexts::*, read::kick::*, read::lists::*};
+pub use self::{read::machine::*, read::plots::*};
 pub use act::run::run_line;
 pub use commands::commands;
 pub use key::{Code, Key};

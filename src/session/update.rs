@@ -8,7 +8,7 @@ use crate::flow::Reason;
 use crate::question::NoAnswer;
 use crate::scene::{Reply, Request};
 use crate::session::act::run::{ENTER, run, run_line, run_where_it_belongs};
-use crate::session::act::{answers, compare, files, history, plots, prompt, values, walk};
+use crate::session::act::{answers, compare, files, history, kick, plots, prompt, values, walk};
 use crate::session::read::contexts;
 use crate::session::replay::script::parse;
 use crate::session::{
@@ -98,6 +98,7 @@ fn take_in(session: &mut Session, message: Msg) {
     // It has the windows that were fitted just now.
     compare::follow(session);
     walk::keep_hold(session);
+    kick::keep(session);
     if session.chord > 0 && session.overlay.is_none() && session.pending.is_none() {
         session.asked = std::mem::take(&mut session.chord);
     }

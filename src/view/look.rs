@@ -47,6 +47,8 @@ pub struct Symbols {
     /// Direction of motion, from east counter-clockwise in eighths of a turn.
     pub arrows: [char; 8],
     pub shade: char,
+    /// Of the gauge of a kick: the bar, its end, what is beyond, the margin, the guaranteed one.
+    pub gauge: [char; 5],
     /// Cross of the cursor, and its horizontal and vertical arms.
     pub cross: [char; 3],
 }

@@ -1,5 +1,5 @@
-//! Margins in words: the smallest kicks that are not survived, from the worst rest position first; nominal and for
-//! certain, of the machine by the whole model and by its cubic expansion.
+//! Margins in words: the smallest kicks that are not survived, from the worst rest position first; nominal and
+//! guaranteed, of the machine by the whole model and by its cubic expansion.
 
 use super::{fitted::statement, pane};
 use crate::model::Knob;
@@ -14,6 +14,9 @@ const WIDE: u16 = 110;
 
 /// Digits of a margin. Where there is no room for them, fewer are better than a number that is cut.
 const PLACES: usize = 4;
+
+/// What a margin is called that holds whatever is not known exactly, and whatever disturbs.
+const GUARANTEED: &str = "guaranteed";
 
 const EVERY: &str = "every kick is survived";
 
@@ -39,16 +42,11 @@ impl KickNotation<'_> {
         if kick == RestMargin::default() {
             return None;
         }
-        let units = match self.session.units() {
-            None => [("shift ", 1.0, ""), ("impulse ", 1.0, "")],
-            Some(units) if units.force.is_finite() => {
-                [("", units.displacement, "m"), ("", units.impulse, "N s")]
-            }
-            Some(units) => [("", units.displacement, "m"), ("", units.velocity, "m/s")],
-        };
-        let sizes = [kick.displacement, kick.impulse];
-        let texts = sizes.into_iter().zip(units).map(|(size, (name, one, unit))| {
-            let name = if self.named { name } else { "" };
+        let named = self.named && self.session.units().is_none();
+        let sizes = [("shift ", true, kick.displacement), ("impulse ", false, kick.impulse)];
+        let texts = sizes.into_iter().map(|(name, is_shift, size)| {
+            let name = if named { name } else { "" };
+            let (one, unit) = self.session.unit_of_kick(is_shift);
             let size = size.map(|size| self.size(size * one, unit));
             format!("{name}{}", size.unwrap_or_else(|| "any".to_owned()))
         });
@@ -102,18 +100,20 @@ pub fn status(session: &Session) -> Option<String> {
     certain(session, width).or_else(nominal)
 }
 
-/// What the pane says about the margin that holds for certain, in a line of this width.
-pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
+/// What the pane says about the guaranteed margin, in a line of this width.
+pub fn brief_guaranteed(session: &Session, width: usize) -> Option<String> {
     match &zones(session)?.guaranteed {
-        Err(_) => Some("sure: no kick".to_owned()),
-        Ok(sure) if sure.from_rest == RestMargin::default() => Some("sure: every kick".to_owned()),
-        Ok(sure) => in_pane(session, "sure", sure, width),
+        Err(_) => Some("guaranteed: no kick".to_owned()),
+        Ok(sure) if sure.from_rest == RestMargin::default() => {
+            Some("guaranteed: every kick".to_owned())
+        }
+        Ok(sure) => in_pane(session, GUARANTEED, sure, width),
     }
 }
 
 /// What the pane says about a margin of this name, in a line of this width.
 pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> Option<String> {
-    let bound = name == "sure";
+    let bound = name == GUARANTEED;
     let all = (1..=PLACES).rev().flat_map(|places| [(places, true), (places, false)]);
     let mut texts = all.filter_map(|(places, named)| {
         let write = KickNotation { session, places, named, bound };
@@ -122,7 +122,23 @@ pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> 
     texts.find(|text| text.chars().count() <= width)
 }
 
-/// What holds for certain, where it is to be told and is known.
+/// The size of a kick, in the unit of a machine or a record.
+pub fn told(session: &Session, is_shift: bool, size: f64, digits: usize) -> String {
+    let (one, unit) = session.unit_of_kick(is_shift);
+    with_unit(size * one, digits, unit)
+}
+
+/// The guaranteed margin of a shift from where the spring is relaxed, or of an impulse from rest, where there is one.
+pub fn guaranteed(session: &Session, is_shift: bool) -> Option<f64> {
+    let margin = zones(session)?.guaranteed.as_ref().ok()?;
+    if is_shift {
+        margin.displacement
+    } else {
+        margin.from_rest.impulse
+    }
+}
+
+/// What is guaranteed, where it is to be told and is known.
 fn zones(session: &Session) -> Option<&CertainZones> {
     let told = session.on_show().any(|plot| session.tells_certain(plot));
     if !told || session.value(Knob::R) == 0.0 {
@@ -131,7 +147,7 @@ fn zones(session: &Session) -> Option<&CertainZones> {
     session.zones().filter(|_| !session.is_stale(Topic::Zones, session.plot))
 }
 
-/// Nominal and for certain.
+/// Nominal and guaranteed.
 fn certain(session: &Session, width: usize) -> Option<String> {
     let CertainZones { nominal, guaranteed, .. } = zones(session)?;
     let texts = |write: KickNotation| {
@@ -139,7 +155,7 @@ fn certain(session: &Session, width: usize) -> Option<String> {
         let sure = match guaranteed {
             Ok(sure) => sure,
             Err(why) => {
-                let nothing = format!("nothing is certain: {why}");
+                let nothing = format!("nothing is guaranteed: {why}");
                 return vec![format!("{headline}; {nothing}"), nothing];
             }
         };
@@ -147,10 +163,10 @@ fn certain(session: &Session, width: usize) -> Option<String> {
             [true, false].map(|named| KickNotation { named, bound: true, ..write });
         let [told, brief] = [named, unnamed].map(|write| {
             let kick = write.kick(sure.from_rest);
-            format!("{headline}; for certain: {}", kick.as_deref().unwrap_or("every kick"))
+            format!("{headline}; guaranteed: {}", kick.as_deref().unwrap_or("every kick"))
         });
         let centre = write.centre(nominal).zip(unnamed.kick(from_centre(sure)));
-        let centre = centre.map(|(own, sure)| format!("{told}; {own}; for certain: {sure}"));
+        let centre = centre.map(|(own, sure)| format!("{told}; {own}; guaranteed: {sure}"));
         centre.into_iter().chain([told, brief]).collect()
     };
     Some(fitting(session, width, texts))
@@ -169,8 +185,18 @@ fn oscillator(session: &Session, width: usize) -> Option<String> {
         let centre = write.centre(&found.margin).map(|centre| format!("{headline}; {centre}"));
         let proved = centre.as_ref().zip(found.lyapunov_share.map(share));
         let proved = proved.map(|(centre, share)| format!("{centre} ({share})"));
-        [proved, centre, Some(headline)].into_iter().flatten().collect()
+        let told = proved.as_deref().or(centre.as_deref()).map(defined);
+        [told, proved, centre, Some(headline)].into_iter().flatten().collect()
     }))
+}
+
+/// A sentence about the margin that says what it is.
+fn defined(text: &str) -> String {
+    text.replacen(
+        "margin from rest",
+        "margin (the smallest kick that is not survived) from rest",
+        1,
+    )
 }
 
 /// How much of the margin from the centre the Lyapunov circle (24) proves. It accounts for linear damping only: where
@@ -198,7 +224,12 @@ fn machine(session: &Session, width: usize) -> Option<String> {
         if session.draws_whole() {
             let both = format!("{own}; cubic expansion: {error}");
             let centre = write.centre(&whole).map(|centre| format!("{both}; {centre}"));
-            return centre.into_iter().chain([both, format!("{own} (cubic: {error})")]).collect();
+            let told = centre.as_deref().map(defined);
+            return told
+                .into_iter()
+                .chain(centre)
+                .chain([both, format!("{own} (cubic: {error})")])
+                .collect();
         }
         let cubic = format!("cubic expansion: {other} ({error})");
         vec![format!("{cubic}; whole model: {own}"), cubic, format!("cubic {other} ({error})")]

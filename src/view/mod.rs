@@ -11,6 +11,7 @@ pub mod energy_ledger;
 mod fitted;
 pub mod footer;
 pub mod frame;
+mod gauge;
 pub mod layout;
 pub mod legend;
 pub mod lists;

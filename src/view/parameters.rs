@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use super::fitted::{fitted, spread};
 use super::pane::{self, Heading};
-use super::{Look, Surface, compare, margin, verdict::multiplier};
+use super::{Look, Surface, compare, gauge, margin, verdict::multiplier};
 use crate::accuracy::BalanceResult;
 use crate::flow::Problem;
 use crate::model::{Knob, Units};
@@ -317,6 +317,9 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
     let words = words.map(|text| (text, Role::Quiet));
     let below = std::iter::once(counted(session, found, room)).chain(words);
     lines.extend(below.map(|(text, role)| vec![look.span(format!(" {text}"), role)]));
+    // While a kick is tried, its gauge stands in the status line.
+    let gauge = gauge::gauge(session, room, look).filter(|_| !session.kicking);
+    lines.extend(gauge.map(|gauge| [vec![Span::raw(" ")], gauge].concat()));
     lines.push(Vec::new());
     lines.into_iter().map(Line::from).collect()
 }
@@ -369,7 +372,7 @@ fn basin(session: &Session, found: &Drawing, width: usize, look: &Look) -> Vec<S
     lines.extend(kicks.filter(|_| low && session.fitted().is_none()));
     lines.extend(spread(session, width, look));
     lines.extend(on_the_machine(session, found, width));
-    lines.extend(margin::brief_certain(session, width));
+    lines.extend(margin::brief_guaranteed(session, width));
     let share = rests.and_then(|found| found.lyapunov_share).map(margin::share);
     let above = |share: &String| margin::status(session).is_some_and(|it| it.contains(share));
     lines.extend(share.filter(|it| low || (session.shows(Layer::Lyapunov) && !above(it))));

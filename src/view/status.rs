@@ -2,8 +2,9 @@
 //! the motion was computed and what that cost.
 
 use ratatui::layout::Rect;
+use ratatui::text::Span;
 
-use super::{Look, Surface, compare, fitted::UNRELIABLE, margin, pane, verdict};
+use super::{Look, Surface, compare, fitted::UNRELIABLE, gauge, margin, pane, verdict};
 use crate::flow::choice;
 use crate::picture::{Role, end_mark};
 use crate::scene::Topic;
@@ -50,11 +51,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let quiet = |text| look.span(text, Role::Quiet);
     // While the accuracy is changed, the cost stands here; at other times a key of its own lists it.
     if !session.measures() {
-        let both = compare::margins(session, usize::from(area.width).saturating_sub(1));
-        let text = both.or_else(|| margin::status(session)).unwrap_or_default();
-        let failed = text.starts_with(UNRELIABLE);
-        let role = if failed { Role::Warning } else { Role::Quiet };
-        return screen.line(area, 1, look.span(format!(" {text}"), role));
+        return screen.line(area, 1, survived(session, area.width.into(), look));
     }
     let line = |shorter| (work(session, look, shorter), price(session, look, shorter));
     let fits = |(left, right): &(String, String)| {
@@ -62,6 +59,28 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     };
     let (left, right) = (0..SHORTEST).map(line).find(fits).unwrap_or_else(|| line(SHORTEST));
     screen.both_ends(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")));
+}
+
+/// Which kicks are survived, behind the gauge of the one that is being tried.
+fn survived(session: &Session, width: usize, look: &Look) -> Vec<Span<'static>> {
+    let both = compare::margins(session, width.saturating_sub(1));
+    let text = both.or_else(|| margin::status(session)).unwrap_or_default();
+    let failed = text.starts_with(UNRELIABLE);
+    let role = if failed { Role::Warning } else { Role::Quiet };
+    let gauge = gauge::gauge(session, width.saturating_sub(2), look).filter(|_| session.kicking);
+    let mut line = vec![Span::raw(" ")];
+    let text = match gauge {
+        None => text,
+        Some(gauge) => {
+            line.extend(gauge);
+            format!(" {} {text}", look.symbols().dot)
+        }
+    };
+    let used: usize = line.iter().map(Span::width).sum();
+    let room = width.saturating_sub(used);
+    let fits = line.len() == 1 || text.chars().count() <= room;
+    line.extend(fits.then(|| look.span(text, role)));
+    line
 }
 
 /// What goes on: a computation, a file that is written, a motion that is played.

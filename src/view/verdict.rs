@@ -1,6 +1,6 @@
 //! What becomes of the motion and why, in a sentence; in its place the point of a branch that is held.
 
-use super::{Look, pane};
+use super::{Look, margin, pane};
 use crate::branch::SpecialKind;
 use crate::flow::{Fate, Motion, Outcome};
 use crate::model::Units;
@@ -8,14 +8,42 @@ use crate::picture::{Role, units};
 use crate::portrait::{Border, Cycle, Drawing, Portrait};
 use crate::scene::{Finding, Layer, Topic};
 use crate::session::fate::End;
-use crate::session::{BranchStop, Session};
+use crate::session::{BranchStop, Kick, Session};
 use crate::words::motion::{of_machine, sentence, swings};
 use crate::words::{Notation, joined, significant, stability};
 
-/// What became of the motion, in a sentence.
+/// What became of the motion, in a sentence; of a kick that is being tried, first whether it is survived, and that only
+/// when it is seen.
 pub fn outcome(session: &Session) -> (String, Role) {
-    let needs = |plot: usize| session.needs(plot).contains(&Topic::Trajectory);
-    let asked = session.on_show().any(|plot| session.variants(plot).is_none() && needs(plot));
+    let (text, role) = end_of_motion(session);
+    let kick = session.kick().filter(|kick| !kick.is_shift && role == Role::Text);
+    match (kick, session.survives()) {
+        (Some(kick), _) if session.is_open_kick() => (tried(session, kick), Role::Cursor),
+        (Some(_), Some(survives)) => {
+            let word = if survives { SURVIVED } else { LOST };
+            (format!("{word}: {text}"), role)
+        }
+        _ => (text, role),
+    }
+}
+
+/// What is said of a kick after which the mass comes to rest again, and of any other.
+const SURVIVED: &str = "survived";
+const LOST: &str = "lost";
+
+/// The kick that is being played, whose end is not told yet.
+fn tried(session: &Session, Kick { size, border, .. }: Kick) -> String {
+    let place = Notation(units::shown(session)).position(session.problem.initial.q, 3);
+    let size_told = margin::told(session, false, size, 4);
+    let part = border.map_or_else(String::new, |border| {
+        format!(", {} of the margin there", significant(size / border, 2))
+    });
+    format!("kick {size_told} from rest at {place}{part}: ..")
+}
+
+/// What became of the motion.
+fn end_of_motion(session: &Session) -> (String, Role) {
+    let asked = session.follows_motion();
     if let Some(text) = held_motions(session).filter(|_| !asked) {
         return (text, Role::Quiet);
     }

@@ -172,7 +172,7 @@ fn a_page_of_a_machine_names_the_table_of_its_friction_too() {
 #[test]
 fn a_machine_that_is_not_sure_to_survive_anything_says_so_first() {
     let text = page(&["belt", "textbook", "--disturbance", "3 N"]);
-    assert!(text.contains("class=\"statement broken\">No kick is survived for certain"), "{text}");
+    assert!(text.contains("class=\"statement broken\">No margin is guaranteed"), "{text}");
     // Within the margin that is guaranteed.
     let sure = page(&["belt", "textbook", "--set", "R=1N+-0.2N", "--disturbance", "0.1 N"]);
     let told = json("belt textbook --set R=1N+-0.2N --disturbance 0.1N");

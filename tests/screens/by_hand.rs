@@ -180,6 +180,7 @@ pub fn drawing(cycles: Vec<Cycle>, edge: Vec<State>, curves: Vec<Vec<State>>) ->
         works,
         edge,
         margin,
+        nearest: margin.from_rest.impulse.map(|v| State { q: 0.1, v }),
         area: Some(0.8),
         lyapunov_share: Some(0.3),
         portrait: Box::new(portrait),

@@ -160,7 +160,7 @@ fn the_headline_is_the_margin_from_the_worst_rest_position_that_the_command_line
         let disturbed = ["--set", "r=0.1+-0.01", "--disturbance", "0.02", "--format", "json"];
         let answer = answered(&[&["margin", "--scene", "supercritical"], &disturbed[..]].concat());
         agrees(&numbers(&line, "margin from rest: "), &answer["nominal"]["from_rest"]);
-        let certain = numbers(&line, "for certain: ");
+        let certain = numbers(&line, "guaranteed: ");
         agrees(&certain, &answer["guaranteed"]["from_rest"]);
         let bound = &answer["guaranteed"]["from_rest"]["displacement"];
         assert!(certain[0] <= bound.as_f64().unwrap(), "a bound is not rounded up: {line}");

@@ -88,6 +88,9 @@ impl Portrait {
             works,
             edge: self.edge().map(|edge| self.places(edge, points)).unwrap_or_default(),
             margin: self.in_drawing(&self.margin),
+            nearest: self
+                .nearest_border()
+                .map(|(q, v)| State { q: q / unit, v: v / (unit * self.model.omega_0) }),
             area: area.map(|area| area / (unit * unit * model.omega_0)),
             lyapunov_share: self.lyapunov_share(),
             portrait: Box::new(self),
@@ -107,6 +110,23 @@ impl Portrait {
     pub fn from_drawing(&self, State { q, v }: State) -> (f64, f64) {
         let unit = self.model.drawing_length();
         (q * unit, v * unit * self.model.omega_0)
+    }
+
+    /// How large a kick would be that leads from rest in the direction of this state, by its velocity or along `v = 0`,
+    /// and ends on the border of the basin, in these units; `None` where there is none, or no border was traced.
+    #[must_use]
+    pub fn border_toward(&self, State { q, v }: State) -> Option<f64> {
+        let edge = self.edge().filter(|_| self.has_basin())?;
+        let unit = self.model.drawing_length();
+        let (low, high) = if v == 0.0 {
+            let (right, left) = self.reach?.displacement;
+            (left, right)
+        } else {
+            edge.span_at(q * unit)?
+        };
+        let forward = if v == 0.0 { q > 0.0 } else { v > 0.0 };
+        let size = if forward { high } else { low }.abs() / unit;
+        Some(size).filter(|size| size.is_finite() && *size > 0.0)
     }
 
     /// A margin of the machine in these units.
@@ -194,6 +214,8 @@ pub struct Drawing {
     pub edge: Vec<State>,
     /// The kicks that are survived.
     pub margin: Margin,
+    /// Where the mass rests when the smallest impulse that is not survived meets it, with the velocity of the border there.
+    pub nearest: Option<State>,
     /// Area of the basin, where it is finite.
     pub area: Option<f64>,
     /// Radius of Lyapunov's disk (24) as a fraction of the margin; above 1 it promises too much, because it

@@ -69,7 +69,7 @@ pub fn machine(found: &MachineAnswer, seconds: f64) -> Answer {
     let margins = [("nominal", portrait.margin)].into_iter();
     let margins = margins.chain(certain.map(|margin| guaranteed(about, margin, PLACES)));
     let kicks = Columns::default()
-        .text("smallest kick that is not survived", |(name, _): &MarginRow| *name)
+        .text("margin: smallest kick not survived", |(name, _): &MarginRow| *name)
         .and(margin_columns(about, PLACES));
     let (statement, holds) = text::statement(found);
     let allowance = text::allowance(found).unwrap_or_default();

@@ -14,7 +14,7 @@ pub(super) fn statement(answer: &MachineAnswer) -> (String, bool) {
     let margin = match answer.certain {
         Some(Err(reason)) => {
             let known = answer.allowed();
-            return (format!("No kick is survived for certain, for {known}: {reason}."), false);
+            return (format!("No margin is guaranteed, for {known}: {reason}."), false);
         }
         Some(Ok(margin)) => margin,
         None => answer.portrait.margin,

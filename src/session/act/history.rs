@@ -122,6 +122,7 @@ pub fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot>) {
     session.layers = snapshot.layers;
     set_up(session, snapshot.arrangement, plots);
     session.playback = Playback { pace: session.playback.pace, ..Playback::default() };
+    session.kicking = false;
 }
 
 /// Opens a scene, as one change that can be undone.

@@ -6,6 +6,7 @@ pub mod copy;
 pub mod files;
 pub mod general;
 pub mod history;
+pub mod kick;
 pub mod lists;
 pub mod motions;
 pub mod parameters;

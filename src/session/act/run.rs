@@ -34,6 +34,9 @@ fn missing(session: &Session, place: Context) -> String {
         None if place == Context::Walk => {
             session.with_keys("needs a branch: {walk} on a diagram takes hold of one")
         }
+        None if place == Context::Kick => {
+            session.with_keys("needs a kick of the mass: {try-kick} tries one")
+        }
         None => format!("works only {}", place.spec().title.to_lowercase()),
     }
 }

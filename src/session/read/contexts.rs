@@ -130,7 +130,11 @@ impl Session {
             Some(plot) => Context::View(plot.view),
             None => Context::Parameters,
         };
-        &first.spec().chain
+        if self.kicking {
+            &first.spec().kicked
+        } else {
+            &first.spec().chain
+        }
     }
 
     /// Whether a key has its usual effect while the caption of a tour is shown: the caption names its command,
@@ -153,12 +157,17 @@ impl Session {
     pub fn hints(&self) -> Vec<Hint> {
         let mut hints: Vec<Hint> = Vec::new();
         let mut shown = BTreeSet::new();
-        for context in self.contexts() {
+        let contexts = self.contexts();
+        for context in contexts {
             for command in self.keymap.commands().filter(|command| !command.hint.is_empty()) {
                 // A finished scan cannot be paused.
                 let over = command.name == "scan-pause" && self.scan_request().is_none();
                 let key = self.keymap.keys_in(*context, command).next().filter(|_| !over);
-                let Some(key) = key.filter(|_| shown.insert(command.name)) else { continue };
+                // While a kick is tried, its keys have no other meaning.
+                let own = |key: &Key| self.keymap.command(contexts, *key) == Some(command);
+                let Some(key) = key.filter(own).filter(|_| shown.insert(command.name)) else {
+                    continue;
+                };
                 match hints.iter_mut().find(|hint| hint.text == command.hint) {
                     Some(hint) => hint.keys.push(key),
                     None => hints.push(Hint { keys: vec![key], text: command.hint }),
@@ -221,6 +230,6 @@ fn pane(session: &Session, context: Context) -> Option<Pane> {
 /// Whether a context needs something that is missing: an open line or list, a held branch, or a view.
 fn lacks(session: &Session, context: Context) -> bool {
     context.is_overlay()
-        || context == Context::Walk
+        || matches!(context, Context::Walk | Context::Kick)
         || (context.view().is_some() && pane(session, context).is_none())
 }

@@ -160,9 +160,12 @@ impl Session {
             let start = motion.problem.initial;
             let known = self.answers.course.as_ref();
             let known = known.filter(|known| known.start == start && known.cycles == *cycles);
-            let told = || told(&found.portrait, start);
-            let told = known.map_or_else(told, |known| known.told);
-            Some(Course { start, cycles: cycles.clone(), told })
+            Some(known.cloned().unwrap_or_else(|| Course {
+                start,
+                cycles: cycles.clone(),
+                told: told(&found.portrait, start),
+                border: found.portrait.border_toward(start),
+            }))
         };
         self.answers.course = self.trajectory().and_then(asked);
     }

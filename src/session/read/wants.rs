@@ -86,9 +86,9 @@ impl Session {
         let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
         let zones = self.tells_certain(plot).then_some(Topic::Zones);
         let mut needed: BTreeSet<Topic> = needed.chain(zones).collect();
-        // What becomes of a motion by the whole model is told by its cycles.
-        let whole = needed.contains(&Topic::Trajectory) && self.draws_whole();
-        needed.extend(whole.then_some(Topic::Cycles));
+        // What becomes of a motion by the whole model, and of a kick that is tried, is told by its cycles.
+        let told = needed.contains(&Topic::Trajectory) && (self.draws_whole() || self.kicking);
+        needed.extend(told.then_some(Topic::Cycles));
         needed
     }
 

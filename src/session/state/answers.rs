@@ -64,6 +64,8 @@ pub struct Course {
     pub cycles: Request,
     /// Its fate, and whether a motion onto a cycle starts within that; `None` if it is unknown.
     pub told: Option<(Fate, bool)>,
+    /// The size from which on a kick in its direction is lost, by the border that they trace.
+    pub border: Option<f64>,
 }
 
 /// The stored answers and failures.

@@ -229,6 +229,8 @@ pub enum Context {
     View(View),
     /// A point of the branch is held.
     Walk,
+    /// The size of a kick is being tried.
+    Kick,
     /// The focus is on a plot.
     Plots,
     /// No overlay is open.
@@ -265,6 +267,8 @@ pub struct ContextSpec {
     pub title: &'static str,
     /// The contexts that hold together where it is the most specific, which is the first of them; none if it never is.
     pub chain: Vec<Context>,
+    /// The same while a kick is being tried, whose keys come first.
+    pub kicked: Vec<Context>,
 }
 
 /// All contexts, those of the views after the first one: the lines of `assets/contexts.txt`.
@@ -288,7 +292,8 @@ fn described([name, title, others]: [&'static str; 3]) -> Option<ContextSpec> {
     let context = Context::named(name)?;
     let others = others.split(' ').map(Context::named).collect::<Option<Vec<_>>>();
     let chain = others.map(|others| [&[context], &others[..]].concat()).unwrap_or_default();
-    Some(ContextSpec { context, name, title, chain })
+    let kicked = [&[Context::Kick], &chain[..]].concat();
+    Some(ContextSpec { context, name, title, chain, kicked })
 }
 
 impl Context {
@@ -311,8 +316,8 @@ impl Context {
 
     /// Whether this context holds only while something is open or awaited.
     pub fn is_overlay(self) -> bool {
-        use Context::{Always, Everywhere, Parameters, Plots, View, Walk};
-        !matches!(self, Parameters | View(_) | Walk | Plots | Everywhere | Always)
+        use Context::{Always, Everywhere, Kick, Parameters, Plots, View, Walk};
+        !matches!(self, Parameters | View(_) | Walk | Kick | Plots | Everywhere | Always)
     }
 
     /// The view that must have the focus for this context to hold; `None` if it depends on no view.

@@ -113,6 +113,8 @@ pub struct Session {
     pub arrangement: Arrangement,
     /// Playback of the motion.
     pub playback: Playback,
+    /// Whether the arrows set the size of the kick by which the motion starts.
+    pub kicking: bool,
     /// The point of the branch in focus at which a walk is held.
     pub held: Option<BranchStop>,
     /// Number N of harmonics in the layer `balance`.

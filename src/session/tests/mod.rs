@@ -10,6 +10,7 @@ mod screen_setup;
 
 mod entries;
 mod facts;
+mod kick;
 mod kicks;
 mod language;
 mod motions;
@@ -258,6 +259,7 @@ pub fn by_hand(request: &Request) -> Finding {
                 works: vec![Ledger::of_terms(parameters, (0.0, 0.0), [1.0, 0.0, 0.0, -1.0]); 2],
                 edge: Vec::new(),
                 margin: Margin::ENDLESS,
+                nearest: None,
                 area: None,
                 lyapunov_share: None,
                 portrait: portrait(cost),

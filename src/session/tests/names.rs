@@ -224,7 +224,7 @@ fn a_key_of_another_plot_on_show_goes_there() {
     let mut trial = Trial::open("plain");
     trial.goes(&[("<tab> N", "focus 1 diagram")]);
     assert_ne!(trial.session.focused().map(|plot| plot.axes.unit), Some(crate::scene::Unit::One));
-    Trial::open("energy").goes(&[("t", "notice ..needs the scan..")]);
+    Trial::open("energy").goes(&[("S", "notice ..needs the scan..")]);
 }
 
 #[test]

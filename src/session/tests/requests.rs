@@ -49,7 +49,7 @@ fn a_hidden_layer_asks_nothing() {
         // Cycles and basin share an answer, which is needed as long as one of them is on.
         ("<run \"layer cycles\">", "-cycles"),
         ("<right>", "asked Cycles"),
-        ("<run \"layer basin\">", "-basin"),
+        ("<run \"layer basin\"><run \"layer margin\">", "-basin | -margin"),
         ("<right>", "asked"),
         ("<run \"layer branch\"><run \"layer special\">", "-branch | -special"),
     ]);
