@@ -1,36 +1,45 @@
-//! The mass on its belt (Fig. 1), where the motion has it at the moment that is played.
+//! The mass on its belt (Fig. 1), where the motion has it at the moment that is played; above it where it came from, and
+//! below it the forces that say why it holds or lets go.
 //!
-//! Along the horizontal axis everything is in the units of the motion: the mass is at its displacement
-//! from static equilibrium, the marks of the belt move with its speed. The vertical axis has no meaning.
+//! Along the horizontal axis everything is in the units of the motion: the mass is at its displacement from static
+//! equilibrium, forces are the displacements at which the spring would balance them, the marks of the belt move with its
+//! speed. Heights count rows of the screen, so that the mass is as high as wide whatever the shape of the plot. Where there
+//! is little room the trail goes first, then the forces; the mass, its spring and the belt always stand.
 
-use super::{Dash, LineStyle, Picture, Role};
+use super::{Dash, LineStyle, Picture, Role, Ticks};
 use crate::flow::Sample;
-use crate::scene::{Layer, Point, Span, rectangle};
+use crate::numerics::real;
+use crate::scene::{Layer, Point, Span, Window, rectangle};
 use crate::session::Session;
-use crate::words::{Notation, with_unit};
+use crate::words::Notation;
 
-/// Heights of the surfaces of the belt, from below.
-const BELT: (f64, f64) = (0.12, 0.26);
-
-/// Heights of the mass, which lies on the belt.
-const MASS: [f64; 2] = [BELT.1, 0.86];
-
-/// Height of the axis of the spring.
-const SPRING: f64 = 0.74;
-
-/// Height of the axis of the damper.
-const DAMPER: f64 = 0.48;
-
-/// Height of the bar of the sticking set.
-const REST: f64 = 0.03;
-
-/// Half the height of spring and damper.
-const HALF: f64 = 0.06;
-
-const COILS: u32 = 9;
+/// Columns and rows of a plot, a row being twice as high as a column is wide.
+pub type Room = [f64; 2];
 
 /// Width of the mass, as a fraction of the window.
-const WIDTH: f64 = 0.14;
+const WIDTH: f64 = 0.16;
+
+/// Rows that the belt takes.
+const BELT: f64 = 1.0;
+
+/// Rows that the forces take, each one of them.
+const FORCES: f64 = 3.0;
+
+/// Rows of the trail: with fewer it tells nothing, and more are not needed.
+const TRAIL: (f64, f64) = (3.0, 12.0);
+
+/// Dimensionless time that the trail goes back: a period and a half.
+const AGO: f64 = 1.5 * std::f64::consts::TAU;
+
+/// Points of the trail in a row of the screen.
+const POINTS: f64 = 6.0;
+
+/// Heights of the axes of spring and damper above the belt, and half the heights of both, in heights of the mass.
+const SPRING: f64 = 0.75;
+const DAMPER: f64 = 0.3;
+const HALF: f64 = 0.14;
+
+const COILS: u32 = 9;
 
 /// Ends of the cylinder of the damper, and its piston at rest, as fractions of the way from the wall to the
 /// mass at rest.
@@ -40,26 +49,50 @@ const PISTON: f64 = 0.45;
 /// Marks on each surface of the belt.
 const MARKS: u16 = 8;
 
-/// Gap between the marks of the belt, as a fraction of the window.
-const GAP: f64 = 1.0 / 8.0;
+/// How much faster than the mass a belt is drawn whose speed is not known: the oscillator of the paper has none, but the
+/// belt behind it always overtakes the mass.
+const FASTER: f64 = 1.25;
 
-/// Length of the arrow of the belt's friction at rest, as a fraction of the window.
-const ARROW: f64 = 0.16;
+/// What a part of the sketch is drawn with: where things stand across and upwards.
+struct Sketch {
+    across: Span,
+    /// Height of the upper surface of the belt.
+    top: f64,
+    /// Width of the mass, along the horizontal axis.
+    width: f64,
+    /// Height of the mass, in rows.
+    height: f64,
+}
 
-/// Its greatest length, whatever the friction.
-const LONGEST: f64 = 0.5;
-
-pub fn draw(picture: &mut Picture, session: &Session) {
+pub fn draw(picture: &mut Picture, session: &Session, [columns, rows]: Room) {
     picture.axes("q", "");
+    // Heights without meaning have no scale.
+    picture.upward = Some(Ticks::default());
+    let across = picture.window.x;
+    let height = (0.5 * WIDTH * columns).round().min(rows - BELT).max(1.0);
+    let free = rows - BELT - height;
+    let forces = if free >= FORCES { FORCES } else { 0.0 };
+    let trail = Some(free - forces).filter(|left| *left >= TRAIL.0).map(|left| left.min(TRAIL.1));
+    // What is left over stands above and below in equal parts.
+    let below = (0.5 * (free - forces - trail.unwrap_or(0.0)).max(0.0)).floor();
+    picture.window.y = Span::new(-below, rows.max(1.0) - below).unwrap_or_default();
+    let width = 2.0 * height * across.width() / columns.max(1.0);
+    let sketch = Sketch { across, top: forces + BELT, width, height };
+    if let Some(cursor) = &mut picture.cursor {
+        cursor.y = sketch.top + 0.5 * height;
+    }
     // Before the motion is played, its start.
     let moment = session.head().or_else(|| session.trajectory()?.at(0.0));
     // The cursor points to a position only.
     let pointed = picture.cursor.map(|Point { x: q, .. }| Sample { tau: 0.0, q, v: 0.0 });
     picture.reading = pointed.or(moment).map(|moment| reading(session, &moment));
-    if session.layers.contains(&Layer::Mass)
-        && let Some(moment) = moment
-    {
-        machine(picture, session, &moment);
+    let Some(moment) = moment.filter(|_| session.layers.contains(&Layer::Mass)) else { return };
+    if forces > 0.0 {
+        bars(picture, session, &moment);
+    }
+    sketch.machine(picture, session, &moment);
+    if let Some(rows) = trail {
+        sketch.trail(picture, session, &moment, rows);
     }
 }
 
@@ -72,87 +105,132 @@ fn reading(session: &Session, moment: &Sample) -> String {
     format!("{time} {tau}  {place} {q}  v {v}")
 }
 
-fn machine(picture: &mut Picture, session: &Session, moment: &Sample) {
-    let across = picture.window.x;
-    let (wall, width) = (across.from(), across.width());
-    let sticking = session.running().map(|running| running.reduced.sticking_velocity);
-    belt(picture, across, sticking.unwrap_or(0.0) * moment.tau);
-    let half = 0.5 * WIDTH * width;
-    let (left, right) = (moment.q - half, moment.q + half);
-    let r = session.problem.parameters.r;
-    picture.curve("where the mass may rest", [[-r, REST], [r, REST]]);
-    picture.curve("spring", spring(wall, left));
-    for piece in damper(wall, -half, left) {
-        picture.curve("damper", piece);
+/// The forces on the mass as bars, from above, and the limits of dry friction: where the spring at rest reaches beyond
+/// them, the mass lets go.
+fn bars(picture: &mut Picture, session: &Session, moment: &Sample) {
+    let Some(forces) = session.forces(moment) else { return };
+    for end in [-forces.limit, forces.limit] {
+        picture.curve("limit of friction", [[end, 0.0], [end, FORCES]]);
     }
-    picture.curve("mass", rectangle([left, right], MASS));
-    picture.caption([moment.q, f64::midpoint(MASS[0], MASS[1])], "m", Role::Trajectory);
-    let rides = |ride: &[Sample; 2]| (ride[0].tau..=ride[1].tau).contains(&moment.tau);
-    if let Some(ride) = session.trajectory().and_then(|motion| motion.rides().find(rides)) {
-        let line = LineStyle::new("sticks to the belt", Role::Current, Dash::Thick);
-        picture.curve(line.captioned(), [[left, BELT.1], [right, BELT.1]]);
-        let below = [ride[0].q.max(across.from()), f64::midpoint(BELT.0, BELT.1)];
-        picture.caption(below, "sticks", Role::Current);
-    }
-    arrow(picture, session, moment);
-}
-
-/// The pull of the belt on the mass: an arrow above it, moved and shortened where it would leave the window.
-fn arrow(picture: &mut Picture, session: &Session, moment: &Sample) {
-    let Some(running) = session.running() else { return };
-    let Some(pull) = running.pull(moment.v) else { return };
-    let (across, y) = (picture.window.x, MASS[1] + HALF);
-    let longest = LONGEST * across.width();
-    let way = (pull * ARROW * across.width()).clamp(-longest, longest);
-    let edge = 0.5 * (across.width() - way.abs());
-    let middle = moment.q.clamp(across.center() - edge, across.center() + edge);
-    let (tail, tip) = (middle - 0.5 * way, middle + 0.5 * way);
-    let barb = tip - (0.15 * ARROW * across.width()).copysign(way);
-    let points = [(tail, y), (tip, y), (barb, y + 0.5 * HALF), (tip, y), (barb, y - 0.5 * HALF)];
-    picture.curve("friction of the belt", points);
-    let text = with_unit(pull * running.reduced.units.force, 3, "N");
-    picture.caption([tail, y], text, Role::Special);
-}
-
-/// The belt, its marks moved by `way` to the right above and to the left below.
-fn belt(picture: &mut Picture, across: Span, way: f64) {
-    let (low, high) = BELT;
-    for y in [low, high] {
-        picture.curve("belt", [[across.from(), y], [across.to(), y]]);
-    }
-    let gap = GAP * across.width();
-    let tick = 0.35 * (high - low);
-    for (way, from, to) in [(way, high, high - tick), (-way, low, low + tick)] {
-        let first = across.from() + way.rem_euclid(gap);
-        for number in 0..MARKS {
-            let x = first + f64::from(number) * gap;
-            picture.curve("mark of the belt", [[x, from], [x, to]]);
+    let of_machine = session.draws_whole();
+    let damping = if of_machine { "belt" } else { "damper" };
+    let all = [
+        ("friction", "friction on the mass", Some(forces.friction)),
+        (damping, "damping on the mass", forces.damping),
+        ("spring", "spring on the mass", Some(forces.spring)),
+    ];
+    let left = picture.window.x.from();
+    for (row, (name, line, force)) in (0_u8..).zip(all) {
+        let y = f64::from(row) + 0.5;
+        let line = LineStyle::from(line);
+        picture.caption([left, y], name, line.role);
+        if let Some(force) = force {
+            picture.curve(line, [[0.0, y], [force, y]]);
         }
     }
 }
 
-/// The zigzag of a spring between two places.
-fn spring(from: f64, to: f64) -> Vec<Point> {
-    let coils = f64::from(COILS);
-    let at = |part: f64, y: f64| Point { x: from + part * (to - from), y };
-    let teeth = (0..COILS).map(|tooth| {
-        let side = if tooth % 2 == 0 { HALF } else { -HALF };
-        at((f64::from(tooth) + 1.0) / (coils + 1.0), SPRING + side)
-    });
-    std::iter::once(at(0.0, SPRING)).chain(teeth).chain([at(1.0, SPRING)]).collect()
+impl Sketch {
+    fn machine(&self, picture: &mut Picture, session: &Session, moment: &Sample) {
+        let Sketch { across, top, width, height } = *self;
+        let wall = across.from();
+        self.belt(picture, speed(session, picture.window) * moment.tau);
+        let (left, right) = (moment.q - 0.5 * width, moment.q + 0.5 * width);
+        let r = session.problem.parameters.r;
+        let middle = top - 0.5 * BELT;
+        picture.curve("where the mass may rest", [[-r, middle], [r, middle]]);
+        picture.curve("spring", self.spring(wall, left));
+        for piece in self.damper(wall, -0.5 * width, left) {
+            picture.curve("damper", piece);
+        }
+        picture.curve("mass", rectangle([left, right], [top, top + height]));
+        picture.caption([moment.q, top + 0.5 * height], "m", Role::Trajectory);
+        if session.sticks(moment) {
+            // Within the row of the mass, of which it is the lower side.
+            let foot = top + 0.1;
+            picture.curve("sticks", [[left, foot], [right, foot]]);
+        }
+    }
+
+    /// The belt, its marks moved by `way` to the right above and to the left below.
+    fn belt(&self, picture: &mut Picture, way: f64) {
+        let Sketch { across, top, .. } = *self;
+        // Both surfaces are seen within the rows of the belt.
+        let low = top - 0.76 * BELT;
+        for y in [low, top] {
+            picture.curve("belt", [[across.from(), y], [across.to(), y]]);
+        }
+        let gap = across.width() / f64::from(MARKS);
+        let tick = 0.3 * BELT;
+        for (way, from, to) in [(way, top, top - tick), (-way, low, low + tick)] {
+            let first = across.from() + way.rem_euclid(gap);
+            for number in 0..MARKS {
+                let x = first + f64::from(number) * gap;
+                picture.curve("mark of the belt", [[x, from], [x, to]]);
+            }
+        }
+    }
+
+    /// Where the mass was, from its top upwards: the higher the longer ago, in three pieces that fade.
+    fn trail(&self, picture: &mut Picture, session: &Session, moment: &Sample, rows: f64) {
+        const FADING: [Dash; 3] = [Dash::Solid, Dash::Dashed, Dash::Dotted];
+        let Some(motion) = session.trajectory() else { return };
+        let foot = self.top + self.height;
+        let step = AGO / (POINTS * rows);
+        let place = |back: f64| {
+            let at = motion.at(moment.tau - back).filter(|_| back <= moment.tau)?;
+            Some([at.q, foot + rows * back / AGO])
+        };
+        for (age, dash) in FADING.into_iter().enumerate() {
+            let from = real(age) * AGO / 3.0;
+            let backs = (0..).map(|number: u16| from + f64::from(number) * step);
+            let backs = backs.take_while(|back| *back <= from + AGO / 3.0 + 0.5 * step);
+            let line = LineStyle { dash, ..LineStyle::from("trail of the mass") };
+            picture.curve(line, backs.map_while(place));
+        }
+    }
+
+    /// The zigzag of a spring between two places.
+    fn spring(&self, from: f64, to: f64) -> Vec<Point> {
+        let coils = f64::from(COILS);
+        let (axis, half) = (self.top + SPRING * self.height, HALF * self.height);
+        let at = |part: f64, y: f64| Point { x: from + part * (to - from), y };
+        let teeth = (0..COILS).map(|tooth| {
+            let side = if tooth % 2 == 0 { half } else { -half };
+            at((f64::from(tooth) + 1.0) / (coils + 1.0), axis + side)
+        });
+        std::iter::once(at(0.0, axis)).chain(teeth).chain([at(1.0, axis)]).collect()
+    }
+
+    /// The cylinder of a damper at the wall, and the rod with its piston at the mass, whose left side is at
+    /// `mass` and without motion at `rest`.
+    fn damper(&self, wall: f64, rest: f64, mass: f64) -> [Vec<Point>; 3] {
+        let (axis, half) = (self.top + DAMPER * self.height, HALF * self.height);
+        let at = |x: f64, y: f64| Point { x, y: axis + y };
+        // A window that begins beyond the mass shows no wall.
+        let gap = (rest - wall).max(0.0);
+        let (start, end) = (wall + CYLINDER.0 * gap, wall + CYLINDER.1 * gap);
+        let piston = (wall + PISTON * gap + mass - rest).clamp(start, end);
+        [
+            vec![at(wall, 0.0), at(start, 0.0)],
+            vec![at(end, half), at(start, half), at(start, -half), at(end, -half)],
+            vec![at(piston, 0.8 * half), at(piston, -0.8 * half), at(piston, 0.0), at(mass, 0.0)],
+        ]
+    }
 }
 
-/// The cylinder of a damper at the wall, and the rod with its piston at the mass, whose left side is at
-/// `mass` and without motion at `rest`.
-fn damper(wall: f64, rest: f64, mass: f64) -> [Vec<Point>; 3] {
-    let at = |x: f64, y: f64| Point { x, y: DAMPER + y };
-    // A window that begins beyond the mass shows no wall.
-    let gap = (rest - wall).max(0.0);
-    let (start, end) = (wall + CYLINDER.0 * gap, wall + CYLINDER.1 * gap);
-    let piston = (wall + PISTON * gap + mass - rest).clamp(start, end);
-    [
-        vec![at(wall, 0.0), at(start, 0.0)],
-        vec![at(end, HALF), at(start, HALF), at(start, -HALF), at(end, -HALF)],
-        vec![at(piston, 0.8 * HALF), at(piston, -0.8 * HALF), at(piston, 0.0), at(mass, 0.0)],
-    ]
+/// The speed of the belt; without a machine somewhat more than the mass ever has where it is seen.
+fn speed(session: &Session, window: Window) -> f64 {
+    if let Some(running) = session.running() {
+        return running.reduced.sticking_velocity;
+    }
+    let samples = session.trajectory().into_iter().flat_map(|motion| &motion.samples);
+    let seen = samples.filter(|sample| window.x.contains(sample.q));
+    let fastest = seen.map(|sample| sample.v.abs()).fold(0.0, f64::max);
+    FASTER
+        * if fastest > 0.0 {
+            fastest
+        } else {
+            session.problem.parameters.r
+        }
 }

@@ -26,7 +26,7 @@ mod time_series;
 pub mod trade;
 pub(crate) mod units;
 
-pub use self::{items::*, role::*, ticks::*};
+pub use self::{belt::Room, items::*, role::*, ticks::*};
 pub use legend::{LegendEntry, LegendSample};
 pub use map::{Danger, DangerousValues, MapCell, ScanMap};
 
@@ -47,9 +47,16 @@ pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
 const EXPANDED: [View; 5] =
     [View::Diagram, View::ReturnMap, View::Regimes, View::EnergyRate, View::Trade];
 
-/// What the plot with this index shows, and of the point that the present one is compared with.
+/// What the plot with this index shows, where nothing is known of its shape.
 pub fn of(session: &Session, index: usize) -> Picture<'_> {
-    let mut picture = alone(session, index);
+    /// In the shape of a figure.
+    const USUAL: Room = [54.0, 21.3];
+    in_room(session, index, USUAL)
+}
+
+/// What the plot with this index shows in so many columns and rows, and of the point that the present one is compared with.
+pub fn in_room(session: &Session, index: usize, room: Room) -> Picture<'_> {
+    let mut picture = alone(session, index, room);
     compare::add(&mut picture, session, index);
     let beside = session.beside(index).map(|other| other.problem.parameters);
     picture.variants.extend(beside);
@@ -57,7 +64,7 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
 }
 
 /// What it shows of the present point alone.
-fn alone(session: &Session, index: usize) -> Picture<'_> {
+fn alone(session: &Session, index: usize, room: Room) -> Picture<'_> {
     let Plot { view, window, cursor, .. } = session.plots[index];
     let scales = scales(session, index);
     let mut picture = Picture { scales, cursor, ..Picture::new(view.spec().title, "", "", window) };
@@ -77,7 +84,7 @@ fn alone(session: &Session, index: usize) -> Picture<'_> {
         View::Eigenvalues => eigenvalues::draw(&mut picture, session, index),
         View::Scan => scan::draw(&mut picture, session),
         View::BeltDiagram => belt_diagram::draw(&mut picture, session, index),
-        View::Belt => belt::draw(&mut picture, session),
+        View::Belt => belt::draw(&mut picture, session, room),
         View::Damping => picture = fitted(fit::damping).unwrap_or(picture),
         View::Residuals => picture = fitted(fit::residuals).unwrap_or(picture),
         View::Spread => picture = fitted(fit::margin).unwrap_or(picture),

@@ -6,10 +6,10 @@ use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use super::layout::{Layout, SMALLEST, layout};
 use super::pane::{self, FramedPicture, Heading};
-use super::plot::{point_at, shown};
+use super::plot::{point_at, room, shown};
 use super::{
-    Look, Surface, caption, energy_ledger, footer, legend, lists, paint::paint, parameters, scan,
-    signs, status,
+    Look, Surface, caption, energy_ledger, footer, legend, lists, paint::paint, parameters,
+    playback, scan, signs, status,
 };
 use crate::picture::{self, Role, legend::entries};
 use crate::scene::View;
@@ -29,7 +29,12 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         None => card(area, screen),
         Some(parts) => {
             panes(&parts, session, screen);
-            let body = Rect { height: parts.status.y.saturating_sub(area.y), ..area };
+            let below = if parts.playback.is_empty() {
+                parts.status.y
+            } else {
+                parts.playback.y
+            };
+            let body = Rect { height: below.saturating_sub(area.y), ..area };
             caption::draw(body, session, screen);
             lists::draw(area, session, screen);
         }
@@ -48,6 +53,7 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 
 fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
     status::title(parts.title, session, screen);
+    status::sentence(parts.sentence, session, screen);
     let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
     let all: Vec<(usize, FramedPicture)> =
         shown.map(|(index, area)| (index, framed(*area, session, index))).collect();
@@ -57,14 +63,18 @@ fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
     for (index, framed) in all {
         plot(framed, session, index, screen);
     }
+    playback::draw(parts.playback, session, screen);
     status::draw(parts.status, session, screen);
     footer::draw(parts.footer, session, screen);
 }
 
 /// The picture of a plot in its place.
 fn framed(area: Rect, session: &Session, index: usize) -> FramedPicture<'_> {
-    let mut picture = picture::of(session, index);
-    picture.window = shown(area, session, index, picture.scales);
+    let mut picture = picture::in_room(session, index, room(area));
+    // The mass on its belt is drawn to its room.
+    if session.plots[index].view != View::Belt {
+        picture.window = shown(area, session, index, picture.scales);
+    }
     if session.plots[index].view == View::EnergyLedger {
         energy_ledger::seat(area, &mut picture, &session.ledger());
     }

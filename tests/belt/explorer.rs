@@ -2,6 +2,7 @@
 
 use super::explorer_session::{Trial, refuses, reopened};
 use super::*;
+use hopfscope::flow::Sample;
 use hopfscope::model::belt::ReducedBelt;
 use hopfscope::model::{Belt, Group, Knob};
 use hopfscope::portrait::Portrait;
@@ -460,4 +461,53 @@ fn a_machine_is_scanned_over_its_own_numbers_by_the_whole_model() {
     assert!(refused.contains("no number \"D\""), "{refused}");
     let (expansion, _) = screen(scene, "| :scan<space>D=-0.3:-0.1:3<enter>");
     assert_eq!(expansion.scanned.unwrap().rows.len(), 3);
+}
+
+/// A moment between two samples of a motion, on one side of v = 0.
+fn between(from: &Sample, to: &Sample) -> Option<Sample> {
+    let middle = f64::midpoint(from.tau, to.tau);
+    (from.v * to.v > 0.0).then(|| from.between(to, middle))
+}
+
+#[test]
+fn all_forces_together_accelerate_the_mass() {
+    for (scene, keys) in [("plain", ""), ("escape", ""), ("slow-belt", "o"), ("fig01", "")] {
+        let scene = Scene::clone(&hopfscope::scene::find(scene).unwrap());
+        let (session, _) = screen(scene, keys);
+        let motion = session.trajectory().unwrap();
+        let mut checked = 0;
+        for pair in motion.samples.windows(2) {
+            let moment = between(&pair[0], &pair[1]);
+            // An escape accelerates within a step of the samples.
+            let steady = moment.filter(|it| !session.sticks(it) && it.v.abs() < 3.0);
+            let Some(moment) = steady else { continue };
+            let forces = session.forces(&moment).unwrap();
+            let sum = forces.spring + forces.damping.unwrap() + forces.friction;
+            let acceleration = (pair[1].v - pair[0].v) / (pair[1].tau - pair[0].tau);
+            let size = 1.0 + moment.q.abs() + moment.v.abs();
+            assert!((sum - acceleration).abs() < 0.02 * size, "{moment:?} {forces:?}");
+            checked += 1;
+        }
+        assert!(checked > 50, "{checked}");
+    }
+}
+
+#[test]
+fn friction_holds_what_the_spring_pulls_up_to_its_limit_and_no_more() {
+    let (session, _) = screen(Scene::clone(&hopfscope::scene::find("plain").unwrap()), "");
+    let at = |q| session.forces(&Sample { tau: 0.0, q, v: 0.0 }).unwrap();
+    let r = session.problem.parameters.r;
+    let held = at(0.5 * r);
+    assert_eq!((held.spring + held.friction, held.damping, held.limit), (0.0, Some(0.0), r));
+    assert_eq!((at(-3.0 * r).friction, at(3.0 * r).friction), (-r, r));
+}
+
+#[test]
+fn a_mass_that_rides_on_its_belt_is_in_balance() {
+    let (session, _) = screen(Scene::clone(&hopfscope::scene::find("slow-belt").unwrap()), "o");
+    let [from, to] = session.trajectory().unwrap().rides().last().unwrap();
+    let moment = Sample { tau: f64::midpoint(from.tau, to.tau), ..from };
+    let forces = session.forces(&moment).unwrap();
+    assert!((forces.spring + forces.damping.unwrap() + forces.friction).abs() < 1e-14);
+    assert!(session.sticks(&moment));
 }

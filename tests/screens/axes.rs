@@ -85,34 +85,37 @@ fn the_line_of_rest_runs_through_the_middle_of_its_cells() {
     }
 }
 
+/// Where the curves of this name in a picture end, across.
+fn ends(picture: &Picture, name: &str) -> Vec<f64> {
+    let named = picture.items.iter().filter_map(|item| match item {
+        Item::Curve(line, points) if line.name == name => Some(points[1].x),
+        _ => None,
+    });
+    named.collect()
+}
+
 #[test]
-fn the_arrow_of_friction_stays_in_the_sketch() {
-    let mut arrows = 0;
+fn the_bar_of_friction_ends_within_its_limits_and_that_of_the_spring_opposite_the_mass() {
+    let mut bars = 0;
     for scene in library() {
         let mut session = computed(&scene.name);
         let Some(index) = session.plots.iter().position(|plot| plot.view == View::Belt) else {
             continue;
         };
-        let window = session.plots[index].window;
-        for q in [-3.0, -1.0, 0.0, 1.0, 3.0] {
-            session.problem.initial.q = q * window.x.width() / 4.0;
+        let width = session.plots[index].window.x.width();
+        for q in [-0.3, -0.1, 0.0, 0.1, 0.3] {
+            session.problem.initial.q = q * width;
             answered(&mut session);
-            for item in &picture::of(&session, index).items {
-                if let Item::Curve(line, points) = item
-                    && line.name == "friction of the belt"
-                {
-                    assert!(
-                        points.iter().all(|point| window.contains(*point)),
-                        "{}: {points:?}",
-                        scene.name
-                    );
-                    assert!(points[0].x != points[1].x, "{}: {points:?}", scene.name);
-                    arrows += 1;
-                }
-            }
+            let picture = picture::of(&session, index);
+            let [limits, friction, spring] =
+                ["limit of friction", "friction on the mass", "spring on the mass"]
+                    .map(|name| ends(&picture, name));
+            assert!((limits[0]..=limits[1]).contains(&friction[0]), "{}: {q}", scene.name);
+            assert_eq!(spring, [-q * width], "{}", scene.name);
+            bars += 1;
         }
     }
-    assert!(arrows > 10, "{arrows}");
+    assert!(bars > 10, "{bars}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ pub(crate) mod compare;
 pub mod completion;
 pub mod contexts;
 pub mod fate;
+pub mod forces;
 pub mod kick;
 pub mod ledger;
 pub(crate) mod lists;

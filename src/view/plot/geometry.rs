@@ -2,7 +2,7 @@
 
 use ratatui::layout::{Position, Rect};
 
-use crate::picture::{Picture, Scale, Tick, Ticks};
+use crate::picture::{Picture, Room, Scale, Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::Session;
 use crate::view::pane;
@@ -55,8 +55,8 @@ pub fn shown(area: Rect, session: &Session, index: usize, scales: [Scale; 2]) ->
     let window = widened(area, session, index, scales);
     let (rows, y) = (f64::from(rows(area)), window.y);
     let zero = y.fraction(0.0) * rows;
-    let has_zero = ![View::EnergyLedger, View::Trade, View::Belt, View::Scan]
-        .contains(&session.plots[index].view);
+    let has_zero =
+        ![View::EnergyLedger, View::Trade, View::Scan].contains(&session.plots[index].view);
     // What is drawn at the edge of the picture stays there.
     if has_zero && (1.0..=rows - 1.0).contains(&zero) {
         let by = (zero - zero.floor() - 0.5) / rows;
@@ -81,6 +81,12 @@ fn widened(area: Rect, session: &Session, index: usize, scales: [Scale; 2]) -> W
 /// Whether the axes of a plot in `area` stand outside of its cells, below a title.
 fn is_roomy(area: Rect) -> bool {
     area.width >= ROOMY.0 && area.height > ROOMY.1
+}
+
+/// Columns and rows of a plot in `area` that has no ticks at the left.
+pub fn room(area: Rect) -> Room {
+    let gutter = if is_roomy(area) { GUTTER } else { 0 };
+    [area.width.saturating_sub(gutter).into(), rows(area).into()]
 }
 
 /// Rows of the raster of a plot in `area`.

@@ -16,7 +16,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier};
 
 use geometry::{Geometry, along, centred, column, middle};
-pub use geometry::{point_at, rows, shown};
+pub use geometry::{point_at, room, rows, shown};
 
 use super::dots::{Covering, DotPen, DotPlace, Dots};
 use super::{Look, Surface, pane::FramedPicture};
