@@ -14,7 +14,7 @@ use crate::runtime::print::{complete, figure};
 use crate::runtime::provenance_file;
 use crate::scene::Scene;
 use crate::scene::machine::NO_BELT;
-use crate::session::{Session, Size};
+use crate::session::{Playback, Session, Size};
 use crate::view::{self, Look, screen};
 use crate::words::joined;
 
@@ -79,6 +79,8 @@ pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>)> {
     let width = columns().and_then(|width| u16::try_from(width).ok());
     let width = width.unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
     let mut session = Session::new(scene, Size { width, height: PANEL.1 });
+    // On paper nothing is played: the whole motion is drawn.
+    session.playback = Playback::default();
     complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
     let plots = (0..session.plots.len()).collect();
     Ok((session, plots))

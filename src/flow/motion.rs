@@ -343,6 +343,15 @@ impl Motion {
         rides.map(|(leg, end)| [leg.start, end])
     }
 
+    /// The stretches on which friction holds the mass: on a belt and, from capture until a time, at rest.
+    pub fn sticks(&self, until: f64) -> impl Iterator<Item = [Sample; 2]> {
+        let rest = self.outcome.rest().ok().flatten().map(|since| {
+            let begin = Sample { tau: since, v: 0.0, ..self.end() };
+            [begin, Sample { tau: until.max(since), ..begin }]
+        });
+        self.rides().chain(rest)
+    }
+
     /// The motion at any time from its start: between two samples on the cubic through their displacements and
     /// velocities, and at rest after capture. `None` without samples.
     pub fn at(&self, tau: f64) -> Option<Sample> {

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::closed_form::lyapunov;
 use crate::fit::{FitResult, Signal};
-use crate::flow::{Motion, Outcome, Problem};
+use crate::flow::{Outcome, Problem};
 use crate::model::{Field, HalfPlane, Parameters, Side, State};
 use crate::numerics::hypot;
 use crate::portrait::{Border, Cycle, Distribution, Drawing, RandomKick, Ride};
@@ -156,8 +156,11 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
         picture.curve("cycle on the belt", [[from, y], [to, y]]);
     }
     let motion = session.trajectory().filter(|_| session.layers.contains(&Layer::Trajectory));
-    for ride in motion.into_iter().flat_map(Motion::rides) {
-        picture.curve("motion on the belt", ride.map(|end| [end.q, y]));
+    for stretch in motion.iter().flat_map(|motion| session.sticking(0, motion)) {
+        // At rest the mark of the end tells it.
+        if stretch[0].v != 0.0 {
+            picture.curve("sticks", stretch.map(|end| [end.q, y]));
+        }
     }
 }
 
@@ -190,7 +193,8 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
         };
         // Where the mass sticks to its belt the model ends, and the curve with it.
         let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
-        let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
+        let seen = session.seen(if family { usize::MAX } else { place }, found);
+        let samples = seen.take_while(|sample| sample.tau <= last);
         let points: Vec<Point> = samples.map(|sample| sample.state().into()).collect();
         // One of several motions has its number at its end, as at its start: dashes repeat.
         let number = session.number(place).filter(|_| !family);
@@ -298,7 +302,8 @@ fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMo
     let found = session.found(Topic::Trajectory, index, Finding::try_as_trajectory_ref);
     for (VariantTag { index: place, .. }, found) in found {
         let rests = family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. });
-        if session.contact_of(found).is_some() || rests {
+        let goes_on = !family && place == 0 && session.drawn_until().is_some();
+        if session.contact_of(found).is_some() || rests || goes_on {
             continue;
         }
         let role = if family {

@@ -45,17 +45,19 @@ pub fn draw(picture: &mut Picture, session: &Session) {
     let whole = session.draws_whole();
     let force = session.trajectory().filter(|_| shows(Layer::Friction) && !whole);
     let force = force.map(|motion| friction_force(motion, motion.problem.until));
+    let until = session.drawn_until().map_or(f64::INFINITY, |head| head.tau);
     if let Some(force) = &force {
-        picture.curve("friction force f", force.iter().copied());
+        let so_far = force.iter().copied().take_while(|(tau, _)| *tau <= until);
+        let now = force_at(force, until).map(|now| (until, now));
+        picture.curve("friction force f", so_far.chain(now.filter(|_| until.is_finite())));
         if let Some(first) = force.first() {
             picture.caption(*first, "f", Role::Sticking);
         }
     }
     if let Some(motion) = session.trajectory() {
         quantities(picture, session, motion, 0);
-        rides(picture, session, motion);
         if shows(Layer::Events) {
-            events(picture, motion);
+            events(picture, motion, until);
         }
     }
     if let Some(head) = session.head() {
@@ -96,7 +98,8 @@ fn record(picture: &mut Picture, session: &Session) {
 fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: usize) {
     let LineStyle { name: of, role: beside, .. } = phase_plane::motion(session, place);
     for (layer, letter, name, read) in quantities_on_show(session) {
-        let points = curve(motion, motion.problem.until, read);
+        let points: Vec<Point> =
+            session.seen(place, motion).map(|sample| at(&sample, read)).collect();
         let (Some(first), Some(end)) = (points.first().copied(), points.last().copied()) else {
             continue;
         };
@@ -114,21 +117,21 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: 
         }
         let role = line.role;
         picture.curve(line, points);
+        let stuck = LineStyle::from("sticks");
+        let stuck = if place > 0 {
+            LineStyle { role, ..stuck.captioned() }
+        } else {
+            stuck
+        };
+        for stretch in session.sticking(place, motion) {
+            picture.curve(stuck.clone(), stretch.map(|end| at(&end, read)));
+        }
         let number = session.number(place).map(|number| number.to_string());
         if let Some(number) = number.clone() {
             picture.caption(end, number, role);
         }
         let number = number.filter(|_| place > 0);
         picture.caption(first, number.unwrap_or(letter.to_owned()), role);
-    }
-}
-
-/// Where the present motion rides on its belt.
-fn rides(picture: &mut Picture, session: &Session, motion: &Motion) {
-    for ride in motion.rides() {
-        for (.., read) in quantities_on_show(session) {
-            picture.curve("sticks to the belt", ride.map(|end| at(&end, read)));
-        }
     }
 }
 
@@ -145,21 +148,15 @@ fn at(sample: &Sample, read: fn(State) -> f64) -> Point {
     Point { x: sample.tau, y: read(sample.state()) }
 }
 
-/// A quantity along a motion, and on while it rests.
-fn curve(motion: &Motion, end: f64, read: fn(State) -> f64) -> Vec<Point> {
-    let mut points: Vec<Point> = motion.samples.iter().map(|sample| at(sample, read)).collect();
-    if let Outcome::Captured { tau, q } = motion.outcome {
-        let y = read(State { q, v: 0.0 });
-        points.extend([Point { x: tau, y }, Point { x: end, y }]);
-    }
-    points
-}
-
-/// The turning points, where they stand apart, and how the motion ends.
-fn events(picture: &mut Picture, motion: &Motion) {
-    let turns = motion.crossings.iter().map(|turn| [turn.tau, turn.q]);
+/// The turning points up to a moment, where they stand apart, and how the motion ends if that is not later.
+fn events(picture: &mut Picture, motion: &Motion, until: f64) {
+    let turns = motion.crossings.iter().take_while(|turn| turn.tau <= until);
+    let turns = turns.map(|turn| [turn.tau, turn.q]);
     let marks = Marks::new(Mark::Turn, Role::Trajectory, turns);
     picture.marks(Marks { sparse: true, ..marks });
+    if until.is_finite() {
+        return;
+    }
     match motion.outcome {
         Outcome::Captured { tau, q } => picture.mark(Mark::Rest, [tau, q], Role::Trajectory),
         Outcome::Moving { tau, q, .. } => picture.mark(Mark::Head, [tau, q], Role::Trajectory),

@@ -1,6 +1,7 @@
 //! Which pane stands where, for every size of the screen.
 //!
-//! Designed for 80 columns and 24 rows up. Where there is less, parts drop in this order: plots that
+//! The line about playback takes a row of the plots while there is something to play; the sentence of a first screen stands
+//! below the title. Designed for 80 columns and 24 rows up. Where there is less, parts drop in this order: plots that
 //! would be smaller than [`SMALLEST_PLOT`], the last one without focus first; below 20 rows the second
 //! status line; below 60 x 16 everything, and a message says what is needed.
 
@@ -20,6 +21,9 @@ pub const SMALLEST_PLOT: (u16, u16) = (26, 8);
 /// steps, with meanings.
 const COLUMNS: [(u16, u16); 3] = [(150, 56), (110, 34), (0, 25)];
 
+/// Columns of a screen on which the sentence of a first screen takes two rows in place of three.
+const ROOMY: u16 = 100;
+
 /// Rows of a screen whose legend has two rows.
 const TALL: u16 = 24;
 
@@ -27,11 +31,15 @@ const TALL: u16 = 24;
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
     pub title: Rect,
+    /// What one sees, on a first screen.
+    pub sentence: Rect,
     pub parameters: Rect,
     /// Plots, by their index in the session.
     pub plots: Vec<Rect>,
     /// What the lines mean; without rows on a low screen.
     pub legend: Rect,
+    /// What is being played.
+    pub playback: Rect,
     pub status: Rect,
     /// Keys, notices and the entry line.
     pub footer: Rect,
@@ -50,13 +58,22 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
         TALL.. => 2,
         _ => 1,
     };
-    let rows = [1, height - 2 - status - legend, legend, status, 1].map(Constraint::Length);
-    let [title, body, legend, status, footer] = Split::vertical(rows).areas(screen);
+    let sentence = match session.scene.next {
+        Some(_) if designed && width < ROOMY => 3,
+        Some(_) if designed => 2,
+        _ => 0,
+    };
+    let playback = u16::from(session.tells_playback());
+    let body = height - 2 - sentence - legend - playback - status;
+    let rows = [1, sentence, body, legend, playback, status, 1].map(Constraint::Length);
+    let [title, sentence, body, legend, playback, status, footer] =
+        Split::vertical(rows).areas(screen);
     let column =
         COLUMNS.iter().find(|(least, _)| width >= *least).map_or(23, |(_, columns)| *columns);
     let rest = Rect { x: body.x + column + 1, width: width - column - 1, ..body };
     let parameters = Rect { width: column, ..body };
-    Some(Layout { title, parameters, plots: plots(rest, session), legend, status, footer })
+    let plots = plots(rest, session);
+    Some(Layout { title, sentence, parameters, plots, legend, playback, status, footer })
 }
 
 /// The places of the plots, of which as many are shown as are large enough.

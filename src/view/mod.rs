@@ -20,6 +20,7 @@ mod margin;
 pub mod paint;
 pub mod pane;
 pub mod parameters;
+pub mod playback;
 pub mod plot;
 pub mod scan;
 mod scan_map;

@@ -7,7 +7,7 @@ use ratatui::text::Span;
 use super::{Look, Surface, compare, fitted::UNRELIABLE, gauge, margin, pane, verdict};
 use crate::flow::choice;
 use crate::picture::{Role, end_mark};
-use crate::scene::Topic;
+use crate::scene::{Scene, Topic};
 use crate::session::Session;
 use crate::session::wants::named;
 use crate::words::motion::swings;
@@ -18,6 +18,14 @@ pub fn title(area: Rect, session: &Session, screen: &mut Surface) {
     let left = screen.look.span(format!(" {}", session.scene.title), Role::Title);
     let right = screen.look.span(format!("{} ", session.scene.name), Role::Quiet);
     screen.both_ends(area, 0, left, right);
+}
+
+/// Draws the sentence of a first screen: what one sees, and what to press.
+pub fn sentence(area: Rect, session: &Session, screen: &mut Surface) {
+    let Scene { watch, press, .. } = &*session.scene;
+    let text = screen.look.sentence(&session.said(&format!("{watch} {press}")), &session.keymap);
+    let inside = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
+    screen.prose(inside, vec![screen.look.span(text, Role::Text).into()]);
 }
 
 /// Draws the status lines: the outcome first, then method, cost and error.
@@ -38,7 +46,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         };
         (format!("{symbol}{letter}{of}{sentence}"), role)
     };
-    let busy = busy(session, look);
+    let busy = busy(session);
     // That a computation is running matters more than the end of the sentence.
     let room = usize::from(area.width).saturating_sub(busy.chars().count());
     let both = compare::outcomes(session).filter(|_| role == Role::Text);
@@ -83,8 +91,8 @@ fn survived(session: &Session, width: usize, look: &Look) -> Vec<Span<'static>> 
     line
 }
 
-/// What goes on: a computation, a file that is written, a motion that is played.
-fn busy(session: &Session, look: &Look) -> String {
+/// What goes on: a computation, a file that is written.
+fn busy(session: &Session) -> String {
     let mut busy = String::new();
     if session.is_fitting() {
         busy += &format!("fitting: {} motions, esc stops ", session.fitting);
@@ -93,11 +101,6 @@ fn busy(session: &Session, look: &Look) -> String {
     }
     if let Some(name) = session.writing.as_ref().and_then(|path| path.file_name()) {
         busy += &format!("writing {} ", name.display());
-    }
-    if session.playback.playing {
-        let key = session.keymap.key_of("play-motion");
-        let holds = key.map(|key| format!(", {} holds", look.key(key)));
-        busy += &format!("playing{} ", holds.unwrap_or_default());
     }
     busy
 }

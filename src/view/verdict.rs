@@ -62,6 +62,10 @@ fn end_of_motion(session: &Session) -> (String, Role) {
         };
         return (text.into(), Role::Quiet);
     };
+    if session.drawn_until().is_some() {
+        let text = session.with_keys("under way; {drop-cursor} shows the whole motion");
+        return (text, Role::Quiet);
+    }
     let running = session.running().filter(|_| session.draws_whole());
     if let Some((running, course)) = running.zip(session.course()) {
         return (by_whole_model(course, &running.reduced.units, found), Role::Text);

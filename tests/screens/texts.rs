@@ -165,7 +165,7 @@ fn what_plays_has_a_sign_for_as_long_as_it_plays() {
         press(&mut session, keys);
         assert!(session.playback.playing);
         let screen = text(&draw(&session, braille()));
-        assert!(screen.contains("playing, F8 holds"), "{keys}: {screen}");
+        assert!(screen.contains(" playing ") && screen.contains("F8 pauses"), "{keys}: {screen}");
     }
     press(&mut session, "<f8> <down>");
     assert!(!text(&draw(&session, braille())).contains("playing"));

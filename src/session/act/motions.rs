@@ -114,23 +114,15 @@ pub fn play(session: &mut Session) -> Done {
     if at.is_none_or(|at| at >= end && *playing) {
         *at = Some(0.0);
     }
-    let playing = *playing;
-    let text = if playing {
-        format!("playing: {}", session.pace())
-    } else {
-        "held".to_owned()
-    };
-    session.inform(text);
     Ok(())
 }
 
 /// Number of steps of a key per period.
 const STEPS: f64 = 40.0;
 
-/// Moves the head forward or back by some steps, and stops playback.
+/// Moves the head forward or back by some steps, whether the motion is played or paused.
 pub fn step(session: &mut Session, steps: f64) -> Done {
     session.trajectory().ok_or(NO_MOTION)?;
-    session.playback.playing = false;
     session.advance(steps * TAU / STEPS);
     Ok(())
 }
@@ -145,6 +137,11 @@ pub fn pace(session: &mut Session) {
     session.inform(format!("pace: {}", session.pace()));
 }
 
+/// Takes the head away: the whole motion is on show again.
+pub fn drop_head(session: &mut Session) {
+    session.playback = Playback { pace: session.playback.pace, ..Playback::default() };
+}
+
 impl Session {
     /// Advances the head with time; it stops at the end.
     pub(crate) fn elapse(&mut self, seconds: f64) {
@@ -153,13 +150,13 @@ impl Session {
         }
     }
 
-    /// Moves the head by a dimensionless time, within the motion.
+    /// Moves the head by a dimensionless time, within the motion. At the end it stays there, also when another motion
+    /// takes the place of this one.
     pub(crate) fn advance(&mut self, by: f64) {
-        let end = self.last_moment();
-        let at = (self.playback.at.unwrap_or(0.0) + by).clamp(0.0, end.max(0.0));
-        self.playback.at = Some(at);
-        if at >= end {
-            self.playback.playing = false;
-        }
+        let end = self.last_moment().max(0.0);
+        let at = self.playback.at.unwrap_or(0.0).min(end) + by;
+        let ended = at >= end;
+        self.playback.at = Some(if ended { f64::INFINITY } else { at.max(0.0) });
+        self.playback.playing &= !ended;
     }
 }

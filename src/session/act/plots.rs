@@ -6,7 +6,7 @@ use crate::model::State;
 use crate::numerics::{StepSize, shortest};
 use crate::scene::{Axes, ORDINATES, PlotSetup, Point, Span, Unit, View, Window};
 use crate::session::act::general::flip;
-use crate::session::act::motions::start;
+use crate::session::act::motions::{drop_head, start};
 use crate::session::act::parameters::{change, put};
 use crate::session::act::screen_setup::focus_on;
 use crate::session::act::{compare, history, lists, scan};
@@ -80,7 +80,8 @@ pub fn point_at(session: &mut Session, point: Point) -> Done {
     }
 }
 
-/// Stops what is under way; otherwise removes the cursor of the plot in focus; without one, lets go of the pinned point.
+/// Stops what is under way; otherwise removes the cursor of the plot in focus; without one, takes the head of the motion away,
+/// or lets go of the pinned point.
 pub fn drop_cursor(session: &mut Session) {
     if session.writing.is_some() {
         session.effects.push(Effect::StopWriting);
@@ -90,6 +91,8 @@ pub fn drop_cursor(session: &mut Session) {
         scan::stop(session);
     } else if session.focused().is_some_and(|plot| plot.cursor.is_some()) {
         session.plots[session.plot].cursor = None;
+    } else if session.playback.at.is_some() {
+        drop_head(session);
     } else {
         compare::let_go(session);
     }

@@ -10,7 +10,7 @@ use crate::flow::{Method, Motion, Outcome, Problem, Sample};
 use crate::model::{Parameters, State};
 use crate::numerics::{by_number, tanh};
 use crate::portrait::first_at;
-use crate::scene::Topic;
+use crate::scene::{Topic, View};
 use crate::session::{Pace, Session};
 
 impl Session {
@@ -124,6 +124,34 @@ impl Session {
         self.trajectory()?.at(at.min(self.last_moment()))
     }
 
+    /// The moment up to which the present motion is drawn: the head before it has reached the end, so that a motion that
+    /// is played is seen as it happens, and does not tell how it ends.
+    pub fn drawn_until(&self) -> Option<Sample> {
+        self.head().filter(|_| self.playback.at.is_some_and(|at| at < self.last_moment()))
+    }
+
+    /// The samples of the motion in this place among those on show, as far as it is drawn.
+    pub fn seen<'a>(&self, place: usize, motion: &'a Motion) -> impl Iterator<Item = Sample> + 'a {
+        let head = self.drawn_until().filter(|_| place == 0);
+        let last = head.map_or(f64::INFINITY, |head| head.tau);
+        motion.samples.iter().copied().take_while(move |sample| sample.tau <= last).chain(head)
+    }
+
+    /// The stretches on which that motion sticks, as far as it is drawn.
+    pub fn sticking(&self, place: usize, motion: &Motion) -> Vec<[Sample; 2]> {
+        let all = motion.sticks(motion.problem.until);
+        let head = self.drawn_until().filter(|_| place == 0);
+        let Some(head) = head else { return all.collect() };
+        let begun = all.filter(|[from, _]| from.tau <= head.tau);
+        begun.map(|[from, to]| [from, if to.tau <= head.tau { to } else { head }]).collect()
+    }
+
+    /// The line about playback is on show where there is something to play, or a motion is being played.
+    pub fn tells_playback(&self) -> bool {
+        let sketched = self.on_show().any(|plot| self.plots[plot].view == View::Belt);
+        (sketched || self.playback.at.is_some()) && self.trajectory().is_some()
+    }
+
     /// The end of playback: the end of the motion, or where the mass would overtake its belt.
     pub fn last_moment(&self) -> f64 {
         let contact = self.contact().map(|(tau, _)| tau);
@@ -156,7 +184,7 @@ impl Session {
     /// The pace in words.
     pub fn pace(&self) -> String {
         match (self.playback.pace, self.running()) {
-            (Pace::Period(seconds), None) => format!("a period in {seconds} s"),
+            (Pace::Period(seconds), None) => format!("{seconds} s a period"),
             (Pace::Period(seconds), Some(machine)) => {
                 let slower = machine.reduced.units.omega_0 * seconds / TAU;
                 let (times, way) = if slower >= 1.0 {
@@ -166,7 +194,7 @@ impl Session {
                 };
                 format!("{times:.1} times {way} than real time")
             }
-            (Pace::Real, _) => "in real time".to_owned(),
+            (Pace::Real, _) => "real time".to_owned(),
         }
     }
 }
