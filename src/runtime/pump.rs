@@ -24,7 +24,6 @@ use crate::session::replay::{LONGEST, Recorder, Script, ScriptError};
 use crate::session::update::is_press;
 use crate::session::{Content, Effect, MouseAction, Msg, Notice};
 use crate::terminal::Screen;
-use crate::terminal::pacing::FRAME_TIME;
 use crate::view;
 
 mod play;
@@ -300,9 +299,9 @@ impl<M: Application, W: Write> Pump<M, W> {
             return None;
         }
         let Some(changed) = self.changed else {
-            // Motion is drawn as often as frames may be sent, which over a slow line is less often.
+            // Motion is drawn as often as its bytes and the line allow.
             let beat = self.beat.filter(|_| self.application.is_moving())?;
-            return Some((beat + FRAME_TIME).max(self.screen.pacing.next(beat)));
+            return Some((beat + self.screen.pause()).max(self.screen.pacing.next(beat)));
         };
         let is_long = self.workers.asked().all(Request::is_long);
         let patience = if is_long { Duration::ZERO } else { ANSWER_TIME };

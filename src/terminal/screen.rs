@@ -8,14 +8,15 @@
 //! Nor is the terminal ever asked where its cursor is: the reply would arrive among the keys (ratatui#2691).
 
 use std::io::{self, Write};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::pacing::Pacing;
+use super::pacing::{FRAME_TIME, Pacing};
 use super::pen::Pen;
 use super::strokes::{self, TerminalState};
+use crate::numerics::real;
 
 /// Holds back the picture until [`END`]: a synchronized update, private mode 2026.
 pub const BEGIN: &str = "\x1b[?2026h";
@@ -46,13 +47,21 @@ pub struct Screen<W: Write> {
     hand: TerminalState,
     /// When the next frame may be sent.
     pub pacing: Pacing,
+    /// Bytes of the last frame.
+    sent: usize,
 }
+
+/// Longest time between two frames of a motion, such as after one that draws the whole screen.
+const LONGEST_PAUSE: Duration = Duration::from_millis(250);
+
+/// Bytes a second that a motion may take for each cell of the screen: 3.8 kB at 80x24, 9.6 kB at 120x40.
+const RATE: f64 = 2.0;
 
 impl<W: Write> Screen<W> {
     /// A screen of this size on a terminal that was just taken.
     pub fn new(out: W, size: Size) -> Screen<W> {
         let (hand, pacing) = (TerminalState::default(), Pacing::default());
-        Screen { out, size: known(size), shown: None, hand, pacing }
+        Screen { out, size: known(size), shown: None, hand, pacing, sent: 0 }
     }
 
     /// Asks a terminal that was just taken whether it answers, and for its background colour if `background`. The
@@ -81,8 +90,15 @@ impl<W: Write> Screen<W> {
         let asks = self.pacing.asks();
         frame.extend([END, if asks { REQUEST } else { "" }]);
         self.control(&frame)?;
+        self.sent = frame.len();
         self.pacing.sent(now, asks);
         Ok(())
+    }
+
+    /// Time from the last frame of a motion to the next: the longer, the more bytes the last one had.
+    pub fn pause(&self) -> Duration {
+        let cells = f64::from(self.size.width) * f64::from(self.size.height);
+        FRAME_TIME.max(Duration::from_secs_f64(real(self.sent) / (RATE * cells)).min(LONGEST_PAUSE))
     }
 
     /// The current size of frames, in cells.

@@ -18,7 +18,7 @@ use ratatui::layout::Rect;
 
 /// A terminal that counts bytes.
 #[derive(Clone, Default)]
-struct Line(Rc<RefCell<usize>>);
+pub struct Line(Rc<RefCell<usize>>);
 
 impl Write for Line {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
@@ -32,15 +32,15 @@ impl Write for Line {
 }
 
 /// A session on a screen, with its requests answered at once.
-struct Explorer {
-    session: Session,
-    screen: Screen<Line>,
+pub struct Explorer {
+    pub session: Session,
+    pub screen: Screen<Line>,
     line: Line,
     look: Look,
 }
 
 impl Explorer {
-    fn open(scene: &std::sync::Arc<Scene>, width: u16, height: u16) -> Explorer {
+    pub fn open(scene: &std::sync::Arc<Scene>, width: u16, height: u16) -> Explorer {
         let line = Line::default();
         let size = ratatui::layout::Size { width, height };
         Explorer {
@@ -56,7 +56,7 @@ impl Explorer {
     }
 
     /// Answers all requests and draws; returns the number of bytes written.
-    fn draw(&mut self) -> usize {
+    pub fn draw(&mut self) -> usize {
         settle(&mut self.session, |_, request| {
             let result = answer(request, &Limits::PATIENT).map_err(NoAnswer::Reason);
             Some(Msg::answered(request.clone(), result, 0.000_25))
@@ -68,8 +68,16 @@ impl Explorer {
         *self.line.0.borrow()
     }
 
-    fn press(&mut self, key: &str) -> usize {
+    pub fn press(&mut self, key: &str) -> usize {
         update(&mut self.session, Msg::Key(key.parse().unwrap()));
+        self.draw()
+    }
+}
+
+impl Explorer {
+    /// Lets time pass and draws; returns the number of bytes written.
+    pub fn elapse(&mut self, seconds: f64) -> usize {
+        update(&mut self.session, Msg::Elapsed { seconds });
         self.draw()
     }
 }

@@ -10,6 +10,7 @@ use super::*;
 use crate::flow::Reason;
 use crate::runtime::{Tell, Work};
 use crate::session::{Code, Key, replay};
+use crate::terminal::pacing::FRAME_TIME;
 
 /// An application that counts right-arrow keys, shows the last notice, moves for a while after `p`, and quits
 /// at `q`.
