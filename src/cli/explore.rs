@@ -11,7 +11,7 @@ use super::settings::{Looks, Memory, Settings};
 use super::{CommandCase, Failure, Result, StartOptions};
 use crate::numerics::similar;
 use crate::runtime::{Files, Options, RecordingFile, explore, provenance_file};
-use crate::scene::library::names;
+use crate::scene::library::{FIRST, names};
 use crate::scene::machine::NO_BELT;
 use crate::scene::{PLAIN, Scene, find, plain};
 use crate::session::config::Config;
@@ -57,11 +57,19 @@ pub struct ExploreCommand {
 }
 
 impl ExploreCommand {
+    /// Whether nothing is asked for, and nothing was kept before.
+    fn is_first_start(&self) -> bool {
+        let asks = self.belt.is_some() || self.start.asks() || self.last;
+        let files = [&self.open, &self.play, &self.record];
+        let asks = asks || files.iter().any(|file| file.is_some());
+        !asks && Memory::open().is_some_and(|memory| !memory.keeps())
+    }
+
     /// `commands` are the names of the others, for who misspelt one.
     pub fn run(&self, commands: &[&'static str]) -> Result<()> {
         let config = self.settings.read()?;
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
-        let name = named.map_or(PLAIN, String::as_str);
+        let name = named.map_or(if self.is_first_start() { FIRST } else { PLAIN }, String::as_str);
         let scene = if let Some(file) = &self.belt {
             let scene = CommandCase::named(file)?.scene()?;
             self.start.applied(scene.ok_or_else(|| format!("{file}: {NO_BELT}"))?)?
@@ -191,8 +199,8 @@ fn welcome(session: &mut Session, memory: &Memory) {
         "sessions were interrupted: {restore} lists them, {forget-interrupted} forgets all"
     } else if !session.interrupted.is_empty() {
         "a session was interrupted: {restore} resumes it, {forget-interrupted} forgets it"
-    } else if memory.is_new {
-        "arrows change the numbers; {help} keys, {palette} commands, {explain} what to see, {tour} a tour"
+    } else if memory.is_new && session.scene.next.is_none() {
+        return session.say_first_keys();
     } else {
         return;
     };

@@ -119,6 +119,11 @@ impl Memory {
         Some(Memory { folder, is_new, copies, keep, last })
     }
 
+    /// Whether a session was left or interrupted.
+    pub fn keeps(&self) -> bool {
+        self.last.exists() || !self.interrupted().is_empty()
+    }
+
     /// The files of interrupted sessions that have not been put aside since, with the times at which they
     /// ended, the newest first.
     pub fn interrupted(&self) -> Vec<(SystemTime, PathBuf)> {

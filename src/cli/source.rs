@@ -121,6 +121,13 @@ impl StartOptions {
         self.applied(self.found(named)?)
     }
 
+    /// Whether anything is chosen.
+    pub fn asks(&self) -> bool {
+        let accuracy = [self.tol, self.step, self.epsilon];
+        let chosen = self.scene.is_some() || self.method.is_some() || !self.set.is_empty();
+        chosen || accuracy.iter().any(Option::is_some)
+    }
+
     /// The numbers that are set.
     fn assigned(&self, numbers: &Numbers) -> Result<Vec<(Knob, TolerancedNumber)>> {
         let one = |text: &String| read("--set", text, |text| numbers.assignment(text));

@@ -11,9 +11,12 @@ use crate::words::joined;
 /// The scene that opens unless another is named.
 pub const PLAIN: &str = "plain";
 
+/// The scene that opens on a first start.
+pub const FIRST: &str = "first";
+
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 32] = texts! { "/assets/scenes/":
-    "plain" "capture" "linear" "marginal" "hopf" "supercritical" "subcritical" "asymmetry" "escape"
+const FILES: [(&str, &str); 33] = texts! { "/assets/scenes/":
+    "plain" "first" "capture" "linear" "marginal" "hopf" "supercritical" "subcritical" "asymmetry" "escape"
     "return-map" "regimes" "energy" "belt-speed" "inside" "benchmark" "groan" "slow-belt" "fig01"
     "fig02" "fig03" "fig04" "fig05" "fig06" "fig08" "fig09" "fig10" "fig11" "fig12" "fig14" "fig15"
     "fig16" "fig17"

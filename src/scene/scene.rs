@@ -43,6 +43,12 @@ pub struct Scene {
     /// Families of variants that plots show in place of the present values, each variant drawn over the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub families: Vec<Vec<Variant>>,
+    /// Whether the motion is played from the beginning.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub plays: bool,
+    /// The scene that enter leads to, if this is a first screen; such a screen begins with what it says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next: Option<String>,
     /// How the plots share the screen.
     pub arrangement: Arrangement,
     /// The machine that the numbers describe, if any.

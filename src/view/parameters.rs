@@ -79,6 +79,10 @@ pub fn shown(session: &Session, height: u16) -> Range<usize> {
 /// What to look at in this scene and what to press. Where there is no room for a text, the key that shows both stands in
 /// its place.
 fn guide(area: Rect, session: &Session, screen: &mut Surface) {
+    // A first screen begins with both.
+    if session.scene.next.is_some() {
+        return;
+    }
     let look = screen.look;
     let quiet = |text: &str| look.span(text.to_owned(), Role::Quiet);
     let sentence = |text: &str| look.sentence(text, &session.keymap);

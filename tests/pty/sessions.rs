@@ -30,14 +30,29 @@ fn kept(memory: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn the_first_start_says_what_to_press_and_the_next_one_does_not() {
+fn the_first_start_plays_a_motion_and_what_was_kept_or_asked_for_comes_before_it() {
     let memory = tempfile::tempdir().unwrap();
-    let mut terminal = explorer(&[], memory.path());
+    let mut terminal = begun(&[], memory.path());
+    terminal.wait_for("Does it come to rest?");
+    terminal.wait_for("playing");
+    // A key is heard while it plays.
+    terminal.types("\r");
     terminal.wait_for("arrows change the numbers; ? keys, space commands");
+    terminal.wait_for("The plain oscillator");
+    terminal.types("\x1b[C");
+    terminal.wait_for("-0.09");
     terminal.leave();
-    let terminal = explorer(&[], memory.path());
+    // The session that was left is kept.
+    let mut terminal = begun(&[], memory.path());
+    terminal.wait_for("The plain oscillator");
     assert!(!terminal.text().contains("arrows change the numbers"));
     terminal.leave();
+    for arguments in [&["--set", "r=0.2"][..], &["--method", "rk4"]] {
+        let memory = tempfile::tempdir().unwrap();
+        let mut terminal = begun(arguments, memory.path());
+        terminal.wait_for("The plain oscillator");
+        terminal.leave();
+    }
 }
 
 #[test]
@@ -65,7 +80,7 @@ fn an_interrupted_session_is_kept_offered_and_brought_back() {
 #[test]
 fn a_session_in_which_nothing_was_done_is_not_kept() {
     let memory = tempfile::tempdir().unwrap();
-    let mut terminal = explorer(&[], memory.path());
+    let mut terminal = explorer(&["plain"], memory.path());
     terminal.signal(Signal::TERM);
     assert_eq!(terminal.end(), 143);
     assert_eq!(kept(memory.path()), [] as [PathBuf; 0]);
@@ -171,7 +186,7 @@ fn replayed(file: &Path) -> Vec<String> {
 #[test]
 fn a_recording_plays_what_was_recorded_without_the_key_that_left() {
     let memory = tempfile::tempdir().unwrap();
-    explorer(&[], memory.path()).leave();
+    explorer(&["plain"], memory.path()).leave();
     let saved = memory.path().join("saved.toml");
     let mut terminal = explorer(&["fig16b"], memory.path());
     terminal.types(&format!("\x1b[C\"a\x1b[C:write {}\r", saved.display()));
@@ -185,7 +200,7 @@ fn a_recording_plays_what_was_recorded_without_the_key_that_left() {
     ];
     all_at_once(&cases, |(arguments, keys)| {
         let memory = tempfile::tempdir().unwrap();
-        explorer(&[], memory.path()).leave();
+        explorer(&["plain"], memory.path()).leave();
         let file = memory.path().join("r.keys");
         let all = [*arguments, &["--record", file.to_str().unwrap()]].concat();
         let mut terminal = explorer(&all, memory.path());
@@ -256,7 +271,7 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
     ];
     all_at_once(&cases, |(scene, keys)| {
         let memory = tempfile::tempdir().unwrap();
-        explorer(&[], memory.path()).leave();
+        explorer(&["plain"], memory.path()).leave();
         let end = |writes: &[String]| {
             let mut terminal = explorer(&[scene], memory.path());
             for keys in writes {

@@ -6,6 +6,7 @@ mod bytes;
 mod cut;
 mod legends;
 mod pictures;
+mod playback;
 mod texts;
 
 use hopfscope::branch::BranchPoint;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::fit::NoEstimate;
 use crate::model::Knob;
-use crate::scene::{Finding, PlotSetup, Reply, Scene, Topic};
+use crate::scene::{Finding, PlotSetup, Reply, Scene, Topic, find};
 use crate::session::act::compare;
 use crate::session::act::screen_setup::set_up;
 use crate::session::read::completion::difference;
@@ -131,11 +131,30 @@ pub fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     if before != whole(&opens) {
         session.history.record(before);
     }
+    let playback = Playback { pace: session.playback.pace, ..opens.playback };
     restore(session, snapshot(&opens), opens.plots);
+    session.playback = playback;
     session.unfolded = false;
     session.selected = Row::default();
     // The descriptions of scenes begin there.
     session.focus = Pane::Parameters;
+}
+
+/// What to press first.
+const FIRST_KEYS: &str = "arrows change the numbers; {help} keys, {palette} commands, {explain} what to see, {tour} a tour";
+
+/// Goes on from a first screen to the scene that it leads to.
+pub fn go_deeper(session: &mut Session, next: &str) -> Done {
+    open_scene(session, find(next)?);
+    session.say_first_keys();
+    Ok(())
+}
+
+impl Session {
+    /// Says what to press first.
+    pub fn say_first_keys(&mut self) {
+        self.inform_of_keys(FIRST_KEYS);
+    }
 }
 
 /// Makes the present state the start of a session: its scene opens like this, with these parameters added to

@@ -168,9 +168,11 @@ impl Session {
                 let Some(key) = key.filter(own).filter(|_| shown.insert(command.name)) else {
                     continue;
                 };
-                match hints.iter_mut().find(|hint| hint.text == command.hint) {
+                let first = command.name == "edit" && self.scene.next.is_some();
+                let text = if first { "goes deeper" } else { command.hint };
+                match hints.iter_mut().find(|hint| hint.text == text) {
                     Some(hint) => hint.keys.push(key),
-                    None => hints.push(Hint { keys: vec![key], text: command.hint }),
+                    None => hints.push(Hint { keys: vec![key], text }),
                 }
             }
         }

@@ -183,6 +183,7 @@ impl Session {
             arrangement: scene.arrangement,
             harmonics: HARMONICS,
             layers: scene.layers.clone(),
+            playback: Playback::of_scene(&scene),
             size,
             scene,
             ..Session::default()
@@ -302,6 +303,14 @@ pub struct Playback {
 impl Default for Playback {
     fn default() -> Self {
         Playback { at: None, playing: false, pace: PACES[1] }
+    }
+}
+
+impl Playback {
+    /// A scene that plays begins with its motion.
+    fn of_scene(scene: &Scene) -> Self {
+        let (at, playing) = (scene.plays.then_some(0.0), scene.plays);
+        Playback { at, playing, ..Playback::default() }
     }
 }
 
