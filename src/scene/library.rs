@@ -218,7 +218,7 @@ mod tests {
         for (wrong, expected) in [
             ("super-critical", "; did you mean supercritical"),
             ("Linear", "; did you mean linear"),
-            ("xyz", "; there are plain, capture"),
+            ("xyz", "; there are plain, first"),
         ] {
             let line = find(wrong).unwrap_err();
             assert!(line.starts_with(&format!("no scene {wrong:?}{expected}")), "{line}");
