@@ -3,7 +3,7 @@
 //! That is the picture of a session at the other point, as far as it differs: its lines are paler and more broken, and
 //! beside lines of both stand their letters. What a machine of other units does is brought to those of the present one.
 
-use super::{Caption, Dash, Item, LineStyle, Mark, Marks, Picture, Role};
+use super::{Caption, Dash, Item, LineStyle, Mark, Marks, Picture, Role, Room};
 use crate::scene::{Point, View, Window};
 use crate::session::{Letter, Session, VariantTag};
 
@@ -12,9 +12,9 @@ const LETTERED: [Role; 6] =
     [Role::Stable, Role::Unstable, Role::Velocity, Role::Energy, Role::Map, Role::Current];
 
 /// Adds what a plot shows of the other point, behind the present one.
-pub fn add<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
+pub fn add<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize, room: Room) {
     let Some(other) = session.beside(index) else { return };
-    let theirs = super::alone(other, index);
+    let theirs = super::alone(other, index, room);
     let (view, letters) = (session.plots[index].view, session.letters());
     let style = Beside { letter: letters.map(|both| both[1]), place: session.shown(index).len() };
     let by = session.units_beside(index);

@@ -62,7 +62,7 @@ fn end_of_motion(session: &Session) -> (String, Role) {
         };
         return (text.into(), Role::Quiet);
     };
-    if session.drawn_until().is_some() {
+    if session.drawn_until().is_some() && !session.kicking {
         let text = session.with_keys("under way; {drop-cursor} shows the whole motion");
         return (text, Role::Quiet);
     }

@@ -68,6 +68,6 @@ impl Session {
         /// Time after which one sees that swings grow: the second is larger than the first.
         const SEEN: f64 = 2.0 * TAU;
         let seen = self.survives() == Some(false) && self.playback.at >= Some(SEEN);
-        self.kicking && self.playback.playing && !seen
+        self.kicking && self.drawn_until().is_some() && !seen
     }
 }
