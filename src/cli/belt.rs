@@ -28,7 +28,7 @@ pub struct BeltCommand {
     /// Machine file, or the name of a built-in machine
     #[arg(value_name = "FILE", default_value = TEXTBOOK)]
     machine: String,
-    /// Sets a quantity of the machine or its friction law, such as "v0=0.2 m/s", or with a tolerance "R=1 N +- 0.2 N";
+    /// Sets a quantity of the machine or its friction law, such as "v0=0.2 m/s", or with its uncertainty "R=1 N +- 0.2 N";
     /// repeatable; also the start x, v
     #[arg(long, value_name = "NAME=VALUE", value_parser = |text: &str| MACHINE.assignment(text))]
     set: Vec<(Knob, TolerancedNumber)>,

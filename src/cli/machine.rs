@@ -21,7 +21,7 @@ use crate::words::joined;
 
 /// Why a mode takes no tolerances.
 const UNCERTAIN_MODE: &str =
-    "a mode takes no tolerances and no --disturbance: its guaranteed margins are not computed";
+    "a mode takes no uncertainties and no --disturbance: its guaranteed margins are not computed";
 
 /// What a command is about, and the motion to compute.
 pub struct CommandCase {

@@ -69,7 +69,7 @@ impl MergeCommand {
         }
         if let Some((output, path)) = output {
             let written = output.into_inner().map_err(io::IntoInnerError::into_error);
-            let how = Some("--force replaces it");
+            let how = Some("add --force to overwrite");
             let written = written.and_then(|file| file.end(self.force));
             written.map_err(|error| Failure::not_replaced(path, &error, how))?;
             let command = command(without(&first.arguments, &OWN), first.part.form, path);

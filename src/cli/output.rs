@@ -87,7 +87,7 @@ pub fn print(text: &str) -> Result<()> {
 
 /// Writes a whole file. Fails without `force` if the file has other content.
 pub fn write(path: &Path, content: &[u8], force: bool) -> Result<()> {
-    new_file::write(path, content, Readers::Usual, (!force).then_some("--force replaces it"))
+    new_file::write(path, content, Readers::Usual, (!force).then_some("add --force to overwrite"))
 }
 
 /// Of the options that are taken out of command lines, those without a value.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use strum::IntoStaticStr;
 
 use super::paper::Spot;
-use crate::words::printable::xml;
+use crate::words::printable::{signs, xml};
 
 /// Writes a path with these commands and attributes.
 pub fn path(out: &mut String, commands: &str, attributes: &str) {
@@ -36,7 +36,7 @@ pub enum Anchor {
 
 /// Writes a text on its base line, of which a spot is the start, the middle or the end.
 pub fn text(out: &mut String, (x, y): Spot, anchor: Anchor, attributes: &str, text: &str) {
-    let (anchor, text): (&str, _) = (anchor.into(), xml(text));
+    let (anchor, text): (&str, _) = (anchor.into(), xml(&signs(text)));
     let _ = writeln!(
         out,
         "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\" {attributes}>{text}</text>"

@@ -198,7 +198,7 @@ pub fn toleranced(text: &str) -> Result<TolerancedNumber, String> {
     if half_width >= 0.0 {
         Ok(TolerancedNumber { middle, half_width, ends })
     } else {
-        Err(format!("{text:?}: a tolerance is 0 or more, and LOW .. HIGH ascend"))
+        Err(format!("{text:?}: an uncertainty is 0 or more, and LOW .. HIGH ascend"))
     }
 }
 

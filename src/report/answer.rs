@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::{Columns, Document, Quantity, RowsOf, Table, json};
 use crate::flow::Cost;
 use crate::model::{Body, Group, Interval, Knob, ParameterBox, Source};
+use crate::words::printable::signs;
 use crate::words::provenance::Provenance;
 use crate::words::{duration, joined, shortest, with_unit};
 
@@ -149,7 +150,7 @@ impl Answer {
 
     /// With lines for reading.
     pub(super) fn lines<S: Into<String>>(mut self, lines: impl IntoIterator<Item = S>) -> Self {
-        self.parts.extend(lines.into_iter().map(|line| Part::Line(line.into())));
+        self.parts.extend(lines.into_iter().map(|line| Part::Line(signs(&line.into()))));
         self
     }
 

@@ -48,9 +48,7 @@ impl Files {
         let name = path.display();
         match std::fs::metadata(&path) {
             Ok(found) if !found.is_file() => Err(format!("{name} is not a file")),
-            Ok(_) if !replace => {
-                Err(format!("{name} is there already; ! behind the command replaces it"))
-            }
+            Ok(_) if !replace => Err(format!("{name} already exists; add ! to overwrite")),
             _ => Ok(()),
         }
     }
@@ -120,7 +118,7 @@ mod tests {
         let path = folder.path().join("session.toml");
         let write = |text, replace| Files::write(&path, text, replace, Readers::Owner);
         assert!(write("one", false).is_ok());
-        assert!(write("two", false).unwrap_err().contains("is there already"));
+        assert!(write("two", false).unwrap_err().contains("already exists"));
         assert_eq!(Files::read(&path).unwrap(), "one");
         assert!(write("two", true).is_ok());
         assert_eq!(Files::read(&path).unwrap(), "two");

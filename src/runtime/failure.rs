@@ -71,7 +71,7 @@ impl Failure {
         let line = format!("{name} not written: {error}");
         match (error.kind(), how) {
             (ErrorKind::AlreadyExists, Some(how)) => {
-                Failure::Usage(format!("{name} holds something else; {how}"))
+                Failure::Usage(format!("{name} already exists; {how}"))
             }
             (kind, _) if NO_FILE.contains(&kind) => Failure::Usage(line),
             _ => Failure::Unanswered(line),

@@ -226,7 +226,7 @@ mod tests {
         write(&path, b"old", Readers::Usual, Some("no")).unwrap();
         NewFile::begin(&path, Readers::Usual).unwrap().write_all(b"new").unwrap();
         let refused = write(&path, b"new", Readers::Usual, Some("no")).unwrap_err();
-        assert!(refused.to_string().ends_with("holds something else; no"), "{refused}");
+        assert!(refused.to_string().ends_with("already exists; no"), "{refused}");
         assert_eq!(fs::read(&path).unwrap(), b"old");
         write(&path, b"old", Readers::Usual, Some("no")).unwrap();
         write(&path, b"new", Readers::Usual, None).unwrap();

@@ -25,7 +25,7 @@ impl RecordingFile {
         replace: bool,
         recorder: &mut Recorder,
     ) -> Result<RecordingFile, String> {
-        RecordingFile::admit(path, replace, "--force replaces it")?;
+        RecordingFile::admit(path, replace, "add --force to overwrite")?;
         let path = &at_home(path);
         recorder.take_changed();
         let text = recorder.text();
@@ -53,7 +53,7 @@ impl RecordingFile {
         if read.is_ok() && (head.is_empty() || head == HEADER) {
             return Ok(());
         }
-        Err(format!("{name} is there already and is not a recording; {how}"))
+        Err(format!("{name} already exists and is not a recording; {how}"))
     }
 
     /// Writes the changes since the last call. Fails with one line if the file cannot be written.
@@ -118,8 +118,8 @@ mod tests {
             assert!(RecordingFile::admit(&path, true, "no").is_ok(), "{text:?}");
         }
         std::fs::write(&path, [0xff; 64]).unwrap();
-        let refused = RecordingFile::admit(&path, false, "--force replaces it").unwrap_err();
-        assert!(refused.ends_with("is not a recording; --force replaces it"), "{refused}");
+        let refused = RecordingFile::admit(&path, false, "add --force to overwrite").unwrap_err();
+        assert!(refused.ends_with("is not a recording; add --force to overwrite"), "{refused}");
         assert!(RecordingFile::admit(folder.path(), true, "no").is_err(), "a folder is no file");
     }
 }

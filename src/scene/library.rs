@@ -98,7 +98,7 @@ mod tests {
             assert!(scene.title.ends_with(&format!(" (Fig. {number})")), "{name}: {}", scene.title);
             let whole = |text: &str| said::said(text, |_| true);
             let said = format!("{} {}", whole(&scene.watch), whole(&scene.press));
-            let sources = ["chosen", "paper", "caption"];
+            let sources = ["paper", "caption"];
             assert!(sources.iter().any(|source| said.contains(source)), "{name}: whose numbers?");
             assert!(scene.press.contains('{'), "{name}: something to press");
             let sentences = whole(&scene.watch).matches(". ").count() + 1;

@@ -4,10 +4,14 @@
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
 
+/// How far a number may be off, on either side.
+const PLUS_MINUS: char = '\u{b1}';
+
 /// The minus sign, as wide as a plus sign.
 pub const MINUS: char = '\u{2212}';
 
-/// Puts minus signs before the numbers and letters of an area, except in rows for which `is_typed` holds.
+/// Puts minus signs before the numbers and letters of an area, and plus-minus signs at the beginnings of words, except in
+/// rows for which `is_typed` holds.
 pub fn minus(area: Rect, buffer: &mut Buffer, is_typed: impl Fn(u16) -> bool) {
     for place @ Position { x, y } in area.positions() {
         // Almost no cell has a hyphen: only beside one is anything read.
@@ -18,10 +22,22 @@ pub fn minus(area: Rect, buffer: &mut Buffer, is_typed: impl Fn(u16) -> bool) {
             let beside = x.checked_add_signed(by).filter(|x| (area.x..area.right()).contains(x));
             beside.map_or(' ', |x| letter(&buffer[(x, y)]))
         });
-        if is_minus(around) {
+        if around[..2] == [' ', '+'] {
+            buffer[(x - 1, y)].set_char(PLUS_MINUS);
+            let start = buffer.index_of(x, y);
+            close_up(&mut buffer.content[start..start + usize::from(area.right() - x)]);
+        } else if is_minus(around) {
             buffer[place].set_char(MINUS);
         }
     }
+}
+
+/// Takes a cell away: the text behind it moves up, as far as two blanks or a blank and a frame.
+fn close_up(row: &mut [Cell]) {
+    let is_end = |pair: &[Cell]| pair[0].symbol() == " " && " │|".contains(letter(&pair[1]));
+    let end = row.windows(2).position(is_end).unwrap_or(row.len() - 1);
+    row[..=end].rotate_left(1);
+    row[end].set_char(' ');
 }
 
 fn letter(cell: &Cell) -> char {
@@ -56,6 +72,22 @@ mod tests {
     use super::*;
 
     #[test]
+    fn an_error_has_its_sign_and_what_stands_beside_the_text_stays() {
+        for (written, read) in [
+            ("lost 0.1 +- 1e-11  next", "lost 0.1 ± 1e\u{2212}11   next"),
+            ("-D +- j │", "\u{2212}D ± j  │"),
+            ("+-2 deviations", "±2 deviations "),
+            (" +-2 deviations", " ±2 deviations "),
+            ("r=0.1+-0.01", "r=0.1+-0.01"),
+        ] {
+            let mut buffer = Buffer::with_lines([written]);
+            minus(buffer.area, &mut buffer, |_| false);
+            let line: String = buffer.content.iter().map(Cell::symbol).collect();
+            assert_eq!(line, read);
+        }
+    }
+
+    #[test]
     fn numbers_have_minus_signs_and_words_keep_their_hyphens() {
         let cases = [
             ("D -0.3", "D \u{2212}0.3"),
@@ -64,7 +96,7 @@ mod tests {
             ("q in [-0.1, .5]", "q in [\u{2212}0.1, .5]"),
             ("e^-710 -.5", "e^\u{2212}710 \u{2212}.5"),
             ("stick-slip C-r scan-2.csv 2026-11-22", "stick-slip C-r scan-2.csv 2026-11-22"),
-            ("--set -- - +- sign-rk4", "--set -- - +- sign-rk4"),
+            ("--set -- - sign-rk4", "--set -- - sign-rk4"),
         ];
         for (written, read) in cases {
             let mut buffer = Buffer::with_lines([written]);

@@ -41,6 +41,12 @@ pub fn xml(text: &str) -> String {
     lines(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
+/// A text for reading, with a sign in place of the letters `+-` where these begin a word. Within one they are input, as in
+/// `r=0.1+-0.01`.
+pub fn signs(text: &str) -> String {
+    format!(" {text}").replace(" +-", " \u{b1}").split_off(1)
+}
+
 fn is_of_lines(char: char) -> bool {
     char == '\n' || is_printable(char)
 }
@@ -87,6 +93,17 @@ mod tests {
             assert_eq!(line(text), shown);
         }
         assert_eq!(lines("a\r\nb"), "a\\r\nb");
+    }
+
+    #[test]
+    fn an_error_has_a_sign_and_what_is_typed_has_letters() {
+        for (written, read) in [
+            ("0.5 +- 0.1", "0.5 \u{b1} 0.1"),
+            ("+-2 deviations", "\u{b1}2 deviations"),
+            ("--set r=0.1+-0.01", "--set r=0.1+-0.01"),
+        ] {
+            assert_eq!(signs(written), read);
+        }
     }
 
     proptest! {

@@ -377,7 +377,7 @@ fn tolerance_and_disturbance_of_a_machine_are_typed_in_newtons() {
         &[
             ("set m=2 N", "one such as kg"),
             ("set m=0", "m = 0 kg is outside its range"),
-            ("set F=10 N +- 1 N", "F has no tolerance here"),
+            ("set F=10 N +- 1 N", "F has no uncertainty here"),
             ("set w=1 mm", "one such as N"),
             ("set R=-1", "R = -1 N is outside its range"),
         ],

@@ -132,7 +132,7 @@ fn the_command_reports_both_margins_and_the_friction_that_guarantees_one() {
     for (set, words) in [
         ("R=1 N +- 2 N", "R = -1 N is outside its range"),
         ("R=1 N +- 1 mm", "both numbers take the same unit"),
-        ("x=1 mm +- 1 mm", "a start has no tolerance"),
+        ("x=1 mm +- 1 mm", "a start has no uncertainty"),
     ] {
         let ran = run(&["belt", "textbook", "--set", set]);
         ran.is_refused(&[words]);

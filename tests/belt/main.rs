@@ -275,7 +275,7 @@ fn a_mode_is_answered_by_the_same_command() {
         ("--set", "v0=1", "no v0 here; there are R, R_static, frequency"),
         ("--set", "mu_s=0.1", "no mu_s here; there are"),
         ("--set", "ratio3=1", "no ratio3 here; there are"),
-        ("--set", "R=3N+-1N", "takes no tolerances"),
+        ("--set", "R=3N+-1N", "takes no uncertainties"),
         ("--disturbance", "1 N", "no --disturbance"),
     ] {
         run(&["belt", name, option, value]).is_refused(&[words]);

@@ -149,6 +149,6 @@ fn manuals_and_completions_name_every_command() {
     // A second run changes nothing, and a page of another origin is kept.
     assert_eq!(run(&["man", path]).code, 0);
     fs::write(folder.path().join("hopfscope.1"), "mine").unwrap();
-    run(&["man", path]).is_refused(&["hopfscope.1", "--force replaces it"]);
+    run(&["man", path]).is_refused(&["hopfscope.1", "add --force to overwrite"]);
     assert_eq!(fs::read_to_string(folder.path().join("hopfscope.1")).unwrap(), "mine");
 }

@@ -206,7 +206,7 @@ fn a_page_replaces_nothing_unasked() {
     let record = at_root("tests/data/fit/peaks_times.csv");
     for line in [&["fit", &record, "--peaks", "--draws", "40"][..], &["belt", "groan"]] {
         let line = [line, &["--report", name]].concat();
-        run(&line).is_refused(&[name, "holds something else; --force replaces it"]);
+        run(&line).is_refused(&[name, "already exists; add --force to overwrite"]);
         assert_eq!(fs::read_to_string(&path).unwrap(), "mine\n");
         let forced = run(&[&line[..], &["--force"]].concat());
         assert_eq!(forced.code, 0, "{}", forced.err);

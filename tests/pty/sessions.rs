@@ -110,7 +110,7 @@ fn a_session_is_saved_and_resumed() {
     terminal.wait_for("written to");
     let written = fs::read_to_string(&file).unwrap();
     terminal.types(&line("write"));
-    terminal.wait_for("is there already");
+    terminal.wait_for("already exists");
     assert_eq!(fs::read_to_string(&file).unwrap(), written);
     terminal.leave();
 
@@ -163,7 +163,7 @@ fn a_key_writes_the_plot_in_use_as_a_figure_and_replaces_none() {
     let panels = picture.descendants().filter(|node| node.has_tag_name("clipPath")).count();
     assert_eq!(panels, 1, "the pane in use, not all");
     press(&mut terminal);
-    terminal.wait_for("is there already; ! behind the command replaces it");
+    terminal.wait_for("already exists; add ! to overwrite");
     assert_eq!(fs::read_to_string(&file).unwrap(), written);
     terminal.leave();
 }
@@ -224,7 +224,7 @@ fn a_recording_survives_any_end_of_the_program_and_replaces_no_other_file() {
         let program = [&[PROGRAM], arguments].concat();
         let mut terminal = Terminal::start(&program, &[], (100, 30), Answers::AtOnce);
         assert_eq!(terminal.end(), 2);
-        assert!(terminal.text().contains("is not a recording; --force replaces it"));
+        assert!(terminal.text().contains("is not a recording; add --force to overwrite"));
     };
     refused(&["supercritical", "--record", path]);
     assert_eq!(fs::read_to_string(&file).unwrap(), "data\n");

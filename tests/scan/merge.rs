@@ -66,7 +66,7 @@ fn parts_in_any_order_are_the_whole_to_the_last_byte_and_no_file_is_lost() {
         assert_eq!(read(folder, &format!("all.{ending}")), whole);
         fs::write(folder.join("mine"), "mine\n").unwrap();
         let ran = run_in(folder, "merge parts --output mine");
-        ran.is_refused(&["--force replaces it"]);
+        ran.is_refused(&["add --force to overwrite"]);
         assert_eq!(read(folder, "mine"), "mine\n");
         assert_eq!(run_in(folder, "merge parts --output mine --force").code, 0);
         assert_eq!(fs::read_dir(folder).unwrap().count(), 7, "nothing else is left behind");

@@ -138,7 +138,7 @@ fn tolerances_stay_within_the_range() {
         ("1e-151..1", "r = 1e-151 is too close to 0"),
         ("0.1+-", "\"\" is not a number; r takes"),
         ("0.2..0.1", "LOW .. HIGH ascend"),
-        ("0.1+--1", "a tolerance is 0 or more"),
+        ("0.1+--1", "an uncertainty is 0 or more"),
     ] {
         let refused = Knob::R.parse_toleranced(text).unwrap_err();
         assert!(refused.contains(words), "{text}: {refused}");

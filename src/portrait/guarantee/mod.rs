@@ -34,20 +34,20 @@ pub enum NoGuarantee {
         d: f64,
     },
     /// The tolerances leave no friction to count on.
-    #[error("the tolerances change the forces by more than the friction holds")]
+    #[error("the uncertainties change the forces by more than the friction holds")]
     Tolerances,
     /// More numbers are uncertain than are looked at together.
     #[error(
-        "tolerances of more than {} numbers beside R, R_static, d1 and d3 are not looked at together",
+        "uncertainties of more than {} numbers beside R, R_static, d1 and d3 are not looked at together",
         machine::MOST
     )]
     TooMany,
     /// No border below the belts' lines bounds all machines.
     #[error(
-        "no motion slower than the belt bounds the basins of all machines within the tolerances"
+        "no motion slower than the belt bounds the basins of all machines within the uncertainties"
     )]
     Unbounded,
     /// The border leaves the friction law of one of the machines.
-    #[error("within the tolerances the border leaves the friction law")]
+    #[error("within the uncertainties the border leaves the friction law")]
     OutsideLaw,
 }

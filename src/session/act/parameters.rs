@@ -88,7 +88,7 @@ pub fn half_width(session: &mut Session, count: i32) -> Done {
     if differs {
         Ok(())
     } else {
-        Err(format!("{knob} has no half width"))
+        Err(format!("{knob} has no uncertainty"))
     }
 }
 
@@ -291,7 +291,7 @@ fn number(session: &Session, setup: &Setup, knob: Knob, text: &str) -> Done<Setu
         None if half == 0.0 && !knob.is_parameter() => changed.doubt,
         None if knob.is_of_machine() => {
             let such = "R, d1 and d3 have, all of them in a machine's file";
-            return Err(format!("{knob} has no tolerance here; {such}"));
+            return Err(format!("{knob} has no uncertainty here; {such}"));
         }
         None => changed.doubt.with_half_width(knob, half)?,
     };

@@ -117,7 +117,7 @@ impl Uncertainty {
     fn check(&self) -> Done {
         let mut all = self.half_widths.into_iter().chain([self.disturbance]);
         all.find(|value| !(0.0..=f64::MAX).contains(value)).map_or(Ok(()), |value| {
-            Err(format!("doubt: {value:?}; half widths and disturbance are 0 or more"))
+            Err(format!("doubt: {value:?}; uncertainties and disturbance are 0 or more"))
         })
     }
 
@@ -133,7 +133,7 @@ impl Uncertainty {
     /// This doubt with another half width of a parameter. Fails with one line if `symbol` is none.
     pub fn with_half_width(mut self, symbol: Knob, half: f64) -> Done<Self> {
         if !symbol.is_parameter() {
-            return Err(format!("{symbol} has no half width; only D, D2, D3 and r have one"));
+            return Err(format!("{symbol} has no uncertainty; only D, D2, D3 and r have one"));
         }
         self.half_widths[symbol.place()] = half;
         Ok(self)
@@ -161,7 +161,7 @@ impl Uncertainty {
     /// file. Fails with one line if D2, which no single part of the machine determines, has a half width.
     pub fn on_machine(&self, scaled: &ScaledMachine, belt: &Belt) -> Done<Tolerances> {
         if self.half_width(Knob::D2) > 0.0 {
-            return Err("no part of the machine sets D2 alone: it has no half width".to_owned());
+            return Err("no part of the machine sets D2 alone: it has no uncertainty".to_owned());
         }
         let mut half_widths = scaled.machine.tolerances.half_widths.clone();
         for (symbol, quantity) in ON_A_MACHINE {
