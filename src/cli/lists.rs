@@ -16,7 +16,7 @@ use crate::paper::examine_all;
 use crate::question::answer;
 use crate::report::extremes::{extreme_cycles, extremes};
 use crate::report::scenes::{OPENING, QuestionBatch, QuestionCost, SceneCost, costs, scenes};
-use crate::report::{Answer, Columns, Format, claims};
+use crate::report::{Answer, Columns, Format, SCREEN, claims};
 use crate::runtime::tell;
 use crate::scene::{Scene, library};
 use crate::session::{
@@ -95,7 +95,7 @@ impl PaperCommand {
     pub fn run(&self) -> Result<()> {
         let examine = || examine_all(&Limits::PATIENT);
         let (examined, seconds) = self.output.timed("the examination gave up", examine)?;
-        self.output.print(claims::claims(&examined, self.output.width(), seconds))
+        self.output.print(claims::claims(&examined, self.output.width().unwrap_or(SCREEN), seconds))
     }
 }
 
@@ -121,10 +121,11 @@ pub struct ExtremesCommand {
 impl ExtremesCommand {
     pub fn run(&self) -> Result<()> {
         let (limits, format) = (&Limits::PATIENT, self.format);
+        let width = output::columns().unwrap_or(SCREEN);
         let answer = if self.cycles {
             let sets: Vec<Parameters> = sets(!self.long).collect();
             let verdicts: Vec<_> = sets.par_iter().map(|set| judge_set(set, limits)).collect();
-            extreme_cycles(&verdicts)
+            extreme_cycles(&verdicts, width)
         } else {
             let cases: Vec<Case> = cases(!self.long).collect();
             let judge = |case| judge(case, self.tol, limits);
@@ -135,7 +136,7 @@ impl ExtremesCommand {
             } else {
                 named(limits)
             };
-            extremes(&verdicts, &named, self.tol)
+            extremes(&verdicts, &named, self.tol, width)
         };
         print(&sourced(answer, format))
     }

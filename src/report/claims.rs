@@ -44,13 +44,13 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
         .text("claim", sentence)
 }
 
-/// Every claim, and the reason if nothing could be computed; sentences are wrapped to a width, if one is given.
-pub fn claims(examined: &[ClaimResult], width: Option<usize>, seconds: f64) -> Answer {
+/// Every claim, and the reason if nothing could be computed; lines go on below themselves at a width.
+pub fn claims(examined: &[ClaimResult], width: usize, seconds: f64) -> Answer {
     let reason = |it: &ClaimResult| it.evidence.as_ref().err().copied();
     Answer::default()
         .with("claims", columns().field("reason", reason).objects(examined))
         .csv(&columns(), examined)
-        .table(columns().table(examined).unbroken(width))
+        .table(columns().table(examined).unbroken(Some(width)))
         .costing(&claim::summary(examined), Document::default(), seconds)
 }
 

@@ -1,20 +1,28 @@
 //! The lattice of extremes: one row for each motion with the answers of all methods, or for each set of parameters with
 //! its limit cycles, and a summary.
 
+use std::collections::BTreeMap;
+
 use super::cycle_numbers::cycle_fields;
-use super::{Answer, Columns, Document, Quantity, Table};
+use super::{About, Answer, Columns, Document, Quantity};
 use crate::accuracy::extremes::sets::{BUDGET as BUDGET_OF_SET, LatticeCycle, SetVerdict};
 use crate::accuracy::extremes::verdict::{BUDGET, METHODS};
-use crate::accuracy::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
+use crate::accuracy::extremes::{Case, MethodAnswer, MethodsVerdict, NamedExtreme};
 use crate::flow::{Method, Outcome};
-use crate::model::{Knob, Parameters};
-use crate::words::{exact as short, significant, stability};
+use crate::model::{Body, Knob, Parameters, Reason};
+use crate::numerics::by_number;
+use crate::words::{exact as short, joined, significant, stability};
 
 /// Few digits of what has more in files.
 const FEW: Quantity = Quantity::pure(4);
 
-/// The answers of all methods, and the extremes that have a name.
-pub fn extremes(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64) -> Answer {
+/// The answers of all methods, and the extremes that have a name; lines go on below themselves at a width.
+pub fn extremes(
+    verdicts: &[MethodsVerdict],
+    named: &[NamedExtreme],
+    tolerance: f64,
+    width: usize,
+) -> Answer {
     let rows = verdicts.iter().flat_map(|it| it.answers.iter().map(move |answer| (it, answer)));
     let first = verdicts.iter().map(|it| (it, &it.answers[0]));
     let columns = method_columns();
@@ -25,9 +33,44 @@ pub fn extremes(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: 
         .with("named", named)
         .csv(&columns, rows)
         .lines([format!(include_str!("../../assets/extremes.txt"), tolerance, BUDGET).trim_end()])
-        .table(columns.table(first).unbroken(None))
-        .table(summary(verdicts))
-        .table(named_columns().table(named))
+        .table(columns.table(first).unbroken(Some(width)))
+        .table(named_columns().table(named).unbroken(Some(width)))
+        .lines(METHODS.map(|method| conclusion(method, verdicts)))
+}
+
+/// What a person reads of a method: how many motions it answers, how well, and why not the others.
+fn conclusion(method: Method, verdicts: &[MethodsVerdict]) -> String {
+    let rows: Vec<MethodRow> =
+        verdicts.iter().filter_map(|it| Some((it, it.answer(method)?))).collect();
+    let wrong = rows.iter().filter(|(_, answer)| answer.contradicts).count();
+    let reasons = rows.iter().map(|(_, answer)| answer.outcome.answered().err());
+    let lost = |row: &&MethodRow| row.1.digits_lost.unwrap_or(0.0);
+    let worst = rows.iter().max_by(by_number(lost)).map(|row| {
+        let Case { start, parameters, .. } = &row.0.case;
+        let place = About::new("", "", &Body::Paper(*parameters).into()).heading();
+        format!("; most digits lost: {}, at {place}, {start}", significant(lost(&row), 2))
+    });
+    let wrong = if wrong > 0 {
+        format!("; {wrong} wrong")
+    } else {
+        String::new()
+    };
+    format!("{method}: {}{wrong}{}", answered("motions", reasons), worst.unwrap_or_default())
+}
+
+/// How many are answered, and why the others are not: each reason with its number of times.
+fn answered(what: &str, reasons: impl Iterator<Item = Option<Reason>>) -> String {
+    let mut counts = BTreeMap::new();
+    for reason in reasons {
+        *counts.entry(reason.map_or_else(String::new, |why| why.to_string())).or_insert(0) += 1;
+    }
+    let done = counts.remove("").unwrap_or(0);
+    let left: usize = counts.values().sum();
+    if left == 0 {
+        return format!("all {done} {what} answered");
+    }
+    let why = joined(counts.iter().map(|(why, times)| format!("{why} ({times} times)")), ", ");
+    format!("{done} of {} {what} answered; {left} gave up, because {why}", done + left)
 }
 
 /// A motion, and what a method answered.
@@ -68,48 +111,12 @@ fn parameter_columns<'a, R: 'a>(parameters: fn(&R) -> Parameters) -> Columns<'a,
 
 /// How well a method answered.
 fn mark(answer: &MethodAnswer) -> String {
-    match (answer.digits_lost, kind(answer)) {
-        (Some(lost), _) => format!("{lost:.1}"),
-        (None, UNCHECKED) => "?".to_owned(),
-        (None, why) => why.to_owned(),
-    }
-}
-
-/// Kinds of answers, the best first.
-const KINDS: [&str; 7] =
-    ["all digits", "1 lost", "2-4 lost", "more lost", "wrong", UNCHECKED, "gave up"];
-
-/// The kind of an answer with which nothing can be compared.
-const UNCHECKED: &str = "unchecked";
-
-/// The one of [`KINDS`] to which an answer belongs.
-fn kind(answer: &MethodAnswer) -> &'static str {
     match (answer.digits_lost, answer.outcome) {
-        _ if answer.contradicts => "wrong",
-        (Some(..=0.0), _) => "all digits",
-        (Some(..=1.0), _) => "1 lost",
-        (Some(..=4.0), _) => "2-4 lost",
-        (Some(_), _) => "more lost",
-        (None, Outcome::GaveUp { .. }) => "gave up",
-        (None, _) => UNCHECKED,
+        (Some(lost), _) => format!("{lost:.1}"),
+        _ if answer.contradicts => "wrong".to_owned(),
+        (None, Outcome::GaveUp { .. }) => "gave up".to_owned(),
+        (None, _) => "?".to_owned(),
     }
-}
-
-/// How often each method answered, and how well.
-fn summary(verdicts: &[MethodsVerdict]) -> Table {
-    type Asked<'a> = (Method, Vec<&'a MethodAnswer>);
-    let asked = |method| (method, verdicts.iter().filter_map(|it| it.answer(method)).collect());
-    let most = |answers: &[&MethodAnswer]| answers.iter().map(|it| it.cost.evaluations).max();
-    let columns = Columns::default()
-        .text("method", |(method, _): &Asked| *method)
-        .text("motions", |(_, answers)| answers.len());
-    let columns = KINDS.into_iter().fold(columns, |columns, name| {
-        let is = move |answer: &&&MethodAnswer| kind(answer) == name;
-        columns.text(name, move |(_, answers)| answers.iter().filter(is).count())
-    });
-    columns
-        .text("evaluations", move |(_, answers)| format!("<= {}", most(answers).unwrap_or(0)))
-        .table(METHODS.map(asked))
 }
 
 fn named_columns<'a>() -> Columns<'a, NamedExtreme> {
@@ -123,8 +130,9 @@ fn named_columns<'a>() -> Columns<'a, NamedExtreme> {
         .text("evaluations", |it| it.cost.evaluations)
 }
 
-/// The limit cycles at the extremes: one row for each cycle, and one for a set without cycles.
-pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer {
+/// The limit cycles at the extremes: one row for each cycle, and one for a set without cycles; lines go on below themselves
+/// at a width.
+pub fn extreme_cycles(verdicts: &[SetVerdict], width: usize) -> Answer {
     let rows = verdicts.iter().flat_map(|verdict| {
         let cycles = verdict.cycles().iter().map(Some);
         let none = verdict.cycles().is_empty().then_some(None);
@@ -142,8 +150,8 @@ pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer {
         .with("sets", sets.collect::<Vec<_>>())
         .csv(&set_columns(), rows.clone())
         .lines([format!(include_str!("../../assets/extreme-cycles.txt"), BUDGET_OF_SET).trim_end()])
-        .table(set_columns().table(rows).unbroken(None))
-        .table(sets_summary(verdicts))
+        .table(set_columns().table(rows).unbroken(Some(width)))
+        .lines(set_conclusion(verdicts))
 }
 
 /// A set of parameters, and a cycle of it.
@@ -171,19 +179,15 @@ fn set_columns<'a>() -> Columns<'a, SetRow<'a>> {
 /// Residual above which the summary counts a cycle as not closed.
 const CLOSED: f64 = 1e-11;
 
-/// How often each answer occurred.
-fn sets_summary(verdicts: &[SetVerdict]) -> Table {
-    let answered = || verdicts.iter().filter(|it| it.answer.is_ok());
-    let with = |count: usize| answered().filter(|it| it.cycles().len() == count).count();
-    let open = || verdicts.iter().flat_map(SetVerdict::cycles).filter(|it| it.residual > CLOSED);
-    let most = || answered().map(|it| it.cost.evaluations).max().unwrap_or(0);
-    Columns::default()
-        .word("sets", |()| verdicts.len())
-        .word("none", |()| with(0))
-        .word("one", |()| with(1))
-        .word("two", |()| with(2))
-        .word("gave up", |()| verdicts.len() - answered().count())
-        .word("not closed to 1e-11", |()| open().count())
-        .text("evaluations", |()| format!("<= {}", most()))
-        .table([()])
+/// What a person reads of the cycles: in how many sets they are found, how well, and why not in the others.
+fn set_conclusion(verdicts: &[SetVerdict]) -> [String; 2] {
+    let found = answered("sets", verdicts.iter().map(|it| it.answer.as_ref().err().copied()));
+    let cycles = || verdicts.iter().flat_map(SetVerdict::cycles);
+    let open = cycles().filter(|it| it.residual > CLOSED).count();
+    let counts = [0, 1, 2].map(|count| {
+        verdicts.iter().filter(|it| it.answer.is_ok() && it.cycles().len() == count).count()
+    });
+    let [none, one, two] = counts;
+    let closed = format!("{} cycles, {open} of them not closed to {CLOSED:e}", cycles().count());
+    [found, format!("without a cycle {none}, with one {one}, with two {two}; {closed}")]
 }

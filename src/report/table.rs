@@ -3,10 +3,17 @@
 use std::fmt;
 
 use crate::numerics::powi;
+use crate::words::printable::signs;
 use crate::words::wrapped;
 
 /// Width of a screen that every table fits.
-const SCREEN: usize = 80;
+pub const SCREEN: usize = 80;
+
+/// Narrowest readable column of words.
+const NARROWEST: usize = 30;
+
+/// Blanks before what goes on below its row.
+const INDENT: usize = 4;
 
 /// A table: titles, and rows with as many cells. Words begin, and the points of numbers stand, below each other.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -17,7 +24,7 @@ pub struct Table {
     pub(super) caption: String,
     /// Whether its lines may be longer than a screen is wide.
     is_unbroken: bool,
-    /// The width within which words at the end of such a line go on below themselves.
+    /// The width within which such lines go on below themselves.
     width: Option<usize>,
 }
 
@@ -33,10 +40,11 @@ struct Alignment {
 impl Table {
     /// A table of these titles and rows.
     pub(super) fn new(titles: Vec<String>, rows: Vec<Vec<String>>) -> Self {
-        Table { titles, rows, ..Table::default() }
+        let read = |row: Vec<String>| row.iter().map(|cell| signs(cell)).collect();
+        Table { titles, rows: rows.into_iter().map(read).collect(), ..Table::default() }
     }
 
-    /// The same with lines of any length, or with words at their ends wrapped to a width, if one is given.
+    /// The same with lines of any length, or wrapped to a width, if one is given.
     pub(super) fn unbroken(self, width: Option<usize>) -> Self {
         Table { is_unbroken: true, width, ..self }
     }
@@ -100,30 +108,34 @@ impl Table {
         Alignment { is_number: true, whole: whole.max(title.saturating_sub(part)), part }
     }
 
-    /// The table on lines of any length, or the last cells of those longer than the width wrapped between words; where
-    /// that leaves little room, they go on below their row.
+    /// The table on lines of any length, or the cells of rows longer than the width on several lines. Words in the last
+    /// column are wrapped; where their place leaves little room, they go on below their row.
     fn lines(&self) -> String {
-        /// Narrowest readable column.
-        const NARROWEST: usize = 30;
-        /// Blanks before text that goes on below its row.
-        const INDENT: usize = 4;
+        let width = self.width.filter(|width| *width > INDENT + NARROWEST);
+        let padded = self.padded();
+        let columns = self.titles.len() - usize::from(!self.is_number(self.titles.len() - 1));
+        let breaks = width.map(|width| breaks(&padded[0][..columns], width)).unwrap_or_default();
         let line = |mut cells: Vec<String>| {
-            let whole = cells.join("  ").trim_end().to_owned();
-            let last = cells.pop().unwrap_or_default();
-            let head = cells.iter().map(|cell| cell.clone() + "  ").collect::<String>();
-            let start = length(&head);
-            let width = self.width.filter(|width| *width > INDENT + NARROWEST);
-            let Some(width) = width.filter(|width| length(&whole) > start.max(*width)) else {
-                return whole + "\n";
+            let last = cells.split_off(columns).concat();
+            let below = |head: &str| format!("{}\n{:INDENT$}", head.trim_end(), "");
+            let mut head = String::new();
+            for (at, cell) in cells.into_iter().enumerate() {
+                head = if breaks.contains(&at) { below(&head) } else { head };
+                head += &(cell + "  ");
+            }
+            let start = length(head.rsplit('\n').next().unwrap_or_default());
+            let end = length(last.trim_end());
+            let Some(width) = width.filter(|width| end > 0 && start + end > *width) else {
+                return (head + &last).trim_end().to_owned() + "\n";
             };
             let (head, indent) = if width >= start + NARROWEST {
                 (head, start)
             } else {
-                (format!("{}\n{:INDENT$}", head.trim_end(), ""), INDENT)
+                (below(&head), INDENT)
             };
             head + &wrapped(&last, width - indent).join(&format!("\n{:indent$}", "")) + "\n"
         };
-        self.padded().into_iter().map(line).collect()
+        padded.into_iter().map(line).collect()
     }
 
     /// Columns that fit a screen together, and those of the tables that continue it; each begins with the first. Words at
@@ -185,6 +197,20 @@ impl Alignment {
             format!("{cell:whole$}")
         }
     }
+}
+
+/// The columns at which lines of this width go on below themselves.
+fn breaks(titles: &[String], width: usize) -> Vec<usize> {
+    let mut breaks = Vec::new();
+    let mut end = 0;
+    for (at, title) in titles.iter().enumerate() {
+        if end > 0 && end + length(title) > width {
+            breaks.push(at);
+            end = INDENT;
+        }
+        end += length(title) + 2;
+    }
+    breaks
 }
 
 /// Columns of a text.
@@ -255,6 +281,19 @@ mod tests {
         let wide = table(&["a".repeat(38).as_str(), "b"], &[&["a", "one two three four five six"]]);
         let wide = wide.unbroken(Some(58)).to_string();
         assert!(wide.ends_with("\na\n    one two three four five six\n"), "{wide}");
+    }
+
+    #[test]
+    fn rows_that_are_too_long_go_on_below_themselves_at_the_same_columns() {
+        let numbers = ["12345678901234567"; 4];
+        let wide = table(&["a", "b", "c", "d"], &[&numbers, &["1", "2", "3", "4"]]);
+        let shown = wide.unbroken(Some(40)).to_string();
+        let gap = " ".repeat(16);
+        let first = format!("{gap}a  {gap}b\n    {gap}c\n    {gap}d\n");
+        assert!(shown.starts_with(&first), "{shown}");
+        assert!(shown.ends_with(
+            &first.replace('a', "1").replace('b', "2").replace('c', "3").replace('d', "4")
+        ));
     }
 
     #[test]
