@@ -23,10 +23,10 @@ type Rungs = Option<Vec<HarmonicBalance>>;
 #[derive(Args)]
 pub struct CyclesCommand {
     /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors
-    #[arg(long, value_name = "N", value_parser = |text: &str| input::whole(text, 1..=MOST), conflicts_with = "machine")]
+    #[arg(long, value_name = "N", value_parser = |text: &str| input::whole(text, 1..=MOST))]
     harmonics: Option<usize>,
     /// Writes the proof, step by step, for `hopfscope check`, and its provenance to FILE.provenance
-    #[arg(long, value_name = "FILE", conflicts_with = "machine")]
+    #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
     /// Replaces a file that holds something else
     #[arg(long, requires = "certificate")]
@@ -36,12 +36,15 @@ pub struct CyclesCommand {
 impl CyclesCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         if let Some(case) = asked.source.portrayed()? {
+            if self.harmonics.is_some() || self.certificate.is_some() {
+                return Err("--harmonics and --certificate are not for machines".into());
+            }
             // Fails where the friction law ends before all motions are known.
             let (found, seconds) = case.portrait(&asked.output, 0.0)?;
             asked.output.print(report::of_machine(&case.about(), &found, seconds))?;
             return found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop)));
         }
-        let known = asked.source.start.known()?;
+        let known = asked.source.known()?;
         if !known.is_point() {
             if self.harmonics.is_some() {
                 return Err("intervals of parameters: --harmonics has no place for them".into());
@@ -50,7 +53,7 @@ impl CyclesCommand {
             self.certify(&proof)?;
             return asked.output.print(boxed(&proof));
         }
-        let problem = asked.source.start.scene(None)?.problem;
+        let problem = asked.source.scene()?.problem;
         let (found, seconds) = timed(asked.output.repeat, || self.find(&problem.parameters));
         let (found, proof, rungs) = found?;
         self.certify(&proof)?;

@@ -21,9 +21,6 @@ use crate::words::joined;
 /// Writes the plots of a scene as SVG, PNG, CSV or JSON, or draws them in the terminal
 #[derive(Args)]
 pub struct FigureCommand {
-    /// Scene to show; each of its plots becomes a panel
-    #[arg(value_name = "NAME", conflicts_with_all = ["scene", "machine"])]
-    named: Option<String>,
     #[command(flatten)]
     source: SourceOptions,
     /// File to write; its extension sets the format: .svg, .png, .csv or .json
@@ -66,11 +63,12 @@ impl FigureCommand {
         if let Some(case) = self.source.machine()? {
             return case.checked()?.scene()?.ok_or_else(|| NO_BELT.into());
         }
-        let start = &self.source.start;
-        let name = self.named.as_deref().or(start.scene.as_deref()).ok_or(
-            "which figure? Every scene has one, such as fig17; hopfscope scenes lists them",
-        )?;
-        start.scene(Some(name))
+        if self.source.named.is_none() && self.source.start.scene.is_none() {
+            let which =
+                "which figure? Every scene has one, such as fig17; hopfscope scenes lists them";
+            return Err(which.into());
+        }
+        self.source.scene()
     }
 }
 

@@ -80,6 +80,18 @@ impl Numbers {
         Ok(over)
     }
 
+    /// `NAME=FROM:TO` or `NAME=log:FROM:TO`, through so many values.
+    pub fn glide(&self, text: &str, count: usize) -> Result<Sweep, String> {
+        if text.replace("log:", "").matches(':').count() != 1 {
+            return Err("expected NAME=FROM:TO, such as D=-0.1:0.1, or NAME=log:FROM:TO".to_owned());
+        }
+        let sweep = Sweep::read(&format!("{text}:{count}"), self.over)?;
+        if matches!(sweep.symbol, Knob::Q0 | Knob::V0) {
+            return Err(format!("{}: a start does not glide", sweep.symbol));
+        }
+        Ok(sweep)
+    }
+
     /// `NAME=VALUE`, `NAME=VALUE+-HALFWIDTH` or `NAME=LOW..HIGH`.
     pub fn assignment(&self, text: &str) -> Result<(Knob, TolerancedNumber), String> {
         let form =
@@ -88,7 +100,7 @@ impl Numbers {
         let knob = Knob::named(name.trim(), self.set)?;
         let read = knob.parse_toleranced(value)?;
         if read.half_width > 0.0 && knob.spec().group == Group::Course {
-            return Err(format!("{text:?}: a start has no tolerance"));
+            return Err(format!("{text:?}: a start has no uncertainty"));
         }
         Ok((knob, read))
     }
@@ -122,6 +134,13 @@ pub fn whole(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> 
     let (least, most) = (range.start(), range.end());
     let number = text.trim().parse().ok().filter(|number| range.contains(number));
     number.ok_or_else(|| format!("{text:?} is not a whole number in {least} .. {most}"))
+}
+
+/// A number in this unit within a range.
+pub fn within(text: &str, unit: &str, range: RangeInclusive<f64>) -> Result<f64, String> {
+    let (least, most) = (range.start(), range.end());
+    let number = text.trim().parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("{text:?} is not a number in {least} .. {most} {unit}"))
 }
 
 /// Two numbers of the same type with a separator between them.
@@ -244,12 +263,16 @@ pub fn figure_file(text: &str) -> Result<(PathBuf, FigureForm), String> {
 
 /// The file of a page.
 pub fn page_file(text: &str) -> Result<PathBuf, String> {
+    file(text, "a page", "html")
+}
+
+/// The file of something that ends in this way.
+pub fn file(text: &str, kind: &str, ending: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    let is_page = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html"));
-    if is_page {
+    if path.extension().is_some_and(|it| it.eq_ignore_ascii_case(ending)) {
         Ok(path)
     } else {
-        Err("a page ends in .html".to_owned())
+        Err(format!("{kind} ends in .{ending}"))
     }
 }
 
@@ -341,7 +364,7 @@ mod tests {
             ("R=-1", "R = -1 N is outside its range 0 .."),
             ("x=1e9", "x = 1000000000 m is outside its range -1e6 .. 1e6 m"),
             ("v=two", "\"two\" is not a number"),
-            ("x=1 mm+-1 mm", "a start has no tolerance"),
+            ("x=1 mm+-1 mm", "a start has no uncertainty"),
         ] {
             let refused = MACHINE.assignment(text).unwrap_err();
             assert!(refused.contains(words), "{text}: {refused}");

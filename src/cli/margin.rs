@@ -30,7 +30,7 @@ impl MarginCommand {
             known.disturbance = bound.unwrap_or(known.disturbance);
             return of_machine(&case.checked()?, &asked.output);
         }
-        let (known, bound) = (asked.source.start.known()?, bound.unwrap_or(0.0));
+        let (known, bound) = (asked.source.known()?, bound.unwrap_or(0.0));
         let ask = || {
             let nominal = Portrait::innermost(&known.middle(), 0.0, &Limits::PATIENT)?;
             Ok((nominal, guaranteed(&known, bound, 0.0, &Limits::PATIENT)?))

@@ -24,6 +24,7 @@ mod replay;
 mod scan;
 mod settings;
 mod shell;
+mod sound;
 mod source;
 
 use std::ffi::OsString;
@@ -75,7 +76,7 @@ fn parsed<C: Args>(given: &ArgMatches) -> Result<C> {
 }
 
 /// The commands, in the order of the help.
-fn commands() -> [Subcommand; 22] {
+fn commands() -> [Subcommand; 23] {
     [
         row("tour", explore::TourCommand::run),
         row("scenes", lists::ScenesCommand::run),
@@ -92,6 +93,7 @@ fn commands() -> [Subcommand; 22] {
         row("belt", belt::BeltCommand::run),
         row("fit", fit::FitCommand::run),
         row("figure", figure::FigureCommand::run),
+        row("sound", sound::SoundCommand::run),
         row("replay", replay::ReplayCommand::run),
         row("check", cycles::CheckCommand::run),
         row("paper", lists::PaperCommand::run),

@@ -20,14 +20,13 @@ struct AskedMotion {
 }
 
 impl AskedMotion {
-    /// The motion of the scene with this name, or of the scene or the machine among the options, until a time. That of a
-    /// machine is followed by the method and to the tolerance that are asked for or else its own.
+    /// The motion of the scene or the machine until a time. That of a machine is followed by the method and to the
+    /// tolerance that are asked for or else its own.
     fn new(
         QuestionOptions { source, output }: &QuestionOptions,
-        named: Option<&str>,
         until: Option<&String>,
     ) -> Result<Self> {
-        let mut case = source.case(named)?;
+        let mut case = source.case()?;
         let motion = &mut case.described.subject.motion;
         let end = number("--until", until, source.numbers().until)?;
         motion.until = end.unwrap_or(motion.until);
@@ -62,7 +61,7 @@ pub struct TrajectoryCommand {
 
 impl TrajectoryCommand {
     pub fn run(&self, question: &QuestionOptions) -> Result<()> {
-        let asked = AskedMotion::new(question, None, self.until.as_ref())?;
+        let asked = AskedMotion::new(question, self.until.as_ref())?;
         let (problem, is_machine) = (&asked.problem, asked.model.is_some());
         let (mut found, seconds) =
             timed(question.output.repeat, || asked.follow(problem, is_machine));
@@ -90,9 +89,6 @@ impl TrajectoryCommand {
 /// Shows what accuracy costs: every method at all its tolerances on the same motion
 #[derive(Args)]
 pub struct TradeCommand {
-    /// Scene whose motion is computed
-    #[arg(value_name = "SCENE", conflicts_with_all = ["scene", "machine"])]
-    named: Option<String>,
     /// Time at which to stop, 0 .. 1e9 (default: the scene's)
     #[arg(long, value_name = "T")]
     until: Option<String>,
@@ -100,7 +96,7 @@ pub struct TradeCommand {
 
 impl TradeCommand {
     pub fn run(&self, question: &QuestionOptions) -> Result<()> {
-        let asked = AskedMotion::new(question, self.named.as_deref(), self.until.as_ref())?;
+        let asked = AskedMotion::new(question, self.until.as_ref())?;
         let machine = asked.model.as_ref();
         let unmeasured = |reason| match machine {
             Some(_) => troubled(reason),

@@ -57,7 +57,7 @@ pub struct ScanCommand {
     /// Bound on the disturbing force of `guaranteed`, in the units of r
     #[arg(long, value_name = "W")]
     disturbance: Option<String>,
-    /// Half width of a parameter for `guaranteed`, such as r=0.01; repeatable. Of a machine --set takes tolerances
+    /// Half width of a parameter for `guaranteed`, such as r=0.01; repeatable. Of a machine --set takes it
     #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width, conflicts_with = "machine")]
     half_width: Vec<(Knob, f64)>,
     /// Random kicks of `lost` and `repeated`, mean and standard deviation; with uniform: before them, mean and
@@ -210,7 +210,7 @@ impl ScanCommand {
             wanted,
             ..window.unwrap_or(WINDOW).into()
         };
-        let mut case = self.source.case(None)?;
+        let mut case = self.source.case()?;
         let Subject { tolerances, motion, .. } = &mut case.described.subject;
         motion.until = until.unwrap_or(motion.until);
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);

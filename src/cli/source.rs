@@ -9,6 +9,7 @@ use super::{CommandCase, Output, Result, read, second};
 use crate::flow::{METHODS, Method};
 use crate::model::{Knob, ParameterBox, TolerancedNumber};
 use crate::runtime::tell;
+use crate::scene::machine::library;
 use crate::scene::{PLAIN, Scene, find};
 use crate::words::joined;
 
@@ -24,6 +25,9 @@ pub struct QuestionOptions {
 /// What a command is about: the motion of a scene, or a machine.
 #[derive(Args)]
 pub struct SourceOptions {
+    /// Scene that sets what the options leave open, or the name of a built-in machine (see hopfscope belt)
+    #[arg(value_name = "SCENE", conflicts_with_all = ["scene", "machine"])]
+    pub named: Option<String>,
     #[command(flatten)]
     pub start: StartOptions,
     /// Asks about a machine in place of a scene: a file, or the name of a built-in one (see hopfscope belt). All numbers
@@ -35,7 +39,7 @@ pub struct SourceOptions {
 impl SourceOptions {
     /// The numbers by which the other options are read.
     pub fn numbers(&self) -> &'static Numbers {
-        if self.machine.is_some() {
+        if self.machine_name().is_some() {
             &MACHINE
         } else {
             &OSCILLATOR
@@ -61,17 +65,33 @@ impl SourceOptions {
 
     /// What a question about all motions that takes no intervals is put to.
     pub fn exact(&self) -> Result<CommandCase> {
-        self.portrayed()?.map_or_else(|| self.case(None), Ok)
+        self.portrayed()?.map_or_else(|| self.case(), Ok)
     }
 
-    /// The motion of the scene with this name, or what the options name, with the values set on the command line.
-    pub fn case(&self, named: Option<&str>) -> Result<CommandCase> {
-        self.machine()?.map_or_else(|| Ok(self.start.scene(named)?.problem.into()), Ok)
+    /// The motion of the scene, or the machine, with the values set on the command line.
+    pub fn case(&self) -> Result<CommandCase> {
+        self.machine()?.map_or_else(|| Ok(self.scene()?.problem.into()), Ok)
+    }
+
+    /// The scene with the values set on the command line.
+    pub fn scene(&self) -> Result<Arc<Scene>> {
+        self.start.scene(self.named.as_deref())
+    }
+
+    /// The parameters, each as the interval in which it was given.
+    pub fn known(&self) -> Result<ParameterBox> {
+        self.start.known(self.named.as_deref())
+    }
+
+    /// The machine that is named, also where a scene would stand.
+    fn machine_name(&self) -> Option<&String> {
+        let is_machine = |name: &&String| find(name).is_err() && library::find(name).is_ok();
+        self.machine.as_ref().or(self.named.as_ref().filter(is_machine))
     }
 
     /// The machine with the values set on the command line, if it is about one.
     pub fn machine(&self) -> Result<Option<CommandCase>> {
-        let Some(name) = &self.machine else { return Ok(None) };
+        let Some(name) = self.machine_name() else { return Ok(None) };
         let mut case = CommandCase::named(name)?;
         case.set(&self.start.assigned(&MACHINE)?)?;
         case.described.subject.source.tolerance = self.start.tol;
@@ -155,8 +175,8 @@ impl StartOptions {
     }
 
     /// The parameters, each as the interval in which it was given.
-    pub fn known(&self) -> Result<ParameterBox> {
-        let mut known = ParameterBox::from(&self.found(None)?.problem.parameters);
+    fn known(&self, named: Option<&str>) -> Result<ParameterBox> {
+        let mut known = ParameterBox::from(&self.found(named)?.problem.parameters);
         for (symbol, value) in self.assigned(&OSCILLATOR)? {
             if symbol.is_parameter() {
                 known.set(symbol, value.ends)?;

@@ -1,7 +1,8 @@
-//! Measures at many points, in rows that may be shared out.
+//! Measures at many points, in rows that may be shared out; and one motion while a number glides, to be heard.
 
 pub mod grid;
 pub mod measure;
+pub mod sound;
 pub mod sweep;
 
-pub use self::{grid::*, measure::*, sweep::*};
+pub use self::{grid::*, measure::*, sound::Sound, sweep::*};

@@ -1,0 +1,66 @@
+//! `hopfscope sound`: a motion, to be heard.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::input::{self, MACHINE, OSCILLATOR};
+use super::{Failure, Result, SourceOptions, given, print, second, troubled, write};
+use crate::flow::{Limits, Subject};
+use crate::runtime::wav;
+use crate::scan::Sound;
+use crate::scan::sound::HIGHEST;
+use crate::session::{Session, Size};
+
+/// Writes a motion as a sound: its velocity, with every stick and slip, in 48 kHz, 16 bit, mono
+#[derive(Args)]
+pub struct SoundCommand {
+    #[command(flatten)]
+    source: SourceOptions,
+    /// File to write
+    #[arg(long, value_name = "FILE.wav", value_parser = |text: &str| input::file(text, "a sound", "wav"))]
+    output: PathBuf,
+    /// Replaces what FILE holds
+    #[arg(long)]
+    force: bool,
+    /// Length in s, 0.1 .. 600 (default: 4)
+    #[arg(long, value_name = "S", value_parser = |text: &str| input::within(text, "s", 0.1..=600.0))]
+    seconds: Option<f64>,
+    /// Frequency at which the natural frequency is heard, 1 .. 20000 Hz (default: a machine's own from 20 Hz, or 220)
+    #[arg(long, value_name = "HZ", value_parser = |text: &str| input::within(text, "Hz", 1.0..=HIGHEST))]
+    pitch: Option<f64>,
+    /// A parameter, or a number of the machine, that glides from the beginning to the end while the motion goes on
+    #[arg(long, value_name = "NAME=FROM:TO")]
+    over: Option<String>,
+}
+
+impl SoundCommand {
+    pub fn run(&self) -> Result<()> {
+        let mut sound = Sound::usual(self.subject()?).map_err(troubled)?;
+        sound.seconds = self.seconds.unwrap_or(sound.seconds);
+        sound.pitch = self.pitch.unwrap_or(sound.pitch);
+        let pieces = Sound::pieces(sound.seconds);
+        let is_machine = sound.subject.paper().is_none();
+        let numbers = if is_machine { &MACHINE } else { &OSCILLATOR };
+        sound.glide = given("--over", self.over.as_ref(), |text| numbers.glide(text, pieces))?;
+        let content = wav::wav(&sound, &Limits::PATIENT).map_err(Failure::Unanswered)?;
+        write(&self.output, &content, self.force)?;
+        let (path, Sound { seconds, pitch, .. }) = (self.output.display(), sound);
+        print(&format!("{path}: {seconds} s, the natural frequency at {pitch:.5} Hz\n"))
+    }
+
+    /// The machine, or what a scene draws: by the whole model if it is that of a machine.
+    fn subject(&self) -> Result<Subject> {
+        let subject = match self.source.machine()? {
+            Some(case) => case.checked()?.described.subject,
+            None => {
+                let size = Size { width: 80, height: 24 };
+                Session::new(self.source.scene()?, size).subject()
+            }
+        };
+        if subject.paper().is_none() && second(self.source.start.method)?.is_some() {
+            return Err("a machine is heard by Taylor series: --method auto or taylor".into());
+        }
+        Ok(subject)
+    }
+}

@@ -1,0 +1,47 @@
+//! Sound as a file: 48 kHz, 16 bit, mono.
+
+use std::io::Cursor;
+
+use hound::{SampleFormat, WavSpec, WavWriter};
+
+use crate::flow::{Limits, Reason};
+use crate::numerics::truncated;
+use crate::scan::Sound;
+use crate::scan::sound::RATE;
+use crate::words::significant;
+
+/// What the largest velocity becomes: nine tenths of the largest sample, so that no player clips it.
+const LOUDEST: f64 = 0.9 * 32_767.0;
+
+const SPEC: WavSpec = WavSpec {
+    channels: 1,
+    sample_rate: RATE,
+    bits_per_sample: 16,
+    sample_format: SampleFormat::Int,
+};
+
+/// A sound as the content of a file. Fails with one line if the motion ends before the sound, or is none.
+pub fn wav(sound: &Sound, limits: &Limits) -> Result<Vec<u8>, String> {
+    let ended = |(seconds, why): (f64, Reason)| {
+        format!("no sound: {why}, within {} s", significant(seconds, 3))
+    };
+    let velocities = sound.velocities(limits).map_err(ended)?;
+    let peak = velocities.iter().fold(0.0_f64, |peak, velocity| peak.max(velocity.abs()));
+    if peak == 0.0 {
+        return Err("no sound: the mass is at rest and stays there".to_owned());
+    }
+    let mut bytes = Cursor::new(Vec::new());
+    let written = WavWriter::new(&mut bytes, SPEC).and_then(|mut writer| {
+        let mut samples = velocities.iter().map(|velocity| level(velocity / peak));
+        samples.try_for_each(|sample| writer.write_sample(sample))?;
+        writer.finalize()
+    });
+    written.map(|()| bytes.into_inner()).map_err(|why| format!("no sound: {why}"))
+}
+
+/// The sample of a velocity, in parts of the largest.
+fn level(part: f64) -> i32 {
+    // At most LOUDEST.
+    let size = i32::try_from(truncated((part.abs() * LOUDEST).round())).unwrap_or_default();
+    if part < 0.0 { -size } else { size }
+}
