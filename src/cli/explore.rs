@@ -162,7 +162,7 @@ pub fn go(
     let mouse = session.display.mouse;
     let (keep, last) = memory.map(|memory| (memory.keep, memory.last)).unzip();
     let replay = (!play.is_empty()).then(|| Script::of(play.to_vec()));
-    let options = Options { replay, recorder, record, keep, last, mouse, files };
+    let options = Options { replay, recorder, record, keep, last, mouse, files, cast: None };
     let ended = explore(session, environment, options)
         .map_err(|why| Failure::unanswered("the terminal", why))?;
     if ended == 0 {

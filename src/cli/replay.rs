@@ -6,11 +6,13 @@ use clap::{Args, ValueEnum};
 
 use super::settings::Looks;
 use super::{Failure, Result, StartOptions, input, print, write};
-use crate::runtime::{bounded, play};
+use crate::flow::Limits;
+use crate::runtime::{Files, Options, bounded, play};
 use crate::session::config::Config;
-use crate::session::replay::{Script, parse};
-use crate::session::{Session, Size, Theme};
-use crate::terminal::Environment;
+use crate::session::replay::{Instruction, Recorder, Script, parse};
+use crate::session::save::opening;
+use crate::session::{Msg, Session, Size, Theme};
+use crate::terminal::{Cast, Environment};
 use crate::view::screen::{self, Paper};
 
 /// Runs a keystroke file without a terminal and prints the last screen
@@ -27,6 +29,12 @@ pub struct ReplayCommand {
     /// Format of these screens
     #[arg(long, value_enum, default_value_t = ScreenFormat::Text, value_name = "FORMAT")]
     screen_format: ScreenFormat,
+    /// Writes every frame to this file, which asciinema plays
+    #[arg(long, value_name = "FILE.cast", value_parser = |text: &str| input::file(text, "a recording of frames", "cast"))]
+    cast: Option<PathBuf>,
+    /// Replaces what the file of --cast holds
+    #[arg(long, requires = "cast")]
+    force: bool,
     /// Lets the file write files, as its commands ask for
     #[arg(long)]
     allow_write: bool,
@@ -54,7 +62,17 @@ impl ReplayCommand {
         session.display = self.looks.wishes(&Config::default());
         let is_light = session.display.theme == Theme::Light;
         let paper = if is_light { Paper::LIGHT } else { Paper::DARK };
-        let played = play(session, anywhere(), script, self.allow_write);
+        let files = Files { may_play_write: self.allow_write, ..Files::default() };
+        let cast = self.cast.as_ref().map(|_| Cast::default());
+        // The last step stands for the command that plays the file.
+        let mut steps = opening(&session).map_err(Failure::Unanswered)?;
+        steps.push(Instruction::Give(Msg::Run(String::new())));
+        let recorder = Recorder::new(String::new(), steps);
+        let options = Options { replay: Some(script), recorder, files, cast, ..Options::default() };
+        let played = play(session, anywhere(), options, &Limits::PATIENT);
+        if let (Some(path), Some(cast)) = (&self.cast, played.cast) {
+            write(path, cast.end().as_bytes(), self.force)?;
+        }
         if let Some(directory) = &self.screens {
             std::fs::create_dir_all(directory).map_err(Failure::unwritten(directory))?;
             for (name, screen) in &played.kept {

@@ -19,6 +19,7 @@ pub mod page;
 pub mod proof;
 pub mod scan;
 pub mod scenes;
+pub mod shown;
 pub mod table;
 
 pub use self::{answer::*, columns::*, json::*, proof::*, table::*};

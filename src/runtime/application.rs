@@ -9,8 +9,9 @@ use rustix::io::Errno;
 
 use super::Work;
 use crate::scene::Request;
-use crate::session::replay::ScriptError;
-use crate::session::{Effect, Gesture, Key, Msg, PointerTarget, Session, save};
+use crate::session::replay::{Recorder, ScriptError};
+use crate::session::{Content, Effect, Gesture, Key, Msg, PointerTarget, Session, save};
+use crate::terminal::Cast;
 use crate::view;
 
 /// A session and how it is drawn; tests have simpler implementations.
@@ -63,9 +64,9 @@ pub trait Application {
         save::text(session).ok()
     }
 
-    /// Prepares a figure of what is on show, or of one plot, in the format that the file's extension asks for;
-    /// the returned work makes it. Fails with one line that says why there is none.
-    fn figure(&self, _path: &Path, _plot: Option<usize>) -> Result<Work, String> {
+    /// Prepares what [takes time](Content::takes_time) to make; the returned work makes it. `keys` is what was
+    /// pressed so far. Fails with one line that says why there is none.
+    fn make(&self, _path: &Path, _content: &Content, _keys: &Recorder) -> Result<Work, String> {
         Err("nothing to write".to_owned())
     }
 
@@ -144,4 +145,6 @@ pub struct ReplayResult<M> {
     pub unmet: Option<ScriptError>,
     /// Why the first file that was to be written was not.
     pub unwritten: Option<String>,
+    /// All frames, if they were asked for.
+    pub cast: Option<Cast>,
 }

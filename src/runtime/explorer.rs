@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -12,18 +12,20 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
 use super::{
-    Application, Files, Options, Pump, ReplayResult, Tell, Work, launch, print, provenance_file,
-    scanning,
+    Application, Options, Pump, ReplayResult, Tell, Work, launch, print, provenance_file, scanning,
+    wav,
 };
-use crate::figure::{self, FigureForm};
+use crate::figure::{self, Figure, FigureForm, panels};
 use crate::fit::NoEstimate;
 use crate::flow::{Limits, Result};
 use crate::question::{self, Fit, Recording};
-use crate::scene::{Finding, Request};
-use crate::session::replay::Script;
-use crate::session::{Effect, Msg, Session, update};
-use crate::terminal::{Environment, Screen};
-use crate::view::{self, Look};
+use crate::report::shown::shown;
+use crate::scan::Sound;
+use crate::scene::{Finding, Request, plain};
+use crate::session::replay::{Recorder, parse};
+use crate::session::{Content, Effect, Msg, Session, update};
+use crate::terminal::{Cast, Environment, Screen};
+use crate::view::{self, Look, verdict};
 
 /// A session and its appearance in the present terminal.
 pub struct Explorer {
@@ -32,7 +34,37 @@ pub struct Explorer {
     look: Look,
 }
 
+/// A session computed once more for print, and the figure of one of its plots or of all on show.
+fn drawn(mut session: Session, plot: Option<usize>, limits: &Limits) -> (Session, Figure) {
+    let limits = limits.up_to(print::MOST);
+    print::refine(&mut session, &limits);
+    let plots = plot.map_or_else(|| session.on_show().collect(), |plot| vec![plot]);
+    let drawn = print::figure(&mut session, &plots, &limits);
+    (session, drawn.from(provenance_file::of_process()))
+}
+
 impl Explorer {
+    /// A page of what is on show, and beside it a recording of how the session came there.
+    fn page(&self, path: PathBuf, forget: u32, keys: &Recorder) -> Result<Work, String> {
+        let (session, mut keys) = (self.session.clone(), keys.clone());
+        keys.forget(forget);
+        let replay = Some(parse(&keys.text()).map_err(|why| why.to_string())?);
+        let beside = path.with_extension("cast");
+        let (outcome, environment) = (verdict::outcome(&session).0, self.environment.clone());
+        Ok(Box::new(move |limits: &Limits| {
+            let mut empty = Session::new(plain(), session.size);
+            empty.display = session.display;
+            let options = Options { replay, cast: Some(Cast::default()), ..Options::default() };
+            let cast = play(empty, environment, options, limits).cast;
+            let (session, figure) = drawn(session, None, limits);
+            let (answer, provenance) =
+                (shown(&session, outcome, &beside), provenance_file::of_process());
+            let page = answer.page("Shown by hopfscope", &panels(&figure), &provenance, &[]);
+            let cast = cast.map(Cast::end).unwrap_or_default();
+            Ok(vec![(path, page.into_bytes()), (beside, cast.into_bytes())])
+        }))
+    }
+
     /// A session that looks as good as the environment allows.
     pub fn new(session: Session, environment: Environment) -> Explorer {
         let look = Look::new(environment.fit(session.display));
@@ -54,17 +86,23 @@ impl Application for Explorer {
         Some(&self.session)
     }
 
-    fn figure(&self, path: &Path, plot: Option<usize>) -> Result<Work, String> {
-        let form = FigureForm::of_file(path)?;
-        let mut session = self.session.clone();
-        let provenance = provenance_file::of_process();
-        Ok(Box::new(move |limits: &Limits| {
-            let limits = limits.up_to(print::MOST);
-            print::refine(&mut session, &limits);
-            let plots = plot.map_or_else(|| session.on_show().collect(), |plot| vec![plot]);
-            let drawn = print::figure(&mut session, &plots, &limits).from(provenance);
-            figure::file(&drawn, form)
-        }))
+    fn make(&self, path: &Path, content: &Content, keys: &Recorder) -> Result<Work, String> {
+        let (path, session) = (path.to_owned(), self.session.clone());
+        match *content {
+            Content::Page { forget } => self.page(path, forget, keys),
+            Content::Sound => {
+                let sound = Sound::usual(session.subject()).map_err(|why| why.to_string())?;
+                Ok(Box::new(move |limits: &Limits| Ok(vec![(path, wav::wav(&sound, limits)?)])))
+            }
+            Content::Figure { plot } => {
+                let form = FigureForm::of_file(&path)?;
+                Ok(Box::new(move |limits: &Limits| {
+                    let (_, drawn) = drawn(session, plot, limits);
+                    Ok(vec![(path, figure::file(&drawn, form)?)])
+                }))
+            }
+            _ => Err("nothing to write".to_owned()),
+        }
     }
 
     fn asks_for_background(&self) -> bool {
@@ -112,23 +150,22 @@ pub fn explore(session: Session, environment: Environment, options: Options) -> 
     launch(Explorer::new(session, environment), Arc::new(answer), options)
 }
 
-/// Plays a file on a session at its size, until the file ends, an expectation is not met, or the session quits.
+/// Plays the file among the options on a session at its size, until it ends, an expectation is not met, the session quits,
+/// or the limits say so.
 ///
 /// Effects outside the program are not carried out: a replay copies nothing, and writes files only if it may. It
 /// does read the files that the session asks for.
 pub fn play(
     session: Session,
     environment: Environment,
-    script: Script,
-    may_play_write: bool,
+    options: Options,
+    limits: &Limits,
 ) -> ReplayResult<Explorer> {
     let crate::session::Size { width, height } = session.size;
     let screen = Screen::new(io::sink(), Size { width, height });
-    let files = Files { may_play_write, ..Files::default() };
-    let options = Options { replay: Some(script), files, ..Options::default() };
     let explorer = Explorer::new(session, environment);
     let answer = Arc::new(answer);
-    Pump::new(explorer, screen, answer, unbounded(), options, Size::default).unattended()
+    Pump::new(explorer, screen, answer, unbounded(), options, Size::default).unattended(limits)
 }
 
 #[cfg(test)]
@@ -136,13 +173,13 @@ mod tests {
     use super::*;
     use crate::scene::find;
     use crate::scene::library::PLAIN;
-    use crate::session::replay::script::parse;
 
     /// Plays a file on the plain scene.
     fn played(file: &str) -> ReplayResult<Explorer> {
         let size = crate::session::Size { width: 80, height: 24 };
         let session = Session::new(find(PLAIN).unwrap(), size);
-        play(session, Environment::of(|_| None), parse(file).unwrap(), false)
+        let options = Options { replay: Some(parse(file).unwrap()), ..Options::default() };
+        play(session, Environment::of(|_| None), options, &Limits::PATIENT)
     }
 
     #[test]

@@ -24,6 +24,7 @@ pub mod scan_part;
 pub mod scanning;
 pub mod signals;
 pub mod standard;
+pub mod wav;
 pub mod workers;
 
 pub use self::{

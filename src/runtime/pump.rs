@@ -23,7 +23,7 @@ use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script, ScriptError};
 use crate::session::update::is_press;
 use crate::session::{Content, Effect, MouseAction, Msg, Notice};
-use crate::terminal::Screen;
+use crate::terminal::{Cast, Screen};
 use crate::view;
 
 mod play;
@@ -52,6 +52,8 @@ pub struct Options {
     pub mouse: bool,
     /// Destination of copies besides the clipboard.
     pub files: Files,
+    /// Keeps every frame of a file that is played without a terminal.
+    pub cast: Option<Cast>,
 }
 
 impl Options {
@@ -82,7 +84,7 @@ pub struct Pump<M, W: Write> {
     playing: Option<Replay>,
     /// Input of the user that must wait until a replay or a command is over.
     held_back: VecDeque<Event>,
-    /// Whether a figure is being written.
+    /// Whether a file that takes time to make is being written.
     writing: bool,
     /// Whether there is no terminal: a file is played, and no frame drawn.
     unattended: bool,
@@ -103,8 +105,9 @@ impl<M: Application, W: Write> Pump<M, W> {
         mut options: Options,
         terminal_size: fn() -> Size,
     ) -> Pump<M, W> {
-        let playing = options.replay.take().map(Replay::new);
-        if playing.is_some() {
+        let mut playing = options.replay.take().map(Replay::new);
+        if let Some(playing) = &mut playing {
+            playing.player.in_frames = options.cast.is_some();
             // Its steps are recorded as they are given.
             options.recorder.forget(1);
         }
@@ -265,18 +268,19 @@ impl<M: Application, W: Write> Pump<M, W> {
     /// Writes a file, and tells the session what became of it.
     fn write(&mut self, path: PathBuf, content: Content, replace: bool) -> Step {
         let done = match content {
-            Content::Figure { plot } => return self.write_figure(path, plot, replace),
+            content if content.takes_time() => return self.make(&path, &content, replace),
             Content::Record { forget } => self.write_record(&path, forget, replace),
             Content::Scan(scan, rows) => scan_file::save(&path, &scan, &rows),
             Content::Text(text) => Files::write(&path, text, replace, Readers::Owner),
+            Content::Figure { .. } | Content::Page { .. } | Content::Sound => return Ok(()),
         };
         self.told(done.into(), Msg::Told)
     }
 
-    /// Begins to write a figure; if that fails, the session is told why.
-    fn write_figure(&mut self, path: PathBuf, plot: Option<usize>, replace: bool) -> Step {
-        let begun = Files::admit(&path, replace)
-            .and_then(|()| self.application.figure(&path, plot))
+    /// Begins to make and write files; if that fails, the session is told why.
+    fn make(&mut self, path: &Path, content: &Content, replace: bool) -> Step {
+        let begun = Files::admit(path, replace)
+            .and_then(|()| self.application.make(path, content, &self.options.recorder))
             .and_then(|work| self.workers.write(path, replace, work));
         let Err(text) = begun else {
             self.writing = true;
@@ -287,7 +291,7 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Writes the recording to a file, without the key presses that asked for this.
     fn write_record(&self, path: &Path, forget: u32, replace: bool) -> Result<String, String> {
-        RecordingFile::admit(path, replace, "! behind the command replaces it")?;
+        RecordingFile::admit(path, replace, "add ! to overwrite")?;
         let mut recorder = self.options.recorder.clone();
         recorder.forget(forget);
         Files::write(path, recorder.text(), true, Readers::Owner)
@@ -337,8 +341,8 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     fn carry_out(&mut self, effect: Effect) -> Step {
         if let Some(text) = self.withheld(&effect) {
-            let of_figure = matches!(effect, Effect::Write { content: Content::Figure { .. }, .. });
-            let message = if of_figure { Msg::Written } else { Msg::Told };
+            let awaited = matches!(&effect, Effect::Write { content, .. } if content.takes_time());
+            let message = if awaited { Msg::Written } else { Msg::Told };
             let notice = Notice { error: true, text };
             return if notice.text.is_empty() {
                 Ok(())

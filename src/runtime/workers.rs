@@ -9,7 +9,7 @@
 //! becomes a [`NoAnswer::Panic`].
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
@@ -31,8 +31,8 @@ pub type Compute = dyn Fn(&Request, &Limits, &Tell) -> Result<Finding> + Send + 
 /// Takes the messages for the session.
 pub type Report = dyn Fn(Msg) + Send + Sync;
 
-/// Makes the content of a file, or says in one line why it cannot.
-pub type Work = Box<dyn FnOnce(&Limits) -> Result<Vec<u8>, String> + Send>;
+/// Makes files, or says in one line why it cannot.
+pub type Work = Box<dyn FnOnce(&Limits) -> Result<Vec<(PathBuf, Vec<u8>)>, String> + Send>;
 
 /// The jobs in progress. Dropping it stops them, and waits for the end of the figure that is being written, so that no
 /// file is left incomplete.
@@ -133,19 +133,25 @@ impl Workers {
         }
     }
 
-    /// Begins to write a figure; [`Msg::Written`] reports the result. Fails with one line if another one is being
-    /// written, or the system provides no thread.
-    pub fn write(&mut self, path: PathBuf, replace: bool, work: Work) -> Result<(), String> {
+    /// Begins to make and write files, the first of which is this one; [`Msg::Written`] reports the result. Fails with one
+    /// line if others are being written, or the system provides no thread.
+    pub fn write(&mut self, path: &Path, replace: bool, work: Work) -> Result<(), String> {
         let failed = format!("{} not written", path.display());
         if self.writer.as_ref().is_some_and(|thread| !thread.is_finished()) {
             return Err(format!("{failed}: another file still is"));
         }
         let (report, told) = (Arc::clone(&self.report), failed.clone());
         let begun = start("figures", move |limits| {
+            let write = |(path, content): (PathBuf, Vec<u8>)| {
+                Files::write(&path, content, replace, Readers::Usual)
+            };
             let made = caught(|| work(limits));
             let written = match made {
                 _ if (limits.interrupted)() => Ok(format!("{told}: stopped")),
-                Ok(made) => made.and_then(|it| Files::write(&path, &it, replace, Readers::Usual)),
+                Ok(made) => made.and_then(|files| {
+                    let lines: Result<Vec<_>, _> = files.into_iter().map(write).collect();
+                    Ok(lines?.join(", "))
+                }),
                 Err(why) => Err(format!("{told}: internal error: {why}")),
             };
             report(Msg::Written(written.into()));

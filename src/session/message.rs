@@ -41,7 +41,7 @@ pub enum Msg {
     /// Time that has passed since the last such message, or since the motion began to play; none where only what follows from
     /// the state is to be found.
     Elapsed { seconds: f64 },
-    /// The outcome of writing a figure.
+    /// The outcome of writing what takes time to make.
     Written(Notice),
     /// The outcome of another effect, such as writing a file or playing a replay.
     Told(Notice),
@@ -139,7 +139,8 @@ pub enum Effect {
     Copy(String),
     /// Put the characters on the screen there, too.
     CopyScreen,
-    /// Write a file; the outcome comes back as a notice, that of a figure as `Msg::Written`.
+    /// Write a file; the outcome comes back as a notice, that of what [takes time](Content::takes_time) as
+    /// `Msg::Written`.
     Write {
         path: PathBuf,
         content: Content,
@@ -147,7 +148,7 @@ pub enum Effect {
         /// same scan and leave any other alone, whatever this says.
         replace: bool,
     },
-    /// Stop the figure in progress.
+    /// Stop what is being made.
     StopWriting,
     /// Read a file; its text comes back as `Msg::Read`.
     Read { path: PathBuf, purpose: Purpose },
@@ -164,6 +165,18 @@ pub enum Content {
     Record { forget: u32 },
     /// A figure of this plot, or of all that are on show, in the format that the file's extension asks for.
     Figure { plot: Option<usize> },
+    /// What is on show as a page, and beside it, ending in .cast, how the session came there, without so many presses at the
+    /// end.
+    Page { forget: u32 },
+    /// The motion on show, to be heard.
+    Sound,
     /// The rows of a scan, beginning with the first point, in the form given by the file's extension.
     Scan(Arc<Scan>, Vec<ScanRow>),
+}
+
+impl Content {
+    /// Whether it takes time to make; only one such file is in work at a time.
+    pub fn takes_time(&self) -> bool {
+        matches!(self, Content::Figure { .. } | Content::Page { .. } | Content::Sound)
+    }
 }

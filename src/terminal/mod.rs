@@ -4,9 +4,11 @@
 //! - [`guard`]: the modes that the explorer turns on, and that are turned off again in every case;
 //! - [`screen`]: converts changed cells to bytes, each frame in one write; with `strokes`, the cheapest order
 //!   and cursor moves, and [`pen`], the shortest change of colours;
+//! - [`cast`]: frames as a file that plays;
 //! - [`pacing`]: when the next frame may be sent.
 
 pub mod capabilities;
+pub mod cast;
 pub mod guard;
 pub mod pacing;
 pub mod pen;
@@ -14,5 +16,6 @@ pub mod screen;
 mod strokes;
 
 pub use capabilities::Environment;
+pub use cast::Cast;
 pub use guard::Guard;
 pub use screen::Screen;

@@ -119,6 +119,15 @@ impl<W: Write> Screen<W> {
     }
 }
 
+impl Screen<Vec<u8>> {
+    /// Draws a picture, and returns what is sent.
+    pub fn drawn(&mut self, now: Instant, picture: Buffer) -> String {
+        // Writing to memory cannot fail.
+        drop(self.draw(now, picture));
+        String::from_utf8(std::mem::take(&mut self.out)).unwrap_or_default()
+    }
+}
+
 /// The size, or the default one if it is empty.
 fn known(size: Size) -> Size {
     if size.width == 0 || size.height == 0 {

@@ -28,7 +28,7 @@ pub mod screen;
 mod signs;
 pub mod status;
 pub mod trade_plot;
-mod verdict;
+pub mod verdict;
 
 pub use frame::{panels, picture, place};
 pub use look::Look;

@@ -33,12 +33,14 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 /// Every command that writes a file, here over an old one.
-const WRITERS: [&str; 12] = [
+const WRITERS: [&str; 14] = [
     "figure fig17 --output old.svg --force",
     "cycles --set D=-0.3 --set D3=0.5 --certificate old.svg --force",
     "fit record.csv --output old.svg --force",
     "fit record.csv --report old.html --force",
     "belt groan --report new.html",
+    "sound supercritical --seconds 0.1 --output new.wav",
+    "replay screen.keys --cast new.cast",
     "man . --force",
     "scan --over D=-0.3:-0.1:3 --measure margin --output old.svg --force",
     "scan --over D=-0.3:-0.1:3 --measure margin --format json --output old.svg --force",

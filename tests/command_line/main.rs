@@ -6,6 +6,7 @@ mod fuzz;
 mod keys;
 mod outside;
 mod page;
+mod passed_on;
 #[path = "../program/mod.rs"]
 mod program;
 mod replay;

@@ -6,14 +6,19 @@
 use std::io::Write;
 use std::path::Path;
 
+use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
 use super::play::{Pause, Replay};
 use super::{Application, Files, Pump, Step};
+use crate::flow::Limits;
+use crate::numerics::real;
 use crate::runtime::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
 use crate::session::replay::{Action, Script, ScriptError};
 use crate::session::{Code, Content, Effect, Key, Msg, Notice};
+use crate::terminal::Cast;
+use crate::terminal::cast::KEY;
 use crate::view;
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
@@ -22,6 +27,27 @@ const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
 /// Whether a message is Ctrl-C, which leaves whatever is open, whichever keys the user has chosen.
 fn leaves(msg: &Msg) -> bool {
     matches!(msg, Msg::Key(Key { code: Code::Char('c'), control: true, .. }))
+}
+
+/// Keeps the picture before a message for as long as it takes to see it. What comes before the start of a session is not
+/// kept.
+fn film(cast: &mut Cast, msg: &Msg, picture: impl Fn() -> Buffer) {
+    /// Time in s to read a character.
+    const CHARACTER: f64 = 0.06;
+    if matches!(msg, Msg::Start(_)) {
+        *cast = Cast::default();
+        return;
+    }
+    cast.show(picture());
+    cast.pass(match msg {
+        Msg::Elapsed { seconds } => *seconds,
+        Msg::Resize { .. } => 0.0,
+        _ => cast.pause,
+    });
+    cast.pause = match msg {
+        Msg::Say(text, _) => KEY.max(CHARACTER * real(text.len())),
+        _ => KEY,
+    };
 }
 
 fn is_key(msg: &Msg, code: Code) -> bool {
@@ -75,7 +101,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             let text = if wished {
                 ""
             } else {
-                "replay held: space continues, esc stops, q leaves"
+                "replay paused: space continues, esc stops, q leaves"
             };
             return self.tell(Notice { error: false, text: text.to_owned() });
         }
@@ -168,6 +194,9 @@ impl<M: Application, W: Write> Pump<M, W> {
                     if let Msg::Resize { width, height } = msg {
                         self.screen.repaint(Size { width, height });
                     }
+                    if let Some(cast) = &mut self.options.cast {
+                        film(cast, &msg, || application.picture(size));
+                    }
                     self.record(msg)
                 }
                 Ok(Action::Done) if self.unattended => Err(LoopEnd::Quit),
@@ -180,13 +209,13 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    /// Plays a file without a terminal until it ends, an expectation is not met, or the session quits.
-    pub fn unattended(mut self) -> ReplayResult<M> {
+    /// Plays a file without a terminal until it ends, an expectation is not met, the session quits, or the limits say so.
+    pub fn unattended(mut self, limits: &Limits) -> ReplayResult<M> {
         self.unattended = true;
         let Size { width, height } = self.screen.size();
         // Neither the size nor a frame that nobody sees can end the loop.
         drop(self.update(Msg::Resize { width, height }));
-        drop(self.run());
+        while !(limits.interrupted)() && self.round().is_ok() {}
         // A figure that has been begun is written.
         while self.writing
             && let Ok(event) = self.events.recv()
@@ -195,8 +224,12 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
         let screen = self.application.picture(self.screen.size());
         let unwritten = self.playing.and_then(|playing| playing.unwritten);
-        let Pump { application, kept, unmet, .. } = self;
-        ReplayResult { application, screen, kept, unmet, unwritten }
+        let Pump { application, kept, unmet, mut options, .. } = self;
+        if let Some(cast) = &mut options.cast {
+            cast.show(screen.clone());
+        }
+        let cast = options.cast;
+        ReplayResult { application, screen, kept, unmet, unwritten, cast }
     }
 
     /// Ends a replay whose file cannot be played further.

@@ -59,11 +59,12 @@ impl Application for Counter {
         self.notice.contains("try") && key.code == Code::Right
     }
 
-    fn figure(&self, _: &std::path::Path, _: Option<usize>) -> Result<Work, String> {
+    fn make(&self, path: &Path, _: &Content, _: &Recorder) -> Result<Work, String> {
         let gate = self.gate.clone().ok_or("nothing to write")?;
+        let path = path.to_owned();
         Ok(Box::new(move |_| {
             gate.recv().unwrap();
-            Ok(b"curves".to_vec())
+            Ok(vec![(path, b"curves".to_vec())])
         }))
     }
 
@@ -282,9 +283,9 @@ fn the_users_keys_stop_hold_or_leave_a_replay_and_are_no_part_of_it() {
     }
     assert_eq!(pump.application.count, 1, "keys of the user are not mixed into it");
     pump.handle(key("<space>")).unwrap();
-    assert!(pump.application.notice.contains("held"), "{}", pump.application.notice);
+    assert!(pump.application.notice.contains("paused"), "{}", pump.application.notice);
     step(&mut pump);
-    assert_eq!(pump.application.count, 1, "held");
+    assert_eq!(pump.application.count, 1, "paused");
     pump.handle(key("<space>")).unwrap();
     step(&mut pump);
     assert_eq!(pump.application.count, 2, "and on");

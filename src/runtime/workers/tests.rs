@@ -263,7 +263,7 @@ fn a_figure_that_cannot_be_made_leaves_its_file_as_it_was() {
         (Box::new(|_: &Limits| panic!("a defect")), "internal error: a defect"),
     ] {
         let (mut workers, messages) = workers();
-        workers.write(path.clone(), true, work).unwrap();
+        workers.write(&path, true, work).unwrap();
         let told = notice(&messages);
         assert!(told.error && told.text.contains(why), "{told:?}");
     }
@@ -281,11 +281,11 @@ fn a_figure_that_is_stopped_writes_nothing_and_one_is_written_at_a_time() {
         while !(limits.interrupted)() {
             thread::yield_now();
         }
-        Ok(b"half of the curves".to_vec())
+        Ok(vec![(PathBuf::from("half.svg"), b"half of the curves".to_vec())])
     };
-    workers.write(path.clone(), false, Box::new(endless)).unwrap();
+    workers.write(&path, false, Box::new(endless)).unwrap();
     started.recv().unwrap();
-    let other = workers.write(folder.path().join("other.svg"), false, Box::new(|_| Ok(vec![])));
+    let other = workers.write(&folder.path().join("other.svg"), false, Box::new(|_| Ok(vec![])));
     assert!(other.unwrap_err().contains("other.svg not written: another"));
     workers.stop_writing();
     let told = notice(&messages);

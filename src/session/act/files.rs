@@ -38,25 +38,51 @@ const FIGURES: [&str; 4] = ["svg", "png", "csv", "json"];
 
 /// Writes a figure of one plot, or of all.
 pub fn figure(session: &mut Session, path: &str, plot: Option<usize>, replace: bool) -> Done {
-    let path = PathBuf::from(path);
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    if !FIGURES.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
-        let given = path.display().to_string();
-        return Err(format!("a figure ends in .svg, .png, .csv or .json, not {given:?}"));
+    if !ends_in(path, &FIGURES) {
+        return Err(format!("a figure ends in .svg, .png, .csv or .json, not {path:?}"));
     }
+    make(session, path, Content::Figure { plot }, replace)
+}
+
+/// Writes what is on show as a page, and beside it how the session came there.
+pub fn page(session: &mut Session, path: &str, replace: bool) -> Done {
+    if !ends_in(path, &["html"]) {
+        return Err(format!("a page ends in .html, not {path:?}"));
+    }
+    let content = Content::Page { forget: session.chord };
+    make(session, path, content, replace)
+}
+
+/// Writes the motion as it sounds.
+pub fn sound(session: &mut Session, path: &str, replace: bool) -> Done {
+    if !ends_in(path, &["wav"]) {
+        return Err(format!("a sound ends in .wav, not {path:?}"));
+    }
+    make(session, path, Content::Sound, replace)
+}
+
+fn ends_in(path: &str, endings: &[&str]) -> bool {
+    let ending = Path::new(path).extension().and_then(|ending| ending.to_str());
+    ending.is_some_and(|it| endings.iter().any(|known| known.eq_ignore_ascii_case(it)))
+}
+
+/// Writes what takes time to make, unless something else is in work.
+fn make(session: &mut Session, path: &str, content: Content, replace: bool) -> Done {
+    let path = PathBuf::from(path);
     if let Some(other) = &session.writing {
         let stops = session.with_keys("{drop-cursor} stops that");
         return Err(format!("{} is still being written; {stops}", other.display()));
     }
     session.writing = Some(path.clone());
-    session.effect(Effect::Write { path, content: Content::Figure { plot }, replace })
+    session.effect(Effect::Write { path, content, replace })
 }
 
-/// Offers to write the plot in use: opens the line with a command and a file name, to be edited or accepted.
-pub fn offer_figure(session: &mut Session) {
+/// Offers to write a file that is named after the scene: opens the line with a command and the file name, to be edited or
+/// accepted.
+pub fn offer(session: &mut Session, command: &str, ending: &str) {
     let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
     let scene: String = session.scene.name.chars().map(plain).collect();
-    prompt::open(session, format!("figure-pane {scene}-{}.svg", session.plot + 1));
+    prompt::open(session, format!("{command} {scene}{ending}"));
 }
 
 /// Takes a file in, or says what is wrong with it and changes nothing.

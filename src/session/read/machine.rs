@@ -5,8 +5,8 @@
 //! parameters then belong to no belt speed until a speed is set again.
 
 use crate::fit::FitResult;
-use crate::flow::Problem;
-use crate::model::{Belt, Body, Knob, Parameters, Source, Units};
+use crate::flow::{Problem, Subject};
+use crate::model::{Belt, Body, Knob, Parameters, Source, State, Tolerances, Units};
 use crate::portrait::Margin;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Layer, ScaledMachine, Setting, Topic, View};
@@ -25,6 +25,15 @@ impl Session {
     /// The machine of the scene with its present setting.
     pub fn running(&self) -> Option<&ScaledMachine> {
         self.scaled.as_deref()
+    }
+
+    /// The motion on show and what moves, by the model that is drawn.
+    pub fn subject(&self) -> Subject {
+        let Problem { parameters, initial: State { q, v }, until, .. } = self.problem;
+        let (source, units) = self.source(&parameters);
+        let initial = State { q: q * units.displacement, v: v * units.velocity };
+        let motion = Problem { initial, until: until * units.time, ..self.problem };
+        Subject { source, tolerances: Tolerances::default(), motion }
     }
 
     /// One line about a number of the machine that is unlikely in its unit; `None` if there is none.

@@ -39,7 +39,12 @@ pub struct Player {
     said: usize,
     /// Number of all captions.
     captions: usize,
+    /// Whether time passes in pieces, with a frame after each.
+    pub in_frames: bool,
 }
+
+/// The longest such piece, in s.
+const FRAME: f64 = 0.04;
 
 /// Maximum number of pictures that are kept: one of a large screen has a million cells.
 const PICTURES: usize = 1000;
@@ -119,6 +124,9 @@ impl Player {
                     return Ok(Action::Give(Msg::Say(text, Some((self.said, self.captions)))));
                 }
                 Instruction::Key { key, .. } => return Ok(Action::Give(Msg::Key(key))),
+                Instruction::Give(Msg::Elapsed { seconds }) if self.in_frames => {
+                    return Ok(Action::Give(Msg::Elapsed { seconds: seconds.min(FRAME) }));
+                }
                 Instruction::Give(message) => return Ok(Action::Give(message)),
                 Instruction::Wait | Instruction::Expect(_) => {}
             }
@@ -129,6 +137,11 @@ impl Player {
     fn advance(&mut self) {
         match self.steps.front_mut().map(|(located, _)| &mut located.step) {
             Some(Instruction::Key { count, .. }) if *count > 1 => *count -= 1,
+            Some(Instruction::Give(Msg::Elapsed { seconds }))
+                if self.in_frames && *seconds > FRAME =>
+            {
+                *seconds -= FRAME;
+            }
             _ => drop(self.steps.pop_front()),
         }
     }

@@ -123,6 +123,15 @@ fn lines_write_open_and_play_files_without_touching_any() {
     other.press("W <A-f> <backspace*3>png<enter>");
     assert_eq!(other.effects.last(), Some(&figure("supercritical-3.png", Some(2), false)));
     other.give(Msg::Written(stopped.clone()));
+    for (keys, path, content) in [
+        ("<A-h><enter>", "supercritical.html", Content::Page { forget: 2 }),
+        ("<A-s><enter>", "supercritical.wav", Content::Sound),
+    ] {
+        other.press(keys);
+        let asked = Effect::Write { path: path.into(), content, replace: false };
+        assert_eq!(other.effects.last(), Some(&asked));
+        other.give(Msg::Written(stopped.clone()));
+    }
     other.press("Q :figure-pane!<space>a.csv<enter>");
     assert_eq!(other.effects.last(), Some(&figure("a.csv", Some(1), true)));
     other.press("<right> :record<space>a.keys<enter>");
