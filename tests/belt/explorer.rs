@@ -15,7 +15,12 @@ fn screen(scene: Scene, keys: &str) -> (Session, String) {
     let size = Size { width: 100, height: 30 };
     let session = Session::new(Arc::new(scene), size);
     let script = parse(keys).unwrap_or_else(|error| panic!("{keys}: {error}"));
-    let played = play(session, Environment::of(|_| None), script, false);
+    let played = play(
+        session,
+        Environment::of(|_| None),
+        Options { replay: Some(script), ..Options::default() },
+        &Limits::PATIENT,
+    );
     assert_eq!(played.unmet, None, "{keys}");
     (played.application.session.clone(), hopfscope::view::screen::text(&played.screen))
 }

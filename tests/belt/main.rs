@@ -12,9 +12,9 @@ mod speeds;
 use std::fs;
 use std::sync::Arc;
 
-use hopfscope::flow::Outcome;
+use hopfscope::flow::{Limits, Outcome};
 use hopfscope::numerics::elementary::tanh;
-use hopfscope::runtime::play;
+use hopfscope::runtime::{Options, play};
 use hopfscope::scene::{ScaledMachine, Scene};
 use hopfscope::session::replay::script::parse;
 use hopfscope::session::{Session, Size};

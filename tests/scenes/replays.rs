@@ -1,7 +1,8 @@
 //! Keystroke files: how they are read, written and played; and every one of the project plays to its end, on a small
 //! and on a large screen.
 
-use hopfscope::runtime::play;
+use hopfscope::flow::Limits;
+use hopfscope::runtime::{Options, play};
 use hopfscope::scene::plain;
 use hopfscope::session::replay::{Action, Player, Recorder, parse, text};
 use hopfscope::session::{Instruction, Msg, Notice, Session, Size};
@@ -24,7 +25,12 @@ fn every_file_meets_its_expectations() {
         let script = parse(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
         for (width, height) in [(80, 24), (200, 60)] {
             let session = Session::new(plain(), Size { width, height });
-            let played = play(session, Environment::of(|_| None), script.clone(), false);
+            let played = play(
+                session,
+                Environment::of(|_| None),
+                Options { replay: Some(script.clone()), ..Options::default() },
+                &Limits::PATIENT,
+            );
             if let Some(unmet) = played.unmet {
                 panic!("{name} at {width}x{height}: {unmet}");
             }
@@ -43,7 +49,12 @@ fn every_keystroke_file_of_the_handbook_plays() {
     for text in blocks {
         let script = parse(text).unwrap_or_else(|error| panic!("docs/explorer.md: {error}"));
         let session = Session::new(plain(), Size { width: 120, height: 40 });
-        let played = play(session, Environment::of(|_| None), script, false);
+        let played = play(
+            session,
+            Environment::of(|_| None),
+            Options { replay: Some(script), ..Options::default() },
+            &Limits::PATIENT,
+        );
         assert_eq!(played.unmet, None);
     }
 }
@@ -65,7 +76,12 @@ fn a_newcomer_reads_a_verdict_on_every_screen_of_every_size() {
     let script = parse(include_str!("../../assets/replays/newcomer.keys")).unwrap();
     for (width, height) in [(80, 24), (120, 40), (200, 60)] {
         let session = Session::new(plain(), Size { width, height });
-        let played = play(session, Environment::of(|_| None), script.clone(), false);
+        let played = play(
+            session,
+            Environment::of(|_| None),
+            Options { replay: Some(script.clone()), ..Options::default() },
+            &Limits::PATIENT,
+        );
         assert_eq!(played.unmet, None, "{width}x{height}");
         for (name, words) in READ {
             let kept = played.kept.iter().find(|(kept, _)| kept == name);
