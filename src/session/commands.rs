@@ -9,15 +9,15 @@ use std::sync::LazyLock;
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, Layer, LayerSpec, VIEWS, library};
 use crate::session::CommandAction::{self, Act, Line, Move, Press, Toggle, Try};
-use crate::session::ListKind::{Cost, Layers, Palette as Everything, Paper, Scenes, Views};
+use crate::session::ListKind::{Cost, Layers, Paper, Scenes, Views};
 use crate::session::act::{
     compare, copy, files, general, history, kick, lists, motions, parameters, plots, prompt, scan,
     screen_setup, values, walk,
 };
 use crate::session::read::completion::{self, all, nothing};
 use crate::session::{
-    COMMANDS, Colors, Command, Context, Effect, Glyphs, Input, Key, Keymap, List, PendingInput,
-    Purpose, Theme, named,
+    COMMANDS, Colors, Command, Context, Effect, Glyphs, Input, Key, Keymap, PendingInput, Purpose,
+    Theme, named,
 };
 
 /// What commands do: by the name that their line ends with, which is that of the command where the line does not say
@@ -69,11 +69,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("remove-plot", Try(screen_setup::remove)),
     ("move-plot", Try(screen_setup::move_on)),
     ("arrange", Act(screen_setup::arrange)),
-    ("help", Act(|s| lists::open(s, Everything))),
-    ("palette", Act(|s| {
-            lists::open(s, Everything);
-            lists::with(s, |list| list.searching = true);
-        })),
+    ("help", Act(lists::help)),
+    ("palette", Act(|s| lists::search_everything(s, String::new()))),
     ("prompt", Act(|s| prompt::open(s, ""))),
     ("type-parameter", Act(|s| prompt::open(s, "set D"))),
     ("scenes", Act(|s| lists::open(s, Scenes))),
@@ -114,7 +111,7 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("forget-one", Try(files::forget_selected)),
 
     ("costs", Act(|s| lists::open(s, Cost))),
-    ("retry", Act(general::retry)),
+    ("retry", Try(general::retry)),
     ("save-figure", Act(|s| files::offer(s, "figure-pane", &format!("-{}.svg", s.plot + 1)))),
     ("save-page", Act(|s| files::offer(s, "page", ".html"))),
     ("save-sound", Act(|s| files::offer(s, "sound", ".wav"))),
@@ -128,7 +125,7 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("mouse", Act(plots::toggle_mouse)),
     ("theme", Act(|s| general::turn(s, "theme", |it| &mut it.theme))),
     ("drop-cursor", Act(plots::drop_cursor)),
-    ("back", Act(|s| s.overlay = None)),
+    ("back", Act(lists::close)),
     ("quit", Act(general::quit)),
 
     ("list-by", Move(|s, [by, _]| lists::move_by(s, by as isize))),
@@ -136,7 +133,7 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("choose", Try(prompt::choose)),
     ("toggle-letter", Press(lists::toggle_letter)),
     ("search-done", Try(prompt::search_done)),
-    ("search-drop", Act(|s| lists::with(s, |list| *list = List::default()))),
+    ("search-drop", Act(|s| lists::search_with(s, String::clear))),
     ("search-delete", Act(|s| lists::search_with(s, |it| _ = it.pop()))),
     ("search-clear", Act(|s| lists::search_with(s, String::clear))),
 

@@ -31,7 +31,7 @@ pub use act::run::run_line;
 pub use commands::commands;
 pub use key::{Code, Key};
 pub use read::answers::NoErrorReason;
-pub use read::{fate, ledger, motion, wants};
+pub use read::{fate, ledger, motion, number_line, wants};
 pub use replay::script::{Instruction, Script, ScriptStep};
 pub use state::{answers::*, history::*, keymap::*, overlay::*, scan::*};
 pub use state::{overlay, scan, session::*, settings, settings::*, setup::*};

@@ -8,7 +8,9 @@ use crate::flow::Reason;
 use crate::question::NoAnswer;
 use crate::scene::{Reply, Request};
 use crate::session::act::run::{ENTER, run, run_line, run_where_it_belongs};
-use crate::session::act::{answers, compare, files, history, kick, plots, prompt, values, walk};
+use crate::session::act::{
+    answers, compare, files, history, kick, lists, plots, preview, prompt, values, walk,
+};
 use crate::session::read::contexts;
 use crate::session::replay::script::parse;
 use crate::session::{
@@ -23,6 +25,12 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
         if session.waiting.take().is_some() && contexts::forgets(&message) {
             session.inform("the waiting key is dropped");
             return Vec::new();
+        }
+        // Any key of those that it names works on the page of help.
+        if let (Msg::Key(key), Some(Overlay::Help(_))) = (&message, &session.overlay)
+            && !session.means(*key)
+        {
+            lists::close(session);
         }
         if let Some(request) = session.awaited(&message) {
             session.waiting = Some(WaitingPress { message, request });
@@ -57,6 +65,7 @@ pub fn settle(session: &mut Session, mut answer: impl FnMut(&Session, &Request) 
 /// Takes a message in that does not have to wait.
 fn take_in(session: &mut Session, message: Msg) {
     session.chord += u32::from(is_press(&message));
+    let answered = matches!(message, Msg::Answered(_));
     match message {
         Msg::Key(key) => press(session, key),
         Msg::Paste(text) => paste(session, &text),
@@ -92,7 +101,10 @@ fn take_in(session: &mut Session, message: Msg) {
     answers::follow_fit(session);
     keep_selection(session);
     compare::follow(session);
-    session.answers.ask(session.asks());
+    session.preview = preview::of(session);
+    let previewed = session.preview.iter().flat_map(|preview| preview.asks());
+    session.answers.ask(session.asks().into_iter().chain(previewed).collect());
+    lists::follow(session, answered);
     answers::resolve(session);
     session.keep_course();
     // It has the windows that were fitted just now.

@@ -2,13 +2,13 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
-use ratatui::widgets::{Paragraph, Widget, Wrap};
+use ratatui::widgets::{Clear, Paragraph, Widget, Wrap};
 
 use super::layout::{Layout, SMALLEST, layout};
 use super::pane::{self, FramedPicture, Heading};
 use super::plot::{point_at, room, shown};
 use super::{
-    Look, Surface, caption, energy_ledger, footer, legend, lists, paint::paint, parameters,
+    Look, Surface, caption, energy_ledger, footer, help, legend, lists, paint::paint, parameters,
     playback, scan, signs, status,
 };
 use crate::picture::{self, Role, legend::entries};
@@ -36,7 +36,10 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
             };
             let body = Rect { height: below.saturating_sub(area.y), ..area };
             caption::draw(body, session, screen);
-            lists::draw(area, session, screen);
+            let list = preview(area, session, screen);
+            lists::draw(list, session, screen);
+            footer::draw(parts.footer, session, screen);
+            help::draw(area, session, screen);
         }
     }
     match look.glyphs {
@@ -65,7 +68,18 @@ fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
     }
     playback::draw(parts.playback, session, screen);
     status::draw(parts.status, session, screen);
-    footer::draw(parts.footer, session, screen);
+}
+
+/// Draws the scene that is selected in the list of scenes, as it would open; returns the area that is left for the list.
+fn preview(area: Rect, session: &Session, screen: &mut Surface) -> Rect {
+    let Some(preview) = &session.preview else { return area };
+    let width = (area.width / 2).max(SMALLEST.0).min(area.width);
+    let list = Rect { width: area.width - width, ..area };
+    let beside = Rect { x: list.right(), width, ..area };
+    let Some(parts) = layout(beside, preview) else { return area };
+    Clear.render(beside, screen.buffer);
+    panes(&parts, preview, screen);
+    list
 }
 
 /// The picture of a plot in its place.

@@ -39,20 +39,19 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     content.draw(area, list, screen);
 }
 
-/// Everything that has a name: with headings where nothing is searched, the best first where something is.
+/// Everything that has a name, and why it cannot be run if so.
 fn palette(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     let found = session.palette_rows(list);
+    let told = |row: PaletteRow| match session.refused(list, row) {
+        Some(why) => look.span(look.sentence(why, &session.keymap), Role::Quiet),
+        None => look.span(row.meaning(), Role::Text),
+    };
     for row in &found {
-        let heading = if list.search.is_empty() {
-            session.heading(*row)
-        } else {
-            ""
-        };
         let keys = keys_of(session, *row, look);
         let keys = pane::fitting([keys.join(" "), keys.concat()], KEYS);
         let keys = if keys.is_empty() { row.name().to_owned() } else { keys };
         let keys = format!("{keys:<KEYS$} ");
-        content.row(heading, [look.span(keys, Role::Key), look.span(row.meaning(), Role::Text)]);
+        content.row(session.heading_in(list, *row), [look.span(keys, Role::Key), told(*row)]);
     }
     if let Some(row) = found.get(list.selected) {
         let name = match row {
@@ -63,8 +62,7 @@ fn palette(content: &mut ListContent, session: &Session, list: &List, look: &Loo
         };
         let name = look.span(format!("{name}   "), Role::Title);
         let kind = look.span(session.heading(*row).to_lowercase(), Role::Quiet);
-        let meaning = look.span(row.meaning(), Role::Quiet);
-        content.about = vec![vec![name, kind].into(), meaning.into()];
+        content.about = vec![vec![name, kind].into(), told(*row).into()];
     }
 }
 
@@ -83,11 +81,7 @@ fn keys_of(session: &Session, row: PaletteRow, look: &Look) -> Vec<String> {
 fn scenes(content: &mut ListContent, session: &Session, list: &List, look: &Look) {
     let found = session.scene_rows(list);
     for scene in &found {
-        let heading = if list.search.is_empty() {
-            SceneGroup::of(scene).title()
-        } else {
-            ""
-        };
+        let heading = SceneGroup::of(scene).title();
         let figure = scene.also.as_deref().unwrap_or_default();
         let cells = [
             look.span(format!("{:<14}", scene.name), Role::Key),
@@ -278,7 +272,8 @@ impl ListContent {
             _ => format!(" {} of {count} ", (list.selected + 1).min(count)),
         };
         let inner = screen.boxed(area, &heading(self.title, list), &remark);
-        let about = below.min(inner.height.saturating_sub(4));
+        let least = pane::cells(lines.len()).min(4);
+        let about = below.min(inner.height.saturating_sub(least));
         let rows = Rect { height: inner.height - about, ..inner };
         if count == 0 {
             screen.line(rows, 0, screen.look.span("nothing found", Role::Quiet));

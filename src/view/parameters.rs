@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use super::fitted::{fitted, spread};
 use super::pane::{self, Heading};
-use super::{Look, Surface, compare, gauge, margin, verdict::multiplier};
+use super::{Look, Surface, compare, gauge, margin, number_line, verdict::multiplier};
 use crate::accuracy::BalanceResult;
 use crate::flow::Problem;
 use crate::model::{Knob, Units};
@@ -47,6 +47,8 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let mut lines: Vec<Line> = rows.map(|row| row_line(session, row, area.width, look)).collect();
     lines.extend(folded(session).map(|folded| look.span(format!(" {folded}"), Role::Quiet).into()));
     let below = cycles(session, area.width.into(), look);
+    let room = usize::from(area.height).saturating_sub(1 + lines.len() + below.len());
+    lines.extend(number_line::lines(session, area.width.into(), look).into_iter().take(room));
     // The numbers of a machine leave little room.
     let apart = session.running().is_none() || lines.len() + below.len() < area.height.into();
     lines.extend(apart.then(Line::default));

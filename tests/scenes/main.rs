@@ -3,6 +3,7 @@
 mod costs;
 #[path = "../explorer/mod.rs"]
 mod explorer;
+mod lists;
 mod replays;
 
 use hopfscope::closed_form::harmonic::amplitudes;

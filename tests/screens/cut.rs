@@ -230,7 +230,9 @@ fn no_word_on_any_screen_is_cut_without_a_sign() {
     for view in VIEWS.iter() {
         cut.extend(cut_words("supercritical", &alone(view.name)));
     }
-    for keys in ["?", "s", "v", "V", "$", "%", "% <enter>", "% <enter> z t", "}", ":", "<enter>"] {
+    for keys in
+        ["?", "??", "s", "v", "V", "$", "%", "% <enter>", "% <enter> z t", "}", ":", "<enter>"]
+    {
         cut.extend(cut_words("supercritical", keys));
     }
     assert!(cut.is_empty(), "{} words are cut:\n{}", cut.len(), cut.join("\n"));
@@ -281,7 +283,7 @@ fn no_number_on_any_screen_is_cut() {
             cut.extend(cut_numbers(scene, &format!("{} <right>", alone(view.name))));
         }
     }
-    for keys in ["% <enter>", "% <enter> z <right>", MAP, "?", "$", "s", "v", "}", "<tab> <tab> w"]
+    for keys in ["% <enter>", "% <enter> z <right>", MAP, "??", "$", "s", "v", "}", "<tab> <tab> w"]
     {
         cut.extend(cut_numbers("supercritical", keys));
     }

@@ -20,7 +20,9 @@ use hopfscope::scene::{
     Axes, Finding, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window, find, library,
 };
 use hopfscope::session::settings::{Colors, Glyphs, Theme, choices};
-use hopfscope::session::{BranchStop, Msg, Notice, PointerTarget, Session, Size, settings, update};
+use hopfscope::session::{
+    BranchStop, Msg, Notice, Overlay, PointerTarget, Session, Size, settings, update,
+};
 use hopfscope::view::frame::render;
 use hopfscope::view::layout::layout;
 use hopfscope::view::screen::text;
@@ -125,7 +127,9 @@ fn screens_look_as_they_were_approved() {
         ("return-map", (80, 24), "<tab> Q V / r e t <enter> <right>", braille()),
         ("trade", (80, 24), "<tab> Q V / t r a d e <enter> <right>", letters()),
         ("costs", (100, 30), "$", letters()),
-        ("everything", (80, 24), "?", letters()),
+        ("help", (80, 24), "?", letters()),
+        ("help-walk", (120, 40), "<tab*2> w ?", braille()),
+        ("everything", (80, 24), "??", letters()),
         ("everything-wide", (120, 40), "<tab> <space> f o l d", braille()),
         ("layers", (80, 24), "v", letters()),
         ("dial", (100, 24), "}", letters()),
@@ -323,10 +327,10 @@ fn the_footer_and_the_help_name_the_keys_that_do_it() {
     assert!(footer("").contains("left right step") && footer("").contains("q quit"));
     assert!(footer("<tab>").contains("enter start here"));
     assert!(footer("<enter>").contains("enter accept"));
-    let help = settled("plain", 100, 500, "?");
+    let help = settled("plain", 100, 500, "??");
     let screen = text(&draw(&help, letters()));
-    let list = hopfscope::session::List::default();
-    for row in help.palette_rows(&list) {
+    let Some(Overlay::List(_, list)) = &help.overlay else { panic!("a list") };
+    for row in help.palette_rows(list) {
         assert!(screen.contains(row.name()) || screen.contains(row.meaning()), "{}", row.name());
     }
 }
@@ -364,7 +368,7 @@ fn every_scene_fits_every_size() {
         let sizes =
             (1..=25).map(|n| (n * 8, n * 3)).chain([(1, 1), (500, 200), (200, 16), (60, 200)]);
         for (width, height) in sizes {
-            for keys in ["", "?", "s", "<enter>"] {
+            for keys in ["", "?", "??", "s", "<enter>"] {
                 let session = settled(&scene.name, width, height, keys);
                 let glyphs = *kinds.next().expect("kinds come again");
                 draw(&session, settings::DisplaySettings { glyphs, ..braille() });

@@ -82,10 +82,8 @@ pub fn units(session: &mut Session) {
 }
 
 /// Asks questions that have no answer again.
-pub fn retry(session: &mut Session) {
-    if !session.answers.forget_failures() {
-        session.inform("nothing has failed");
-    }
+pub fn retry(session: &mut Session) -> Done {
+    session.answers.forget_failures().then_some(()).ok_or_else(|| "nothing has failed".to_owned())
 }
 
 /// Plays the pasted keys after confirmation.

@@ -1,8 +1,11 @@
 //! Lists over the panes: opening, moving and searching.
 
+use std::collections::BTreeMap;
+
 use crate::scene::letters;
 use crate::session::act::general::toggle;
-use crate::session::{Key, List, ListKind, Overlay, Session};
+use crate::session::act::run::{ENTER, run_where_it_belongs};
+use crate::session::{Command, Key, List, ListKind, Overlay, Session};
 
 /// Opens a list, with the present scene or the view of the plot in use selected.
 pub fn open(session: &mut Session, kind: ListKind) {
@@ -17,6 +20,52 @@ pub fn open(session: &mut Session, kind: ListKind) {
     };
     let list = List { selected: selected.unwrap_or(0), ..list };
     session.overlay = Some(Overlay::List(kind, list));
+}
+
+/// Tries on copies what the list of everything could run: when it opens, and when an answer has come.
+pub fn follow(session: &mut Session, answered: bool) {
+    if let Some(Overlay::List(ListKind::Palette, list)) = &session.overlay
+        && (answered || list.refused.is_empty())
+    {
+        let refused = refused(session);
+        with(session, |list| list.refused = refused);
+    }
+}
+
+/// The commands of keys that would be refused, with what they would say. One that would wait for an answer is not known to
+/// be refused.
+fn refused(session: &Session) -> BTreeMap<&'static str, String> {
+    let base = Session { overlay: None, preview: None, notice: None, ..session.clone() };
+    let waits = |command: &&Command| base.awaited_by_command(command).is_some();
+    let tried = base.listed_commands().filter(|command| !waits(command));
+    let said = |command: &'static Command| {
+        let mut copy = base.clone();
+        run_where_it_belongs(&mut copy, command, ENTER);
+        let notice = copy.notice.filter(|notice| notice.error)?;
+        Some((command.name, notice.text))
+    };
+    tried.filter_map(said).collect()
+}
+
+/// Opens the list of everything, to be searched.
+pub fn search_everything(session: &mut Session, search: String) {
+    open(session, ListKind::Palette);
+    with(session, |list| (list.search, list.searching) = (search, true));
+}
+
+/// Opens the page of help; from there, the list of everything.
+pub fn help(session: &mut Session) {
+    match session.overlay.take() {
+        Some(Overlay::Help(_)) => open(session, ListKind::Palette),
+        below => session.overlay = Some(Overlay::Help(below.map(Box::new))),
+    }
+}
+
+/// Closes what is open; below the page of help may be a list.
+pub fn close(session: &mut Session) {
+    if let Some(Overlay::Help(below)) = session.overlay.take() {
+        session.overlay = below.map(|below| *below);
+    }
 }
 
 /// Switches the layer with this letter in the view of the plot in use.

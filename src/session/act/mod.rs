@@ -11,6 +11,7 @@ pub mod lists;
 pub mod motions;
 pub mod parameters;
 pub mod plots;
+pub mod preview;
 pub mod prompt;
 pub mod run;
 pub mod scan;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::numerics::cycled;
 use crate::paper::Claim;
-use crate::scene::find;
+use crate::scene::{LayerSpec, find};
 use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
 use crate::session::act::lists;
@@ -31,13 +31,10 @@ pub fn open(session: &mut Session, text: impl Into<String>) {
 pub fn accept(session: &mut Session) {
     let Some(Overlay::Prompt(prompt)) = session.overlay.clone() else { return };
     let text = prompt.input.text().trim().to_owned();
-    if prompt.row.is_none()
-        && let Some(found) = search(session, &text)
-    {
-        session.overlay = Some(Overlay::List(ListKind::Palette, found));
-        return;
-    }
     session.overlay = None;
+    if prompt.row.is_none() && is_searched(session, &text) {
+        return lists::search_everything(session, text);
+    }
     let done = match prompt.row {
         Some(row) => set_row(session, row.name(), &text),
         None if text.is_empty() => Ok(()),
@@ -52,18 +49,12 @@ pub fn accept(session: &mut Session) {
     }
 }
 
-/// The palette with a search for a line that begins with no command; `None` if the line begins with a command
-/// or nothing is found.
-fn search(session: &Session, text: &str) -> Option<List> {
+/// Whether a line begins with no command, but with something that the list of everything finds.
+fn is_searched(session: &Session, text: &str) -> bool {
     let (name, _) = called(text);
-    if name.is_empty() {
-        return None;
-    }
-    if session.keymap.named(name).is_some() || session.keymap.line(name).is_some() {
-        return None;
-    }
-    let list = List { search: text.to_owned(), searching: true, ..List::default() };
-    (!session.palette_rows(&list).is_empty()).then_some(list)
+    let known = session.keymap.named(name).is_some() || session.keymap.line(name).is_some();
+    let list = List { search: text.to_owned(), ..List::default() };
+    !name.is_empty() && !known && !session.palette_rows(&list).is_empty()
 }
 
 /// Remembers a line as the newest one, and only once.
@@ -159,11 +150,22 @@ pub fn choose(session: &mut Session) -> Done {
         Some(PaletteRow::Command(command)) => run_where_it_belongs(session, command, ENTER),
         Some(PaletteRow::Scene(scene)) => open_scene(session, Arc::clone(scene)),
         Some(PaletteRow::View(row)) => show_from_list(session, row.view)?,
+        Some(PaletteRow::Layer(layer)) if kind == ListKind::Palette => show_layer(session, layer)?,
         Some(PaletteRow::Layer(layer)) => toggle(session, layer.layer),
         Some(PaletteRow::Machine(machine)) => belt(session, &machine.name)?,
         Some(PaletteRow::Claim(claim)) => show_claim(session, claim)?,
         None => {}
     }
+    Ok(())
+}
+
+/// Switches a layer; where no plot shows its view, shows that with the layer on.
+fn show_layer(session: &mut Session, layer: &LayerSpec) -> Done {
+    if !session.on_show().any(|plot| session.plots[plot].view == layer.view) {
+        show_from_list(session, layer.view)?;
+        session.layers.remove(&layer.layer);
+    }
+    toggle(session, layer.layer);
     Ok(())
 }
 

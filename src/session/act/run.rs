@@ -43,6 +43,8 @@ fn missing(session: &Session, place: Context) -> String {
 
 /// Runs a command.
 pub fn run(session: &mut Session, command: &Command, key: Key) {
+    session.used.retain(|name| *name != command.name);
+    session.used.push(command.name);
     match command.run {
         CommandAction::Act(act) => act(session),
         CommandAction::Press(act) => act(session, key),

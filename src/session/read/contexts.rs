@@ -65,7 +65,7 @@ impl Session {
     }
 
     /// The question that must be answered before a command that is run by name, in the pane where it applies.
-    fn awaited_by_command(&self, command: &Command) -> Option<Request> {
+    pub(crate) fn awaited_by_command(&self, command: &Command) -> Option<Request> {
         let plot = match place(self, command).ok()?.unwrap_or(self.focus) {
             Pane::Plot(index) => index,
             Pane::Parameters => self.plot,
@@ -110,8 +110,14 @@ impl Session {
 
     /// The contexts that hold when nothing is pending.
     pub(crate) fn contexts_at_rest(&self) -> &'static [Context] {
-        let first = match &self.overlay {
+        self.contexts_in(self.overlay.as_ref())
+    }
+
+    /// The contexts that hold where this is open.
+    pub(crate) fn contexts_in(&self, overlay: Option<&Overlay>) -> &'static [Context] {
+        let first = match overlay {
             None => return self.contexts_below(),
+            Some(Overlay::Help(_)) => Context::Page,
             Some(Overlay::List(ListKind::Palette, list)) if list.searching => Context::Palette,
             Some(Overlay::List(_, list)) if list.searching => Context::Search,
             Some(Overlay::List(ListKind::Cost, _)) => Context::List(ListKind::Palette),

@@ -1,13 +1,20 @@
 //! The rows of the lists over the panes, everything that has a name among them, and the search in them: synonyms, and the
 //! order of the rows found.
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock};
 
+use crate::numerics::distinct;
 use crate::paper::{Claim, ClaimResult, Verdict, claims};
 use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, LayerSpec, Machine, Scene, SceneGroup, VIEWS, View, ViewSpec, library};
-use crate::session::{CONTEXTS, Code, Command, Context, KeptSession, Key, List, ListKind, Session};
+use crate::session::{
+    CONTEXTS, Code, Command, Context, KeptSession, Key, List, ListKind, Session, place,
+};
+
+/// The heading of what cannot be run.
+const NOT_NOW: &str = "Not now";
 
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {
@@ -62,32 +69,74 @@ impl PaletteRow {
 }
 
 impl Session {
-    /// All rows that contain all searched words. Without a search, the commands of the pane in focus come
-    /// first. Commands that work only inside a list or a line, or with a digit, are left out.
+    /// All rows that contain all searched words. Without a search, the commands of the pane in focus come first, and what
+    /// cannot be run is left out; in a search it comes last, and of equal matches what was used last first. One thing has one row: left out are commands with words where
+    /// another row does the same, machines that have a scene of their name, and claims that no scene shows.
     pub fn palette_rows(&self, list: &List) -> Vec<PaletteRow> {
-        let digit = Key::plain(Code::Char('1'));
-        let outside = |command: &&Command| {
-            home(command).is_some() && !command.keys.iter().any(|(_, keys)| keys.contains(&digit))
-        };
-        let keys = self.keymap.commands().filter(outside);
-        let commands = keys.chain(self.keymap.lines()).map(PaletteRow::Command);
+        let lines = self.keymap.lines().filter(|line| line.hint.is_empty());
+        let commands = self.listed_commands().chain(lines).map(PaletteRow::Command);
         let scenes = library().iter().map(PaletteRow::Scene);
         let views = VIEWS.iter().map(PaletteRow::View);
-        let layers = LAYERS.iter().map(PaletteRow::Layer);
-        let claims = claims().map(PaletteRow::Claim);
-        let machines = machines().iter().map(PaletteRow::Machine);
+        // That of the whole model is a command of a key.
+        let layers = LAYERS.iter().filter(|row| row.name != "whole").map(PaletteRow::Layer);
+        let claims = claims().filter(|claim| claim.scene.is_some()).map(PaletteRow::Claim);
+        let alone = |machine: &&Machine| library().iter().all(|it| it.name != machine.name);
+        let machines = machines().iter().filter(alone).map(PaletteRow::Machine);
         let all = commands.chain(scenes).chain(views).chain(layers).chain(machines).chain(claims);
         let searches = !list.search.trim().is_empty();
-        self.matching(list, all, |row| row, |row| if searches { 0 } else { self.distance(row) })
+        let all = all.filter(|row| searches || !self.is_out(list, *row));
+        let distance = |row| if searches { 0 } else { self.distance(row) };
+        let last = |row: PaletteRow| self.used.iter().position(|name| *name == row.name());
+        let order = |row| (distance(row), Reverse(last(row).filter(|_| searches)));
+        self.matching(list, all, |row| row, order, |row| self.heading_in(list, row))
     }
 
-    /// The rows that contain all searched words: the best matches first, those alike in this order.
+    /// The commands of keys that are listed: those that work outside of lists and lines, and without a digit.
+    pub(crate) fn listed_commands(&self) -> impl Iterator<Item = &'static Command> {
+        let digit = Key::plain(Code::Char('1'));
+        self.keymap.commands().filter(move |command| {
+            home(command).is_some() && !command.keys.iter().any(|(_, keys)| keys.contains(&digit))
+        })
+    }
+
+    /// Why a row of the list of everything cannot be run at present, in words that name commands.
+    pub fn refused<'a>(&self, list: &'a List, row: PaletteRow) -> Option<&'a str> {
+        match row {
+            PaletteRow::Command(command) => list.refused.get(command.name).map(String::as_str),
+            PaletteRow::View(view) => self.lacks(view.view),
+            PaletteRow::Layer(layer) => {
+                self.lacks(layer.view).or_else(|| self.not_drawn(layer.layer))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a row that cannot be run leaves its place. One whose command waits for answers keeps it: where a row stands
+    /// must not depend on which answers have come.
+    fn is_out(&self, list: &List, row: PaletteRow) -> bool {
+        let waits = |command: &Command| !command.needs.is_empty() && place(self, command).is_ok();
+        let stays = matches!(row, PaletteRow::Command(command) if waits(command));
+        !stays && self.refused(list, row).is_some()
+    }
+
+    /// The heading under which a row stands in the list of everything.
+    pub fn heading_in(&self, list: &List, row: PaletteRow) -> &'static str {
+        if self.is_out(list, row) {
+            NOT_NOW
+        } else {
+            self.heading(row)
+        }
+    }
+
+    /// The rows that contain all searched words: the best matches first, those alike in this order. The rows of a group stay
+    /// together.
     fn matching<T: Copy, Place: Ord>(
         &self,
         list: &List,
         all: impl Iterator<Item = T>,
         row: fn(T) -> PaletteRow,
         order: impl Fn(T) -> Place,
+        group: impl Fn(T) -> &'static str,
     ) -> Vec<T> {
         let search = &list.search;
         let rank = |row: PaletteRow| match search.trim() {
@@ -97,23 +146,32 @@ impl Session {
         };
         let mut found: Vec<T> = all.filter(|it| list.matches(&self.words(row(*it)))).collect();
         found.sort_by_cached_key(|it| (rank(row(*it)), order(*it)));
+        let groups = distinct(found.iter().map(|it| group(*it)));
+        found.sort_by_cached_key(|it| {
+            let group = group(*it);
+            (group == NOT_NOW, groups.iter().position(|name| *name == group))
+        });
         found
     }
 
     /// The scenes that the picker lists, in groups.
     pub fn scene_rows(&self, list: &List) -> Vec<&'static Arc<Scene>> {
-        self.matching(list, library().iter(), PaletteRow::Scene, |scene| SceneGroup::of(scene))
+        let group = |scene: &'static Arc<Scene>| SceneGroup::of(scene);
+        let title = |scene| group(scene).title();
+        self.matching(list, library().iter(), PaletteRow::Scene, group, title)
     }
 
     /// The layers that the list of layers shows, those of the plot in use first.
     pub fn layer_rows(&self, list: &List) -> Vec<&'static LayerSpec> {
         let in_use = self.view_in_use();
-        self.matching(list, LAYERS.iter(), PaletteRow::Layer, |row| (row.view != in_use, row.view))
+        let order = |row: &LayerSpec| (row.view != in_use, row.view);
+        let title = |row: &LayerSpec| row.view.spec().title;
+        self.matching(list, LAYERS.iter(), PaletteRow::Layer, order, title)
     }
 
     /// The views that the picker lists.
     pub fn view_rows(&self, list: &List) -> Vec<&'static ViewSpec> {
-        self.matching(list, VIEWS.iter(), PaletteRow::View, |_| ())
+        self.matching(list, VIEWS.iter(), PaletteRow::View, |_| (), |_| "")
     }
 
     /// The view of the plot in use.

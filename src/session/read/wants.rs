@@ -26,7 +26,8 @@ impl Session {
     /// The questions for what is on show, the most urgent first; none for a layer that is off, and none twice.
     ///
     /// Questions that took long last time are preceded by their drafts until these are answered: the picture
-    /// follows the keys first and is refined then. The reference for the error of the motion comes last.
+    /// follows the keys first and is refined then. The reference for the error of the motion comes last, and after it what
+    /// the scene shows that is selected in the list of scenes.
     pub fn wants(&self) -> Vec<Request> {
         let asked = self.asks();
         let cost = |topic: Topic| -> u64 {
@@ -39,6 +40,9 @@ impl Session {
         let drafts = asked.iter().filter(open).filter_map(Request::draft);
         let mut wanted: Vec<Request> = drafts.filter(|draft| self.is_open(draft)).collect();
         wanted.extend(asked);
+        let previewed = self.preview.iter().flat_map(|preview| preview.wants());
+        let new: Vec<Request> = previewed.filter(|request| !wanted.contains(request)).collect();
+        wanted.extend(new);
         wanted
     }
 

@@ -24,7 +24,7 @@ pub struct Command {
     /// that takes words has none.
     pub keys: Vec<(Context, Vec<Key>)>,
     /// A word for the footer; empty if the footer has no room for it. Commands with the same word share one
-    /// entry.
+    /// entry. Of a command that takes words, the row in the list of everything that does the same, if there is one.
     pub hint: &'static str,
     /// Explanation in one line, for the help.
     pub doc: &'static str,
@@ -235,6 +235,8 @@ pub enum Context {
     Plots,
     /// No overlay is open.
     Everywhere,
+    /// The page of help is open.
+    Page,
     /// This list is open and not being searched; that of the costs has the keys of the palette.
     #[strum(disabled)]
     List(ListKind),

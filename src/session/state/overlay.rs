@@ -1,5 +1,6 @@
 //! Overlays: what covers the panes and gets the keys while it is open, such as a list or a line of text being typed.
 
+use std::collections::BTreeMap;
 use std::mem::{Discriminant, discriminant};
 
 use strum::EnumString;
@@ -9,6 +10,8 @@ use crate::session::{Row, Script};
 /// An overlay over the panes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Overlay {
+    /// The page of help, about what is open below it, to which it returns.
+    Help(Option<Box<Overlay>>),
     /// A list that can be scrolled and searched.
     List(ListKind, List),
     /// A line for typing a command by name, or a value.
@@ -83,6 +86,8 @@ pub struct List {
     pub search: String,
     /// Whether typed characters go to the search.
     pub searching: bool,
+    /// Commands that cannot be run at present, with why not, in the list of everything.
+    pub refused: BTreeMap<&'static str, String>,
 }
 
 /// A command being typed by name, or a value.

@@ -124,6 +124,8 @@ pub struct Session {
     pub layers: BTreeSet<Layer>,
     /// The overlay, which gets the keys.
     pub overlay: Option<Overlay>,
+    /// The scene that is selected in the list of scenes, beside it.
+    pub preview: Option<Box<Session>>,
     pub history: History,
     /// A count or a letter that the next key completes.
     pub pending: Option<PendingInput>,
@@ -145,6 +147,8 @@ pub struct Session {
     pub writing: Option<PathBuf>,
     /// Lines typed on the command line, the most recent last.
     pub lines: Vec<String>,
+    /// Names of the commands of keys that were run, the most recent last.
+    pub used: Vec<&'static str>,
     pub answers: Answers,
     /// The last scan, if any.
     pub scanned: Option<ScanOnShow>,

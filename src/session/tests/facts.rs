@@ -96,6 +96,7 @@ fn overlay(session: &Session, name: &str) -> Option<String> {
     let overlay = session.overlay.as_ref();
     let (open, typed, refused) = match overlay {
         None => ("none".to_owned(), None, None),
+        Some(Overlay::Help(_)) => ("help".to_owned(), None, None),
         Some(Overlay::List(kind, _)) => (format!("{kind:?}"), None, None),
         Some(Overlay::Prompt(it)) => {
             let what = if it.row.is_some() { "entry" } else { "prompt" };

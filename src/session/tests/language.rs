@@ -27,8 +27,8 @@ fn where_digits_are_values_they_stay_values_and_where_zero_fits_it_fits() {
 #[test]
 fn a_count_ends_where_the_key_is_refused_or_opens_something() {
     Trial::open("linear").goes(&[
-        ("<tab> *9999?", "open Palette"),
-        ("5j <esc> <S-tab> <right> <right> *50u", "notice nothing to undo | changes 0 2"),
+        ("<tab> *9999?", "open help"),
+        ("? 5j <esc> <S-tab> <right> <right> *50u", "notice nothing to undo | changes 0 2"),
         ("<tab> 7<f12>", "notice ..no meaning here.."),
     ]);
 }

@@ -10,6 +10,7 @@ mod screen_setup;
 
 mod entries;
 mod facts;
+mod help;
 mod kick;
 mod kicks;
 mod language;

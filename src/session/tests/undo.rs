@@ -93,6 +93,6 @@ fn lists_move_search_and_close() {
         ("s/no such scene<enter>", "open Scenes"),
         ("q", "open none | quit false"),
         ("v/basin<enter><space>", "-basin"),
-        ("<space> v ? G gg ? q", "+basin | quit true"),
+        ("<space> v ?? G gg ? q", "+basin | quit true"),
     ]);
 }
