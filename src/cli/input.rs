@@ -82,10 +82,8 @@ impl Numbers {
 
     /// `NAME=FROM:TO` or `NAME=log:FROM:TO`, through so many values.
     pub fn glide(&self, text: &str, count: usize) -> Result<Sweep, String> {
-        if text.replace("log:", "").matches(':').count() != 1 {
-            return Err("expected NAME=FROM:TO, such as D=-0.1:0.1, or NAME=log:FROM:TO".to_owned());
-        }
-        let sweep = Sweep::read(&format!("{text}:{count}"), self.over)?;
+        let sweep = Sweep::read(&format!("{text}:{count}"), self.over)
+            .map_err(|why| why.replace(":COUNT", "").replace(":400", ""))?;
         if matches!(sweep.symbol, Knob::Q0 | Knob::V0) {
             return Err(format!("{}: a start does not glide", sweep.symbol));
         }

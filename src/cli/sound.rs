@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::input::{self, MACHINE, OSCILLATOR};
-use super::{Failure, Result, SourceOptions, given, print, second, troubled, write};
+use super::{Failure, Result, SourceOptions, given, print, troubled, write};
 use crate::flow::{Limits, Subject};
 use crate::runtime::wav;
 use crate::scan::Sound;
@@ -51,16 +51,9 @@ impl SoundCommand {
 
     /// The machine, or what a scene draws: by the whole model if it is that of a machine.
     fn subject(&self) -> Result<Subject> {
-        let subject = match self.source.machine()? {
-            Some(case) => case.checked()?.described.subject,
-            None => {
-                let size = Size { width: 80, height: 24 };
-                Session::new(self.source.scene()?, size).subject()
-            }
-        };
-        if subject.paper().is_none() && second(self.source.start.method)?.is_some() {
-            return Err("a machine is heard by Taylor series: --method auto or taylor".into());
+        if self.source.machine_name().is_some() {
+            return Ok(self.source.exact()?.described.subject);
         }
-        Ok(subject)
+        Ok(Session::new(self.source.scene()?, Size::default()).subject())
     }
 }

@@ -84,7 +84,7 @@ impl SourceOptions {
     }
 
     /// The machine that is named, also where a scene would stand.
-    fn machine_name(&self) -> Option<&String> {
+    pub fn machine_name(&self) -> Option<&String> {
         let is_machine = |name: &&String| find(name).is_err() && library::find(name).is_ok();
         self.machine.as_ref().or(self.named.as_ref().filter(is_machine))
     }

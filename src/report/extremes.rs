@@ -50,12 +50,8 @@ fn conclusion(method: Method, verdicts: &[MethodsVerdict]) -> String {
         let place = About::new("", "", &Body::Paper(*parameters).into()).heading();
         format!("; most digits lost: {}, at {place}, {start}", significant(lost(&row), 2))
     });
-    let wrong = if wrong > 0 {
-        format!("; {wrong} wrong")
-    } else {
-        String::new()
-    };
-    format!("{method}: {}{wrong}{}", answered("motions", reasons), worst.unwrap_or_default())
+    let answered = answered("motions", reasons);
+    format!("{method}: {answered}; {wrong} wrong{}", worst.unwrap_or_default())
 }
 
 /// How many are answered, and why the others are not: each reason with its number of times.
@@ -179,15 +175,10 @@ fn set_columns<'a>() -> Columns<'a, SetRow<'a>> {
 /// Residual above which the summary counts a cycle as not closed.
 const CLOSED: f64 = 1e-11;
 
-/// What a person reads of the cycles: in how many sets they are found, how well, and why not in the others.
+/// What a person reads of the cycles: whether all are found, why not, and how well they close.
 fn set_conclusion(verdicts: &[SetVerdict]) -> [String; 2] {
     let found = answered("sets", verdicts.iter().map(|it| it.answer.as_ref().err().copied()));
     let cycles = || verdicts.iter().flat_map(SetVerdict::cycles);
     let open = cycles().filter(|it| it.residual > CLOSED).count();
-    let counts = [0, 1, 2].map(|count| {
-        verdicts.iter().filter(|it| it.answer.is_ok() && it.cycles().len() == count).count()
-    });
-    let [none, one, two] = counts;
-    let closed = format!("{} cycles, {open} of them not closed to {CLOSED:e}", cycles().count());
-    [found, format!("without a cycle {none}, with one {one}, with two {two}; {closed}")]
+    [found, format!("{} cycles, {open} of them not closed to {CLOSED:e}", cycles().count())]
 }

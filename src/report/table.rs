@@ -111,31 +111,30 @@ impl Table {
     /// The table on lines of any length, or the cells of rows longer than the width on several lines. Words in the last
     /// column are wrapped; where their place leaves little room, they go on below their row.
     fn lines(&self) -> String {
-        let width = self.width.filter(|width| *width > INDENT + NARROWEST);
-        let padded = self.padded();
+        let width = self.width.filter(|width| *width > INDENT + NARROWEST).unwrap_or(usize::MAX);
         let columns = self.titles.len() - usize::from(!self.is_number(self.titles.len() - 1));
-        let breaks = width.map(|width| breaks(&padded[0][..columns], width)).unwrap_or_default();
+        let below = |head: &str| format!("{}\n{:INDENT$}", head.trim_end(), "");
         let line = |mut cells: Vec<String>| {
             let last = cells.split_off(columns).concat();
-            let below = |head: &str| format!("{}\n{:INDENT$}", head.trim_end(), "");
-            let mut head = String::new();
-            for (at, cell) in cells.into_iter().enumerate() {
-                head = if breaks.contains(&at) { below(&head) } else { head };
+            let (mut head, mut start) = (String::new(), 0);
+            // The cells of a column have one width, so that all lines go on at the same column.
+            for cell in cells {
+                if start > 0 && start + length(&cell) > width {
+                    (head, start) = (below(&head), INDENT);
+                }
+                start += length(&cell) + 2;
                 head += &(cell + "  ");
             }
-            let start = length(head.rsplit('\n').next().unwrap_or_default());
             let end = length(last.trim_end());
-            let Some(width) = width.filter(|width| end > 0 && start + end > *width) else {
+            if end == 0 || start + end <= width {
                 return (head + &last).trim_end().to_owned() + "\n";
-            };
-            let (head, indent) = if width >= start + NARROWEST {
-                (head, start)
-            } else {
-                (below(&head), INDENT)
-            };
-            head + &wrapped(&last, width - indent).join(&format!("\n{:indent$}", "")) + "\n"
+            }
+            if width < start + NARROWEST {
+                (head, start) = (below(&head), INDENT);
+            }
+            head + &wrapped(&last, width - start).join(&format!("\n{:start$}", "")) + "\n"
         };
-        padded.into_iter().map(line).collect()
+        self.padded().into_iter().map(line).collect()
     }
 
     /// Columns that fit a screen together, and those of the tables that continue it; each begins with the first. Words at
@@ -197,20 +196,6 @@ impl Alignment {
             format!("{cell:whole$}")
         }
     }
-}
-
-/// The columns at which lines of this width go on below themselves.
-fn breaks(titles: &[String], width: usize) -> Vec<usize> {
-    let mut breaks = Vec::new();
-    let mut end = 0;
-    for (at, title) in titles.iter().enumerate() {
-        if end > 0 && end + length(title) > width {
-            breaks.push(at);
-            end = INDENT;
-        }
-        end += length(title) + 2;
-    }
-    breaks
 }
 
 /// Columns of a text.

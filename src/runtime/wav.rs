@@ -5,7 +5,6 @@ use std::io::Cursor;
 use hound::{SampleFormat, WavSpec, WavWriter};
 
 use crate::flow::{Limits, Reason};
-use crate::numerics::truncated;
 use crate::scan::Sound;
 use crate::scan::sound::RATE;
 use crate::words::significant;
@@ -32,16 +31,10 @@ pub fn wav(sound: &Sound, limits: &Limits) -> Result<Vec<u8>, String> {
     }
     let mut bytes = Cursor::new(Vec::new());
     let written = WavWriter::new(&mut bytes, SPEC).and_then(|mut writer| {
-        let mut samples = velocities.iter().map(|velocity| level(velocity / peak));
-        samples.try_for_each(|sample| writer.write_sample(sample))?;
+        let mut samples = velocities.iter().map(|velocity| (velocity / peak * LOUDEST).round());
+        #[expect(clippy::cast_possible_truncation, reason = "at most LOUDEST")]
+        samples.try_for_each(|sample| writer.write_sample(sample as i16))?;
         writer.finalize()
     });
     written.map(|()| bytes.into_inner()).map_err(|why| format!("no sound: {why}"))
-}
-
-/// The sample of a velocity, in parts of the largest.
-fn level(part: f64) -> i32 {
-    // At most LOUDEST.
-    let size = i32::try_from(truncated((part.abs() * LOUDEST).round())).unwrap_or_default();
-    if part < 0.0 { -size } else { size }
 }

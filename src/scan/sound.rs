@@ -6,8 +6,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::flow::{Detail, Limits, Sample, Subject};
-use crate::model::{ContactState, Reason, Result, State};
+use crate::flow::{Detail, Limits, Problem, Subject};
+use crate::model::{ContactState, Reason, Result};
 use crate::numerics::{real, truncated};
 use crate::scan::Sweep;
 
@@ -26,6 +26,9 @@ const PIECE: usize = 48;
 
 /// Points of the motion between the ends of a step: fewer would be heard below the last of 16 bits.
 const POINTS: usize = 32;
+
+/// What moves from its present state, the steady displacement that this counts from, and whether the mass rides on its belt.
+type Place = (Subject, Option<f64>, bool);
 
 /// What sounds.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,18 +65,40 @@ impl Sound {
     /// Within how many seconds the motion ends, and why: it escapes, or could not be followed.
     pub fn velocities(&self, limits: &Limits) -> Result<Vec<f64>, (f64, Reason)> {
         let mut found = Vec::with_capacity(samples(self.seconds));
-        let mut piece = Piece { subject: self.subject.clone(), steady: None, rides: false };
+        let mut from = (self.subject.clone(), None, false);
         for index in 0..Sound::pieces(self.seconds) {
-            let count = PIECE.min(samples(self.seconds) - found.len());
             if let Some(glide) = &self.glide {
                 // The command line has refused what the subject has not.
-                drop(piece.subject.set(glide.symbol, glide.value(index)));
+                drop(from.0.set(glide.symbol, glide.value(index)));
             }
-            let mean = piece.go_on(self.pitch, count, limits);
+            let count = PIECE.min(samples(self.seconds) - found.len());
             let end = real(found.len() + count) / f64::from(RATE);
-            found.extend(mean.map_err(|why| (end, why))?);
+            found.extend(self.go_on(&mut from, count, limits).map_err(|why| (end, why))?);
         }
         Ok(found)
+    }
+
+    /// Follows the motion for so many samples.
+    fn go_on(&self, from: &mut Place, count: usize, limits: &Limits) -> Result<Vec<f64>> {
+        limits.go_on()?;
+        let (subject, steady, rides) = from;
+        if let (true, Some(belt)) = (*rides, subject.source.of_belt()) {
+            // What rides on the belt takes on its speed.
+            subject.motion.initial.v = belt.belt_speed;
+        }
+        let (problem, model) = subject.problem()?;
+        let (omega_0, pull) = model.as_ref().map_or((1.0, 0.0), |it| (it.omega_0, it.pull));
+        let step = TAU * self.pitch / (omega_0 * f64::from(RATE));
+        let mut problem = Problem { until: step * real(count), ..problem };
+        // The spring is as long as before, wherever the steady position has gone.
+        problem.initial.q += steady.replace(pull).unwrap_or(pull) - pull;
+        let detail = Detail { samples_per_step: POINTS, ..Detail::default() };
+        let motion = problem.followed(model.as_ref(), detail, limits);
+        let end = motion.known_end()?;
+        subject.motion.initial = end.state();
+        *rides = motion.legs.last().is_some_and(|leg| leg.place == ContactState::Sticks);
+        let at = |index: usize| motion.at(step * real(index)).map_or(end.q, |sample| sample.q);
+        Ok((0..count).map(|index| (at(index + 1) - at(index)) / step).collect())
     }
 }
 
@@ -81,45 +106,10 @@ fn samples(seconds: f64) -> usize {
     truncated((seconds * f64::from(RATE)).round())
 }
 
-/// A motion on its way from piece to piece.
-struct Piece {
-    /// What moves, from its present state.
-    subject: Subject,
-    /// The steady displacement from the relaxed spring, from which displacements count.
-    steady: Option<f64>,
-    /// Whether the mass rides on its belt.
-    rides: bool,
-}
-
-impl Piece {
-    /// Follows the motion for so many samples, and returns the mean velocity over each.
-    fn go_on(&mut self, pitch: f64, count: usize, limits: &Limits) -> Result<Vec<f64>> {
-        limits.go_on()?;
-        let (mut problem, model) = self.subject.problem()?;
-        let (omega_0, pull) = model.as_ref().map_or((1.0, 0.0), |it| (it.omega_0, it.pull));
-        // The spring is as long as before, wherever the steady position has gone.
-        problem.initial.q += self.steady.replace(pull).unwrap_or(pull) - pull;
-        if let (true, Some(belt)) = (self.rides, self.subject.source.of_belt()) {
-            // What rides on the belt takes on its speed.
-            problem.initial.v = belt.belt_speed;
-        }
-        let step = TAU * pitch / (omega_0 * f64::from(RATE));
-        problem.until = step * real(count);
-        let detail = Detail { samples_per_step: POINTS, ..Detail::default() };
-        let motion = problem.followed(model.as_ref(), detail, limits);
-        let Sample { q, v, .. } = motion.known_end()?;
-        self.subject.motion.initial = State { q, v };
-        self.rides = motion.legs.last().is_some_and(|leg| leg.place == ContactState::Sticks);
-        let at = |index: usize| motion.at(step * real(index)).map_or(q, |sample| sample.q);
-        Ok((0..count).map(|index| (at(index + 1) - at(index)) / step).collect())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flow::Problem;
-    use crate::model::{Belt, FrictionLaw, Knob, Parameters, Tolerances};
+    use crate::model::{Belt, FrictionLaw, Knob, Parameters, State, Tolerances};
     use crate::scan::Spacing;
 
     /// The sound of an oscillator that starts at q = 1.

@@ -8,9 +8,12 @@ use serde_json::json;
 
 use super::Screen;
 use super::screen::{PLAIN, REQUEST};
+use crate::numerics::real;
+use crate::session::Msg;
 
-/// Time in s to see what a key has done.
-pub const KEY: f64 = 0.5;
+/// Time in s to see what a key has done, and to read a character.
+const KEY: f64 = 0.5;
+const CHARACTER: f64 = 0.06;
 
 /// How long the last frame is shown, in s.
 const LAST: f64 = 2.0;
@@ -23,26 +26,44 @@ pub struct Cast {
     size: Size,
     time: f64,
     /// How long it takes to see or read what stands there now, in s.
-    pub pause: f64,
+    pause: f64,
 }
 
 impl Default for Cast {
-    /// A recording without a frame.
+    /// A recording without a frame, on a terminal that hides its cursor.
     fn default() -> Self {
-        let size = Size::default();
-        let screen = Screen::new(Vec::new(), size);
-        Cast { lines: Vec::new(), screen, size, time: 0.0, pause: KEY }
+        let lines = vec![json!([0.0, "o", "\x1b[?25l"]).to_string()];
+        let screen = Screen::new(Vec::new(), Size::default());
+        Cast { lines, screen, size: Size::default(), time: 0.0, pause: KEY }
     }
 }
 
 impl Cast {
+    /// Keeps the picture before a message for as long as it takes to see it. What comes before the start of a session is not
+    /// kept.
+    pub fn film(&mut self, msg: &Msg, picture: impl Fn() -> Buffer) {
+        if matches!(msg, Msg::Start(_)) {
+            *self = Cast::default();
+            return;
+        }
+        self.show(picture());
+        self.time += match msg {
+            Msg::Elapsed { seconds } => *seconds,
+            Msg::Resize { .. } => 0.0,
+            _ => self.pause,
+        };
+        self.pause = match msg {
+            Msg::Say(text, _) => KEY.max(CHARACTER * real(text.len())),
+            _ => KEY,
+        };
+    }
+
     /// Shows a picture from now on.
     pub fn show(&mut self, picture: Buffer) {
-        let size = picture.area.as_size();
-        if self.size != size {
+        let size @ Size { width, height } = picture.area.as_size();
+        self.size = Size::new(self.size.width.max(width), self.size.height.max(height));
+        if self.screen.size() != size {
             self.screen.repaint(size);
-            self.size =
-                Size::new(self.size.width.max(size.width), self.size.height.max(size.height));
         }
         // Nobody answers a question that is recorded.
         let text = self.screen.drawn(Instant::now(), picture).replace(REQUEST, "");
@@ -51,26 +72,19 @@ impl Cast {
         }
     }
 
-    /// Lets time pass, in s.
-    pub fn pass(&mut self, seconds: f64) {
-        self.time += seconds;
-    }
-
     fn add(&mut self, text: &str) {
         // To the microsecond, as players count.
         let time = (self.time * 1e6).round() / 1e6;
         self.lines.push(json!([time, "o", text]).to_string());
     }
 
-    /// The file: with the cursor hidden, and given back at the end.
+    /// The file, which gives the terminal back at its end.
     pub fn end(mut self) -> String {
         let Size { width, height } = self.size;
-        self.pass(LAST);
+        self.time += LAST;
         self.add(&format!("{PLAIN}\x1b[{height}H\r\n\x1b[?25h"));
         let header = json!({"version": 2, "width": width, "height": height}).to_string();
-        let hidden = json!([0.0, "o", "\x1b[?25l"]).to_string();
-        let lines = [header, hidden].into_iter().chain(self.lines);
-        lines.map(|line| line + "\n").collect()
+        format!("{header}\n{}\n", self.lines.join("\n"))
     }
 }
 
@@ -86,7 +100,7 @@ mod tests {
         let pictures = [(["abc", "   "], 0.5), (["aXc", "   "], 0.25), (["aXc", "end"], 1.0)];
         for (lines, seconds) in pictures {
             cast.show(Buffer::with_lines(lines));
-            cast.pass(seconds);
+            cast.time += seconds;
         }
         // A smaller picture takes the place of the larger one.
         cast.show(Buffer::with_lines(["de"]));

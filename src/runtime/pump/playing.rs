@@ -6,19 +6,15 @@
 use std::io::Write;
 use std::path::Path;
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
 use super::play::{Pause, Replay};
 use super::{Application, Files, Pump, Step};
 use crate::flow::Limits;
-use crate::numerics::real;
 use crate::runtime::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
 use crate::session::replay::{Action, Script, ScriptError};
 use crate::session::{Code, Content, Effect, Key, Msg, Notice};
-use crate::terminal::Cast;
-use crate::terminal::cast::KEY;
 use crate::view;
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
@@ -27,27 +23,6 @@ const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
 /// Whether a message is Ctrl-C, which leaves whatever is open, whichever keys the user has chosen.
 fn leaves(msg: &Msg) -> bool {
     matches!(msg, Msg::Key(Key { code: Code::Char('c'), control: true, .. }))
-}
-
-/// Keeps the picture before a message for as long as it takes to see it. What comes before the start of a session is not
-/// kept.
-fn film(cast: &mut Cast, msg: &Msg, picture: impl Fn() -> Buffer) {
-    /// Time in s to read a character.
-    const CHARACTER: f64 = 0.06;
-    if matches!(msg, Msg::Start(_)) {
-        *cast = Cast::default();
-        return;
-    }
-    cast.show(picture());
-    cast.pass(match msg {
-        Msg::Elapsed { seconds } => *seconds,
-        Msg::Resize { .. } => 0.0,
-        _ => cast.pause,
-    });
-    cast.pause = match msg {
-        Msg::Say(text, _) => KEY.max(CHARACTER * real(text.len())),
-        _ => KEY,
-    };
 }
 
 fn is_key(msg: &Msg, code: Code) -> bool {
@@ -195,7 +170,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                         self.screen.repaint(Size { width, height });
                     }
                     if let Some(cast) = &mut self.options.cast {
-                        film(cast, &msg, || application.picture(size));
+                        cast.film(&msg, || application.picture(size));
                     }
                     self.record(msg)
                 }

@@ -33,41 +33,29 @@ pub fn ask(session: &mut Session, path: &str, purpose: Purpose) -> Done {
 /// Said where there is no interrupted session.
 const NONE_INTERRUPTED: &str = "no session was interrupted";
 
-/// File extensions of figures.
-const FIGURES: [&str; 4] = ["svg", "png", "csv", "json"];
-
 /// Writes a figure of one plot, or of all.
 pub fn figure(session: &mut Session, path: &str, plot: Option<usize>, replace: bool) -> Done {
-    if !ends_in(path, &FIGURES) {
-        return Err(format!("a figure ends in .svg, .png, .csv or .json, not {path:?}"));
-    }
-    make(session, path, Content::Figure { plot }, replace)
+    let endings = "a figure ends in .svg, .png, .csv or .json";
+    make(session, path, endings, Content::Figure { plot }, replace)
 }
 
 /// Writes what is on show as a page, and beside it how the session came there.
 pub fn page(session: &mut Session, path: &str, replace: bool) -> Done {
-    if !ends_in(path, &["html"]) {
-        return Err(format!("a page ends in .html, not {path:?}"));
-    }
     let content = Content::Page { forget: session.chord };
-    make(session, path, content, replace)
+    make(session, path, "a page ends in .html", content, replace)
 }
 
 /// Writes the motion as it sounds.
 pub fn sound(session: &mut Session, path: &str, replace: bool) -> Done {
-    if !ends_in(path, &["wav"]) {
-        return Err(format!("a sound ends in .wav, not {path:?}"));
+    make(session, path, "a sound ends in .wav", Content::Sound, replace)
+}
+
+/// Writes what takes time to make, unless something else is in work, to a file with one of these endings.
+fn make(session: &mut Session, path: &str, endings: &str, content: Content, replace: bool) -> Done {
+    let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending).to_lowercase();
+    if !endings.split([' ', ',']).any(|known| known.strip_prefix('.') == Some(&ending)) {
+        return Err(format!("{endings}, not {path:?}"));
     }
-    make(session, path, Content::Sound, replace)
-}
-
-fn ends_in(path: &str, endings: &[&str]) -> bool {
-    let ending = Path::new(path).extension().and_then(|ending| ending.to_str());
-    ending.is_some_and(|it| endings.iter().any(|known| known.eq_ignore_ascii_case(it)))
-}
-
-/// Writes what takes time to make, unless something else is in work.
-fn make(session: &mut Session, path: &str, content: Content, replace: bool) -> Done {
     let path = PathBuf::from(path);
     if let Some(other) = &session.writing {
         let stops = session.with_keys("{drop-cursor} stops that");
