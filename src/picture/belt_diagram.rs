@@ -31,7 +31,7 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     let varied = session.plots[index].axes.machine;
     picture.axes(units::label(varied), "x_max [m]");
     picture.add_to_title("whole model");
-    picture.upright("present value", session.value(varied));
+    super::present(picture, session, session.value(varied), picture.window.y.to());
     if session.layers.contains(&Layer::MachineBranch)
         && let Some(found) = session.machine_branch(index)
     {

@@ -47,7 +47,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     if window.y.from() < 0.0 && window.y.to() > 0.0 {
         picture.level(LineStyle::guide(), 0.0);
     }
-    picture.upright("present value", current);
+    super::present(picture, session, current, window.y.to());
     // Beside branches of other values the formulas stand for the present one alone.
     for shown in all.iter().filter(|shown| shown.present || !has_present) {
         if shows(Layer::Asymptotes) {
@@ -214,14 +214,9 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
             picture.name_curve(&points, "", stability(stable), line.role);
         }
         if *beside {
-            let pale = if stable {
-                Role::GhostStable
-            } else {
-                Role::GhostUnstable
-            };
             // Its values stand beside it.
             let name = format!("{} at other values", line.name);
-            line = LineStyle::new(name, pale, line.dash).captioned();
+            line = LineStyle::new(name, line.role.paler(), line.dash).captioned();
         }
         picture.curve(line.of(variant), start.into_iter().chain(points).chain(end));
         // Without a fold the runs share a point, which this one has as its last.

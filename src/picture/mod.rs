@@ -58,9 +58,15 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
 pub fn in_room(session: &Session, index: usize, room: Room) -> Picture<'_> {
     let mut picture = alone(session, index, room);
     compare::add(&mut picture, session, index, room);
-    let beside = session.beside(index).map(|other| other.problem.parameters);
-    picture.variants.extend(beside);
     picture
+}
+
+/// Marks the present value of a number by an upright, and at this height the letter of its point.
+fn present(picture: &mut Picture, session: &Session, x: f64, y: f64) {
+    picture.upright("present value", x);
+    if let Some(letter) = session.letter() {
+        picture.caption([x, y], letter, Role::Current);
+    }
 }
 
 /// What it shows of the present point alone.

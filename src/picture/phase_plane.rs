@@ -17,7 +17,7 @@ use crate::portrait::{Border, Cycle, Distribution, Drawing, RandomKick, Ride};
 use crate::question::Extent;
 use crate::scene::{Finding, Layer, Point, Topic, rectangle};
 use crate::session::{Session, ShownMotion, VariantTag};
-use crate::words::{significant, with_unit};
+use crate::words::{joined, significant, with_unit};
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.axes("q", "v");
@@ -189,7 +189,7 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
         let (line, variant) = if family {
             ("motion".into(), variant)
         } else {
-            (motion(session, place), VariantTag::default())
+            (motion(session, place), VariantTag { index: 0, ..variant })
         };
         // Where the mass sticks to its belt the model ends, and the curve with it.
         let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
@@ -197,9 +197,10 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
         let samples = seen.take_while(|sample| sample.tau <= last);
         let points: Vec<Point> = samples.map(|sample| sample.state().into()).collect();
         // One of several motions has its number at its end, as at its start: dashes repeat.
-        let number = session.number(place).filter(|_| !family);
-        if let Some((number, end)) = number.zip(points.last()) {
-            picture.caption(*end, number.to_string(), line.role);
+        let number = session.tag(place).filter(|_| !family);
+        let seen = points.iter().rfind(|at| picture.window.contains(**at));
+        if let Some((number, end)) = number.zip(seen) {
+            picture.caption(*end, number, line.role);
         }
         picture.curve(line.of(&variant), points);
     }
@@ -282,14 +283,12 @@ fn circle(picture: &mut Picture, ShownMotion { variant, problem, .. }: &ShownMot
 fn cycles(picture: &mut Picture, found: &Drawing, variant: &VariantTag, whole: bool) {
     for (cycle, curve) in found.cycles.iter().zip(&found.curves) {
         let plain = cycle_name(cycle.stable);
-        let (name, own) = if whole {
-            kind(cycle)
-        } else {
-            (plain, variant.label.as_str())
-        };
+        let (name, own) = if whole { kind(cycle) } else { (plain, "") };
         let points = Point::all(curve);
         let line = LineStyle::from(plain);
-        picture.name_curve(&points, own, own, line.role);
+        let own = [&*variant.label, own].into_iter().filter(|word| !word.is_empty());
+        let own = joined(own, " ");
+        picture.name_curve(&points, &own, &own, line.role);
         // Of a machine the caption says of which kind it is.
         picture.curve(LineStyle { name: name.into(), ..line.briefly(plain) }.of(variant), points);
     }
@@ -300,19 +299,16 @@ fn cycles(picture: &mut Picture, found: &Drawing, variant: &VariantTag, whole: b
 fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMotion]) {
     let family = session.variants(index).is_some();
     let found = session.found(Topic::Trajectory, index, Finding::try_as_trajectory_ref);
+    let own = |place| motion(session, place).role;
+    let role = |place| if family { Role::Trajectory } else { own(place) };
     for (VariantTag { index: place, .. }, found) in found {
         let rests = family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. });
         let goes_on = !family && place == 0 && session.drawn_until().is_some();
         if session.contact_of(found).is_some() || rests || goes_on {
             continue;
         }
-        let role = if family {
-            Role::Trajectory
-        } else {
-            motion(session, place).role
-        };
         if let (Some(mark), Some(at)) = (end_mark(&found.outcome), found.outcome.state()) {
-            picture.mark(mark, at, role);
+            picture.mark(mark, at, role(place));
         }
     }
     let problems = if family {
@@ -321,11 +317,7 @@ fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMo
         session.problems()
     };
     for (place, Problem { parameters, initial, .. }) in problems.iter().enumerate() {
-        let role = if family {
-            Role::Trajectory
-        } else {
-            motion(session, place).role
-        };
+        let role = role(place);
         if initial.v != 0.0 || initial.q.abs() > parameters.r {
             picture.mark(Mark::Start, Point::from(*initial), role);
         }

@@ -46,7 +46,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
             names_of_regimes(picture, chart);
         }
     }
-    picture.upright("present value", here.x);
+    super::present(picture, session, here.x, here.y);
     picture.curve("present value", across(picture.window, here.y));
     if shows(Layer::BeltPath) {
         path(picture, session, abscissa, against);

@@ -77,6 +77,15 @@ impl Role {
         self.into()
     }
 
+    /// The role of the same at other values than the present ones.
+    pub fn paler(self) -> Self {
+        match self {
+            Role::Stable | Role::GhostStable => Role::GhostStable,
+            Role::Unstable | Role::GhostUnstable => Role::GhostUnstable,
+            _ => Role::Ghost,
+        }
+    }
+
     /// Whether it says more than the axes and the present values.
     pub fn tells(self) -> bool {
         !matches!(self, Role::Axis | Role::Current | Role::Quiet)

@@ -100,9 +100,8 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: 
     for (layer, letter, name, read) in quantities_on_show(session) {
         let points: Vec<Point> =
             session.seen(place, motion).map(|sample| at(&sample, read)).collect();
-        let (Some(first), Some(end)) = (points.first().copied(), points.last().copied()) else {
-            continue;
-        };
+        let Some(first) = points.first().copied() else { continue };
+        let end = points.iter().rfind(|at| picture.window.contains(**at)).copied();
         // A displacement in metres has its own letter.
         let metres = layer == Layer::Position && matches!(picture.scales[1], Scale::Times { .. });
         let (letter, name) = if metres {
@@ -126,8 +125,8 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: 
         for stretch in session.sticking(place, motion) {
             picture.curve(stuck.clone(), stretch.map(|end| at(&end, read)));
         }
-        let number = session.number(place).map(|number| number.to_string());
-        if let Some(number) = number.clone() {
+        let number = session.tag(place);
+        if let Some((number, end)) = number.clone().zip(end) {
             picture.caption(end, number, role);
         }
         let number = number.filter(|_| place > 0);

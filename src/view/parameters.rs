@@ -35,7 +35,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let heading = Heading::of(session, Pane::Parameters);
     let (rows, shown) = (session.rows(), shown(session, area.height));
-    let letter = session.letters().map(|both| both[0].name().to_owned());
+    let letter = session.letter().map(str::to_owned);
     let number = session.number(0).map(|number| format!("motion {number}"));
     let of = match &joined(letter.into_iter().chain(number), ", ")[..] {
         "" if shown.len() < rows.len() => format!("+{} more", rows.len() - shown.len()),
@@ -150,9 +150,9 @@ fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'stati
 
 /// What stands behind a value: its step, and what the number means.
 fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
-    let beside = usize::from(width).saturating_sub(VALUES + 2);
-    if let Some(text) = compare::row(session, row, beside, look) {
-        return format!("  {text}");
+    let room = usize::from(width).saturating_sub(VALUES);
+    if let Some(text) = compare::row(session, row, room, look) {
+        return text;
     }
     let selected = row == session.selected;
     let step = step(session, row).filter(|_| selected || is_wide(width));

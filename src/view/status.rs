@@ -35,8 +35,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         (held, Role::Cursor)
     } else {
         let (sentence, role) = verdict::outcome(session);
-        let letter =
-            session.letters().map_or_else(String::new, |both| format!("{} ", both[0].name()));
+        let letter = session.letter().map(|letter| format!("{letter} ")).unwrap_or_default();
         let of = session.number(0).map_or_else(String::new, |number| format!("motion {number} "));
         // The symbol belongs to the motion: what else is said has none.
         let symbol = if role == Role::Text {

@@ -59,11 +59,12 @@ pub fn pin(session: &mut Session) {
 
 /// Goes to the pinned point, as one change, and pins the one that is left.
 pub fn swap(session: &mut Session) -> Done {
-    let nothing = || session.with_keys("nothing is pinned: {pin} pins the present state");
-    let pinned = session.marks.pinned.ok_or_else(nothing)?;
-    let there = session.marks.left.clone().ok_or_else(nothing)?;
+    let (Some(pinned), Some(there)) = (session.marks.pinned, session.marks.left.clone()) else {
+        return Err(session.with_keys("nothing is pinned: {pin} pins the present state"));
+    };
     let here = session.setup();
-    let moved = difference(&here, &there);
+    let name: &str = pinned.into();
+    let moved = format!("{name} is present: {}", difference(&here, &there));
     if !put(session, there) {
         return Err("A and B are the same".to_owned());
     }
@@ -71,40 +72,31 @@ pub fn swap(session: &mut Session) -> Done {
         session.history.past.push(EarlierState::Swap(before));
     }
     (session.marks.left, session.marks.pinned) = (Some(here), Some(pinned.other()));
-    session.inform(format!(
-        "{} is pinned, keys change {}: {moved}",
-        pinned.other().name(),
-        pinned.name()
-    ));
+    session.inform(moved);
     Ok(())
 }
 
 /// Undoes or redoes an exchange that leads to this setup, if that is the pinned one.
 pub fn exchange_back(session: &mut Session, setup: &Setup) {
-    if let Some(pinned) = session.marks.pinned
-        && session.marks.left.as_ref() == Some(setup)
-    {
+    let pinned = session.marks.pinned.filter(|_| session.marks.left.as_ref() == Some(setup));
+    if let Some(pinned) = pinned {
         (session.marks.left, session.marks.pinned) = (Some(session.setup()), Some(pinned.other()));
     }
 }
 
 /// Lets go of the pinned point, if there is one.
 pub fn let_go(session: &mut Session) {
-    if let Some(pinned) = session.marks.pinned.take() {
-        session.marks.left = None;
-        session.inform(format!("{} is let go", pinned.name()));
+    if let Some([_, pinned]) = session.letters() {
+        (session.marks.left, session.marks.pinned) = (None, None);
+        session.inform(format!("{pinned} is let go"));
     }
 }
 
 /// Keeps the pinned point in another scene if that has the same oscillator: numbers of a machine mean nothing elsewhere.
 pub fn keep(session: &mut Session, scene: &Scene) {
-    let Some(pinned) = session.marks.pinned.map(Letter::name) else { return };
     let Scene { machine, recording, .. } = &*session.scene;
     if (machine, recording) != (&scene.machine, &scene.recording) {
         let_go(session);
-        session.inform(format!("{pinned} is let go: it is a state of another oscillator"));
-    } else if session.notice.is_none() {
-        session.inform_of_keys(&format!("{pinned} stays pinned; {{drop-cursor}} lets go of it"));
     }
 }
 
@@ -119,9 +111,8 @@ pub fn follow(session: &mut Session) {
     if !pinned {
         setup.others.clear();
     }
-    let known = session.other.take();
     let new = || Box::new(Session::new(Arc::clone(&session.scene), Size::default()));
-    let mut other = known.unwrap_or_else(new);
+    let mut other = session.other.take().unwrap_or_else(new);
     if !Arc::ptr_eq(&other.scene, &session.scene) || other.setup() != setup {
         other.scene = Arc::clone(&session.scene);
         other.set_setup(setup);
@@ -132,7 +123,8 @@ pub fn follow(session: &mut Session) {
     other.plots.iter_mut().for_each(|plot| plot.family = None);
     (other.plot, other.enlarged, other.playback) =
         (session.plot, session.enlarged, session.playback);
-    other.display = session.display;
+    (other.display, other.marks.pinned) =
+        (session.display, session.marks.pinned.map(Letter::other));
     let course = other.answers.course.take();
     other.answers.clone_from(&session.answers);
     other.answers.course = course;

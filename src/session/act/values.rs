@@ -37,10 +37,9 @@ pub fn paste(session: &mut Session, text: &str) -> Done {
     let before = session.setup();
     set(session, &joined(words, " ")).map_err(|why| format!("pasted: {why}"))?;
     if session.notice.is_none() {
-        session.inform(match &*difference(&before, &session.setup()) {
-            "" => "pasted: nothing differs".to_owned(),
-            changed => format!("pasted: {changed}"),
-        });
+        let changed = difference(&before, &session.setup());
+        let said = [&*changed, "nothing differs"].into_iter().find(|text| !text.is_empty());
+        session.inform(format!("pasted: {}", said.unwrap_or_default()));
     }
     Ok(())
 }

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::scene::{Layer, Request, Topic, View};
-use crate::session::{Letter, Session};
+use crate::session::Session;
+use crate::words::joined;
 
 /// The topics whose answers are drawn of another point; of it nothing else is asked.
 const TOPICS: [Topic; 5] =
@@ -12,17 +13,8 @@ const TOPICS: [Topic; 5] =
 /// The layers that are drawn of a point that was left for a mark.
 const GHOST: [Layer; 3] = [Layer::Trajectory, Layer::Cycles, Layer::Whole];
 
-/// The views in which a pinned point is drawn.
-const VIEWS: [View; 8] = [
-    View::Phase,
-    View::Diagram,
-    View::TimeSeries,
-    View::ReturnMap,
-    View::Regimes,
-    View::EnergyRate,
-    View::Eigenvalues,
-    View::BeltDiagram,
-];
+/// Views in which only the present point is drawn.
+const ALONE: [View; 4] = [View::Belt, View::EnergyLedger, View::Trade, View::Scan];
 
 impl Session {
     /// The layers that are drawn of the other point.
@@ -34,14 +26,29 @@ impl Session {
         self.layers.iter().filter(drawn).copied().collect()
     }
 
-    /// The session at the pinned point.
-    pub fn pinned(&self) -> Option<&Session> {
-        self.other.as_deref().filter(|_| self.marks.pinned.is_some())
+    /// The names of the present point and of the pinned one; `None` where none is pinned.
+    pub fn letters(&self) -> Option<[&'static str; 2]> {
+        self.marks.pinned.map(|pinned| [pinned.other(), pinned].map(Into::into))
     }
 
-    /// The names of the present point and of the pinned one; `None` where none is pinned.
-    pub fn letters(&self) -> Option<[Letter; 2]> {
-        self.marks.pinned.map(|pinned| [pinned.other(), pinned])
+    /// The name of the point of this session.
+    pub fn letter(&self) -> Option<&'static str> {
+        self.letters().map(|[present, _]| present)
+    }
+
+    /// The present point and the pinned one, each with its name, A first.
+    pub fn sides(&self) -> Option<[(&'static str, &Session); 2]> {
+        let [present, pinned] = self.letters()?;
+        let mut sides = [(present, self), (pinned, self.other.as_deref()?)];
+        sides.sort_by_key(|(letter, _)| *letter);
+        Some(sides)
+    }
+
+    /// What is written beside the motion in this place: the letter of its point, and its number.
+    pub fn tag(&self, place: usize) -> Option<String> {
+        let number = self.number(place).map(|number| number.to_string());
+        let tag = joined(self.letter().map(str::to_owned).into_iter().chain(number), "");
+        Some(tag).filter(|tag| !tag.is_empty())
     }
 
     /// The session whose point a plot shows beside the present one: a pinned one beside variants only if one of these is
@@ -49,7 +56,7 @@ impl Session {
     pub fn beside(&self, plot: usize) -> Option<&Session> {
         let view = self.plots[plot].view;
         let shown = match self.marks.pinned {
-            Some(_) => VIEWS.contains(&view) && self.shown(plot).iter().any(|it| it.present),
+            Some(_) => !ALONE.contains(&view) && self.shown(plot).iter().any(|it| it.present),
             None => view == View::Phase && self.variants(plot).is_none(),
         };
         self.other.as_deref().filter(|_| shown)

@@ -181,8 +181,10 @@ impl Session {
     pub fn shown(&self, plot: usize) -> Vec<ShownMotion> {
         let alone = [Variant::default()];
         let all = self.variants(plot).unwrap_or(&alone);
+        let family = self.plots[plot].family.is_some();
+        let own = self.letter().filter(|_| !family);
         let shown = |(index, (variant, label)): (usize, (&Variant, String))| ShownMotion {
-            variant: VariantTag { index, label },
+            variant: VariantTag { index, label: own.map_or(label, str::to_owned) },
             problem: variant.of(self.problem),
             present: variant.held.is_empty(),
         };
@@ -208,7 +210,8 @@ impl Session {
         let labels = labels(self.variants(plot).unwrap_or_default(), &self.problem, starts);
         let found = |(index, request): (usize, Option<Request>)| {
             let answer = self.answers.standing(&request?).answer().and_then(read)?;
-            let label = labels.get(index).cloned().unwrap_or_default();
+            let own = || self.letter().unwrap_or_default().to_owned();
+            let label = labels.get(index).cloned().unwrap_or_else(own);
             Some((VariantTag { index, label }, answer))
         };
         self.requests(topic, plot).into_iter().enumerate().filter_map(found).collect()

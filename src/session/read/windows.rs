@@ -41,7 +41,7 @@ const QUANTILE: f64 = 0.9;
 /// The window that shows the whole content of a plot, and that of a pinned point; `None` if there is none yet.
 pub fn fitted(session: &Session, index: usize) -> Option<Window> {
     let own = alone(session, index)?;
-    let beside = session.pinned().and(session.beside(index));
+    let beside = session.letters().and(session.beside(index));
     let Some(theirs) = beside.and_then(|other| alone(other, index)) else { return Some(own) };
     let [across, up] = session.units_beside(index);
     let both = |own: Span, theirs: Span, by: f64| {

@@ -190,16 +190,8 @@ pub enum Letter {
 }
 
 impl Letter {
-    /// The name as text.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-
     /// The name of the other point.
     pub fn other(self) -> Self {
-        match self {
-            Letter::A => Letter::B,
-            Letter::B => Letter::A,
-        }
+        if self == Self::A { Self::B } else { Self::A }
     }
 }
