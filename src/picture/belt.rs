@@ -144,7 +144,10 @@ impl Sketch {
             picture.curve("damper", piece);
         }
         picture.curve("mass", rectangle([left, right], [top, top + height]));
-        picture.caption([moment.q, top + 0.5 * height], "m", Role::Trajectory);
+        // A small mass has no room for its letter.
+        if height >= 3.0 {
+            picture.caption([moment.q, top + 0.5 * height], "m", Role::Trajectory);
+        }
         if session.sticks(moment) {
             // Within the row of the mass, of which it is the lower side.
             let foot = top + 0.1;

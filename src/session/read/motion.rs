@@ -149,7 +149,7 @@ impl Session {
     /// The line about playback is on show where there is something to play, or a motion is being played.
     pub fn tells_playback(&self) -> bool {
         let sketched = self.on_show().any(|plot| self.plots[plot].view == View::Belt);
-        (sketched || self.playback.at.is_some()) && self.trajectory().is_some()
+        sketched || self.playback.at.is_some()
     }
 
     /// The end of playback: the end of the motion, or where the mass would overtake its belt.
