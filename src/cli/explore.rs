@@ -17,7 +17,7 @@ use crate::scene::{PLAIN, Scene, find, plain};
 use crate::session::config::Config;
 use crate::session::replay::{Instruction, Recorder, Script};
 use crate::session::save::opening;
-use crate::session::{KeptSession, Msg, Session, Size, save};
+use crate::session::{KeptSession, LESSONS, Msg, Session, Size, save};
 use crate::terminal::Environment;
 use crate::words::joined;
 
@@ -108,6 +108,26 @@ impl TourCommand {
     pub fn run(&self) -> Result<()> {
         let session = session(plain(), self.looks, self.settings.read()?);
         go(session, &[Instruction::Give(Msg::Run("tour".to_owned()))], None, false)
+    }
+}
+
+/// A lesson that asks before it shows; y or n answers
+#[derive(Args)]
+pub struct LessonCommand {
+    /// Lesson
+    #[arg(value_name = "NAME", value_parser = LESSONS.map(|(name, _)| name))]
+    name: String,
+    #[command(flatten)]
+    looks: Looks,
+    #[command(flatten)]
+    settings: Settings,
+}
+
+impl LessonCommand {
+    pub fn run(&self) -> Result<()> {
+        let session = session(plain(), self.looks, self.settings.read()?);
+        let line = format!("lesson {}", self.name);
+        go(session, &[Instruction::Give(Msg::Run(line))], None, false)
     }
 }
 

@@ -79,6 +79,7 @@ fn parsed<C: Args>(given: &ArgMatches) -> Result<C> {
 fn commands() -> [Subcommand; 23] {
     [
         row("tour", explore::TourCommand::run),
+        row("lesson", explore::LessonCommand::run),
         row("scenes", lists::ScenesCommand::run),
         row("keys", lists::KeysCommand::run),
         question("trajectory", motion::TrajectoryCommand::run),

@@ -61,6 +61,10 @@ pub struct Looks {
     /// Lets the mouse start motions and zoom instead of selecting text
     #[arg(long)]
     mouse: bool,
+
+    /// Shows one or two plots with wide lines and the outcome in large letters, for a class
+    #[arg(long)]
+    lecture: bool,
 }
 
 impl Looks {
@@ -71,6 +75,7 @@ impl Looks {
             colors: self.color.or(config.colors).unwrap_or_default(),
             theme: self.theme.or(config.theme).unwrap_or_default(),
             mouse: self.mouse || config.mouse,
+            lecture: self.lecture || config.lecture,
             ..DisplaySettings::default()
         }
     }

@@ -139,7 +139,7 @@ fn belt(picture: &mut Picture, session: &Session) {
     let Some(running) = session.running() else { return };
     let y = running.reduced.sticking_velocity;
     picture.level("speed of the belt", y);
-    picture.caption([picture.window.x.from(), y], "belt", Role::Current);
+    picture.caption([picture.window.x.from(), y], "belt", Role::Belt);
     if session.draws_whole() {
         rides(picture, session, y);
     }

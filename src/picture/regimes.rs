@@ -129,7 +129,7 @@ const APART: (f64, f64) = (0.16, 0.07);
 const CLEAR: (f64, f64) = (0.03, 0.03);
 
 /// What the path stands for, and the marks on it.
-const PEN: Role = Role::Velocity;
+const PEN: Role = Role::Belt;
 
 /// Draws the path over two parameters, if the scene is of a machine, while its belt runs slower and faster.
 ///

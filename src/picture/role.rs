@@ -42,6 +42,8 @@ pub enum Role {
     Lyapunov,
     /// The segment of equilibria.
     Sticking,
+    /// The belt, its speed and what has to do with it.
+    Belt,
     /// The motion on show; of several the newest.
     Trajectory,
     /// Motions beside the one on show.
@@ -86,9 +88,9 @@ impl Role {
         }
     }
 
-    /// Whether it says more than the axes and the present values.
+    /// Whether it says more than the axes, the belt and the present values.
     pub fn tells(self) -> bool {
-        !matches!(self, Role::Axis | Role::Current | Role::Quiet)
+        !matches!(self, Role::Axis | Role::Belt | Role::Current | Role::Quiet)
     }
 }
 

@@ -40,6 +40,8 @@ pub struct Config {
     pub theme: Option<Theme>,
     /// Whether the terminal reports the mouse.
     pub mouse: bool,
+    /// Whether the screen is read by a class.
+    pub lecture: bool,
     /// The keys that differ from those by default, by context, until [`Config::keymap`] is made of them.
     keys: BTreeMap<Spanned<String>, Keys>,
     /// The keys of all commands.

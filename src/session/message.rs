@@ -31,6 +31,10 @@ pub enum Msg {
     /// A caption of a tour, shown until the next one; an empty one ends that. If known, the number of the
     /// caption and the number of all captions.
     Say(String, Option<(usize, usize)>),
+    /// A question about what is on the screen, with its answer, or a task, which has none; its place is that of a caption.
+    Ask { text: String, answer: Option<Key>, place: Option<(usize, usize)> },
+    /// The chapter to which the next captions belong.
+    Chapter(String),
     /// A requested file, or why it cannot be read.
     Read {
         path: PathBuf,

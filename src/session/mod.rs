@@ -27,6 +27,7 @@ pub mod update;
 
 pub use self::{message::*, read::contexts::*, read::kick::*, read::lists::*};
 pub use self::{read::machine::*, read::plots::*};
+pub use act::files::LESSONS;
 pub use act::run::run_line;
 pub use commands::commands;
 pub use key::{Code, Key};

@@ -270,6 +270,7 @@ fn display_lines(display: DisplaySettings) -> Vec<Instruction> {
         switched(display.stretched, "equal off"),
         switched(display.dimensionless, "units off"),
         switched(display.mouse, "mouse"),
+        switched(display.lecture, "lecture"),
     ];
     lines.into_iter().flatten().map(run).collect()
 }

@@ -83,9 +83,14 @@ fn take_in(session: &mut Session, message: Msg) {
             session.attempt(|session| run_line(session, &line));
         }
         Msg::Start(names) => history::begin(session, names),
+        Msg::Ask { text, answer, place } => {
+            session.caption = SessionCaption::Asked(text, place, answer);
+        }
+        Msg::Chapter(name) => session.chapter = name,
         Msg::Say(caption, place) => {
             // An empty caption says that a replay is over.
             session.caption = if caption.is_empty() {
+                session.chapter.clear();
                 SessionCaption::Nothing
             } else {
                 SessionCaption::Tour(caption, place)

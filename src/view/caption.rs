@@ -1,4 +1,4 @@
-//! A box of text above the status lines: the caption of a tour, or what there is to see in the scene and
+//! A box of text between the plots and the status lines: the caption of a tour, or what there is to see in the scene and
 //! to press. It takes no keys: what it says can be tried while it is read.
 
 use ratatui::layout::Rect;
@@ -6,17 +6,19 @@ use ratatui::text::Line;
 
 use super::{Surface, pane};
 use crate::picture::Role;
-use crate::session::{Session, SessionCaption};
+use crate::session::{Key, Session, SessionCaption};
 
 const WIDTH: u16 = 100;
 
-/// Draws the box at the bottom of `area`, if there is something to say and room for it.
-pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
-    let look = screen.look;
-    let filled = |text: &str| look.sentence(text, &session.keymap);
-    let (heading, paragraphs) = match &session.caption {
+/// Columns of the frame and of a blank beside it.
+const FRAME: u16 = 4;
+
+/// Heading and paragraphs, with keys as they are written; `None` where nothing is said.
+fn texts(session: &Session, write: impl Fn(Key) -> String) -> Option<(String, Vec<String>)> {
+    let filled = |text: &str| session.keymap.fill(text, &write);
+    Some(match &session.caption {
         SessionCaption::Tour(caption, place) => {
-            let place = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));
+            let place = placed(session, *place);
             let named = caption.contains('{');
             let on = if named {
                 "keys named here work, any other: on"
@@ -26,15 +28,46 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
             let heading = format!(" {place}{on}, backspace: back, esc: leave ");
             (heading, vec![filled(caption)])
         }
-        SessionCaption::Scene => {
-            let heading = filled(" {explain}: hide ");
-            let [look, press] = [&session.scene.watch, &session.scene.press];
-            (heading, [look, press].map(|text| filled(&session.said(text))).to_vec())
+        SessionCaption::Asked(text, place, answer) => {
+            let place = placed(session, *place);
+            let how = if answer.is_some() {
+                "y or n, backspace: back"
+            } else {
+                "do it, page down: show how"
+            };
+            (format!(" {place}{how}, esc: leave "), vec![filled(text)])
         }
-        SessionCaption::Nothing => return,
-    };
-    let width = area.width.min(WIDTH);
-    let inner = width.saturating_sub(4);
+        SessionCaption::Scene => {
+            let [look, press] = [&session.scene.watch, &session.scene.press];
+            let said = [look, press].map(|text| filled(&session.said(text)));
+            (filled(" {explain}: hide "), said.to_vec())
+        }
+        SessionCaption::Nothing => return None,
+    })
+}
+
+/// The chapter, the number of a caption and of all.
+fn placed(session: &Session, place: Option<(usize, usize)>) -> String {
+    let number = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));
+    match &*session.chapter {
+        "" => number,
+        chapter => format!("{chapter}: {number}"),
+    }
+}
+
+/// Rows of the box on a screen of this width; none where nothing is said.
+pub fn rows(width: u16, session: &Session) -> u16 {
+    // The names of keys are at least as long as their signs.
+    let Some((_, paragraphs)) = texts(session, Key::said) else { return 0 };
+    let lines: Vec<Line> = paragraphs.into_iter().map(Line::from).collect();
+    pane::rows(&lines, width.min(WIDTH).saturating_sub(FRAME)).saturating_add(2)
+}
+
+/// Draws the box, if there is something to say and room for it.
+pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
+    let look = screen.look;
+    let said = texts(session, |key| look.key(key)).filter(|_| area.height > 2);
+    let Some((heading, paragraphs)) = said else { return };
     // A tour is read from a distance.
     let role = if session.caption == SessionCaption::Scene {
         Role::Text
@@ -42,10 +75,8 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         Role::Title
     };
     let styled = |text| Line::styled(text, look.style(role));
-    let lines: Vec<Line> = paragraphs.into_iter().map(styled).collect();
-    let height = pane::rows(&lines, inner).saturating_add(2).min(area.height);
-    let place =
-        Rect { x: area.x + (area.width - width) / 2, y: area.bottom() - height, width, height };
+    let width = area.width.min(WIDTH);
+    let place = Rect { x: area.x + (area.width - width) / 2, width, ..area };
     let text = screen.boxed(place, &heading, "");
-    screen.prose(text, lines);
+    screen.prose(text, paragraphs.into_iter().map(styled).collect());
 }

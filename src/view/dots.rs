@@ -17,7 +17,7 @@ use ratatui::layout::Rect;
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS};
 
-use super::Surface;
+use super::{Look, Surface};
 use crate::picture::{Dash, Role};
 use crate::session::Glyphs;
 
@@ -27,6 +27,12 @@ pub struct DotPen {
     pub role: Role,
     pub dash: Dash,
 }
+
+/// The dots of a wide line around each dot of a line.
+const BRUSH: [(i32, i32); 4] = [(0, 0), (1, 0), (0, 1), (1, 1)];
+
+/// Rows of a raster that has room for wide lines; where there are fewer, a screen that fills a wall has large dots.
+const ROOM: u16 = 16;
 
 /// A point in dots from the top left corner.
 type DotPoint = (f64, f64);
@@ -59,16 +65,24 @@ struct DotCell {
 pub struct Dots {
     area: Rect,
     glyphs: Glyphs,
+    /// Whether lines are twice as wide.
+    wide: bool,
     cells: Vec<DotCell>,
 }
 
 impl Dots {
+    /// An empty raster over `area`, for curves as wide as a look has them.
+    pub fn of(area: Rect, look: &Look) -> Self {
+        let wide = look.wide && look.glyphs != Glyphs::Ascii && area.height >= ROOM;
+        Dots { wide, ..Dots::new(area, look.glyphs) }
+    }
+
     /// An empty raster over `area`.
     pub fn new(area: Rect, glyphs: Glyphs) -> Self {
         let cells = usize::from(area.width) * usize::from(area.height);
         let empty =
             DotCell { covering: Covering::Texture, role: Role::Text, dots: 0, symbol: None };
-        Dots { area, glyphs, cells: vec![empty; cells] }
+        Dots { area, glyphs, wide: false, cells: vec![empty; cells] }
     }
 
     pub fn size(&self) -> DotPoint {
@@ -136,8 +150,16 @@ impl Dots {
     /// Draws a run of dots; dashes go on after those `drawn` before.
     fn ink_run(&mut self, run: &mut Vec<(i32, i32)>, drawn: &mut u32, pen: DotPen) {
         let (pattern, period) = self.glyphs.dash(pen.dash);
-        for dot in run.drain(..) {
-            self.ink(dot, pen, (pattern >> (*drawn % period)) & 1 == 1);
+        // Axes stay as they are, so that they differ from curves the more.
+        let wide = self.wide && pen.role != Role::Axis;
+        let brush = if wide { &BRUSH[..] } else { &BRUSH[..1] };
+        // A pattern of wide dots is twice as long.
+        let times = if wide { 2 } else { 1 };
+        for (x, y) in run.drain(..) {
+            let on = (pattern >> (*drawn / times % period)) & 1 == 1;
+            for (across, down) in brush {
+                self.ink((x + across, y + down), pen, on);
+            }
             *drawn += 1;
         }
     }

@@ -15,6 +15,9 @@ use crate::session::{
 /// Hints that are never left out, at the right end of the line.
 const ALWAYS: [&str; 5] = ["help", "accept", "replay", "forget", "quit"];
 
+/// The hints that are left in a lecture.
+const LECTURE: [&str; 7] = ["step", "play", "help", "accept", "replay", "forget", CLOSE];
+
 /// The hint that joins them while something is open.
 const CLOSE: &str = "close";
 
@@ -23,7 +26,8 @@ const LEAST: usize = 12;
 
 pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
-    let hints = session.hints();
+    let mut hints = session.hints();
+    hints.retain(|hint| !session.display.lecture || LECTURE.contains(&hint.text));
     let (always, others): (Vec<&Hint>, Vec<&Hint>) = hints.iter().partition(|hint| {
         ALWAYS.contains(&hint.text) || (hint.text == CLOSE && session.overlay.is_some())
     });

@@ -8,8 +8,8 @@ use super::layout::{Layout, SMALLEST, layout};
 use super::pane::{self, FramedPicture, Heading};
 use super::plot::{point_at, room, shown};
 use super::{
-    Look, Surface, caption, energy_ledger, footer, help, legend, lists, paint::paint, parameters,
-    playback, scan, signs, status,
+    Look, Surface, caption, energy_ledger, footer, help, lecture, legend, lists, paint::paint,
+    parameters, playback, scan, signs, status,
 };
 use crate::picture::{self, Role, legend::entries};
 use crate::scene::View;
@@ -29,13 +29,7 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         None => card(area, screen),
         Some(parts) => {
             panes(&parts, session, screen);
-            let below = if parts.playback.is_empty() {
-                parts.status.y
-            } else {
-                parts.playback.y
-            };
-            let body = Rect { height: below.saturating_sub(area.y), ..area };
-            caption::draw(body, session, screen);
+            caption::draw(parts.caption, session, screen);
             let list = preview(area, session, screen);
             lists::draw(list, session, screen);
             footer::draw(parts.footer, session, screen);
@@ -60,14 +54,22 @@ fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
     let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
     let all: Vec<(usize, FramedPicture)> =
         shown.map(|(index, area)| (index, framed(*area, session, index))).collect();
-    parameters::draw(parts.parameters, session, screen);
+    if session.display.lecture {
+        lecture::numbers(parts.parameters, session, screen);
+    } else {
+        parameters::draw(parts.parameters, session, screen);
+    }
     let entries = entries(all.iter().map(|(_, framed)| &framed.picture));
     legend::draw(parts.legend, entries, screen);
     for (index, framed) in all {
         plot(framed, session, index, screen);
     }
     playback::draw(parts.playback, session, screen);
-    status::draw(parts.status, session, screen);
+    if session.display.lecture {
+        lecture::outcome(parts.status, session, screen);
+    } else {
+        status::draw(parts.status, session, screen);
+    }
 }
 
 /// Draws the scene that is selected in the list of scenes, as it would open; returns the area that is left for the list.
@@ -152,7 +154,7 @@ pub fn panels(session: &Session, look: &Look) -> Vec<Buffer> {
 /// What a cell of the screen stands for, if anything: a row of the parameter pane or a point of a plot.
 pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerTarget> {
     let parts = layout(screen, session)?;
-    if parts.parameters.contains(cell) {
+    if parts.parameters.contains(cell) && !session.display.lecture {
         // The first line is the title.
         let line = (cell.y - parts.parameters.y).checked_sub(1)?;
         let mut rows = parameters::shown(session, parts.parameters.height);

@@ -3,11 +3,12 @@
 //! The line about playback takes a row of the plots while there is something to play; the sentence of a first screen stands
 //! below the title. Designed for 80 columns and 24 rows up. Where there is less, parts drop in this order: plots that
 //! would be smaller than [`SMALLEST_PLOT`], the last one without focus first; below 20 rows the second
-//! status line; below 60 x 16 everything, and a message says what is needed.
+//! status line; below 60 x 16 everything, and a message says what is needed. A caption has rows of its own, for which
+//! the plots give way: it hides neither a curve nor what the curves mean.
 
 use ratatui::layout::{Constraint, Layout as Split, Rect};
 
-use super::pane;
+use super::{caption, pane};
 use crate::scene::Arrangement;
 use crate::session::{Session, Size};
 
@@ -27,12 +28,19 @@ const ROOMY: u16 = 100;
 /// Rows of a screen whose legend has two rows.
 const TALL: u16 = 24;
 
+/// Rows that a caption leaves to the plots.
+const LEAST: u16 = 5;
+
+/// Rows of the outcome of a lecture, and from how many rows of the screen on: large letters and two lines.
+const OUTCOMES: [(u16, u16); 2] = [(40, 7), (0, 5)];
+
 /// The parts of the screen; an empty area is not shown.
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
     pub title: Rect,
     /// What one sees, on a first screen.
     pub sentence: Rect,
+    /// In a lecture one line.
     pub parameters: Rect,
     /// Plots, by their index in the session.
     pub plots: Vec<Rect>,
@@ -40,6 +48,9 @@ pub struct Layout {
     pub legend: Rect,
     /// What is being played.
     pub playback: Rect,
+    /// A tour or what there is to see; without rows where nothing is said.
+    pub caption: Rect,
+    /// In a lecture with the outcome in large letters.
     pub status: Rect,
     /// Keys, notices and the entry line.
     pub footer: Rect,
@@ -52,28 +63,39 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
         return None;
     }
     let designed = Size { width, height }.tells_margin();
-    let status = if designed { 2 } else { 1 };
+    let lectures = session.display.lecture;
+    let (status, numbers) = match OUTCOMES.iter().find(|(least, _)| height >= *least) {
+        Some((_, rows)) if lectures && designed => (*rows, 1),
+        _ => (if designed { 2 } else { 1 }, u16::from(lectures)),
+    };
     let legend = match height {
         _ if !designed => 0,
-        TALL.. => 2,
+        TALL.. if !lectures => 2,
         _ => 1,
     };
     let sentence = match session.scene.next {
+        _ if lectures => 0,
         Some(_) if designed && width < ROOMY => 3,
         Some(_) if designed => 2,
         _ => 0,
     };
     let playback = u16::from(session.tells_playback());
-    let body = height - 2 - sentence - legend - playback - status;
-    let rows = [1, sentence, body, legend, playback, status, 1].map(Constraint::Length);
-    let [title, sentence, body, legend, playback, status, footer] =
-        Split::vertical(rows).areas(screen);
+    let body = height - 2 - numbers - sentence - legend - playback - status;
+    let caption = caption::rows(width, session).min(body.saturating_sub(LEAST));
+    let rows = [1, sentence, numbers, body - caption, legend, caption, playback, status, 1];
+    let [title, sentence, numbers, body, legend, caption, playback, status, footer] =
+        Split::vertical(rows.map(Constraint::Length)).areas(screen);
+    let parts =
+        Layout { title, sentence, legend, caption, playback, status, footer, ..Layout::default() };
+    if lectures {
+        return Some(Layout { parameters: numbers, plots: plots(body, session), ..parts });
+    }
     let column =
         COLUMNS.iter().find(|(least, _)| width >= *least).map_or(23, |(_, columns)| *columns);
     let rest = Rect { x: body.x + column + 1, width: width - column - 1, ..body };
     let parameters = Rect { width: column, ..body };
     let plots = plots(rest, session);
-    Some(Layout { title, sentence, parameters, plots, legend, playback, status, footer })
+    Some(Layout { parameters, plots, ..parts })
 }
 
 /// The places of the plots, of which as many are shown as are large enough.

@@ -80,6 +80,8 @@ pub struct Look {
     styles: [Style; ROLES],
     /// The letters of curves.
     letters: [char; ROLES],
+    /// Whether lines are twice as wide, for the back of a room.
+    pub wide: bool,
     /// Grounds of maps from the least to the most dangerous; none where the terminal has too few colours.
     ramp: Vec<Style>,
 }
@@ -93,15 +95,27 @@ const FINE: [Role; 3] = [Role::Ghost, Role::GhostStable, Role::GhostUnstable];
 impl Look {
     /// The look that these settings ask for; what they leave open becomes braille in 16 colours.
     pub fn new(settings: DisplaySettings) -> Self {
-        let DisplaySettings { glyphs, colors, fine, theme, .. } = settings;
-        let theme = if colors == Colors::Never { Theme::Mono } else { theme };
+        let DisplaySettings { glyphs, colors, fine, theme, lecture: wide, .. } = settings;
+        let theme = match theme {
+            _ if colors == Colors::Never => Theme::Mono,
+            Theme::Auto | Theme::Dark if wide => Theme::Contrast,
+            theme => theme,
+        };
+        // Of the sixteen, too few are dark enough for a light ground, or bright enough for a large contrast.
+        let colors = match (colors, theme) {
+            (Colors::Sixteen, Theme::Light | Theme::Contrast) if color_of(fine).is_some() => fine,
+            _ => colors,
+        };
         // A test reads every theme, so the plain look never serves.
-        Look::from_text(text_of(theme), glyphs, [colors, fine]).unwrap_or(Look {
+        let read = Look::from_text(text_of(theme), glyphs, [colors, fine]);
+        let look = read.unwrap_or(Look {
             glyphs,
             styles: [Style::new(); ROLES],
             letters: [' '; ROLES],
+            wide,
             ramp: Vec::new(),
-        })
+        });
+        Look { wide, ..look }
     }
 
     /// The look that a theme file describes, in colours of one depth for all and, where that is sixteen, of
@@ -131,7 +145,7 @@ impl Look {
             }
             _ => Vec::new(),
         };
-        Ok(Look { glyphs, styles, letters, ramp })
+        Ok(Look { glyphs, styles, letters, wide: false, ramp })
     }
 
     /// The style of a place on a map: `part` grows from 0 to 1 with what is dangerous. Where there are colours
@@ -281,6 +295,7 @@ pub fn fixed(index: u8) -> Rgb {
 mod tests {
     use super::*;
     use crate::session::settings::choices;
+    use crate::view::screen::Paper;
 
     /// The hue of a colour in degrees; none of what is nearly grey.
     fn hue(rgb: Rgb) -> Option<f64> {
@@ -378,6 +393,120 @@ mod tests {
                     let is_green = (75.0..165.0).contains(&hue);
                     assert_eq!(is_red, red.contains(role), "{name}: {text} {hue}");
                     assert_eq!(is_green, green.contains(role), "{name}: {text} {hue}");
+                }
+            }
+        }
+    }
+
+    /// The terminal's own sixteen colours as xterm and as VGA have them.
+    const XTERM: [u32; 16] = [
+        0x00_0000, 0xcd_0000, 0x00_cd00, 0xcd_cd00, 0x00_00ee, 0xcd_00cd, 0x00_cdcd, 0xe5_e5e5,
+        0x7f_7f7f, 0xff_0000, 0x00_ff00, 0xff_ff00, 0x5c_5cff, 0xff_00ff, 0x00_ffff, 0xff_ffff,
+    ];
+    const VGA: [u32; 16] = [
+        0x00_0000, 0xaa_0000, 0x00_aa00, 0xaa_5500, 0x00_00aa, 0xaa_00aa, 0x00_aaaa, 0xaa_aaaa,
+        0x55_5555, 0xff_5555, 0x55_ff55, 0xff_ff55, 0x55_55ff, 0xff_55ff, 0x55_ffff, 0xff_ffff,
+    ];
+
+    /// The contrast of two colours by the relative luminance of WCAG 2.
+    fn contrast(one: [f64; 3], other: [f64; 3]) -> f64 {
+        let linear = |part: f64| match part / 255.0 {
+            part if part <= 0.03928 => part / 12.92,
+            part => ((part + 0.055) / 1.055).powf(2.4),
+        };
+        let luminance = |[red, green, blue]: [f64; 3]| {
+            0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue)
+        };
+        let [one, other] = [one, other].map(luminance);
+        (one.max(other) + 0.05) / (one.min(other) + 0.05)
+    }
+
+    fn parts(rgb: u32) -> [f64; 3] {
+        let [_, red, green, blue] = rgb.to_be_bytes();
+        [red, green, blue].map(f64::from)
+    }
+
+    /// The contrast of a style with its paper, by one of the palettes. What is dim is drawn at six tenths.
+    fn on_paper(style: Style, palette: &[u32; 16], paper: Paper) -> f64 {
+        let ground = parts(paper.ground);
+        let ink = match style.fg {
+            None => parts(paper.ink),
+            Some(Color::Rgb(red, green, blue)) => [red, green, blue].map(f64::from),
+            Some(Color::Indexed(index @ FIXED..)) => fixed(index).map(f64::from),
+            Some(Color::Indexed(index)) => parts(palette[usize::from(index)]),
+            other => panic!("{other:?}"),
+        };
+        let strength = if style.add_modifier.contains(Modifier::DIM) {
+            0.6
+        } else {
+            1.0
+        };
+        let drawn = [0, 1, 2].map(|at| strength * ink[at] + (1.0 - strength) * ground[at]);
+        contrast(drawn, ground)
+    }
+
+    /// The weakest role of a look and its contrast, but for that of the ground of maps, which hides its letter.
+    fn weakest(look: &Look, paper: Paper) -> (f64, &'static str) {
+        let told = Role::VARIANTS.iter().filter(|role| **role != Role::Calm);
+        let all = told.flat_map(|role| {
+            let style = look.style(*role);
+            [&XTERM, &VGA].map(|palette| (on_paper(style, palette, paper), role.name()))
+        });
+        all.min_by(|one, other| one.0.total_cmp(&other.0)).unwrap()
+    }
+
+    #[test]
+    fn black_on_white_has_the_greatest_contrast() {
+        assert!((contrast([0.0; 3], [255.0; 3]) - 21.0).abs() < 1e-12);
+        assert!((contrast([7.0; 3], [7.0; 3]) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_carries_meaning_can_be_read_and_in_a_lecture_from_afar() {
+        for (theme, paper) in [
+            (Theme::Dark, Paper::DARK),
+            (Theme::Light, Paper::LIGHT),
+            (Theme::Contrast, Paper::DARK),
+            (Theme::Mono, Paper::DARK),
+            (Theme::Mono, Paper::LIGHT),
+        ] {
+            for colors in [Colors::Sixteen, Colors::Indexed, Colors::True] {
+                let (least, role) = weakest(&look(theme, Glyphs::Braille, colors), paper);
+                assert!(least >= 4.5, "{theme:?} {colors:?}: {role} {least}");
+            }
+            let lecture = DisplaySettings {
+                colors: Colors::Sixteen,
+                fine: Colors::True,
+                theme,
+                lecture: true,
+                ..DisplaySettings::default()
+            };
+            if theme != Theme::Mono {
+                let (least, role) = weakest(&Look::new(lecture), paper);
+                assert!(least >= 7.0, "{theme:?}: {role} {least}");
+            }
+        }
+    }
+
+    #[test]
+    fn each_meaning_has_a_colour_of_its_own_in_every_theme() {
+        let meanings = [
+            Role::Trajectory,
+            Role::Stable,
+            Role::Unstable,
+            Role::Sticking,
+            Role::Belt,
+            Role::Current,
+            Role::Asymptote,
+        ];
+        for theme in [Theme::Dark, Theme::Light, Theme::Contrast] {
+            for colors in [Colors::Sixteen, Colors::Indexed, Colors::True] {
+                let look = look(theme, Glyphs::Braille, colors);
+                for (index, one) in meanings.iter().enumerate() {
+                    for other in &meanings[..index] {
+                        let [one, other] = [one, other].map(|role| look.style(*role));
+                        assert_ne!(one, other, "{theme:?} {colors:?}");
+                    }
                 }
             }
         }

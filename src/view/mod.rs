@@ -14,6 +14,7 @@ pub mod frame;
 mod gauge;
 mod help;
 pub mod layout;
+mod lecture;
 pub mod legend;
 pub mod lists;
 pub mod look;

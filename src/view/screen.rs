@@ -36,8 +36,8 @@ const BASELINE: f64 = 12.0;
 /// Colours of text and of the ground where the screen leaves them to the terminal.
 #[derive(Clone, Copy)]
 pub struct Paper {
-    ink: u32,
-    ground: u32,
+    pub(super) ink: u32,
+    pub(super) ground: u32,
 }
 
 impl Paper {
@@ -45,7 +45,7 @@ impl Paper {
     pub const DARK: Self = Paper { ink: 0xd8_d8d8, ground: 0x10_1418 };
 
     /// For the theme made for it.
-    pub const LIGHT: Self = Paper { ink: 0x1c_1c1c, ground: 0xfa_fafa };
+    pub const LIGHT: Self = Paper { ink: 0x14_1414, ground: 0xfd_fdfd };
 }
 
 pub fn svg(screen: &Buffer, paper: Paper) -> String {

@@ -38,7 +38,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
         let letter = session.letter().map(|letter| format!("{letter} ")).unwrap_or_default();
         let of = session.number(0).map_or_else(String::new, |number| format!("motion {number} "));
         // The symbol belongs to the motion: what else is said has none.
-        let symbol = if role == Role::Text {
+        let symbol = if role == Role::Text && !session.is_asked() {
             symbol(session, look)
         } else {
             String::new()
@@ -69,9 +69,10 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
 }
 
 /// Which kicks are survived, behind the gauge of the one that is being tried.
-fn survived(session: &Session, width: usize, look: &Look) -> Vec<Span<'static>> {
+pub(super) fn survived(session: &Session, width: usize, look: &Look) -> Vec<Span<'static>> {
     let both = compare::margins(session, width.saturating_sub(1));
-    let text = both.or_else(|| margin::status(session)).unwrap_or_default();
+    let told = both.or_else(|| margin::status(session)).filter(|_| !session.is_asked());
+    let text = told.unwrap_or_default();
     let failed = text.starts_with(UNRELIABLE);
     let role = if failed { Role::Warning } else { Role::Quiet };
     let gauge = gauge::gauge(session, width.saturating_sub(2), look).filter(|_| session.kicking);

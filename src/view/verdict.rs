@@ -15,6 +15,9 @@ use crate::words::{Notation, joined, significant, stability};
 /// What became of the motion, in a sentence; of a kick that is being tried, first whether it is survived, and that only
 /// when it is seen.
 pub fn outcome(session: &Session) -> (String, Role) {
+    if session.is_asked() {
+        return ("what becomes of it?".into(), Role::Text);
+    }
     let (text, role) = end_of_motion(session);
     let kick = session.kick().filter(|kick| !kick.is_shift && role == Role::Text);
     match (kick, session.survives()) {

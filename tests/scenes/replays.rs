@@ -5,7 +5,7 @@ use hopfscope::flow::Limits;
 use hopfscope::runtime::{Options, play};
 use hopfscope::scene::plain;
 use hopfscope::session::replay::{Action, Player, Recorder, parse, text};
-use hopfscope::session::{Instruction, Msg, Notice, Session, Size};
+use hopfscope::session::{Instruction, LESSONS, Msg, Notice, Session, Size};
 use hopfscope::terminal::Environment;
 
 /// Name and text of every file in `assets/replays`.
@@ -16,6 +16,38 @@ fn files() -> Vec<(String, String)> {
         (path.display().to_string(), std::fs::read_to_string(path).unwrap())
     };
     std::fs::read_dir(folder).unwrap().map(read).collect()
+}
+
+#[test]
+fn every_lesson_holds_what_it_says_at_every_size_and_in_a_lecture() {
+    for (name, text) in LESSONS {
+        let script = parse(text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let count = |word: &str| text.matches(word).count();
+        assert!(count("<ask ") + count("<until ") >= 3, "{name} asks before it shows");
+        assert!(count("<chapter ") >= 2 && text.starts_with("# Lesson: "), "{name}");
+        for ((width, height), lecture) in [((80, 24), false), ((80, 24), true), ((200, 60), false)]
+        {
+            let mut session = Session::new(plain(), Size { width, height });
+            session.display.lecture = lecture;
+            let played = play(session, Environment::of(|_| None), script.clone(), false);
+            assert_eq!(played.unmet, None, "{name} at {width}x{height}, lecture: {lecture}");
+        }
+    }
+}
+
+#[test]
+fn while_a_question_is_open_nothing_tells_its_answer() {
+    let text = "<run \"scene supercritical\"> <ask \"Does it come to rest?\" n> <screen asked>";
+    for lecture in [false, true] {
+        let mut session = Session::new(plain(), Size { width: 120, height: 40 });
+        session.display.lecture = lecture;
+        let played = play(session, Environment::of(|_| None), parse(text).unwrap(), false);
+        let screen = hopfscope::view::screen::text(&played.kept[0].1);
+        assert!(screen.contains("what becomes of it?"), "{screen}");
+        for telling in ["onto the stable cycle", "(outside", "margin from rest"] {
+            assert!(!screen.contains(telling), "{telling}\n{screen}");
+        }
+    }
 }
 
 #[test]
@@ -158,6 +190,14 @@ fn mistakes_are_named_with_their_place_before_anything_runs() {
         ),
         ("<screen ../x>", "line 1, column 1: <screen ../x>: screen takes a name of letters"),
         ("<screen>", "line 1, column 1: <screen>: screen takes a name"),
+        (
+            "<ask \"a\" x>",
+            "line 1, column 1: <ask \"a\" x>: ask takes a question in quotes and y or n",
+        ),
+        (
+            "<until \"a\">",
+            "line 1, column 1: <until \"a\">: until takes a task, a text of the screen",
+        ),
         ("<wait 3>", "line 1, column 1: <wait 3>: wait takes nothing"),
         (
             "<excpect \"a\">",
@@ -182,6 +222,10 @@ fn actions(text: &str, screen: &str) -> Vec<String> {
             Ok(Action::Give(message)) => acts.push(format!("{message:?}")),
             Ok(Action::Keep(name)) => acts.push(format!("keep {name}")),
             Ok(Action::Wait) => acts.push("wait".to_owned()),
+            Ok(Action::Task(message)) => {
+                acts.push(format!("task {message:?}"));
+                player.helped();
+            }
             Ok(Action::Done) => break,
             Err(unmet) => {
                 acts.push(unmet.to_string());

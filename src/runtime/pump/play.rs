@@ -1,6 +1,9 @@
 //! The state of the loop while it plays a file.
 
+use std::collections::BTreeMap;
+
 use crate::session::replay::{Player, Script};
+use crate::session::{Key, Msg};
 
 /// Why a replay is paused.
 #[derive(PartialEq)]
@@ -22,6 +25,12 @@ pub(super) struct Replay {
     /// Whether keys had their usual effect since the present caption was shown.
     pub(super) tried: bool,
     pub(super) pause: Pause,
+    /// The question that waits for this answer.
+    pub(super) question: Option<Key>,
+    /// Which questions were answered rightly and which tasks done, by the numbers of their captions.
+    pub(super) answers: BTreeMap<usize, bool>,
+    /// Whether the user wants to be shown how a task is done.
+    pub(super) shows: bool,
     /// Why the first file that it asked for was not written.
     pub(super) unwritten: Option<String>,
 }
@@ -30,12 +39,62 @@ impl Replay {
     pub(super) fn new(script: Script) -> Self {
         let (player, pause) = (Player::new(script), Pause::Not);
         let start = player.clone();
-        Replay { player, start, passed: 0, tried: false, pause, unwritten: None }
+        Replay {
+            player,
+            start,
+            passed: 0,
+            tried: false,
+            pause,
+            question: None,
+            answers: BTreeMap::new(),
+            shows: false,
+            unwritten: None,
+        }
     }
 
     /// Plays everything again up to the caption after so many.
     pub(super) fn again(&mut self, passed: usize) {
         self.player = self.start.clone();
         (self.passed, self.pause, self.tried) = (passed, Pause::Not, false);
+        (self.question, self.shows) = (None, false);
+    }
+
+    /// Notes whether a question was answered rightly, or a task done; only the first time counts.
+    pub(super) fn note(&mut self, number: usize, is_right: bool) {
+        self.answers.entry(number).or_insert(is_right);
+    }
+
+    /// Waits for a key at a caption that has just been given, unless it is passed. The one behind a question says first
+    /// whether the answer was right.
+    pub(super) fn waits_at(&mut self, msg: Msg) -> Msg {
+        let number = self.player.said();
+        if number <= self.passed || self.player.has_task() {
+            return msg;
+        }
+        let remark = match self.answers.get(&(number - 1)) {
+            Some(true) => "Right. ",
+            Some(false) => "No. ",
+            None => "",
+        };
+        match msg {
+            Msg::Say(text, place) => {
+                (self.pause, self.question) = (Pause::Caption, None);
+                Msg::Say(format!("{remark}{text}"), place)
+            }
+            Msg::Ask { answer, .. } => {
+                (self.pause, self.question) = (Pause::Caption, answer);
+                msg
+            }
+            msg => msg,
+        }
+    }
+
+    /// How many answers were right; empty where nothing was asked.
+    pub(super) fn score(&self) -> String {
+        let right = self.answers.values().filter(|is_right| **is_right).count();
+        match self.answers.len() {
+            0 => String::new(),
+            all => format!(": {right} of {all} right"),
+        }
     }
 }

@@ -13,7 +13,7 @@ use super::{Application, Files, Pump, Step};
 use crate::flow::Limits;
 use crate::runtime::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
-use crate::session::replay::{Action, Script, ScriptError};
+use crate::session::replay::{ANSWERS, Action, Script, ScriptError};
 use crate::session::{Code, Content, Effect, Key, Msg, Notice};
 use crate::view;
 
@@ -48,7 +48,12 @@ impl<M: Application, W: Write> Pump<M, W> {
             return self.record(msg);
         };
         let caption = playing.pause == Pause::Caption;
-        if matches!(msg, Msg::Key(key) if caption && self.application.tries(key)) {
+        let opens = matches!(msg, Msg::Key(key) if self.application.tries(key));
+        if playing.player.has_task() && (opens || !(is_key(&msg, Code::Esc) || leaves(&msg))) {
+            playing.shows = is_key(&msg, Code::PageDown) && !opens;
+            return if playing.shows { Ok(()) } else { self.record(msg) };
+        }
+        if caption && opens {
             playing.tried = true;
             return self.record(msg);
         }
@@ -62,6 +67,14 @@ impl<M: Application, W: Write> Pump<M, W> {
             if let Some(passed) = playing.player.said().checked_sub(2) {
                 playing.again(passed);
             }
+        } else if let (true, Msg::Key(key), Some(answer)) = (caption, &msg, playing.question) {
+            if ANSWERS.contains(key) {
+                playing.note(playing.player.said(), *key == answer);
+                playing.pause = Pause::Not;
+            }
+        } else if caption && is_key(&msg, Code::Tab) && playing.player.next_chapter().is_some() {
+            let passed = playing.player.next_chapter().unwrap_or_default();
+            playing.again(passed);
         } else if caption && matches!(msg, Msg::Key(_)) {
             // Keys that the user has tried are undone.
             if playing.tried {
@@ -152,7 +165,15 @@ impl<M: Application, W: Write> Pump<M, W> {
             return Ok(());
         };
         loop {
-            return match playing.player.next(idle, screen) {
+            let passes = self.unattended || playing.player.said() <= playing.passed;
+            let had_task = playing.player.has_task();
+            let number = playing.player.said();
+            let action = playing.player.next(idle, screen);
+            let is_done = had_task && !playing.player.has_task();
+            if is_done && !passes {
+                playing.note(number, true);
+            }
+            return match action {
                 Ok(Action::Keep(name)) => {
                     if self.unattended {
                         self.kept.push((name, application.picture(size)));
@@ -161,10 +182,18 @@ impl<M: Application, W: Write> Pump<M, W> {
                 }
                 Ok(Action::Give(Msg::Resize { .. })) if !self.unattended => continue,
                 Ok(Action::Wait) => Ok(()),
-                Ok(Action::Give(msg)) => {
-                    let is_caption = matches!(msg, Msg::Say(..)) && !self.unattended;
-                    if is_caption && playing.player.said() > playing.passed {
-                        playing.pause = Pause::Caption;
+                Ok(Action::Task(msg)) if passes || playing.shows => {
+                    if !passes {
+                        playing.note(number, false);
+                    }
+                    playing.shows = false;
+                    playing.player.helped();
+                    self.record(msg)
+                }
+                Ok(Action::Task(_)) => Ok(()),
+                Ok(Action::Give(mut msg)) => {
+                    if !self.unattended {
+                        msg = playing.waits_at(msg);
                     }
                     if let Msg::Resize { width, height } = msg {
                         self.screen.repaint(Size { width, height });
@@ -177,7 +206,10 @@ impl<M: Application, W: Write> Pump<M, W> {
                 Ok(Action::Done) if self.unattended => Err(LoopEnd::Quit),
                 Ok(Action::Done) => match playing.unwritten.take() {
                     Some(why) => self.played(true, format!("replay done, but {why}")),
-                    None => self.played(false, "replay done".to_owned()),
+                    None => {
+                        let text = format!("replay done{}", playing.score());
+                        self.played(false, text)
+                    }
                 },
                 Err(unmet) => self.fail(unmet),
             };

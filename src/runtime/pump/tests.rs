@@ -46,6 +46,8 @@ impl Application for Counter {
             }
             Msg::Told(notice) | Msg::Written(notice) => self.notice = notice.text,
             Msg::Say(caption, _) => self.notice = caption,
+            Msg::Ask { text, .. } => self.notice = text,
+            Msg::Run(line) => self.count += line.parse().unwrap_or(0),
             _ => {}
         }
         vec![]
@@ -219,7 +221,7 @@ type Tour<'a> = (&'a str, &'a [(&'a str, &'a [&'a str])], u32);
 
 /// At `done`, the tour is over, so q quits the program.
 #[rustfmt::skip]
-const TOURS: [Tour; 4] = [
+const TOURS: [Tour; 9] = [
     // A caption waits for a key without another effect: the first q continues the tour.
     ("<right> <say \"look\"> <right>", &[("look", &["q"]), ("done", &["q"])], 2),
     // On to the second caption, back to the first one, on again and to the end.
@@ -232,6 +234,18 @@ const TOURS: [Tour; 4] = [
         ("try", &["<right>", "<right>", "n"]), ("second", &["n"]), ("done", &["q"]),
     ], 1 + 2 + 2),
     ("<right> <say \"look\"> <right>", &[("look", &["<esc>"]), ("stopped", &["q"])], 1),
+    // A question waits for y or n, whatever else is pressed, and the next caption says whether that was right.
+    ("<ask \"wo\" y> <right> <say \"on\">", &[
+        ("wo", &["q", "<space>", "y"]), ("Right. on", &["x"]), ("1 of 1 right", &["q"]),
+    ], 1),
+    ("<ask \"wo\" y> <say \"on\">", &[("wo", &["n"]), ("No. on", &["x"]), ("0 of 1 right", &["q"])], 0),
+    // A task waits until the screen shows a text; page down does it, but not as the user's own.
+    ("<until \"go\" \"2 go\" \"2\"> <right>", &[("go", &["<right>", "x", "<right>"]), ("1 of 1 right", &["q"])], 3),
+    ("<until \"go\" \"2 go\" \"2\"> <right>", &[("go", &["<pgdn>"]), ("0 of 1 right", &["q"])], 3),
+    // On to the next chapter.
+    ("<say \"one\"> <right> <say \"two\"> <chapter \"B\"> <right> <say \"six\">", &[
+        ("one", &["<tab>"]), ("six", &["x"]), ("done", &["q"]),
+    ], 2),
 ];
 
 #[test]

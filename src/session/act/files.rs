@@ -9,9 +9,20 @@ use crate::scene::machine::file;
 use crate::scene::{Machine, Recording, ScaledMachine};
 use crate::session::act::{history, lists, prompt};
 use crate::session::{Content, Done, Effect, ListKind, Overlay, Purpose, Session, replay, save};
+use crate::words::one_of;
 
 /// The built-in tour.
 const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
+
+/// The lessons that come with the program, by name.
+pub const LESSONS: [(&str, &str); 6] = [
+    ("mass", include_str!("../../../assets/lessons/mass.keys")),
+    ("capture", include_str!("../../../assets/lessons/capture.keys")),
+    ("basin", include_str!("../../../assets/lessons/basin.keys")),
+    ("margin", include_str!("../../../assets/lessons/margin.keys")),
+    ("fold", include_str!("../../../assets/lessons/fold.keys")),
+    ("stick-slip", include_str!("../../../assets/lessons/stick-slip.keys")),
+];
 
 /// Saves the session.
 pub fn write(session: &mut Session, path: &str, replace: bool) -> Done {
@@ -191,6 +202,13 @@ pub fn forget(session: &mut Session) -> Done {
     // The most recent one is put aside last, so that it remains.
     session.effects.extend(all.into_iter().rev().map(|kept| Effect::PutAside(kept.path)));
     Ok(())
+}
+
+/// Plays a lesson; without a name it offers all.
+pub fn lesson(session: &mut Session, name: &str) -> Done {
+    let text = one_of("lesson", name, LESSONS)?;
+    let script = replay::parse(text).map_err(|error| format!("lesson {name}: {error}"))?;
+    session.effect(Effect::Play(script))
 }
 
 /// Plays the built-in tour, as a test does.

@@ -81,6 +81,13 @@ pub fn units(session: &mut Session) {
     flip(session, |it| &mut it.dimensionless, said);
 }
 
+/// Shows what a class reads, or everything.
+pub fn lecture(session: &mut Session) {
+    let said = ["lecture: {lecture} brings everything back", "everything is shown again"];
+    let said = said.map(|text| session.with_keys(text));
+    flip(session, |it| &mut it.lecture, [&said[0], &said[1]]);
+}
+
 /// Asks questions that have no answer again.
 pub fn retry(session: &mut Session) -> Done {
     session.answers.forget_failures().then_some(()).ok_or_else(|| "nothing has failed".to_owned())

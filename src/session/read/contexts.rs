@@ -146,11 +146,19 @@ impl Session {
     /// Whether a key has its usual effect while the caption of a tour is shown: the caption names its command,
     /// or an overlay that such a key has opened takes it.
     pub fn tries(&self, key: Key) -> bool {
-        let SessionCaption::Tour(text, _) = &self.caption else { return false };
+        let (SessionCaption::Tour(text, _) | SessionCaption::Asked(text, ..)) = &self.caption
+        else {
+            return false;
+        };
         let named = |command: &Command| text.contains(&format!("{{{}}}", command.name));
         self.overlay.is_some()
             || self.pending.is_some()
             || self.keymap.command(self.contexts(), key).is_some_and(named)
+    }
+
+    /// Whether a question of a lesson is open: until it is answered, nothing tells what becomes of the motion.
+    pub fn is_asked(&self) -> bool {
+        matches!(self.caption, SessionCaption::Asked(.., Some(_)))
     }
 
     /// Whether a key runs a command or is typed in the present contexts.

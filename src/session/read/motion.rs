@@ -118,16 +118,18 @@ impl Session {
         self.playback.playing && asked.is_none_or(|request| !self.is_open(&request))
     }
 
-    /// The state of the motion at the head; `None` before the first playback.
+    /// The state of the motion at the head, at its start while one is asked what becomes of it; `None` before the first
+    /// playback.
     pub fn head(&self) -> Option<Sample> {
-        let at = self.playback.at?;
+        let at = if self.is_asked() { 0.0 } else { self.playback.at? };
         self.trajectory()?.at(at.min(self.last_moment()))
     }
 
     /// The moment up to which the present motion is drawn: the head before it has reached the end, so that a motion that
     /// is played is seen as it happens, and does not tell how it ends.
     pub fn drawn_until(&self) -> Option<Sample> {
-        self.head().filter(|_| self.playback.at.is_some_and(|at| at < self.last_moment()))
+        let goes_on = self.playback.at.is_some_and(|at| at < self.last_moment());
+        self.head().filter(|_| goes_on || self.is_asked())
     }
 
     /// The samples of the motion in this place among those on show, as far as it is drawn.

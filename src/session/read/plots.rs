@@ -24,6 +24,10 @@ impl Session {
     pub fn on_show(&self) -> std::ops::Range<usize> {
         if self.enlarged {
             self.plot..self.plot + 1
+        } else if self.display.lecture {
+            // The one in use and the next.
+            let first = self.plot.min(self.plots.len().saturating_sub(2));
+            first..self.plots.len().min(first + 2)
         } else {
             0..self.plots.len()
         }

@@ -10,4 +10,4 @@ pub mod script;
 
 pub use player::{Action, Player};
 pub use recorder::{HEADER, Recorder, comment, heading, lines, text};
-pub use script::{Instruction, LONGEST, Script, ScriptError, ScriptStep, parse};
+pub use script::{ANSWERS, Instruction, LONGEST, Script, ScriptError, ScriptStep, parse};

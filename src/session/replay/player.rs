@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 
 use crate::session::replay::script::{MOST, ScriptError, too_long};
-use crate::session::{Instruction, Msg, Script, ScriptStep};
+use crate::session::{Instruction, Key, Msg, Script, ScriptStep};
 
 /// The next action.
 #[derive(Clone, Debug)]
@@ -14,6 +14,8 @@ pub enum Action {
     Keep(String),
     /// Ask again when the session is idle.
     Wait,
+    /// A task is not done yet: ask again after the next key, or give this message, which does it.
+    Task(Msg),
     /// The file has ended and the session is idle.
     Done,
 }
@@ -41,6 +43,17 @@ pub struct Player {
     captions: usize,
     /// Whether time passes in pieces, with a frame after each.
     pub in_frames: bool,
+    task: TaskState,
+}
+
+/// How far the task is that the first step asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum TaskState {
+    #[default]
+    Untold,
+    Told,
+    /// What does it has been given.
+    Helped,
 }
 
 /// The longest such piece, in s.
@@ -49,17 +62,19 @@ const FRAME: f64 = 0.04;
 /// Maximum number of pictures that are kept: one of a large screen has a million cells.
 const PICTURES: usize = 1000;
 
-/// Number of captions in a file.
-fn captions(script: &Script) -> usize {
-    let is_caption =
-        |located: &&ScriptStep| matches!(located.step, Instruction::Give(Msg::Say(..)));
-    script.steps.iter().filter(is_caption).count()
+/// Number of captions among steps: those that are read, answered or done.
+fn captions<'a>(steps: impl Iterator<Item = &'a ScriptStep>) -> usize {
+    use Instruction::{Give, Until};
+    let is_caption = |located: &&ScriptStep| {
+        matches!(located.step, Give(Msg::Say(..) | Msg::Ask { .. }) | Until { .. })
+    };
+    steps.filter(is_caption).count()
 }
 
 impl Player {
     /// Plays a file from its beginning.
     pub fn new(script: Script) -> Self {
-        let (captions, length) = (captions(&script), script.length());
+        let (captions, length) = (captions(script.steps.iter()), script.length());
         let steps = script.steps.into_iter().map(|step| (step, false)).collect();
         Player { steps, place: (1, 1), length, captions, ..Player::default() }
     }
@@ -72,7 +87,7 @@ impl Player {
             let (line, column) = self.place;
             return Err(ScriptError { line, column, why: too_long() });
         }
-        self.captions += captions(&script);
+        self.captions += captions(script.steps.iter());
         for step in script.steps.into_iter().rev() {
             self.steps.push_front((step, true));
         }
@@ -82,6 +97,25 @@ impl Player {
     /// Number of captions shown so far.
     pub fn said(&self) -> usize {
         self.said
+    }
+
+    /// Number of captions before the next chapter; `None` in the last one.
+    pub fn next_chapter(&self) -> Option<usize> {
+        let begins = |(located, _): &(ScriptStep, bool)| {
+            matches!(located.step, Instruction::Give(Msg::Chapter(_)))
+        };
+        let at = self.steps.iter().position(begins)?;
+        Some(self.said + captions(self.steps.iter().take(at).map(|(located, _)| located)))
+    }
+
+    /// Whether a task waits to be done.
+    pub fn has_task(&self) -> bool {
+        self.task == TaskState::Told
+    }
+
+    /// Notes that the message that does the task has been given.
+    pub fn helped(&mut self) {
+        self.task = TaskState::Helped;
     }
 
     /// The embedded text of a file, if there is one.
@@ -101,12 +135,34 @@ impl Player {
             if !idle && (!self.asynchronous || step == Instruction::Wait) {
                 return Ok(Action::Wait);
             }
-            self.advance();
             if !inserted {
                 self.place = (line, column);
             }
             let failed = |why| Err(ScriptError { line, column, why });
+            let is_told = self.task != TaskState::Untold;
+            if let Instruction::Until { shown, line, .. } = &step
+                && is_told
+                && !screen().contains(shown)
+            {
+                if self.task == TaskState::Told {
+                    return Ok(Action::Task(Msg::Run(line.clone())));
+                }
+                return failed(format!("the screen does not show {shown:?}"));
+            }
+            if matches!(step, Instruction::Until { .. }) && !is_told {
+                self.task = TaskState::Told;
+            } else {
+                self.task = TaskState::Untold;
+                self.advance();
+            }
             match step {
+                Instruction::Until { .. } if is_told => {}
+                Instruction::Until { task: text, .. } => {
+                    return Ok(Action::Give(self.asked(text, None)));
+                }
+                Instruction::Give(Msg::Ask { text, answer, .. }) => {
+                    return Ok(Action::Give(self.asked(text, answer)));
+                }
                 Instruction::Async => self.asynchronous = true,
                 Instruction::File { name, text } => drop(self.files.insert(name.into(), text)),
                 Instruction::Screen(name) if self.pictures < PICTURES => {
@@ -131,6 +187,12 @@ impl Player {
                 Instruction::Wait | Instruction::Expect(_) => {}
             }
         }
+    }
+
+    /// The message that asks a question or for something to be done.
+    fn asked(&mut self, text: String, answer: Option<Key>) -> Msg {
+        self.said += 1;
+        Msg::Ask { text, answer, place: Some((self.said, self.captions)) }
     }
 
     /// Moves past the first step, or past one press of it.

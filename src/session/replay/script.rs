@@ -19,6 +19,9 @@ pub const LONGEST: f64 = 3600.0;
 /// it plays. The quickest take a tenth of a millisecond each.
 pub const MOST: u32 = 100_000;
 
+/// The keys that answer a question: yes and no.
+pub const ANSWERS: [Key; 2] = [Key::plain(Code::Char('y')), Key::plain(Code::Char('n'))];
+
 /// Characters that are escaped by a backslash in quoted text, and the letters after it.
 pub(super) const ESCAPES: [(char, char); 5] =
     [('"', '"'), ('\\', '\\'), ('\n', 'n'), ('\r', 'r'), ('\t', 't')];
@@ -51,7 +54,8 @@ pub enum Instruction {
     /// A message: the mouse, `<click 1 0.5 -0.25>` on the first plot, `<click row 2>`, and `<nearer ..>` and
     /// `<farther ..>` for its wheel; text pasted at once, `<paste "text">`; time that passes, in seconds, `<elapse 0.25>`;
     /// the size of the screen, `<resize 80x24>`; a line of the command line, independently of key bindings,
-    /// `<run "set D=-0.3">`; a caption, for which the explorer waits for a key, `<say "text">`; and the present state as
+    /// `<run "set D=-0.3">`; a caption, for which the explorer waits for a key, `<say "text">`; a
+    /// question, for which it waits for y or n, `<ask "text" y>`; the chapter of what follows, `<chapter "text">`; and the present state as
     /// the start of the session, with an empty history: `<start>`, or `<start D3 r>` with the parameters that are added to
     /// those of its scene.
     Give(Msg),
@@ -61,6 +65,9 @@ pub enum Instruction {
     Async,
     /// The screen must show this text on one of its rows: `<expect "text">`.
     Expect(String),
+    /// A task, with a caption that stays until the screen shows a text; meanwhile keys have their usual effect. The line
+    /// does what is asked, for who does not find it: `<until "Step to the fold." "fold" "walk-to-next">`.
+    Until { task: String, shown: String, line: String },
     /// Keep a picture of the screen under this name: `<screen name>`.
     Screen(String),
     /// Embed a file: a command that reads a file of this name during the replay gets this text. `<file "a.toml"
@@ -91,6 +98,9 @@ impl Instruction {
             Instruction::Async => ("async", String::new()),
             Instruction::Expect(text) => ("expect", quoted(text)),
             Instruction::Screen(name) => ("screen", name.clone()),
+            Instruction::Until { task, shown, line } => {
+                ("until", joined([task, shown, line].map(|text| quoted(text)), " "))
+            }
             Instruction::File { name, text } => {
                 ("file", format!("{} {}", quoted(name), quoted(text)))
             }
@@ -109,6 +119,11 @@ impl Instruction {
             Give(Msg::Resize { width, height }) => ("resize", format!("{width}x{height}")),
             Give(Msg::Run(line)) => ("run", quoted(line)),
             Give(Msg::Say(text, _)) => ("say", quoted(text)),
+            Give(Msg::Ask { text, answer: Some(key), .. }) => {
+                ("ask", format!("{} {key}", quoted(text)))
+            }
+            Give(Msg::Ask { text, answer: None, .. }) => ("say", quoted(text)),
+            Give(Msg::Chapter(name)) => ("chapter", quoted(name)),
             Give(Msg::Start(names)) => ("start", joined(names, " ")),
             Instruction::Key { .. }
             | Give(
@@ -213,9 +228,12 @@ const TEXT: &str =
 const PLACE: &str = "\"N X Y\" on plot N, from 1, or \"row N\", as in <click 1 0.5 -0.25>";
 const NAME: &str = "a name of letters, digits, \"-\", \"_\" and \".\", as in <screen a-1>";
 const NUMBERS: &str = "some of D, D2, D3, r, q0, v0, or nothing, as in <start D3 r>";
+const ASK: &str = "a question in quotes and y or n, as in <ask \"Does it rest?\" y>";
+const UNTIL: &str = "a task, a text of the screen and a line that does it, each in quotes, as in \
+                     <until \"Let it rest.\" \"comes to rest\" \"set D=0.1\">";
 const FILE: &str = "a name and a text, both in quotes, as in <file \"a.toml\" \"..\">";
 
-static DIRECTIVES: LazyLock<[Directive; 14]> = LazyLock::new(|| {
+static DIRECTIVES: LazyLock<[Directive; 17]> = LazyLock::new(|| {
     let directive = |word, takes: &str, read| Directive { word, takes: takes.to_owned(), read };
     let seconds = format!("seconds, 0 .. {LONGEST}, as in <elapse 0.25>");
     let cells = format!("columns and rows from 1 to {LARGEST}, as in <resize 80x24>");
@@ -228,6 +246,9 @@ static DIRECTIVES: LazyLock<[Directive; 14]> = LazyLock::new(|| {
         directive("paste", TEXT, |rest| text(rest).map(|it| Give(Msg::Paste(it)))),
         directive("run", TEXT, |rest| text(rest).map(|it| Give(Msg::Run(it)))),
         directive("say", TEXT, |rest| text(rest).map(|it| Give(Msg::Say(it, None)))),
+        directive("ask", ASK, ask),
+        directive("chapter", TEXT, |rest| text(rest).map(|it| Give(Msg::Chapter(it)))),
+        directive("until", UNTIL, until),
         directive("screen", NAME, screen),
         directive("start", NUMBERS, start),
         directive("file", FILE, file),
@@ -362,6 +383,21 @@ fn start(rest: &str) -> Option<Instruction> {
     let named = |name: &str| Knob::named(name, &[Group::Motion]).ok();
     let names = rest.split_whitespace().map(named).collect::<Option<_>>()?;
     Some(Give(Msg::Start(names)))
+}
+
+/// A question in quotes and its answer.
+fn ask(rest: &str) -> Option<Instruction> {
+    let (text, rest) = leading(rest)?;
+    let answer = rest.trim_start().parse().ok().filter(|key| ANSWERS.contains(key))?;
+    (!text.is_empty()).then_some(Give(Msg::Ask { text, answer: Some(answer), place: None }))
+}
+
+/// A task, what the screen then shows, and the line that does it, each in quotes.
+fn until(rest: &str) -> Option<Instruction> {
+    let (task, rest) = leading(rest)?;
+    let (shown, rest) = leading(rest.trim_start())?;
+    let line = text(rest.trim_start())?;
+    (!(task.is_empty() || shown.is_empty())).then_some(Instruction::Until { task, shown, line })
 }
 
 /// A name and a text, both in quotes.

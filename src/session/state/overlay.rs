@@ -5,7 +5,7 @@ use std::mem::{Discriminant, discriminant};
 
 use strum::EnumString;
 
-use crate::session::{Row, Script};
+use crate::session::{Key, Row, Script};
 
 /// An overlay over the panes.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,6 +63,8 @@ pub enum SessionCaption {
     Scene,
     /// A caption of a tour; if known, its number and the number of all captions.
     Tour(String, Option<(usize, usize)>),
+    /// A question of a lesson with its answer, or a task, which has none.
+    Asked(String, Option<(usize, usize)>, Option<Key>),
 }
 
 impl SessionCaption {

@@ -141,6 +141,8 @@ pub struct Session {
     pub other: Option<Box<Session>>,
     /// The caption above the status lines.
     pub caption: SessionCaption,
+    /// The chapter of a tour or a lesson; empty where there is none.
+    pub chapter: String,
     /// Interrupted sessions that can be continued, the most recent first.
     pub interrupted: Vec<KeptSession>,
     /// The file of the figure in progress.

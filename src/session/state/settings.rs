@@ -69,6 +69,9 @@ pub struct DisplaySettings {
     pub stretched: bool,
     /// Whether axes of machines have no units.
     pub dimensionless: bool,
+    /// Whether the screen is read by a class: one or two plots with wide lines, the outcome in large letters, and nothing
+    /// of how it is computed.
+    pub lecture: bool,
 }
 
 /// A value with a name, of an enumeration in the order in which a key cycles through it.

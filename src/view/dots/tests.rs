@@ -108,7 +108,10 @@ fn a_later_stroke_takes_the_colour_of_a_shared_cell() {
     dots.stroke([(1.0, 3.0)], DotPen { role: Role::Stable, dash: Dash::Solid });
     let mut buffer = Buffer::empty(dots.area);
     dots.paint(&mut Surface { look: &look, buffer: &mut buffer });
-    assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].fg), ("⢁", Color::Indexed(2)));
+    assert_eq!(
+        (buffer[(0, 0)].symbol(), buffer[(0, 0)].fg),
+        ("⢁", look.style(Role::Stable).fg.unwrap())
+    );
 }
 
 #[test]
@@ -126,7 +129,7 @@ fn a_curve_and_an_area_in_one_cell_have_the_colour_of_the_curve() {
         dots.paint(&mut Surface { look: &look, buffer: &mut buffer });
         // Dashes of four dots and gaps of two: the third and the sixth cell have the area alone.
         let colours: Vec<Color> = buffer.content.iter().map(|cell| cell.fg).collect();
-        let (red, yellow) = (Color::Indexed(1), Color::Indexed(3));
+        let [red, yellow] = [curve, area].map(|pen| look.style(pen.role).fg.unwrap());
         assert_eq!(colours, [red, red, yellow, red, red, yellow], "{pens:?}");
     }
 }

@@ -55,7 +55,7 @@ impl<'a> Canvas<'a> {
             y => format!("{} over {x}", upward.named(scales[1].title(y))),
         };
         screen.title(*area, &picture.title, &axes, heading);
-        let dots = Dots::new(inner, look.glyphs);
+        let dots = Dots::of(inner, look);
         Canvas { look, window, inner, dots, roomy, rightward, upward }
     }
 

@@ -1,0 +1,141 @@
+//! What a lecture shows besides plots: the numbers in one line, the outcome in letters that are read from the back of a
+//! room, and below it why.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use ratatui::layout::Rect;
+use ratatui::text::Span;
+
+use super::{Surface, margin, pane, parameters, status, verdict};
+use crate::model::Knob;
+use crate::numerics::cells;
+use crate::picture::Role;
+use crate::session::{Glyphs, Pane, Row, Session};
+
+/// Rows of a letter, before it is enlarged.
+const HEIGHT: usize = 5;
+
+/// The rows of each letter, from above.
+static LETTERS: LazyLock<BTreeMap<char, Vec<&str>>> = LazyLock::new(|| {
+    let lines = include_str!("../../assets/letters.txt").lines();
+    let letter = |line: &'static str| {
+        let (letter, rows) =
+            line.split_once(' ').filter(|(letter, _)| letter.len() == 1 && *letter != "#")?;
+        Some((letter.chars().next()?, rows.split(' ').collect()))
+    };
+    lines.filter_map(letter).collect()
+});
+
+/// What is said in large letters of a motion, by the beginning of the sentence about it; nothing where that is no outcome.
+fn large(sentence: &str) -> &'static str {
+    let mut rows = include_str!("../../assets/outcomes.txt").lines().filter_map(cells::<2>);
+    rows.find(|[begin, _]| sentence.starts_with(begin)).map_or("", |[_, large]| large)
+}
+
+/// Draws the numbers of the scene in a line, the selected one marked.
+pub fn numbers(area: Rect, session: &Session, screen: &mut Surface) {
+    let look = screen.look;
+    let setup = session.setup();
+    let focused = session.focus == Pane::Parameters;
+    let internal = |row: &Row| match row {
+        Row::Method | Row::Tolerance => true,
+        Row::Number(knob) => [Knob::Until, Knob::Step, Knob::Epsilon].contains(knob),
+    };
+    let mut rows = session.rows();
+    rows.retain(|row| !internal(row) || (focused && *row == session.selected));
+    let number = |row: Row| {
+        let selected = focused && row == session.selected;
+        let pointer = if selected { &look.symbols().pointer } else { " " };
+        let value = parameters::value(session, &setup, row, NUMBER, look);
+        let text = format!("{pointer}{} {value} ", row.name_in(&session.problem));
+        let role = if selected { Role::Focus } else { Role::Text };
+        look.span(text, role)
+    };
+    let mut texts: Vec<Span> = rows.iter().map(|row| number(*row)).collect();
+    let selected = rows.iter().position(|row| focused && *row == session.selected).unwrap_or(0);
+    let width: usize = texts.iter().map(Span::width).sum();
+    // Where not all fit, those from the selected one on are shown.
+    if width > area.width.into() {
+        texts.drain(..selected);
+    }
+    screen.line(area, 0, texts);
+}
+
+/// Columns of a number.
+const NUMBER: usize = 9;
+
+/// Draws the outcome: in large letters what becomes of the motion, in two lines why, and which kicks are survived.
+pub fn outcome(area: Rect, session: &Session, screen: &mut Surface) {
+    let look = screen.look;
+    let (sentence, role) = verdict::outcome(session);
+    let tall = Rect { height: area.height.saturating_sub(2), ..area };
+    // While it is played, one looks.
+    if !session.playback.playing {
+        letters(tall, large(&sentence), screen);
+    }
+    let width = usize::from(area.width);
+    let below = Rect { y: tall.bottom(), height: area.height.min(2), ..area };
+    screen.line(below, 0, look.span(pane::cut(&format!(" {sentence}"), width, look), role));
+    if session.kicking {
+        return screen.line(below, 1, status::survived(session, width, look));
+    }
+    let margin = margin::status(session).filter(|_| !session.is_asked()).unwrap_or_default();
+    let margin = margin.split(';').next().unwrap_or_default();
+    screen.line(below, 1, look.span(format!(" {margin}"), Role::Text));
+}
+
+/// Writes large letters into an area, twice as large where there is room: two rows of dots in a row of cells, or as spaced
+/// capitals where there are no blocks.
+fn letters(area: Rect, text: &str, screen: &mut Surface) {
+    let style = screen.look.style(Role::Title);
+    if screen.look.glyphs == Glyphs::Ascii {
+        let spaced: String = text.chars().flat_map(|letter| [letter, ' ']).collect();
+        screen.buffer.set_string(area.x + 1, area.y + area.height / 2, spaced, style);
+        return;
+    }
+    let blank = vec!["."; HEIGHT];
+    let drawn: Vec<&Vec<&str>> =
+        text.chars().map(|letter| LETTERS.get(&letter).unwrap_or(&blank)).collect();
+    let row = |row: usize| drawn.iter().map(|letter| letter[row]).collect::<Vec<_>>().join(".");
+    let rows: Vec<Vec<bool>> =
+        (0..HEIGHT).map(|index| row(index).chars().map(|dot| dot == '#').collect()).collect();
+    let columns = rows[0].len();
+    let fits = |scale: &usize| {
+        columns * scale < usize::from(area.width)
+            && (HEIGHT * scale).div_ceil(2) <= usize::from(area.height)
+    };
+    let Some(scale) = [2, 1].into_iter().find(fits) else { return };
+    let dot = |x: usize, y: usize| rows.get(y / scale).is_some_and(|row| row[x / scale]);
+    for y in 0..(HEIGHT * scale).div_ceil(2) {
+        let cell = |x: usize| match (dot(x, 2 * y), dot(x, 2 * y + 1)) {
+            (true, true) => '█',
+            (true, false) => '▀',
+            (false, true) => '▄',
+            (false, false) => ' ',
+        };
+        let line: String = (0..columns * scale).map(cell).collect();
+        screen.buffer.set_string(area.x + 1, area.y + pane::cells(y), line, style);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_outcome_can_be_written_in_large_letters() {
+        let rows = include_str!("../../assets/outcomes.txt").lines().filter_map(cells::<2>);
+        for [begin, text] in rows {
+            assert_eq!(large(begin), text, "no row before hides it");
+            assert!(
+                text.chars().all(|letter| letter == ' ' || LETTERS.contains_key(&letter)),
+                "{text}"
+            );
+        }
+        for (letter, rows) in LETTERS.iter() {
+            assert_eq!(rows.len(), HEIGHT, "{letter}");
+            assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{letter}");
+        }
+    }
+}
