@@ -17,6 +17,8 @@ const LENGTHS: AxisNames = ["x [m]", "x [mm]", "x [um]"];
 
 const VELOCITIES: AxisNames = ["v [m/s]", "v [mm/s]", "v [um/s]"];
 
+const CYCLES: AxisNames = ["x_max [m]", "x_max [mm]", "x_max [um]"];
+
 const TIMES: AxisNames = ["t [s]", "t [ms]", "t [us]"];
 
 /// The units of the machine or the record in which a session shows its axes.
@@ -47,6 +49,8 @@ pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
             let upward = if alone { length(y) } else { Scale::Even };
             [scale(TIMES, units.time, x), upward]
         }
+        // It has SI units by itself.
+        View::BeltDiagram => [Scale::Even, scale(CYCLES, 1.0, y)],
         _ => return None,
     })
 }

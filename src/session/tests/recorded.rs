@@ -159,6 +159,7 @@ proptest! {
             mouse,
             stretched: mouse,
             dimensionless: mouse,
+            lecture: mouse,
         };
         let (mut live, mut recorder) = started(scene, look);
         // The tour is left out, because it expects texts on the screen.
