@@ -76,7 +76,7 @@ fn parsed<C: Args>(given: &ArgMatches) -> Result<C> {
 }
 
 /// The commands, in the order of the help.
-fn commands() -> [Subcommand; 23] {
+fn commands() -> [Subcommand; 24] {
     [
         row("tour", explore::TourCommand::run),
         row("lesson", explore::LessonCommand::run),

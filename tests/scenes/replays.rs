@@ -29,7 +29,12 @@ fn every_lesson_holds_what_it_says_at_every_size_and_in_a_lecture() {
         {
             let mut session = Session::new(plain(), Size { width, height });
             session.display.lecture = lecture;
-            let played = play(session, Environment::of(|_| None), script.clone(), false);
+            let played = play(
+                session,
+                Environment::of(|_| None),
+                Options { replay: Some(script.clone()), ..Options::default() },
+                &Limits::PATIENT,
+            );
             assert_eq!(played.unmet, None, "{name} at {width}x{height}, lecture: {lecture}");
         }
     }
@@ -41,7 +46,12 @@ fn while_a_question_is_open_nothing_tells_its_answer() {
     for lecture in [false, true] {
         let mut session = Session::new(plain(), Size { width: 120, height: 40 });
         session.display.lecture = lecture;
-        let played = play(session, Environment::of(|_| None), parse(text).unwrap(), false);
+        let played = play(
+            session,
+            Environment::of(|_| None),
+            Options { replay: Some(parse(text).unwrap()), ..Options::default() },
+            &Limits::PATIENT,
+        );
         let screen = hopfscope::view::screen::text(&played.kept[0].1);
         assert!(screen.contains("what becomes of it?"), "{screen}");
         for telling in ["onto the stable cycle", "(outside", "margin from rest"] {

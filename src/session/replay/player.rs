@@ -43,17 +43,8 @@ pub struct Player {
     captions: usize,
     /// Whether time passes in pieces, with a frame after each.
     pub in_frames: bool,
-    task: TaskState,
-}
-
-/// How far the task is that the first step asks for.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum TaskState {
-    #[default]
-    Untold,
-    Told,
-    /// What does it has been given.
-    Helped,
+    /// Whether what does the task has been given; `None` where no task has been told.
+    task: Option<bool>,
 }
 
 /// The longest such piece, in s.
@@ -110,12 +101,12 @@ impl Player {
 
     /// Whether a task waits to be done.
     pub fn has_task(&self) -> bool {
-        self.task == TaskState::Told
+        self.task == Some(false)
     }
 
     /// Notes that the message that does the task has been given.
     pub fn helped(&mut self) {
-        self.task = TaskState::Helped;
+        self.task = Some(true);
     }
 
     /// The embedded text of a file, if there is one.
@@ -139,27 +130,19 @@ impl Player {
                 self.place = (line, column);
             }
             let failed = |why| Err(ScriptError { line, column, why });
-            let is_told = self.task != TaskState::Untold;
-            if let Instruction::Until { shown, line, .. } = &step
-                && is_told
-                && !screen().contains(shown)
-            {
-                if self.task == TaskState::Told {
-                    return Ok(Action::Task(Msg::Run(line.clone())));
+            if let (Instruction::Until { task, shown, line }, told) = (&step, self.task) {
+                match told {
+                    None => {
+                        self.task = Some(false);
+                        return Ok(Action::Give(self.asked(task.clone(), None)));
+                    }
+                    _ if screen().contains(shown) => self.task = None,
+                    Some(false) => return Ok(Action::Task(Msg::Run(line.clone()))),
+                    Some(true) => return failed(format!("the screen does not show {shown:?}")),
                 }
-                return failed(format!("the screen does not show {shown:?}"));
             }
-            if matches!(step, Instruction::Until { .. }) && !is_told {
-                self.task = TaskState::Told;
-            } else {
-                self.task = TaskState::Untold;
-                self.advance();
-            }
+            self.advance();
             match step {
-                Instruction::Until { .. } if is_told => {}
-                Instruction::Until { task: text, .. } => {
-                    return Ok(Action::Give(self.asked(text, None)));
-                }
                 Instruction::Give(Msg::Ask { text, answer, .. }) => {
                     return Ok(Action::Give(self.asked(text, answer)));
                 }
@@ -184,7 +167,7 @@ impl Player {
                     return Ok(Action::Give(Msg::Elapsed { seconds: seconds.min(FRAME) }));
                 }
                 Instruction::Give(message) => return Ok(Action::Give(message)),
-                Instruction::Wait | Instruction::Expect(_) => {}
+                Instruction::Wait | Instruction::Expect(_) | Instruction::Until { .. } => {}
             }
         }
     }
