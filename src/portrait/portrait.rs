@@ -15,7 +15,7 @@ use super::{
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason, Result};
 use crate::model::{ContactState, Model, Phase, RestKicks};
-use crate::numerics::{bisect, by_number};
+use crate::numerics::bisect;
 
 /// A gap between right turning points.
 #[derive(Clone, Copy, Debug)]
@@ -136,20 +136,6 @@ impl Portrait {
             from_rest: RestKicks { displacement: gap, impulse },
         };
         sizes.each(finite, finite)
-    }
-
-    /// Where the mass rests when the smallest impulse that is not survived meets it, in m, and the velocity of the border
-    /// there, in m/s; `None` where no border was traced, or it passes through the places of rest.
-    pub(super) fn nearest_border(&self) -> Option<(f64, f64)> {
-        let edge = self.edge().filter(|_| self.has_basin())?;
-        let farthest = self.model.guide_static;
-        let nearer = |x: f64| {
-            let (up, down) = self.kept_within(edge, x);
-            (x, if up <= down { up } else { -down })
-        };
-        let ends = [farthest, -farthest].map(nearer).into_iter();
-        let nearest = ends.min_by(by_number(|(_, v): &(f64, f64)| v.abs()))?;
-        self.margin.from_rest.impulse.filter(|least| *least > 0.0).map(|_| nearest)
     }
 
     /// Radius of the disk that Lyapunov's method proves to be captured (equation 24), as a fraction of the true margin:

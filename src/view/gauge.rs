@@ -20,7 +20,7 @@ pub fn gauge(session: &Session, width: usize, look: &Look) -> Option<Vec<Span<'s
     let border = border?;
     let guaranteed = margin::guaranteed(session, is_shift);
     let told = |size: f64| margin::told(session, is_shift, size, DIGITS);
-    let name = if is_shift { "shift " } else { "kick " };
+    let name = if is_shift { " shift " } else { " kick " };
     let numbers = format!("  {} of {}", told(size), told(border));
     let more = guaranteed.map(|size| format!("{numbers}, {} guaranteed", told(size)));
     let mut texts = more.into_iter().chain([numbers]);

@@ -78,7 +78,7 @@ pub fn outcome(area: Rect, session: &Session, screen: &mut Surface) {
     let below = Rect { y: tall.bottom(), height: area.height.min(2), ..area };
     screen.line(below, 0, look.span(pane::cut(&format!(" {sentence}"), width, look), role));
     if session.kicking {
-        return screen.line(below, 1, status::survived(session, width, look));
+        return status::survived(below, session, screen);
     }
     let margin = margin::status(session).filter(|_| !session.is_asked()).unwrap_or_default();
     let margin = margin.split(';').next().unwrap_or_default();

@@ -192,11 +192,7 @@ fn oscillator(session: &Session, width: usize) -> Option<String> {
 
 /// A sentence about the margin that says what it is.
 fn defined(text: &str) -> String {
-    text.replacen(
-        "margin from rest",
-        "margin (the smallest kick that is not survived) from rest",
-        1,
-    )
+    text.replacen("margin", "margin (the smallest kick that is not survived)", 1)
 }
 
 /// How much of the margin from the centre the Lyapunov circle (24) proves. It accounts for linear damping only: where
@@ -224,12 +220,9 @@ fn machine(session: &Session, width: usize) -> Option<String> {
         if session.draws_whole() {
             let both = format!("{own}; cubic expansion: {error}");
             let centre = write.centre(&whole).map(|centre| format!("{both}; {centre}"));
-            let told = centre.as_deref().map(defined);
-            return told
-                .into_iter()
-                .chain(centre)
-                .chain([both, format!("{own} (cubic: {error})")])
-                .collect();
+            let cubic = Some(format!("{own} (cubic: {error})"));
+            let all = [centre.as_deref().map(defined), centre, Some(both), cubic];
+            return all.into_iter().flatten().collect();
         }
         let cubic = format!("cubic expansion: {other} ({error})");
         vec![format!("{cubic}; whole model: {own}"), cubic, format!("cubic {other} ({error})")]

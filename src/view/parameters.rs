@@ -324,8 +324,8 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
     let below = std::iter::once(counted(session, found, room)).chain(words);
     lines.extend(below.map(|(text, role)| vec![look.span(format!(" {text}"), role)]));
     // While a kick is tried, its gauge stands in the status line.
-    let gauge = gauge::gauge(session, room, look).filter(|_| !session.kicking);
-    lines.extend(gauge.map(|gauge| [vec![Span::raw(" ")], gauge].concat()));
+    let gauge = gauge::gauge(session, width, look).filter(|_| !session.kicking);
+    lines.extend(gauge);
     lines.push(Vec::new());
     lines.into_iter().map(Line::from).collect()
 }

@@ -2,7 +2,6 @@
 //! the motion was computed and what that cost.
 
 use ratatui::layout::Rect;
-use ratatui::text::Span;
 
 use super::{Look, Surface, compare, fitted::UNRELIABLE, gauge, margin, pane, verdict};
 use crate::flow::choice;
@@ -58,7 +57,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let quiet = |text| look.span(text, Role::Quiet);
     // While the accuracy is changed, the cost stands here; at other times a key of its own lists it.
     if !session.measures() {
-        return screen.line(area, 1, survived(session, area.width.into(), look));
+        return survived(area, session, screen);
     }
     let line = |shorter| (work(session, look, shorter), price(session, look, shorter));
     let fits = |(left, right): &(String, String)| {
@@ -68,27 +67,19 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     screen.both_ends(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")));
 }
 
-/// Which kicks are survived, behind the gauge of the one that is being tried.
-pub(super) fn survived(session: &Session, width: usize, look: &Look) -> Vec<Span<'static>> {
-    let both = compare::margins(session, width.saturating_sub(1));
+/// Draws which kicks are survived, in the second row, behind the gauge of the one that is being tried.
+pub(super) fn survived(area: Rect, session: &Session, screen: &mut Surface) {
+    let (look, width) = (screen.look, usize::from(area.width).saturating_sub(1));
+    let both = compare::margins(session, width);
     let told = both.or_else(|| margin::status(session)).filter(|_| !session.is_asked());
     let text = told.unwrap_or_default();
     let failed = text.starts_with(UNRELIABLE);
     let role = if failed { Role::Warning } else { Role::Quiet };
-    let gauge = gauge::gauge(session, width.saturating_sub(2), look).filter(|_| session.kicking);
-    let mut line = vec![Span::raw(" ")];
-    let text = match gauge {
-        None => text,
-        Some(gauge) => {
-            line.extend(gauge);
-            format!(" {} {text}", look.symbols().dot)
-        }
-    };
-    let used: usize = line.iter().map(Span::width).sum();
-    let room = width.saturating_sub(used);
-    let fits = line.len() == 1 || text.chars().count() <= room;
-    line.extend(fits.then(|| look.span(text, role)));
-    line
+    let text = look.span(format!(" {text}"), role);
+    match gauge::gauge(session, width, look).filter(|_| session.kicking) {
+        Some(gauge) => screen.both_ends(area, 1, gauge, text),
+        None => screen.line(area, 1, text),
+    }
 }
 
 /// What goes on: a computation, a file that is written.

@@ -18,7 +18,7 @@
 use super::orbit::works as works_over;
 use crate::flow::{Cost, Flow, Limits, Result};
 use crate::model::{Ledger, Model, Parameters, Side, State};
-use crate::numerics::exp;
+use crate::numerics::{by_number, exp};
 use crate::portrait::{
     Border, Cycle, CycleErrors, Edge, Equation, Errors, Margin, Portrait, STEP, SwingPair,
     all_closings, first_side, share,
@@ -79,6 +79,7 @@ impl Portrait {
                 works.push(works_over(orbit, parameters));
             }
         }
+        let farthest = model.guide_static / unit;
         let area = self.area().filter(|_| !self.fates.is_empty());
         let cycle = |cycle: &Cycle| cycle.scaled(1.0 / unit, 1.0 / model.omega_0);
         Ok(Drawing {
@@ -88,9 +89,7 @@ impl Portrait {
             works,
             edge: self.edge().map(|edge| self.places(edge, points)).unwrap_or_default(),
             margin: self.in_drawing(&self.margin),
-            nearest: self
-                .nearest_border()
-                .map(|(q, v)| State { q: q / unit, v: v / (unit * self.model.omega_0) }),
+            nearest: self.nearest_border([farthest, -farthest]),
             area: area.map(|area| area / (unit * unit * model.omega_0)),
             lyapunov_share: self.lyapunov_share(),
             portrait: Box::new(self),
@@ -112,21 +111,31 @@ impl Portrait {
         (q * unit, v * unit * self.model.omega_0)
     }
 
+    /// The nearest of the borders straight above and below places of rest, in these units: the place, and the velocity of
+    /// the border there. `None` where no border was traced, or it begins at a place of rest.
+    #[must_use]
+    pub fn nearest_border(&self, places: impl IntoIterator<Item = f64>) -> Option<State> {
+        self.margin.from_rest.impulse.filter(|least| *least > 0.0)?;
+        let both = places.into_iter().flat_map(|q| [1.0, -1.0].map(|v| State { q, v }));
+        let borders = both.filter_map(|at| Some(State { v: at.v * self.border_toward(at)?, ..at }));
+        borders.min_by(by_number(|at: &State| at.v.abs()))
+    }
+
     /// How large a kick would be that leads from rest in the direction of this state, by its velocity or along `v = 0`,
     /// and ends on the border of the basin, in these units; `None` where there is none, or no border was traced.
     #[must_use]
     pub fn border_toward(&self, State { q, v }: State) -> Option<f64> {
         let edge = self.edge().filter(|_| self.has_basin())?;
         let unit = self.model.drawing_length();
-        let (low, high) = if v == 0.0 {
-            let (right, left) = self.reach?.displacement;
-            (left, right)
-        } else {
-            edge.span_at(q * unit)?
+        let (low, high) = edge.span_at(q * unit)?;
+        let (right, left) = self.reach?.displacement;
+        let size = match (v > 0.0, v < 0.0, q > 0.0) {
+            (true, ..) => high,
+            (_, true, _) => low,
+            (.., true) => right,
+            _ => left,
         };
-        let forward = if v == 0.0 { q > 0.0 } else { v > 0.0 };
-        let size = if forward { high } else { low }.abs() / unit;
-        Some(size).filter(|size| size.is_finite() && *size > 0.0)
+        Some(size.abs() / unit).filter(|size| size.is_finite() && *size > 0.0)
     }
 
     /// A margin of the machine in these units.

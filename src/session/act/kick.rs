@@ -2,7 +2,7 @@
 
 use crate::flow::{Outcome, Problem};
 use crate::model::{Knob, State};
-use crate::numerics::{StepSize, by_number};
+use crate::numerics::StepSize;
 use crate::session::act::parameters::change;
 use crate::session::{Done, Session};
 
@@ -12,7 +12,7 @@ const FIRST: f64 = 0.9;
 /// Steps of a key in a margin.
 const STEPS: f64 = 20.0;
 
-/// The size of the first kick where no border says how large it may be, in units of the friction.
+/// What stands for the margin where none is known, in units of the friction.
 const USUAL: f64 = 5.0;
 
 /// Kicks the mass where it rests, and plays what becomes of it; while kicks are tried, plays that again.
@@ -28,41 +28,28 @@ pub fn kick(session: &mut Session) -> Done {
         let text = "no plot shows what a kick does: {views} or :view phase shows it";
         return Err(session.with_keys(text));
     }
-    let q = place(session);
-    let (one, _) = session.unit_of_kick(false);
-    let (limit, step) = scale(session, q);
-    let size = match limit {
-        Some(limit) => step.multiple_from(FIRST * limit.abs() * one, -1),
-        None => step.moved(STEPS_UP).value(),
-    };
-    start(session, State { q, v: (size / one).copysign(limit.unwrap_or(1.0)) })
-}
-
-/// Places among the step sizes from a step to [`STEPS`] of them.
-const STEPS_UP: i32 = 4;
-
-/// Where the mass rests: where the motion on show ends, otherwise where the smallest impulse is lost.
-fn place(session: &Session) -> f64 {
-    match session.trajectory().map(|motion| motion.outcome) {
+    // Where the motion on show ends, otherwise where the smallest impulse is lost.
+    let q = match session.trajectory().map(|motion| motion.outcome) {
         Some(Outcome::Captured { q, .. }) => q,
         _ => session.cycles().and_then(|found| found.nearest).map_or(0.0, |nearest| nearest.q),
-    }
+    };
+    let (limit, step) = scale(session, q);
+    let (one, _) = session.unit_of_kick(false);
+    start(session, State { q, v: step.multiple_from(FIRST * limit * one, 0) / one })
 }
 
-/// The velocity with which the nearest border is met from a place of rest, if one is, and the step of kicks there, in the
-/// unit in which they are told.
-fn scale(session: &Session, q: f64) -> (Option<f64>, StepSize) {
+/// The velocity with which the nearest border is met from a place of rest, and the step of kicks there, in the unit in
+/// which they are told.
+fn scale(session: &Session, q: f64) -> (f64, StepSize) {
     let found = session.cycles();
-    let border = |v: f64| Some(v * found?.portrait.border_toward(State { q, v })?);
-    let borders = [1.0, -1.0].into_iter().filter_map(border);
-    let nearest = borders.min_by(by_number(|v: &f64| v.abs()));
+    let nearest = found.and_then(|found| found.portrait.nearest_border([q]));
     // Where no border was traced, a margin can still be known.
     let least = || found?.margin.from_rest.impulse.filter(|least| *least > 0.0);
-    let limit = nearest.or_else(least);
     let r = session.problem.parameters.r;
     let usual = if r > 0.0 { USUAL * r } else { 1.0 };
+    let limit = nearest.map(|border| border.v).or_else(least).unwrap_or(usual);
     let (one, _) = session.unit_of_kick(false);
-    (limit, StepSize::near(limit.map_or(usual, f64::abs) * one / STEPS))
+    (limit, StepSize::near(limit.abs() * one / STEPS))
 }
 
 /// Makes the kick larger by some steps.

@@ -174,7 +174,7 @@ fn what_becomes_of_a_kick_is_told_when_it_is_seen() {
         assert!(drawn.contains("margin 0.6245"), "{drawn}");
         // Letting go brings the numbers back.
         let [_, margin] = kicked.press("<esc>").told();
-        assert!(margin.starts_with("margin from rest: shift 0.5387"), "{margin}");
+        assert!(margin.contains("from rest: shift 0.5387"), "{margin}");
     }
 }
 
@@ -184,7 +184,7 @@ fn where_every_kick_is_survived_kicks_have_a_readable_size() {
     let [outcome, margin] = kicked.press("t<elapse 1000>").told();
     assert!(outcome.starts_with("■ survived: comes to rest"), "{outcome}");
     assert_eq!(margin, "every kick is survived");
-    assert_eq!(kicked.0.problem.initial.v, 0.5);
+    assert_eq!(kicked.0.problem.initial.v, 0.46);
     // Without friction nothing holds the mass, and no kick is survived where damping feeds it.
     let mut kicked = Kicked::at(Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.0 });
     let [outcome, _] = kicked.press("t<elapse 1000>").told();
