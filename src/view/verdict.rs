@@ -12,21 +12,20 @@ use crate::session::{BranchStop, Kick, Session};
 use crate::words::motion::{of_machine, sentence, swings};
 use crate::words::{Notation, joined, significant, stability};
 
-/// What became of the motion, in a sentence; of a kick that is being tried, first whether it is survived, and that only
-/// when it is seen.
+/// What became of the motion, in a sentence; of a kick first whether it is survived, and of one that is being tried that
+/// only when it is seen.
 pub fn outcome(session: &Session) -> (String, Role) {
     if session.is_asked() {
         return ("what becomes of it?".into(), Role::Text);
     }
+    let kick = session.kick().filter(|kick| !kick.is_shift);
+    if let Some(kick) = kick.filter(|_| session.kicking && session.is_under_way()) {
+        return (tried(session, kick), Role::Cursor);
+    }
     let (text, role) = end_of_motion(session);
-    let kick = session.kick().filter(|kick| !kick.is_shift && role == Role::Text);
-    match (kick, session.survives()) {
-        (Some(kick), _) if session.is_open_kick() => (tried(session, kick), Role::Cursor),
-        (Some(_), Some(survives)) => {
-            let word = if survives { SURVIVED } else { LOST };
-            (format!("{word}: {text}"), role)
-        }
-        _ => (text, role),
+    match kick.filter(|_| role == Role::Text).and_then(|_| session.survives()) {
+        Some(survives) => (format!("{}: {text}", if survives { SURVIVED } else { LOST }), role),
+        None => (text, role),
     }
 }
 
@@ -65,7 +64,7 @@ fn end_of_motion(session: &Session) -> (String, Role) {
         };
         return (text.into(), Role::Quiet);
     };
-    if session.drawn_until().is_some() && !session.kicking {
+    if session.is_under_way() {
         let text = session.with_keys("under way; {drop-cursor} shows the whole motion");
         return (text, Role::Quiet);
     }

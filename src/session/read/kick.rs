@@ -63,11 +63,11 @@ impl Session {
         }
     }
 
-    /// Whether a kick is being played whose end cannot be seen yet.
-    pub fn is_open_kick(&self) -> bool {
+    /// Whether a motion is being played whose end cannot be seen yet. Of a kick that is tried one need not wait for the end.
+    pub fn is_under_way(&self) -> bool {
         /// Time after which one sees that swings grow: the second is larger than the first.
         const SEEN: f64 = 2.0 * TAU;
-        let seen = self.survives() == Some(false) && self.playback.at >= Some(SEEN);
-        self.kicking && self.drawn_until().is_some() && !seen
+        let grows = self.kicking && self.survives() == Some(false);
+        self.drawn_until().is_some_and(|head| !grows || head.tau < SEEN)
     }
 }
