@@ -9,7 +9,7 @@ use super::{Failure, Result, SourceOptions, given, print, troubled, write};
 use crate::flow::{Limits, Subject};
 use crate::runtime::wav;
 use crate::scan::Sound;
-use crate::scan::sound::HIGHEST;
+use crate::scan::sound::HEARD;
 use crate::session::{Session, Size};
 
 /// Writes a motion as a sound: its velocity, with every stick and slip, in 48 kHz, 16 bit, mono
@@ -27,7 +27,7 @@ pub struct SoundCommand {
     #[arg(long, value_name = "S", value_parser = |text: &str| input::within(text, "s", 0.1..=600.0))]
     seconds: Option<f64>,
     /// Frequency at which the natural frequency is heard, 1 .. 20000 Hz (default: a machine's own from 20 Hz, or 220)
-    #[arg(long, value_name = "HZ", value_parser = |text: &str| input::within(text, "Hz", 1.0..=HIGHEST))]
+    #[arg(long, value_name = "HZ", value_parser = |text: &str| input::within(text, "Hz", 1.0..=*HEARD.end()))]
     pitch: Option<f64>,
     /// A parameter, or a number of the machine, that glides from the beginning to the end while the motion goes on
     #[arg(long, value_name = "NAME=FROM:TO")]

@@ -9,7 +9,7 @@ use crate::flow::Cost;
 use crate::model::{Body, Group, Interval, Knob, ParameterBox, Source};
 use crate::words::printable::signs;
 use crate::words::provenance::Provenance;
-use crate::words::{duration, joined, shortest, with_unit};
+use crate::words::{duration, joined, shortest, with_unit, wrapped};
 
 /// The form of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -168,6 +168,22 @@ impl Answer {
     pub(super) fn costing(self, line: &str, counted: Document, seconds: f64) -> Self {
         let cost = Some(format!("{line}, {}", duration(seconds)));
         Answer { cost, ..self.with("cost", counted.with("seconds", seconds)) }
+    }
+
+    /// The same with its lines, and those of its tables, wrapped to a width.
+    pub(super) fn within(mut self, width: usize) -> Self {
+        let wrap = |text: &str| wrapped(text, width).join("\n");
+        self.cost = self.cost.map(|cost| wrap(&cost));
+        self.parts = self
+            .parts
+            .into_iter()
+            .map(|part| match part {
+                Part::Table(table) => Part::Table(table.unbroken(Some(width))),
+                Part::Line(text) => Part::Line(wrap(&text)),
+                part => part,
+            })
+            .collect();
+        self
     }
 
     /// With where it comes from, as a field of its document; a list has no place for it.

@@ -50,8 +50,9 @@ pub fn claims(examined: &[ClaimResult], width: usize, seconds: f64) -> Answer {
     Answer::default()
         .with("claims", columns().field("reason", reason).objects(examined))
         .csv(&columns(), examined)
-        .table(columns().table(examined).unbroken(Some(width)))
+        .table(columns().table(examined))
         .costing(&claim::summary(examined), Document::default(), seconds)
+        .within(width)
 }
 
 /// The claim, and where it was tested.

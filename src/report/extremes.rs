@@ -4,13 +4,12 @@
 use std::collections::BTreeMap;
 
 use super::cycle_numbers::cycle_fields;
-use super::{About, Answer, Columns, Document, Quantity};
+use super::{Answer, Columns, Document, Quantity};
 use crate::accuracy::extremes::sets::{BUDGET as BUDGET_OF_SET, LatticeCycle, SetVerdict};
 use crate::accuracy::extremes::verdict::{BUDGET, METHODS};
-use crate::accuracy::extremes::{Case, MethodAnswer, MethodsVerdict, NamedExtreme};
+use crate::accuracy::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
 use crate::flow::{Method, Outcome};
-use crate::model::{Body, Knob, Parameters, Reason};
-use crate::numerics::by_number;
+use crate::model::{Knob, Parameters, Reason};
 use crate::words::{exact as short, joined, significant, stability};
 
 /// Few digits of what has more in files.
@@ -33,40 +32,33 @@ pub fn extremes(
         .with("named", named)
         .csv(&columns, rows)
         .lines([format!(include_str!("../../assets/extremes.txt"), tolerance, BUDGET).trim_end()])
-        .table(columns.table(first).unbroken(Some(width)))
-        .table(named_columns().table(named).unbroken(Some(width)))
+        .table(columns.table(first))
+        .table(named_columns().table(named))
         .lines(METHODS.map(|method| conclusion(method, verdicts)))
+        .within(width)
 }
 
 /// What a person reads of a method: how many motions it answers, how well, and why not the others.
 fn conclusion(method: Method, verdicts: &[MethodsVerdict]) -> String {
-    let rows: Vec<MethodRow> =
-        verdicts.iter().filter_map(|it| Some((it, it.answer(method)?))).collect();
-    let wrong = rows.iter().filter(|(_, answer)| answer.contradicts).count();
-    let reasons = rows.iter().map(|(_, answer)| answer.outcome.answered().err());
-    let lost = |row: &&MethodRow| row.1.digits_lost.unwrap_or(0.0);
-    let worst = rows.iter().max_by(by_number(lost)).map(|row| {
-        let Case { start, parameters, .. } = &row.0.case;
-        let place = About::new("", "", &Body::Paper(*parameters).into()).heading();
-        format!("; most digits lost: {}, at {place}, {start}", significant(lost(&row), 2))
-    });
-    let answered = answered("motions", reasons);
-    format!("{method}: {answered}; {wrong} wrong{}", worst.unwrap_or_default())
+    let answers = || verdicts.iter().filter_map(|it| it.answer(method));
+    let wrong = answers().filter(|answer| answer.contradicts).count();
+    let lost = answers().filter_map(|answer| answer.digits_lost).fold(0.0, f64::max);
+    let answered = answered("motions", answers().map(|answer| answer.outcome.answered().err()));
+    format!("{method}: {answered}; {wrong} wrong; at most {} digits lost", significant(lost, 2))
 }
 
-/// How many are answered, and why the others are not: each reason with its number of times.
+/// How many are answered, and why the others are not: each kind of reason with its number of times.
 fn answered(what: &str, reasons: impl Iterator<Item = Option<Reason>>) -> String {
     let mut counts = BTreeMap::new();
     for reason in reasons {
-        *counts.entry(reason.map_or_else(String::new, |why| why.to_string())).or_insert(0) += 1;
+        let why = reason.map_or_else(String::new, |why| why.to_string());
+        let words = why.split(' ').map(|it| if it.parse::<f64>().is_ok() { ".." } else { it });
+        *counts.entry(joined(words, " ")).or_insert(0) += 1;
     }
     let done = counts.remove("").unwrap_or(0);
-    let left: usize = counts.values().sum();
-    if left == 0 {
-        return format!("all {done} {what} answered");
-    }
-    let why = joined(counts.iter().map(|(why, times)| format!("{why} ({times} times)")), ", ");
-    format!("{done} of {} {what} answered; {left} gave up, because {why}", done + left)
+    let all = done + counts.values().sum::<usize>();
+    let left = counts.iter().map(|(why, times)| format!("; {times} gave up, because {why}"));
+    format!("{done} of {all} {what} answered{}", joined(left, ""))
 }
 
 /// A motion, and what a method answered.
@@ -146,8 +138,9 @@ pub fn extreme_cycles(verdicts: &[SetVerdict], width: usize) -> Answer {
         .with("sets", sets.collect::<Vec<_>>())
         .csv(&set_columns(), rows.clone())
         .lines([format!(include_str!("../../assets/extreme-cycles.txt"), BUDGET_OF_SET).trim_end()])
-        .table(set_columns().table(rows).unbroken(Some(width)))
+        .table(set_columns().table(rows))
         .lines(set_conclusion(verdicts))
+        .within(width)
 }
 
 /// A set of parameters, and a cycle of it.
@@ -172,13 +165,10 @@ fn set_columns<'a>() -> Columns<'a, SetRow<'a>> {
         .and(cycle_fields(|(_, cycle): &SetRow| Some((*cycle)?.cycle)))
 }
 
-/// Residual above which the summary counts a cycle as not closed.
-const CLOSED: f64 = 1e-11;
-
 /// What a person reads of the cycles: whether all are found, why not, and how well they close.
 fn set_conclusion(verdicts: &[SetVerdict]) -> [String; 2] {
     let found = answered("sets", verdicts.iter().map(|it| it.answer.as_ref().err().copied()));
-    let cycles = || verdicts.iter().flat_map(SetVerdict::cycles);
-    let open = cycles().filter(|it| it.residual > CLOSED).count();
-    [found, format!("{} cycles, {open} of them not closed to {CLOSED:e}", cycles().count())]
+    let residuals = || verdicts.iter().flat_map(SetVerdict::cycles).map(|it| it.residual);
+    let largest = significant(residuals().fold(0.0, f64::max), 2);
+    [found, format!("{} cycles; largest residual {largest}", residuals().count())]
 }

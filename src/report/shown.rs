@@ -1,5 +1,6 @@
 //! What the explorer shows, as a page: its words and numbers, and the commands that give these again.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::cycle_numbers::{machine_cycles, number_columns};
@@ -53,10 +54,8 @@ fn portrayed(answer: Answer, about: &About, found: &Portrait) -> Answer {
 }
 
 /// The commands that give the numbers of the panes, each once.
-fn commands(session: &Session) -> Vec<String> {
+fn commands(session: &Session) -> BTreeSet<String> {
     let panes = [Pane::Parameters].into_iter().chain(session.on_show().map(Pane::Plot));
     let command = |focus| command_line(&Session { focus, ..session.clone() });
-    let mut lines: Vec<String> = panes.map(command).collect();
-    lines.dedup();
-    lines
+    panes.map(command).collect()
 }

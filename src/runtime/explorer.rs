@@ -46,7 +46,9 @@ fn drawn(mut session: Session, plot: Option<usize>, limits: &Limits) -> (Session
 impl Explorer {
     /// A page of what is on show, and beside it a recording of how the session came there.
     fn page(&self, path: PathBuf, forget: u32, keys: &Recorder) -> Result<Work, String> {
-        let (session, mut keys) = (self.session.clone(), keys.clone());
+        let (mut session, mut keys) = (self.session.clone(), keys.clone());
+        // On paper the whole motion is drawn and told.
+        (session.playback.at, session.playback.playing) = (None, false);
         keys.forget(forget);
         let replay = Some(parse(&keys.text()).map_err(|why| why.to_string())?);
         let beside = path.with_extension("cast");

@@ -5,6 +5,7 @@
 //! time, a difference of displacements: this weakens what is too high for the samples to show.
 
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 use crate::flow::{Detail, Limits, Problem, Subject};
 use crate::model::{ContactState, Reason, Result};
@@ -17,9 +18,8 @@ pub const RATE: u32 = 48_000;
 /// The pitch, in Hz, of an oscillator without units, near that of the open G string of a violin.
 const PITCH: f64 = 220.0;
 
-/// The range of what is heard, in Hz.
-pub const LOWEST: f64 = 20.0;
-pub const HIGHEST: f64 = 20_000.0;
+/// What is heard, in Hz.
+pub const HEARD: RangeInclusive<f64> = 20.0..=20_000.0;
 
 /// Number of samples after which a number that glides takes its next value, which is 1 ms.
 const PIECE: usize = 48;
@@ -50,13 +50,13 @@ impl Sound {
     /// [`Reason`] where a machine has no model.
     pub fn usual(subject: Subject) -> Result<Sound> {
         let own = subject.problem()?.1.map(|model| model.omega_0 / TAU);
-        let pitch = own.filter(|own| (LOWEST..=HIGHEST).contains(own)).unwrap_or(PITCH);
+        let pitch = own.filter(|own| HEARD.contains(own)).unwrap_or(PITCH);
         Ok(Sound { subject, pitch, seconds: 4.0, glide: None })
     }
 
     /// Number of values of a number that glides for so many seconds.
     pub fn pieces(seconds: f64) -> usize {
-        samples(seconds).div_ceil(PIECE)
+        truncated((seconds * f64::from(RATE) / real(PIECE)).round())
     }
 
     /// The mean velocity over each sample.
@@ -64,22 +64,21 @@ impl Sound {
     /// # Errors
     /// Within how many seconds the motion ends, and why: it escapes, or could not be followed.
     pub fn velocities(&self, limits: &Limits) -> Result<Vec<f64>, (f64, Reason)> {
-        let mut found = Vec::with_capacity(samples(self.seconds));
+        let mut found = Vec::new();
         let mut from = (self.subject.clone(), None, false);
         for index in 0..Sound::pieces(self.seconds) {
             if let Some(glide) = &self.glide {
                 // The command line has refused what the subject has not.
                 drop(from.0.set(glide.symbol, glide.value(index)));
             }
-            let count = PIECE.min(samples(self.seconds) - found.len());
-            let end = real(found.len() + count) / f64::from(RATE);
-            found.extend(self.go_on(&mut from, count, limits).map_err(|why| (end, why))?);
+            let end = real(found.len() + PIECE) / f64::from(RATE);
+            found.extend(self.go_on(&mut from, limits).map_err(|why| (end, why))?);
         }
         Ok(found)
     }
 
-    /// Follows the motion for so many samples.
-    fn go_on(&self, from: &mut Place, count: usize, limits: &Limits) -> Result<Vec<f64>> {
+    /// Follows the motion for a piece.
+    fn go_on(&self, from: &mut Place, limits: &Limits) -> Result<Vec<f64>> {
         limits.go_on()?;
         let (subject, steady, rides) = from;
         if let (true, Some(belt)) = (*rides, subject.source.of_belt()) {
@@ -89,7 +88,7 @@ impl Sound {
         let (problem, model) = subject.problem()?;
         let (omega_0, pull) = model.as_ref().map_or((1.0, 0.0), |it| (it.omega_0, it.pull));
         let step = TAU * self.pitch / (omega_0 * f64::from(RATE));
-        let mut problem = Problem { until: step * real(count), ..problem };
+        let mut problem = Problem { until: step * real(PIECE), ..problem };
         // The spring is as long as before, wherever the steady position has gone.
         problem.initial.q += steady.replace(pull).unwrap_or(pull) - pull;
         let detail = Detail { samples_per_step: POINTS, ..Detail::default() };
@@ -98,12 +97,8 @@ impl Sound {
         subject.motion.initial = end.state();
         *rides = motion.legs.last().is_some_and(|leg| leg.place == ContactState::Sticks);
         let at = |index: usize| motion.at(step * real(index)).map_or(end.q, |sample| sample.q);
-        Ok((0..count).map(|index| (at(index + 1) - at(index)) / step).collect())
+        Ok((0..PIECE).map(|index| (at(index + 1) - at(index)) / step).collect())
     }
-}
-
-fn samples(seconds: f64) -> usize {
-    truncated((seconds * f64::from(RATE)).round())
 }
 
 #[cfg(test)]

@@ -32,9 +32,8 @@ pub struct Cast {
 impl Default for Cast {
     /// A recording without a frame, on a terminal that hides its cursor.
     fn default() -> Self {
-        let lines = vec![json!([0.0, "o", "\x1b[?25l"]).to_string()];
-        let screen = Screen::new(Vec::new(), Size::default());
-        Cast { lines, screen, size: Size::default(), time: 0.0, pause: KEY }
+        let (size, lines) = (Size::default(), vec![r#"[0.0,"o","\u001b[?25l"]"#.to_owned()]);
+        Cast { lines, screen: Screen::new(Vec::new(), size), size, time: 0.0, pause: KEY }
     }
 }
 
