@@ -72,10 +72,16 @@ fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
     }
 }
 
+/// Fewest columns of a list beside a scene.
+const NARROWEST_LIST: u16 = 40;
+
 /// Draws the scene that is selected in the list of scenes, as it would open; returns the area that is left for the list.
 fn preview(area: Rect, session: &Session, screen: &mut Surface) -> Rect {
     let Some(preview) = &session.preview else { return area };
-    let width = (area.width / 2).max(SMALLEST.0).min(area.width);
+    let width = (area.width / 2).max(SMALLEST.0);
+    if area.width < width + NARROWEST_LIST {
+        return area;
+    }
     let list = Rect { width: area.width - width, ..area };
     let beside = Rect { x: list.right(), width, ..area };
     let Some(parts) = layout(beside, preview) else { return area };

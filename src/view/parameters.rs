@@ -47,11 +47,10 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let mut lines: Vec<Line> = rows.map(|row| row_line(session, row, area.width, look)).collect();
     lines.extend(folded(session).map(|folded| look.span(format!(" {folded}"), Role::Quiet).into()));
     let below = cycles(session, area.width.into(), look);
-    let room = usize::from(area.height).saturating_sub(1 + lines.len() + below.len());
-    lines.extend(number_line::lines(session, area.width.into(), look).into_iter().take(room));
     // The numbers of a machine leave little room.
     let apart = session.running().is_none() || lines.len() + below.len() < area.height.into();
-    lines.extend(apart.then(Line::default));
+    let number_line = number_line::line(session, area.width.into(), look).unwrap_or_default();
+    lines.extend(apart.then_some(number_line));
     lines.extend(below);
     let taken = pane::cells(lines.len());
     let body = pane::below(area, 1);

@@ -274,9 +274,9 @@ fn found(words: &str) -> Vec<(&'static str, &'static str)> {
 
 /// Words that a person may type, and the row that is meant.
 #[rustfmt::skip]
-const MEANT: [(&str, &str); 59] = [
+const MEANT: [(&str, &str); 58] = [
     ("fold", "walk-to-next"), ("export", "save-figure"), ("stable", "cycles"), ("animate", "play-motion"),
-    ("fig 16", "fig16"), ("fig16b", "supercritical"), ("time series", "time-series"), ("damping", "damping"),
+    ("fig 16", "fig16"), ("fig16b", "supercritical"), ("time series", "time-series"),
     ("save", "write"), ("zoom", "zoom-in"), ("undo", "undo"), ("amplitude", "diagram"), ("basin", "basin"),
     ("hopf", "hopf"), ("period", "axes"), ("quit", "quit"), ("exit", "quit"), ("copy", "copy-number"),
     ("theme", "theme"), ("help", "help"), ("keys", "help"), ("color", "color"), ("bifurcation", "diagram"),
@@ -316,7 +316,8 @@ fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
         let name = command.name.strip_prefix("toggle-").unwrap_or(command.name);
         // A digit cannot be typed in a list.
         let typed = command.keys.iter().any(|(_, keys)| keys.contains(&key("1")));
-        assert!(inside || listed.contains(&name) != typed, "{name}");
+        let is_it = |it: &(&str, &str)| [name, command.name].contains(&it.1);
+        assert!(inside || found(name).iter().any(is_it) != typed, "{name}");
     }
     // A line without a row of its own has one beside it that does the same.
     for line in Keymap::default().lines() {
@@ -348,7 +349,7 @@ fn a_name_may_mean_a_key_too_only_where_the_key_opens_its_line_or_takes_the_next
 fn every_context_has_a_name_of_its_own() {
     let names: BTreeSet<_> = CONTEXTS.iter().map(|row| row.name).collect();
     // Every line of the file is read, and all contexts that it names.
-    assert_eq!((CONTEXTS.len(), names.len()), (VIEWS.len() + 20, VIEWS.len() + 20));
+    assert_eq!((CONTEXTS.len(), names.len()), (VIEWS.len() + 21, VIEWS.len() + 21));
     let most_specific = CONTEXTS.iter().filter(|row| row.chain.len() > 1).count();
     assert_eq!(most_specific, CONTEXTS.len() - 4);
     assert!(VIEWS.iter().all(|row| names.contains(row.name)), "{names:?}");

@@ -231,7 +231,7 @@ fn no_word_on_any_screen_is_cut_without_a_sign() {
         cut.extend(cut_words("supercritical", &alone(view.name)));
     }
     for keys in
-        ["?", "??", "s", "v", "V", "$", "%", "% <enter>", "% <enter> z t", "}", ":", "<enter>"]
+        ["?", "? ?", "s", "v", "V", "$", "%", "% <enter>", "% <enter> z t", "}", ":", "<enter>"]
     {
         cut.extend(cut_words("supercritical", keys));
     }
@@ -283,7 +283,8 @@ fn no_number_on_any_screen_is_cut() {
             cut.extend(cut_numbers(scene, &format!("{} <right>", alone(view.name))));
         }
     }
-    for keys in ["% <enter>", "% <enter> z <right>", MAP, "??", "$", "s", "v", "}", "<tab> <tab> w"]
+    for keys in
+        ["% <enter>", "% <enter> z <right>", MAP, "? ?", "$", "s", "v", "}", "<tab> <tab> w"]
     {
         cut.extend(cut_numbers("supercritical", keys));
     }
