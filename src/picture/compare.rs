@@ -3,15 +3,18 @@
 //! That is the picture of a session at the other point, as far as it differs, in lines that are paler and more broken. What
 //! a machine of other units does is brought to those of the present one.
 
-use super::{Caption, Dash, Item, LineStyle, Marks, Picture, Role, Room};
+use super::{Caption, Dash, Item, LineStyle, Marks, Picture, Role};
 use crate::scene::{Point, View, Window};
 use crate::session::{Session, VariantTag};
 
-/// Adds what a plot shows of the other point, behind the present one.
-pub fn add<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize, room: Room) {
-    let Some(other) = session.beside(index) else { return };
+/// Adds what a plot shows of the other point, its picture alone, behind the present one.
+pub fn add<'a>(
+    picture: &mut Picture<'a>,
+    theirs: Picture<'a>,
+    (session, other): (&Session, &Session),
+    index: usize,
+) {
     let (view, by) = (session.plots[index].view, session.units_beside(index));
-    let theirs = super::alone(other, index, room);
     let mut items: Vec<Item> = theirs.items;
     // Over time only displacements are lengths.
     let is_length = |item: &mut Item| line(item).is_some_and(|it| it.name.starts_with("displ"));
@@ -41,7 +44,12 @@ pub fn add<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize, ro
     });
     for mut caption in theirs.captions {
         caption.or_at.iter_mut().chain([&mut caption.at]).for_each(|at| *at = brought(*at, by));
-        let told = caption.role == Role::Special || caption.short.starts_with(label);
+        if caption.role == Role::Special && !caption.short.starts_with(label) {
+            for text in [&mut caption.long, &mut caption.short] {
+                *text = format!("{label} {text}").into();
+            }
+        }
+        let told = caption.short.starts_with(label);
         if told && picture.captions.iter().all(|own| own.at != caption.at) {
             picture.captions.push(Caption { role: Role::Ghost, ..caption });
         }
@@ -87,9 +95,11 @@ fn pale(line: LineStyle, (index, label): (usize, &'static str)) -> Option<LineSt
         Dash::Dashed => Dash::Sparse,
         broken => broken,
     };
-    let tag = VariantTag { index, label: label.to_owned() };
     let named = !line.name.is_empty();
-    named.then(|| LineStyle { role, dash, ..line.briefly(label) }.of(&tag))
+    // A figure has it in its legend.
+    let name = format!("{}, {label}", line.name).into();
+    let tag = VariantTag { index, label: String::new() };
+    named.then(|| LineStyle { name, role, dash, ..line.briefly(label) }.of(&tag))
 }
 
 /// Whether two parts of a picture are the same, however they are drawn.

@@ -57,7 +57,9 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
 /// What the plot with this index shows in so many columns and rows, and of the point that the present one is compared with.
 pub fn in_room(session: &Session, index: usize, room: Room) -> Picture<'_> {
     let mut picture = alone(session, index, room);
-    compare::add(&mut picture, session, index, room);
+    if let Some(other) = session.beside(index) {
+        compare::add(&mut picture, alone(other, index, room), (session, other), index);
+    }
     picture
 }
 

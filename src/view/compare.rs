@@ -1,7 +1,7 @@
 //! A beside B in words: what differs in a row of the parameters, the margins of both points, and what becomes of both
 //! motions.
 
-use super::{Look, margin, pane, parameters, verdict};
+use super::{margin, pane, verdict};
 use crate::numerics::decimal_sum;
 use crate::picture::Role;
 use crate::portrait::{Border, Drawing};
@@ -11,11 +11,15 @@ use crate::words::{cycles, exact};
 
 /// What stands behind a row in this room: its value at the pinned point, and how far the present one is from that; `None`
 /// where both are the same. A value is not cut: that before it moves to the left.
-pub fn row(session: &Session, row: Row, room: usize, look: &Look) -> Option<String> {
+pub fn row(
+    session: &Session,
+    row: Row,
+    room: usize,
+    value: impl Fn(&Session, usize) -> String,
+) -> Option<String> {
     /// Columns of a number.
     const NUMBER: usize = 8;
     let ([present, pinned], other) = (session.letters()?, session.other.as_deref()?);
-    let value = |of: &Session, width| parameters::value(of, &of.setup(), row, width, look);
     if value(session, usize::MAX) == value(other, usize::MAX) {
         return None;
     }
@@ -41,18 +45,19 @@ pub fn margins(session: &Session, width: usize) -> Option<String> {
     const REST: usize = 44;
     let told = session.sides()?.map(|(letter, of)| margin(of, letter, width.saturating_sub(REST)));
     let [Some(a), Some(b)] = told else { return None };
+    // One margin is told as always.
+    let differ = a[1..] != b[1..];
     // What the numbers are is said once.
     let b = ["shift ", "impulse "].iter().fold(b, |told, name| told.replace(name, ""));
-    Some(format!("margin from rest: {a}; {b}"))
+    differ.then(|| format!("margin from rest: {a}; {b}"))
 }
 
 /// That of one of them; `None` while it is not known.
 fn margin(session: &Session, letter: &str, width: usize) -> Option<String> {
-    let found = fresh(session)?;
+    let found = fresh(session).filter(|found| found.parameters.r > 0.0)?;
     let known = session.machine_margins().map_or(found.margin, |both| both.whole);
     Some(match found.portrait.border {
         Border::NoBasin => format!("{letter} rest repels"),
-        _ if found.parameters.r == 0.0 => format!("{letter} no friction"),
         _ => margin::in_pane(session, letter, &known, width)
             .unwrap_or_else(|| format!("{letter} every kick is survived")),
     })
@@ -64,7 +69,7 @@ pub fn outcomes(session: &Session) -> Option<String> {
     let [(a, (first, Role::Text)), (b, (second, Role::Text))] = told else { return None };
     // Why it is so is told of one motion.
     let [first, second] = [first, second].map(|it| it.split(" (").next().unwrap_or(&it).to_owned());
-    Some(format!("{a} {first}; {b} {second}"))
+    (first != second).then(|| format!("{a} {first}; {b} {second}"))
 }
 
 /// The cycles of a session, if they are not those of other numbers.

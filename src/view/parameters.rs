@@ -150,7 +150,8 @@ fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'stati
 /// What stands behind a value: its step, and what the number means.
 fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
     let room = usize::from(width).saturating_sub(VALUES);
-    if let Some(text) = compare::row(session, row, room, look) {
+    let value = |of: &Session, width| value(of, &of.setup(), row, width, look);
+    if let Some(text) = compare::row(session, row, room, value) {
         return text;
     }
     let selected = row == session.selected;

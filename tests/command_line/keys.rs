@@ -219,7 +219,9 @@ fn an_arrow_key_that_arrives_in_pieces_destroys_nothing() {
     // Over a slow line, <up> can arrive as <esc>, [, A; application mode sends O instead of [.
     for (context, key, name) in bindings() {
         let piece = key.typed().is_some_and(|char| "OABCD".contains(char));
-        assert!(!piece, "{name} is bound to {key} in {context:?}");
+        // The line of this one is left by the escape of the next key.
+        let opens_a_line = name == "type-parameter";
+        assert!(!piece || opens_a_line, "{name} is bound to {key} in {context:?}");
     }
     for (_, key, name) in bindings() {
         if key.typed() == Some('[') {

@@ -48,6 +48,25 @@ fn curves<'a>(figure: &'a Figure, panel: usize, name: &str) -> Vec<&'a Outline> 
 }
 
 #[test]
+fn a_figure_of_a_beside_b_holds_both_by_name_with_the_parameters_of_each() {
+    let mut session = Session::new(find("plain").unwrap(), Size { width: 100, height: 30 });
+    for key in ["p", "<right>"] {
+        update(&mut session, Msg::Key(key.parse().unwrap()));
+    }
+    complete(&mut session, Fineness::PRINT, &Limits::PATIENT).unwrap();
+    let drawn = Figure::of(&session, 0..2);
+    let damping = |name: &str| curves(&drawn, 0, name)[0].parameters["D"];
+    let names = ["motion, A", "motion, B", "unstable cycle, A", "unstable cycle, B"];
+    assert_eq!(names.map(damping), [-0.1, -0.09, -0.1, -0.09]);
+    // The branch over D is that of both.
+    let branch: Vec<_> = curves(&drawn, 1, "unstable cycle").iter().map(|it| &it.name).collect();
+    assert_eq!(branch, ["unstable cycle"]);
+    for form in [FigureForm::Csv, FigureForm::Json, FigureForm::Svg] {
+        assert!(text(&drawn, form).contains("motion, A"), "{form:?}");
+    }
+}
+
+#[test]
 fn every_scene_is_the_same_figure_in_every_form() {
     for scene in scenes() {
         let drawn = figure(scene, Fineness::PRINT);

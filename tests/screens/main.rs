@@ -3,6 +3,7 @@
 mod axes;
 mod by_hand;
 mod bytes;
+mod compare;
 mod cut;
 mod legends;
 mod pictures;

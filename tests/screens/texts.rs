@@ -16,7 +16,7 @@ use hopfscope::view::layout::layout;
 use hopfscope::view::screen::text;
 
 /// Screens that people have.
-const SIZES: [(u16, u16); 3] = [(80, 24), (120, 40), (200, 60)];
+pub const SIZES: [(u16, u16); 3] = [(80, 24), (120, 40), (200, 60)];
 
 fn run(session: &mut Session, line: &str) {
     update(session, Msg::Run(line.to_owned()));
@@ -34,7 +34,7 @@ fn recorded() -> Session {
 }
 
 /// The rows of the parameter pane.
-fn pane(session: &Session) -> String {
+pub fn pane(session: &Session) -> String {
     let Size { width, height } = session.size;
     let columns = layout(Rect::new(0, 0, width, height), session).unwrap().parameters.width;
     let screen = text(&draw(session, braille()));

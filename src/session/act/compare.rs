@@ -65,9 +65,7 @@ pub fn swap(session: &mut Session) -> Done {
     let here = session.setup();
     let name: &str = pinned.into();
     let moved = format!("{name} is present: {}", difference(&here, &there));
-    if !put(session, there) {
-        return Err("A and B are the same".to_owned());
-    }
+    put(session, there).then_some(()).ok_or("A and B are the same")?;
     if let Some(EarlierState::Setup(before)) = session.history.past.pop() {
         session.history.past.push(EarlierState::Swap(before));
     }
