@@ -11,6 +11,7 @@ use crate::runtime::wav;
 use crate::scan::Sound;
 use crate::scan::sound::HEARD;
 use crate::session::{Session, Size};
+use crate::words::significant;
 
 /// Writes a motion as a sound: its velocity, with every stick and slip, in 48 kHz, 16 bit, mono
 #[derive(Args)]
@@ -46,7 +47,8 @@ impl SoundCommand {
         let content = wav::wav(&sound, &Limits::PATIENT).map_err(Failure::Unanswered)?;
         write(&self.output, &content, self.force)?;
         let (path, Sound { seconds, pitch, .. }) = (self.output.display(), sound);
-        print(&format!("{path}: {seconds} s, the natural frequency at {pitch:.5} Hz\n"))
+        let pitch = significant(pitch, 5);
+        print(&format!("{path}: {seconds} s, the natural frequency at {pitch} Hz\n"))
     }
 
     /// The machine, or what a scene draws: by the whole model if it is that of a machine.

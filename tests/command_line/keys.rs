@@ -60,9 +60,9 @@ fn keys_of_a_form_that_is_gone_are_passed_over() {
     // Some of these commands are gone with the form, others apply elsewhere still.
     let gone = "[keys.form]\nstart-scan = [\"<C-s>\"]\nnext-field = []\nback = []\n";
     assert_eq!(parse("config.toml", gone).unwrap(), Config::default());
-    let text = gone.to_owned() + "[keys.everywhere]\nscan-form = [\"<A-s>\"]\n";
+    let text = gone.to_owned() + "[keys.everywhere]\nscan-form = [\"<A-j>\"]\n";
     let config = parse("config.toml", &text).unwrap();
-    assert_eq!(meaning(&config, Context::Everywhere, "<A-s>"), Some("scan"));
+    assert_eq!(meaning(&config, Context::Everywhere, "<A-j>"), Some("scan"));
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use hopfscope::numerics::elementary::cos;
+use roxmltree::{Document, ParsingOptions};
 use serde_json::Value;
 
 use crate::program::{Ran, run};
@@ -23,7 +24,10 @@ fn samples(bytes: &[u8]) -> Vec<f64> {
     assert_eq!((&bytes[..4], &bytes[8..16]), (b"RIFF".as_slice(), b"WAVEfmt ".as_slice()));
     assert_eq!([word(20), word(22), word(34)], [1, 1, 16], "PCM, mono, 16 bit");
     assert_eq!((long(24), long(28)), (48_000, 96_000));
-    assert_eq!((&bytes[36..40], long(40) as usize), (b"data".as_slice(), bytes.len() - 44));
+    assert_eq!(
+        (&bytes[36..40], usize::try_from(long(40)).unwrap()),
+        (b"data".as_slice(), bytes.len() - 44)
+    );
     let level = |pair: &[u8]| f64::from(i16::from_le_bytes([pair[0], pair[1]])) / 32_767.0;
     bytes[44..].chunks(2).map(level).collect()
 }
@@ -39,11 +43,7 @@ fn an_undamped_oscillator_is_a_pure_tone_of_the_pitch_that_is_asked_for() {
     let line = "sound --set D=0 --set r=0 --set q0=1 --seconds 2 --pitch 440 --output tone.wav";
     let (ran, file) = written(folder.path(), line);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
-    assert!(
-        ran.out.ends_with("tone.wav: 2 s, the natural frequency at 440.00 Hz\n"),
-        "{}",
-        ran.out
-    );
+    assert!(ran.out.ends_with("tone.wav: 2 s, the natural frequency at 440 Hz\n"), "{}", ran.out);
     let tone = samples(&file.unwrap());
     assert_eq!(tone.len(), 96_000);
     // The mean of -sin over a sample is a difference of cos; its largest value is nine tenths of the full scale.
@@ -63,10 +63,14 @@ fn the_scene_of_a_slow_belt_sticks_and_slips_at_its_own_count() {
     let (ran, file) = written(folder.path(), line);
     assert_eq!(ran.code, 0, "{}", ran.err);
     let late = samples(&file.unwrap()).split_off(48_000);
-    // The largest velocity is that of the belt, on which the mass rides for a while in each period.
-    let rides = late.iter().filter(|level| **level > 0.8999 - 1e-3).count();
+    // With the belt the mass never moves faster than this, and it rides on it for a while in each period.
+    let most = late.iter().copied().fold(0.0, f64::max);
+    let rides = late.iter().filter(|level| most - **level < 1e-4).count();
+    // `cycles textbook --set v0=0.2`: it sticks for 11.961 of 126.99 ms, between -0.21524 and 0.2 m/s. A sample or two
+    // beside each ride differ by less than can be told.
+    assert!((4_500..=4_700).contains(&rides), "{rides}");
     let lowest = late.iter().copied().fold(0.0, f64::min);
-    assert!(rides > 4_800 && lowest < -0.1, "{rides} {lowest}");
+    assert!((most / lowest + 0.2 / 0.215_24).abs() < 1e-3, "{most} {lowest}");
     assert!(rises(&late) < 100, "sticking makes the period longer than that of the free mass");
 }
 
@@ -153,7 +157,8 @@ fn a_page_holds_pictures_numbers_and_commands_and_beside_it_the_way_there() {
         let ran = run(&["replay", keys.to_str().unwrap(), "--scene", scene, "--allow-write"]);
         assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{scene}");
         let text = fs::read_to_string(&page).unwrap();
-        let document = roxmltree::Document::parse(&text).unwrap();
+        let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+        let document = Document::parse_with_options(&text, options).unwrap();
         let count = |name: &str| document.descendants().filter(|it| it.has_tag_name(name)).count();
         assert!(count("script") == 0 && count("svg") >= 2 && count("table") >= 3, "{scene}");
         for word in words {
