@@ -31,6 +31,9 @@ const TALL: u16 = 24;
 /// Rows that a caption leaves to the plots.
 const LEAST: u16 = 5;
 
+/// Rows of plots beside which the outcome of a lecture has large letters.
+const LEAST_IN_LECTURE: u16 = 9;
+
 /// Rows of the outcome of a lecture, and from how many rows of the screen on: large letters and two lines.
 const OUTCOMES: [(u16, u16); 2] = [(40, 7), (0, 5)];
 
@@ -64,7 +67,7 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
     }
     let designed = Size { width, height }.tells_margin();
     let lectures = session.display.lecture;
-    let (status, numbers) = match OUTCOMES.iter().find(|(least, _)| height >= *least) {
+    let (mut status, numbers) = match OUTCOMES.iter().find(|(least, _)| height >= *least) {
         Some((_, rows)) if lectures && designed => (*rows, 1),
         _ => (if designed { 2 } else { 1 }, u16::from(lectures)),
     };
@@ -80,8 +83,13 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
         _ => 0,
     };
     let playback = u16::from(session.tells_playback());
-    let body = height - 2 - numbers - sentence - legend - playback - status;
-    let caption = caption::rows(width, session).min(body.saturating_sub(LEAST));
+    let mut body = height - 2 - numbers - sentence - legend - playback - status;
+    let caption = caption::rows(width, session);
+    if lectures && designed && body < caption + LEAST_IN_LECTURE {
+        // A long text takes the room of the large letters, of which the sentence below says the same.
+        (body, status) = (body + status - 2, 2);
+    }
+    let caption = caption.min(body.saturating_sub(LEAST));
     let rows = [1, sentence, numbers, body - caption, legend, caption, playback, status, 1];
     let [title, sentence, numbers, body, legend, caption, playback, status, footer] =
         Split::vertical(rows.map(Constraint::Length)).areas(screen);

@@ -407,7 +407,7 @@ fn a_session_of_an_earlier_version_opens_with_its_whole_history() {
 fn a_machine_s_diagram_is_over_any_of_its_numbers() {
     let scene = (*hopfscope::scene::find("slow-belt").unwrap()).clone();
     let (session, text) = screen(scene.clone(), ":axes<space>F<enter>");
-    assert!(text.contains("x_max [m] over F [N]"), "{text}");
+    assert!(text.contains("x_max [mm] over F [N]"), "{text}");
     let found = session.machine_branch(session.plot).unwrap();
     let belt = &scene.machine.as_ref().unwrap().machine.belt;
     assert!(found.points.len() > 30 && found.points.iter().any(|point| point.value == 300.0));
