@@ -29,7 +29,7 @@ fn a_count_ends_where_the_key_is_refused_or_opens_something() {
     Trial::open("linear").goes(&[
         ("<tab> *9999?", "open help"),
         ("? 5j <esc> <S-tab> <right> <right> *50u", "notice nothing to undo | changes 0 2"),
-        ("<tab> 7<f12>", "notice ..no meaning here.."),
+        ("<tab> 7<f11>", "notice ..no meaning here.."),
     ]);
 }
 
