@@ -160,14 +160,14 @@ fn the_headline_is_the_margin_from_the_worst_rest_position_that_the_command_line
         let mut explorer = Explorer::open(&scene, width, height);
         let line = told(&mut explorer);
         let answer = answered(&["margin", "--scene", "supercritical", "--format", "json"]);
-        agrees(&numbers(&line, "margin from rest: "), &answer["nominal"]["from_rest"]);
+        agrees(&numbers(&line, "from rest: "), &answer["nominal"]["from_rest"]);
         agrees(&numbers(&line, "from q = 0: "), &answer["nominal"]);
 
         update(&mut explorer.session, Msg::Run("set w=0.02 r=0.1+-0.01".to_owned()));
         let line = told(&mut explorer);
         let disturbed = ["--set", "r=0.1+-0.01", "--disturbance", "0.02", "--format", "json"];
         let answer = answered(&[&["margin", "--scene", "supercritical"], &disturbed[..]].concat());
-        agrees(&numbers(&line, "margin from rest: "), &answer["nominal"]["from_rest"]);
+        agrees(&numbers(&line, "from rest: "), &answer["nominal"]["from_rest"]);
         let certain = numbers(&line, "guaranteed: ");
         agrees(&certain, &answer["guaranteed"]["from_rest"]);
         let bound = &answer["guaranteed"]["from_rest"]["displacement"];
@@ -176,7 +176,7 @@ fn the_headline_is_the_margin_from_the_worst_rest_position_that_the_command_line
         update(&mut explorer.session, Msg::Run("belt textbook".to_owned()));
         let line = told(&mut explorer);
         let answer = answered(&["belt", "textbook", "--format", "json"]);
-        agrees(&numbers(&line, "margin from rest: "), &answer["margin"]["from_rest"]);
+        agrees(&numbers(&line, "from rest: "), &answer["margin"]["from_rest"]);
     }
 }
 

@@ -203,7 +203,7 @@ const WORDS: [(&str, True); 8] = [
     ("stop for ever", |it| it.value(Knob::R) > 0.0),
     ("dry friction makes", |it| it.value(Knob::R) > 0.0),
     ("proves the circle", |it| it.value(Knob::D) < 0.0 && it.value(Knob::R) > 0.0),
-    ("broken closed curve", |it| {
+    ("broken curve", |it| {
         it.cycles().is_some_and(|found| found.cycles.iter().any(|cycle| !cycle.stable))
     }),
 ];
