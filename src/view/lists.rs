@@ -262,7 +262,7 @@ impl ListContent {
         let below = if self.about.is_empty() { 0 } else { self.below + 1 };
         let wanted = pane::cells(lines.len()).saturating_add(2 + below);
         // No slivers of panes beside the list; the footer stays in sight.
-        let width = if area.width < WIDTH + 10 { area.width } else { WIDTH };
+        let width = if area.width <= WIDTH + 10 { area.width } else { WIDTH };
         let above_footer = area.height.saturating_sub(1);
         let height = above_footer.min(wanted.max(4));
         let (x, y) = (area.x + (area.width - width) / 2, area.y + (above_footer - height) / 2);

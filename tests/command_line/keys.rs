@@ -6,7 +6,7 @@ use hopfscope::scene::{VIEWS, plain};
 use hopfscope::session::config::{Config, parse};
 use hopfscope::session::settings::{Colors, Glyphs, Theme};
 use hopfscope::session::state::keymap::{CONTEXTS, ContextSpec};
-use hopfscope::session::{Command, Context, Key, Keymap, Session, Size, commands};
+use hopfscope::session::{Command, Context, Key, Keymap, PaletteRow, Session, Size, commands};
 
 fn key(text: &str) -> Key {
     text.parse().unwrap()
@@ -312,7 +312,8 @@ fn a_key_that_is_searched_for_comes_before_all_that_has_its_letter() {
 fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
     let session = Session::new(plain(), Size { width: 80, height: 24 });
     let list = hopfscope::session::List::default();
-    let listed: Vec<_> = session.palette_rows(&list).iter().map(|row| row.name()).collect();
+    let rows = session.palette_rows(&list);
+    let listed: Vec<_> = rows.iter().map(|row| row.name()).collect();
     for command in commands() {
         let inside = command.keys.iter().all(|(context, _)| context.is_overlay());
         let name = command.name.strip_prefix("toggle-").unwrap_or(command.name);
@@ -325,7 +326,8 @@ fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
     for line in Keymap::default().lines() {
         let beside = if line.hint.is_empty() { line.name } else { line.hint };
         assert!(listed.contains(&beside), "{}", line.name);
-        assert_eq!(listed.iter().filter(|name| **name == beside).count(), 1, "{beside}");
+        let commands = rows.iter().filter(|row| matches!(row, PaletteRow::Command(_)));
+        assert!(commands.filter(|row| row.name() == beside).count() <= 1, "{beside}");
     }
 }
 
