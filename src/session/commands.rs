@@ -29,7 +29,7 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("step", Move(|s, [by, _]| s.attempt(|s| parameters::step(s, by)))),
     ("step-size", Move(|s, [by, _]| s.attempt(|s| parameters::step_size(s, by)))),
     ("half-width", Move(|s, [by, _]| s.attempt(|s| parameters::half_width(s, by)))),
-    ("edit", Act(parameters::edit)),
+    ("edit", Act(|s| if !history::goes_deeper(s) { parameters::edit(s) })),
     ("type-number", Press(parameters::begin)),
     ("reset-value", Act(parameters::reset_row)),
 

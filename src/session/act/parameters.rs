@@ -4,7 +4,6 @@ use crate::flow::{METHODS, Method, MethodSpec, Problem, QUALITIES};
 use crate::model::{Knob, KnobSpec, Parameters, measured};
 use crate::numerics::{cycled, log10, shortest};
 use crate::scene::{Setting, View};
-use crate::session::act::history;
 use crate::session::read::completion::typed;
 use crate::session::{
     Done, EarlierState, Framing, Key, Overlay, Prompt, Row, Session, Setup, StepSizes, symbol_of,
@@ -234,11 +233,8 @@ impl Session {
     }
 }
 
-/// Opens the line with the value of the selected row; on a first screen goes on to the scene behind it.
+/// Opens the line with the value of the selected row.
 pub fn edit(session: &mut Session) {
-    if let Some(next) = session.scene.next.clone() {
-        return session.attempt(|session| history::go_deeper(session, &next));
-    }
     let row = session.selected;
     let knob = row.knob_in(&session.problem);
     let text = typed(&session.setup(), row).unwrap_or_else(|| knob.print(session.value(knob)));
