@@ -274,7 +274,7 @@ mod tests {
         let wide = table(&["a", "b", "c", "d"], &[&numbers, &["1", "2", "3", "4"]]);
         let shown = wide.unbroken(Some(40)).to_string();
         let gap = " ".repeat(16);
-        let first = format!("{gap}a  {gap}b\n    {gap}c\n    {gap}d\n");
+        let first = format!("{gap}a  {gap}b\n    {gap}c  {gap}d\n");
         assert!(shown.starts_with(&first), "{shown}");
         assert!(shown.ends_with(
             &first.replace('a', "1").replace('b', "2").replace('c', "3").replace('d', "4")

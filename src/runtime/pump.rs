@@ -266,12 +266,12 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Writes a file, and tells the session what became of it.
-    fn write(&mut self, path: PathBuf, content: Content, replace: bool) -> Step {
+    fn write(&mut self, path: &Path, content: Content, replace: bool) -> Step {
         let done = match content {
-            content if content.takes_time() => return self.make(&path, &content, replace),
-            Content::Record { forget } => self.write_record(&path, forget, replace),
-            Content::Scan(scan, rows) => scan_file::save(&path, &scan, &rows),
-            Content::Text(text) => Files::write(&path, text, replace, Readers::Owner),
+            content if content.takes_time() => return self.make(path, &content, replace),
+            Content::Record { forget } => self.write_record(path, forget, replace),
+            Content::Scan(scan, rows) => scan_file::save(path, &scan, &rows),
+            Content::Text(text) => Files::write(path, text, replace, Readers::Owner),
             Content::Figure { .. } | Content::Page { .. } | Content::Sound => return Ok(()),
         };
         self.told(done.into(), Msg::Told)
@@ -357,7 +357,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             Effect::Repaint => self.resized(),
             Effect::StopWriting => self.workers.stop_writing(),
             Effect::PutAside(path) => Files::put_aside(&path),
-            Effect::Write { path, content, replace } => self.write(path, content, replace)?,
+            Effect::Write { path, content, replace } => self.write(&path, content, replace)?,
             Effect::Read { path, purpose } => {
                 let result = self.read(&path);
                 self.update(Msg::Read { path, purpose, result })?;

@@ -105,6 +105,7 @@ impl Sound {
 mod tests {
     use super::*;
     use crate::model::{Belt, FrictionLaw, Knob, Parameters, State, Tolerances};
+    use crate::numerics::{atan, cos};
     use crate::scan::Spacing;
 
     /// The sound of an oscillator that starts at q = 1.
@@ -139,7 +140,7 @@ mod tests {
         let velocities = sound(linear, 100.0, None).velocities(&Limits::PATIENT).unwrap();
         let step = TAU * 100.0 / 48_000.0;
         for (index, found) in velocities.iter().enumerate() {
-            let [from, to] = [index, index + 1].map(|at| (step * real(at)).cos());
+            let [from, to] = [index, index + 1].map(|at| cos(step * real(at)));
             assert!((found - (to - from) / step).abs() < 1e-7, "{index}: {found}");
         }
     }
@@ -193,7 +194,7 @@ mod tests {
     fn a_mass_that_sticks_moves_with_its_belt_for_as_long_as_the_closed_form_says() {
         let velocities = chatter(None);
         // From -0.5 to 0.5 with the belt, then back on a circle around the steady position.
-        let (ride, slip) = (1.0, TAU - 2.0 * 0.5_f64.atan2(1.0));
+        let (ride, slip) = (1.0, TAU - 2.0 * atan(0.5));
         let rides = velocities.iter().filter(|v| (**v - 1.0).abs() < 1e-12).count();
         let share = real(rides) / 48_000.0;
         // At both ends of each ride a sample is shared.

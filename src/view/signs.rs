@@ -49,7 +49,7 @@ fn letter(cell: &Cell) -> char {
 fn is_minus([early, before, after, late]: [char; 4]) -> bool {
     let number = after.is_ascii_digit() || (after == '.' && late.is_ascii_digit());
     let name = after.is_ascii_alphabetic() && !late.is_alphanumeric() && late != '-';
-    let begins = !before.is_alphanumeric() && !"-_/.".contains(before);
+    let begins = !before.is_alphanumeric() && !"-_/.+".contains(before);
     let exponent = before == 'e' && early.is_ascii_digit() && after.is_ascii_digit();
     exponent || (begins && (number || (name && " ([".contains(before))))
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use hopfscope::numerics::elementary::cos;
+use hopfscope::numerics::elementary::{cos, sin};
 use roxmltree::{Document, ParsingOptions};
 use serde_json::Value;
 
@@ -49,7 +49,7 @@ fn an_undamped_oscillator_is_a_pure_tone_of_the_pitch_that_is_asked_for() {
     // The mean of -sin over a sample is a difference of cos; its largest value is nine tenths of the full scale.
     let step = std::f64::consts::TAU * 440.0 / 48_000.0;
     let mean = |at: f64| cos(step * (at + 1.0)) - cos(step * at);
-    let most = 2.0 * (0.5 * step).sin();
+    let most = 2.0 * sin(0.5 * step);
     for (sample, at) in tone.iter().zip(0..96_000) {
         let expected = 0.9 * mean(f64::from(at)) / most;
         assert!((sample - expected).abs() < 2e-4, "{at}: {sample} {expected}");

@@ -198,9 +198,6 @@ impl<M: Application, W: Write> Pump<M, W> {
                     if let Msg::Resize { width, height } = msg {
                         self.screen.repaint(Size { width, height });
                     }
-                    if let Some(cast) = &mut self.options.cast {
-                        cast.film(&msg, || application.picture(size));
-                    }
                     self.record(msg)
                 }
                 Ok(Action::Done) if self.unattended => Err(LoopEnd::Quit),
@@ -267,6 +264,9 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Gives the session a message that is recorded, unless it quits.
     fn record(&mut self, msg: Msg) -> Step {
+        if let Some(cast) = &mut self.options.cast {
+            cast.film(&msg, || self.application.picture(self.screen.size()));
+        }
         self.options.recorder.note(&msg);
         let done = self.update(msg);
         if done == Err(LoopEnd::Quit) {
