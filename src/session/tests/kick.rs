@@ -2,6 +2,7 @@
 
 use crate::flow::Limits;
 use crate::model::{Parameters, State};
+use crate::numerics::hypot;
 use crate::question::answer;
 use crate::scene::{Layer, View, find};
 use crate::session::replay::{Action, Player, parse};
@@ -199,15 +200,18 @@ fn the_arrow_of_the_layer_ends_on_the_border() {
         assert!(kicked.0.layers.contains(&Layer::Margin));
         let found = kicked.0.cycles().unwrap();
         let tip = found.nearest.unwrap();
-        let apart = |at: &State| (at.q - tip.q).hypot(at.v - tip.v);
+        let apart = |at: &State| hypot(at.q - tip.q, at.v - tip.v);
         let least = found.edge.iter().map(apart).fold(f64::INFINITY, f64::min);
         assert!(least < 0.02 * tip.v.abs(), "{scene}: {least} {tip:?}");
     }
 }
 
 #[test]
-fn a_recorded_motion_and_a_screen_without_a_motion_are_not_kicked() {
+fn where_no_plot_shows_the_motion_it_is_not_kicked() {
     let mut kicked = Kicked::open("plain", (80, 24));
-    kicked.press("<run \"view eigenvalues\"><tab>z t");
-    assert!(!kicked.0.kicking);
+    let before = kicked.press("<run \"view eigenvalues\"><tab>z").0.setup();
+    kicked.press("<run \"try-kick\">");
+    let why = "no plot shows what a kick does: V or :view phase shows it";
+    assert_eq!(kicked.0.notice.clone().unwrap().text, why);
+    assert!(!kicked.0.kicking && kicked.0.setup() == before);
 }
