@@ -59,3 +59,14 @@ fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
     let line = item.seen(picture.window)?;
     Some(told(sample, line.role, line.brief.unwrap_or(&line.name)))
 }
+
+/// What an item is called, as in the legend or where that leaves it out by its own name, and what it stands for as far as
+/// its colour goes.
+pub fn called(picture: &Picture, item: &Item) -> Option<(String, Role)> {
+    let LegendEntry { role, text, .. } = entry(picture, item)?;
+    let own = match item {
+        Item::Marks(Marks { name, .. }) => Some(name),
+        item => item.seen(picture.window).map(|line| &line.name),
+    };
+    Some((if text.is_empty() { own?.to_string() } else { text }, role))
+}

@@ -1,6 +1,7 @@
 //! Scenes: what is on show, the layers in which it is drawn, and the questions that these ask.
 
 pub mod file;
+pub mod glossary;
 pub mod library;
 pub mod machine;
 pub mod mistake;
@@ -12,7 +13,7 @@ pub mod scene;
 pub mod views;
 pub mod window;
 
-pub use self::{library::*, plot_setup::*, scene::*, views::*, window::*};
+pub use self::{glossary::*, library::*, plot_setup::*, scene::*, views::*, window::*};
 pub use crate::question::{Finding, Fit, Recording, Reply, Request, TOPICS, Topic};
 pub use machine::{Machine, ScaledMachine, Setting};
 pub use mistake::FileMistake;

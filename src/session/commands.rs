@@ -16,8 +16,8 @@ use crate::session::act::{
 };
 use crate::session::read::completion::{self, all, nothing};
 use crate::session::{
-    COMMANDS, Colors, Command, Context, Effect, Glyphs, Input, Key, Keymap, PendingInput, Purpose,
-    Theme, named,
+    COMMANDS, Colors, Command, Context, Effect, Explanation, Glyphs, Input, Key, Keymap, Overlay,
+    PendingInput, Purpose, Theme, named,
 };
 
 /// What commands do: by the name that their line ends with, which is that of the command where the line does not say
@@ -103,6 +103,9 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("pin", Act(compare::pin)),
     ("swap", Try(compare::swap)),
 
+    ("what-is", Act(|s| s.overlay = Some(Overlay::Explanation(Explanation::default())))),
+    ("explain-by", Move(|s, by| if let Some(Overlay::Explanation(it)) = &mut s.overlay { it.steps.push(by); })),
+    ("explain-more", Act(|s| if let Some(Overlay::Explanation(it)) = &mut s.overlay { it.more = !it.more; })),
     ("explain", Act(|s| s.caption.explain())),
     ("tour", Try(files::tour)),
     ("restore", Try(files::restore)),

@@ -8,8 +8,8 @@ use super::layout::{Layout, SMALLEST, layout};
 use super::pane::{self, FramedPicture, Heading};
 use super::plot::{point_at, room, shown};
 use super::{
-    Look, Surface, caption, energy_ledger, footer, help, lecture, legend, lists, paint::paint,
-    parameters, playback, scan, signs, status,
+    Look, Surface, caption, energy_ledger, explain, footer, help, lecture, legend, lists,
+    paint::paint, parameters, playback, scan, signs, status,
 };
 use crate::picture::{self, Role, legend::entries};
 use crate::scene::View;
@@ -34,6 +34,7 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
             lists::draw(list, session, screen);
             footer::draw(parts.footer, session, screen);
             help::draw(area, session, screen);
+            explained(&parts, session, screen);
         }
     }
     match look.glyphs {
@@ -88,6 +89,18 @@ fn preview(area: Rect, session: &Session, screen: &mut Surface) -> Rect {
     Clear.render(beside, screen.buffer);
     panes(&parts, preview, screen);
     list
+}
+
+/// Explains what is asked about; the plot that draws it is drawn a second time, so that it stands out.
+fn explained(parts: &Layout, session: &Session, screen: &mut Surface) {
+    let Some(thing) = explain::pointed(parts, session, screen.buffer) else { return };
+    if let Some((index, role)) = thing.drawn {
+        let (area, look) = (parts.plots[index], screen.look.clone().pointing(role));
+        Clear.render(area, screen.buffer);
+        let screen = &mut Surface { look: &look, buffer: screen.buffer };
+        plot(framed(area, session, index), session, index, screen);
+    }
+    explain::draw(parts, &thing, session, screen);
 }
 
 /// The picture of a plot in its place.

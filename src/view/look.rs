@@ -160,6 +160,18 @@ impl Look {
         self.styles[role as usize]
     }
 
+    /// The same look, in which what stands for a role looks as the cursor does, without colours reversed.
+    pub fn pointing(mut self, role: Role) -> Self {
+        let cursor = self.style(Role::Cursor);
+        let attribute = if cursor.fg.is_none() {
+            Modifier::REVERSED
+        } else {
+            Modifier::BOLD
+        };
+        self.styles[role as usize] = cursor.add_modifier(attribute);
+        self
+    }
+
     /// A text in the style of a role.
     pub fn span<'a>(&self, text: impl Into<Cow<'a, str>>, role: Role) -> Span<'a> {
         Span::styled(text, self.style(role))

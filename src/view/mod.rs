@@ -8,6 +8,7 @@ pub mod caption;
 mod compare;
 pub mod dots;
 pub mod energy_ledger;
+pub mod explain;
 mod fitted;
 pub mod footer;
 pub mod frame;

@@ -12,10 +12,18 @@ use crate::session::wants::named;
 use crate::words::motion::swings;
 use crate::words::{count, duration, significant};
 
-/// Draws the title line: what the scene is, and its name.
+/// Draws the title line: what the scene is, the equation of motion, and the name of the scene. Where there is no room for
+/// all, the equation matters more than the name, and a short title than a long one.
 pub fn title(area: Rect, session: &Session, screen: &mut Surface) {
-    let left = screen.look.span(format!(" {}", session.scene.title), Role::Title);
-    let right = screen.look.span(format!("{} ", session.scene.name), Role::Quiet);
+    let (title, name, equation) = (&*session.scene.title, &session.scene.name, session.equation());
+    let full = format!("{equation}  {name}");
+    let brief = title.split(" (").next().unwrap_or(title);
+    let ways = [(title, &full), (title, &equation), (brief, &equation), (name, &equation)];
+    let letters = |text: &str| text.chars().count();
+    let fits = |way: &(&str, &String)| letters(way.0) + letters(way.1) + 5 <= area.width.into();
+    let (title, right) = ways.into_iter().find(fits).unwrap_or((title, name));
+    let left = screen.look.span(format!(" {title}"), Role::Title);
+    let right = screen.look.span(format!("{right} "), Role::Quiet);
     screen.both_ends(area, 0, left, right);
 }
 

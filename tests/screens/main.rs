@@ -5,6 +5,7 @@ mod by_hand;
 mod bytes;
 mod compare;
 mod cut;
+mod explained;
 mod legends;
 mod pictures;
 mod playback;
@@ -328,7 +329,7 @@ fn the_footer_and_the_help_name_the_keys_that_do_it() {
     assert!(footer("").contains("left right step") && footer("").contains("q quit"));
     assert!(footer("<tab>").contains("enter start here"));
     assert!(footer("<enter>").contains("enter accept"));
-    let help = settled("plain", 100, 500, "? ?");
+    let help = settled("plain", 100, 700, "? ?");
     let screen = text(&draw(&help, letters()));
     let Some(Overlay::List(_, list)) = &help.overlay else { panic!("a list") };
     for row in help.palette_rows(list) {

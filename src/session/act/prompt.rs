@@ -13,7 +13,8 @@ use crate::session::act::screen_setup::show_from_list;
 use crate::session::act::values::{belt, set_row};
 use crate::session::read::completion::completion;
 use crate::session::{
-    Completion, Done, Input, List, ListKind, Overlay, PaletteRow, Prompt, Session, called,
+    Completion, Done, Explanation, Input, List, ListKind, Overlay, PaletteRow, Prompt, Session,
+    called,
 };
 use crate::words::printable::is_printable;
 
@@ -154,6 +155,10 @@ pub fn choose(session: &mut Session) -> Done {
         Some(PaletteRow::Layer(layer)) => toggle(session, layer.layer),
         Some(PaletteRow::Machine(machine)) => belt(session, &machine.name)?,
         Some(PaletteRow::Claim(claim)) => show_claim(session, claim)?,
+        Some(PaletteRow::Entry(entry)) => {
+            let shown = Explanation { entry: Some(entry), ..Explanation::default() };
+            session.overlay = Some(Overlay::Explanation(shown));
+        }
         None => {}
     }
     Ok(())

@@ -125,6 +125,7 @@ impl Session {
             Some(Overlay::Prompt(Prompt { row: Some(_), .. })) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
             Some(Overlay::Offer(_)) => Context::Offer,
+            Some(Overlay::Explanation(_)) => Context::Explanation,
         };
         &first.spec().chain
     }

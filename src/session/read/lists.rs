@@ -8,7 +8,10 @@ use std::sync::{Arc, LazyLock};
 use crate::numerics::distinct;
 use crate::paper::{Claim, ClaimResult, Verdict, claims};
 use crate::scene::machine::library::machines;
-use crate::scene::{LAYERS, LayerSpec, Machine, Scene, SceneGroup, VIEWS, View, ViewSpec, library};
+use crate::scene::{
+    GLOSSARY, GlossaryEntry, LAYERS, LayerSpec, Machine, Scene, SceneGroup, VIEWS, View, ViewSpec,
+    library,
+};
 use crate::session::{
     CONTEXTS, Code, Command, Context, KeptSession, Key, List, ListKind, Session, place,
 };
@@ -30,6 +33,8 @@ pub enum PaletteRow {
     Machine(&'static Machine),
     /// A claim of the paper, to show in its scene.
     Claim(&'static Claim),
+    /// An entry of the glossary, to read.
+    Entry(&'static GlossaryEntry),
 }
 
 impl PaletteRow {
@@ -48,6 +53,7 @@ impl PaletteRow {
             PaletteRow::Claim(claim) => {
                 [claim.equation, claim.section, claim.statement, "Claims of the paper"]
             }
+            PaletteRow::Entry(entry) => [entry.name, "", entry.definition, "Glossary"],
         }
     }
 
@@ -63,7 +69,10 @@ impl PaletteRow {
     /// All of its names.
     fn names(self) -> Vec<&'static str> {
         let [name, other, ..] = self.texts();
-        let synonyms = SYNONYMS.get(name).into_iter().flatten().copied();
+        let synonyms: Vec<&str> = match self {
+            PaletteRow::Entry(entry) => entry.words.split(", ").collect(),
+            _ => SYNONYMS.get(name).cloned().unwrap_or_default(),
+        };
         [name, other].into_iter().filter(|name| !name.is_empty()).chain(synonyms).collect()
     }
 }
@@ -82,7 +91,9 @@ impl Session {
         let claims = claims().filter(|claim| claim.scene.is_some()).map(PaletteRow::Claim);
         let alone = |machine: &&Machine| library().iter().all(|it| it.name != machine.name);
         let machines = machines().iter().filter(alone).map(PaletteRow::Machine);
+        let entries = GLOSSARY.iter().map(PaletteRow::Entry);
         let all = commands.chain(scenes).chain(views).chain(layers).chain(machines).chain(claims);
+        let all = all.chain(entries);
         let searches = !list.search.trim().is_empty();
         let all = all.filter(|row| searches || !self.is_out(list, *row));
         let distance = |row| if searches { 0 } else { self.distance(row) };

@@ -4,6 +4,7 @@ pub mod answers;
 pub(crate) mod compare;
 pub mod completion;
 pub mod contexts;
+mod explanation;
 pub mod fate;
 pub mod forces;
 pub mod help;

@@ -256,6 +256,8 @@ pub enum Context {
     Prompt,
     /// A pasted keystroke file waits for a yes.
     Offer,
+    /// Something is being explained.
+    Explanation,
     Always,
 }
 

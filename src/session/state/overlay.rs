@@ -5,6 +5,7 @@ use std::mem::{Discriminant, discriminant};
 
 use strum::EnumString;
 
+use crate::scene::GlossaryEntry;
 use crate::session::{Key, Row, Script};
 
 /// An overlay over the panes.
@@ -18,6 +19,21 @@ pub enum Overlay {
     Prompt(Prompt),
     /// A pasted keystroke file, waiting for confirmation.
     Offer(Script),
+    /// A card that explains what is on the screen.
+    Explanation(Explanation),
+}
+
+/// What is being explained: an entry of the glossary, or what the steps lead to that were taken over what is on show.
+///
+/// The view knows what stands where, so that the session keeps the steps alone.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Explanation {
+    /// What is explained until the first step.
+    pub entry: Option<&'static GlossaryEntry>,
+    /// Steps to the next thing, and to the first of the next pane.
+    pub steps: Vec<[i32; 2]>,
+    /// Whether what it refers to is explained, too.
+    pub more: bool,
 }
 
 /// A list over the panes; its keys have the context of its name.

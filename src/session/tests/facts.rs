@@ -103,6 +103,10 @@ fn overlay(session: &Session, name: &str) -> Option<String> {
             (what.to_owned(), Some(it.input.text()), it.refused.clone())
         }
         Some(Overlay::Offer(script)) => (format!("offer of {} keys", script.keys()), None, None),
+        Some(Overlay::Explanation(shown)) => {
+            let entry = shown.entry.map_or("screen", |entry| entry.name);
+            (format!("explanation of {entry}"), None, None)
+        }
     };
     Some(match name {
         "open" => open,
