@@ -49,10 +49,10 @@ pub struct Layout {
     pub plots: Vec<Rect>,
     /// What the lines mean; without rows on a low screen.
     pub legend: Rect,
-    /// What is being played.
-    pub playback: Rect,
     /// A tour or what there is to see; without rows where nothing is said.
     pub caption: Rect,
+    /// What is being played.
+    pub playback: Rect,
     /// In a lecture with the outcome in large letters.
     pub status: Rect,
     /// Keys, notices and the entry line.

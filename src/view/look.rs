@@ -306,6 +306,7 @@ pub fn fixed(index: u8) -> Rgb {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::{exp, ln};
     use crate::session::settings::choices;
     use crate::view::screen::Paper;
 
@@ -424,7 +425,7 @@ mod tests {
     fn contrast(one: [f64; 3], other: [f64; 3]) -> f64 {
         let linear = |part: f64| match part / 255.0 {
             part if part <= 0.03928 => part / 12.92,
-            part => ((part + 0.055) / 1.055).powf(2.4),
+            part => exp(2.4 * ln((part + 0.055) / 1.055)),
         };
         let luminance = |[red, green, blue]: [f64; 3]| {
             0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue)

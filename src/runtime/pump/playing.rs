@@ -181,7 +181,6 @@ impl<M: Application, W: Write> Pump<M, W> {
                     continue;
                 }
                 Ok(Action::Give(Msg::Resize { .. })) if !self.unattended => continue,
-                Ok(Action::Wait) => Ok(()),
                 Ok(Action::Task(msg)) if passes || playing.shows => {
                     if !passes {
                         playing.note(number, false);
@@ -190,7 +189,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                     playing.player.helped();
                     self.record(msg)
                 }
-                Ok(Action::Task(_)) => Ok(()),
+                Ok(Action::Wait | Action::Task(_)) => Ok(()),
                 Ok(Action::Give(mut msg)) => {
                     if !self.unattended {
                         msg = playing.waits_at(msg);
@@ -201,13 +200,12 @@ impl<M: Application, W: Write> Pump<M, W> {
                     self.record(msg)
                 }
                 Ok(Action::Done) if self.unattended => Err(LoopEnd::Quit),
-                Ok(Action::Done) => match playing.unwritten.take() {
-                    Some(why) => self.played(true, format!("replay done, but {why}")),
-                    None => {
-                        let text = format!("replay done{}", playing.score());
-                        self.played(false, text)
-                    }
-                },
+                Ok(Action::Done) => {
+                    let unwritten = playing.unwritten.take().map(|why| format!(", but {why}"));
+                    let failed = unwritten.is_some();
+                    let how = unwritten.unwrap_or_else(|| playing.score());
+                    self.played(failed, format!("replay done{how}"))
+                }
                 Err(unmet) => self.fail(unmet),
             };
         }

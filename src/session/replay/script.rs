@@ -118,11 +118,10 @@ impl Instruction {
             Give(Msg::Elapsed { seconds }) => ("elapse", seconds.to_string()),
             Give(Msg::Resize { width, height }) => ("resize", format!("{width}x{height}")),
             Give(Msg::Run(line)) => ("run", quoted(line)),
-            Give(Msg::Say(text, _)) => ("say", quoted(text)),
+            Give(Msg::Say(text, _) | Msg::Ask { text, answer: None, .. }) => ("say", quoted(text)),
             Give(Msg::Ask { text, answer: Some(key), .. }) => {
                 ("ask", format!("{} {key}", quoted(text)))
             }
-            Give(Msg::Ask { text, answer: None, .. }) => ("say", quoted(text)),
             Give(Msg::Chapter(name)) => ("chapter", quoted(name)),
             Give(Msg::Start(names)) => ("start", joined(names, " ")),
             Instruction::Key { .. }

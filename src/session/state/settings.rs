@@ -54,6 +54,10 @@ pub enum Theme {
 }
 
 /// Everything about the appearance that the user can choose.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what is on or off has nothing to do with each other"
+)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DisplaySettings {
     /// The characters that form the dots of plots.
