@@ -276,7 +276,7 @@ fn between(places: &[[f64; 2]], index: usize, value: f64) -> f64 {
 fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
     // A cycle that has gone to infinity is named at the top, where its branch leaves.
     if special.cycle.is_none() {
-        let line = LineStyle::new("escape", Role::Danger, Dash::Dotted).captioned();
+        let line = LineStyle::new("escape", Role::Asymptote, Dash::Dotted).captioned();
         picture.upright(line, special.value);
     }
     let y = special.cycle.map_or(top, |cycle| height.of(special.value, &cycle));
