@@ -86,7 +86,7 @@ fn preview(area: Rect, session: &Session, screen: &mut Surface) -> Rect {
     let list = Rect { width: area.width - width, ..area };
     let beside = Rect { x: list.right(), width, ..area };
     let Some(parts) = layout(beside, preview) else { return area };
-    Clear.render(beside, screen.buffer);
+    Clear.render(area, screen.buffer);
     panes(&parts, preview, screen);
     list
 }
