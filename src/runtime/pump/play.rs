@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::session::replay::{Player, Script};
-use crate::session::{Key, Msg};
+use crate::session::replay::{ANSWERS, Player, Script};
+use crate::session::{Code, Key, Msg};
 
 /// Why a replay is paused.
 #[derive(PartialEq)]
@@ -62,6 +62,19 @@ impl Replay {
     /// Notes whether a question was answered rightly, or a task done; only the first time counts.
     pub(super) fn note(&mut self, number: usize, is_right: bool) {
         self.answers.entry(number).or_insert(is_right);
+    }
+
+    /// Goes on from a caption by a key: from a question only by an answer, and by Tab to the next chapter.
+    pub(super) fn goes_on(&mut self, key: Key) {
+        match (self.question, self.player.next_chapter()) {
+            (Some(_), _) if !ANSWERS.contains(&key) => return,
+            (Some(answer), _) => self.note(self.player.said(), key == answer),
+            (None, Some(passed)) if key == Key::plain(Code::Tab) => self.again(passed),
+            // Keys that the user has tried are undone.
+            _ if self.tried => self.again(self.player.said()),
+            _ => {}
+        }
+        self.pause = Pause::Not;
     }
 
     /// Waits for a key at a caption that has just been given, unless it is passed. The one behind a question says first

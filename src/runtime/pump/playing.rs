@@ -13,7 +13,7 @@ use super::{Application, Files, Pump, Step};
 use crate::flow::Limits;
 use crate::runtime::{Event, LoopEnd, ReplayResult};
 use crate::session::read::contexts::forgets;
-use crate::session::replay::{ANSWERS, Action, Script, ScriptError};
+use crate::session::replay::{Action, Script, ScriptError};
 use crate::session::{Code, Content, Effect, Key, Msg, Notice};
 use crate::view;
 
@@ -67,20 +67,8 @@ impl<M: Application, W: Write> Pump<M, W> {
             if let Some(passed) = playing.player.said().checked_sub(2) {
                 playing.again(passed);
             }
-        } else if let (true, Msg::Key(key), Some(answer)) = (caption, &msg, playing.question) {
-            if ANSWERS.contains(key) {
-                playing.note(playing.player.said(), *key == answer);
-                playing.pause = Pause::Not;
-            }
-        } else if caption && is_key(&msg, Code::Tab) && playing.player.next_chapter().is_some() {
-            let passed = playing.player.next_chapter().unwrap_or_default();
-            playing.again(passed);
-        } else if caption && matches!(msg, Msg::Key(_)) {
-            // Keys that the user has tried are undone.
-            if playing.tried {
-                playing.again(playing.player.said());
-            }
-            playing.pause = Pause::Not;
+        } else if let (true, Msg::Key(key)) = (caption, &msg) {
+            playing.goes_on(*key);
         } else if is_key(&msg, Code::Char('q')) {
             return Err(LoopEnd::Quit);
         } else if is_key(&msg, Code::Char(' ')) {
