@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::figure::completed;
-use super::input::{self, MACHINE, page_file, tolerance};
+use super::input::{self, MACHINE, tolerance};
 use super::{CommandCase, Output, Result, second, timed, troubled, write};
 use crate::figure::panels;
 use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Reason, Subject};
@@ -55,7 +55,7 @@ pub struct BeltCommand {
     #[arg(long, value_name = "X", value_parser = tolerance)]
     tol: Option<f64>,
     /// Also writes the answer as a page to print and sign: margins, cycles, pictures, SHA-256 of the machine file
-    #[arg(long, value_name = "FILE.html", value_parser = page_file)]
+    #[arg(long, value_name = "FILE.html", value_parser = |text: &str| input::file(text, "a page", "html"))]
     report: Option<PathBuf>,
     /// Replaces the page if the file holds something else
     #[arg(long, requires = "report")]

@@ -45,7 +45,7 @@ pub struct FitCommand {
     #[arg(long = "output", value_name = "FILE", value_parser = input::figure_file)]
     pictures: Option<(PathBuf, FigureForm)>,
     /// Also writes the answer as a page to print and sign: numbers, what they rest on, figures, SHA-256 of the record
-    #[arg(long, value_name = "FILE.html", value_parser = input::page_file)]
+    #[arg(long, value_name = "FILE.html", value_parser = |text: &str| input::file(text, "a page", "html"))]
     report: Option<PathBuf>,
     /// Replaces the files if they hold something else
     #[arg(long, requires = "written")]

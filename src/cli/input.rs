@@ -259,11 +259,6 @@ pub fn figure_file(text: &str) -> Result<(PathBuf, FigureForm), String> {
     FigureForm::of_file(&path).map(|form| (path, form))
 }
 
-/// The file of a page.
-pub fn page_file(text: &str) -> Result<PathBuf, String> {
-    file(text, "a page", "html")
-}
-
 /// The file of something that ends in this way.
 pub fn file(text: &str, kind: &str, ending: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
@@ -338,9 +333,9 @@ mod tests {
         for wrong in ["fig", "fig.pdf", ".svg", ""] {
             assert!(figure_file(wrong).is_err(), "{wrong}");
         }
-        assert!(page_file("a/Page.HTML").is_ok());
+        assert!(file("a/Page.HTML", "a page", "html").is_ok());
         for wrong in ["page", "page.htm", ".html", ""] {
-            assert!(page_file(wrong).is_err(), "{wrong}");
+            assert!(file(wrong, "a page", "html").is_err(), "{wrong}");
         }
     }
 
