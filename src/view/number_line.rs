@@ -17,7 +17,7 @@ pub fn line(session: &Session, width: usize, look: &Look) -> Option<Line<'static
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a column")]
     let column = |value| (line.range.fraction(value) * real(length - 1)).round() as usize;
     let symbols = look.symbols();
-    let mut cells = vec![look.span(symbols.axis[3].to_string(), Role::Axis); length];
+    let mut cells = vec![look.span(symbols.axis[3].clone(), Role::Axis); length];
     let values = line.special.iter().map(|point| point.value).chain([line.value]);
     let taken: Vec<usize> = values.map(column).collect();
     for point in &line.special {
