@@ -8,6 +8,7 @@ use super::cycles::{NO_CYCLE, border, known};
 use super::margin::{MarginRow, margin_columns};
 use super::{About, Answer, Columns};
 use crate::portrait::{Cycle, Portrait};
+use crate::scene::GlossaryEntry;
 use crate::session::act::copy::command_line;
 use crate::session::{Key, Pane, Session};
 use crate::words::stability;
@@ -28,6 +29,12 @@ pub fn shown(session: &Session, outcome: String, beside: &Path) -> Answer {
         answer = portrayed(answer, &about, &found.portrait);
     }
     answer
+        .heading("What the words mean")
+        .lines(
+            words(session)
+                .iter()
+                .map(|entry| format!("{}: {}", entry.name, text(entry.definition))),
+        )
         .heading("The same on the command line")
         .lines(commands(session))
         .heading("The same in the explorer")
@@ -51,6 +58,22 @@ fn portrayed(answer: Answer, about: &About, found: &Portrait) -> Answer {
         .lines(lines)
         .heading("Margins")
         .table(margin.and(margin_columns(about, DIGITS)).table([("", found.margin)]).transposed())
+}
+
+/// What explains the numbers and the layers on show, each once.
+fn words(session: &Session) -> Vec<&'static GlossaryEntry> {
+    let numbers = session.rows().into_iter().map(|row| ("number", row.name_in(&session.problem)));
+    let views = session.on_show().map(|plot| session.plots[plot].view);
+    let views: Vec<_> = views.collect();
+    let layers = session.layers.iter().map(|layer| layer.spec());
+    let layers = layers.filter(|layer| views.contains(&layer.view));
+    let names =
+        numbers.chain(layers.map(|layer| ("layer", layer.name))).chain([("word", "margin")]);
+    let mut words: Vec<_> =
+        names.filter_map(|(kind, name)| GlossaryEntry::of(kind, name)).collect();
+    words.sort_by_key(|entry| entry.name);
+    words.dedup();
+    words
 }
 
 /// The commands that give the numbers of the panes, each once.

@@ -137,7 +137,10 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     ("choose", Try(prompt::choose)),
     ("toggle-letter", Press(lists::toggle_letter)),
     ("search-done", Try(prompt::search_done)),
-    ("search-drop", Act(|s| lists::search_with(s, String::clear))),
+    ("search-drop", Act(|s| {
+            lists::search_with(s, String::clear);
+            lists::with(s, |list| list.searching = false);
+        })),
     ("search-delete", Act(|s| lists::search_with(s, |it| _ = it.pop()))),
     ("search-clear", Act(|s| lists::search_with(s, String::clear))),
 

@@ -5,7 +5,7 @@ use ratatui::text::Span;
 use super::{Look, margin};
 use crate::numerics::{real, truncated};
 use crate::picture::Role;
-use crate::session::{Kick, Session};
+use crate::session::{Session, TriedKick};
 
 /// Cells of the bar: as many as fit.
 const CELLS: std::ops::RangeInclusive<usize> = 8..=24;
@@ -16,7 +16,7 @@ const DIGITS: usize = 4;
 /// The gauge of the kick by which the motion on show starts, in at most so many columns; `None` where it starts by none, no
 /// margin is known, or there is no room.
 pub fn gauge(session: &Session, width: usize, look: &Look) -> Option<Vec<Span<'static>>> {
-    let kick @ Kick { is_shift, size, border } = session.kick()?;
+    let kick @ TriedKick { is_shift, size, border } = session.kick()?;
     let border = border?;
     let guaranteed = margin::guaranteed(session, is_shift);
     let told = |size: f64| margin::told(session, is_shift, size, DIGITS);
@@ -40,7 +40,7 @@ pub fn gauge(session: &Session, width: usize, look: &Look) -> Option<Vec<Span<'s
 }
 
 /// The symbols of the cells of a bar, by their places among those of the gauge, with their roles.
-fn bar(kick: Kick, border: f64, guaranteed: Option<f64>, cells: usize) -> Vec<(usize, Role)> {
+fn bar(kick: TriedKick, border: f64, guaranteed: Option<f64>, cells: usize) -> Vec<(usize, Role)> {
     /// The length of the bar, relative to the margin and to the kick.
     const ROOM: [f64; 2] = [1.25, 1.05];
     let whole = (ROOM[0] * border).max(ROOM[1] * kick.size);

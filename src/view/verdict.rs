@@ -8,7 +8,7 @@ use crate::picture::{Role, units};
 use crate::portrait::{Border, Cycle, Drawing, Portrait};
 use crate::scene::{Finding, Layer, Topic};
 use crate::session::fate::End;
-use crate::session::{BranchStop, Kick, Session};
+use crate::session::{BranchStop, Session, TriedKick};
 use crate::words::motion::{of_machine, sentence, swings};
 use crate::words::{Notation, joined, significant, stability};
 
@@ -34,7 +34,7 @@ const SURVIVED: &str = "survived";
 const LOST: &str = "lost";
 
 /// The kick that is being played, whose end is not told yet.
-fn tried(session: &Session, Kick { size, border, .. }: Kick) -> String {
+fn tried(session: &Session, TriedKick { size, border, .. }: TriedKick) -> String {
     let place = Notation(units::shown(session)).position(session.problem.initial.q, 3);
     let size_told = margin::told(session, false, size, 4);
     let part = border.map_or_else(String::new, |border| {

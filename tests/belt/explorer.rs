@@ -101,7 +101,7 @@ fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
         assert!(rows.any(|row| row.starts_with(start)), "{start} in {text}");
     }
     let (_, unfolded) = screen(scene.clone(), "x");
-    assert!(unfolded.contains("d3           600") && !text.contains("d3 "), "{unfolded}");
+    assert!(unfolded.contains("d3           600") && !text.contains("d3  "), "{unfolded}");
     let (_, below) = screen(scene.clone(), "x <down*30>");
     assert!(below.contains("until        100  t 2 s"), "{below}");
     for words in ["x 1 mm", "margin from rest: 1.249 mm, 0.1448 N s"] {

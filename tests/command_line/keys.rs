@@ -229,8 +229,15 @@ fn an_arrow_key_that_arrives_in_pieces_destroys_nothing() {
         }
         if key.to_string() == "<esc>" {
             assert!(
-                ["back", "drop-cursor", "search-drop", "walk-let-go", "forget-pending"]
-                    .contains(&name),
+                [
+                    "back",
+                    "drop-cursor",
+                    "search-drop",
+                    "walk-let-go",
+                    "kick-let-go",
+                    "forget-pending"
+                ]
+                .contains(&name),
                 "{name}"
             );
         }
@@ -239,12 +246,12 @@ fn an_arrow_key_that_arrives_in_pieces_destroys_nothing() {
 
 /// Commands with the same meaning in different panes: directions, and what is drawn along an axis.
 const ALIKE: [&[&str]; 9] = [
-    &["step-down", "walk-back", "scan-back", "cursor-left"],
-    &["step-up", "walk-on", "scan-on", "cursor-right"],
-    &["select-next", "walk-back", "scan-down", "cursor-down"],
-    &["select-previous", "walk-on", "scan-up", "cursor-up"],
-    &["step-far-down", "walk-far-back", "scan-far-back", "pan-left"],
-    &["step-far-up", "walk-far-on", "scan-far-on", "pan-right"],
+    &["step-down", "walk-back", "scan-back", "cursor-left", "kick-smaller"],
+    &["step-up", "walk-on", "scan-on", "cursor-right", "kick-larger"],
+    &["select-next", "walk-back", "scan-down", "cursor-down", "kick-far-smaller"],
+    &["select-previous", "walk-on", "scan-up", "cursor-up", "kick-far-larger"],
+    &["step-far-down", "walk-far-back", "scan-far-back", "pan-left", "kick-far-smaller"],
+    &["step-far-up", "walk-far-on", "scan-far-on", "pan-right", "kick-far-larger"],
     &["next-abscissa", "next-chart-right"],
     &["next-ordinate", "next-chart-up", "scan-column"],
     &["walk", "walk-let-go"],
@@ -283,7 +290,7 @@ const MEANT: [(&str, &str); 58] = [
     ("hopf", "hopf"), ("period", "axes"), ("quit", "quit"), ("exit", "quit"), ("copy", "copy-number"),
     ("theme", "theme"), ("help", "help"), ("keys", "help"), ("color", "color"), ("bifurcation", "diagram"),
     ("phase plane", "phase"), ("friction", "friction"), ("sweep", "scan"), ("scan", "scan"),
-    ("kick", "start-inside"), ("tolerance", "tol"), ("method", "next-method"), ("mouse", "mouse"),
+    ("kick", "try-kick"), ("tolerance", "tol"), ("method", "next-method"), ("mouse", "mouse"),
     ("record", "record"), ("mark", "set-mark"), ("import", "fit"), ("load", "open"),
     ("open", "open"), ("print", "save-figure"), ("csv", "save-scan"), ("eigenvalue", "eigenvalues"),
     ("poincare", "return-map"), ("return map", "return-map"), ("lyapunov", "lyapunov"), ("restart", "reset-scene"),
@@ -353,7 +360,7 @@ fn a_name_may_mean_a_key_too_only_where_the_key_opens_its_line_or_takes_the_next
 fn every_context_has_a_name_of_its_own() {
     let names: BTreeSet<_> = CONTEXTS.iter().map(|row| row.name).collect();
     // Every line of the file is read, and all contexts that it names.
-    assert_eq!((CONTEXTS.len(), names.len()), (VIEWS.len() + 21, VIEWS.len() + 21));
+    assert_eq!((CONTEXTS.len(), names.len()), (VIEWS.len() + 22, VIEWS.len() + 22));
     let most_specific = CONTEXTS.iter().filter(|row| row.chain.len() > 1).count();
     assert_eq!(most_specific, CONTEXTS.len() - 4);
     assert!(VIEWS.iter().all(|row| names.contains(row.name)), "{names:?}");

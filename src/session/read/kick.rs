@@ -9,7 +9,7 @@ use crate::session::{Session, fate::End};
 
 /// A kick, in numbers of the oscillator.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kick {
+pub struct TriedKick {
     /// Whether it is a shift from where the spring is relaxed; otherwise it is an impulse where the mass rests.
     pub is_shift: bool,
     pub size: f64,
@@ -19,7 +19,7 @@ pub struct Kick {
 
 impl Session {
     /// The kick by which the motion on show starts, if it starts by one.
-    pub fn kick(&self) -> Option<Kick> {
+    pub fn kick(&self) -> Option<TriedKick> {
         let start @ State { q, v } = self.problem.initial;
         let rests = q.abs() <= self.farthest_rest();
         let (is_shift, size) = match (v == 0.0, rests) {
@@ -28,7 +28,7 @@ impl Session {
             _ => return None,
         };
         let course = self.answers.course.as_ref().filter(|known| known.start == start);
-        Some(Kick { is_shift, size, border: course.and_then(|known| known.border) })
+        Some(TriedKick { is_shift, size, border: course.and_then(|known| known.border) })
     }
 
     /// How far from where the spring is relaxed the mass can rest.

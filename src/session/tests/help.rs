@@ -154,9 +154,9 @@ fn a_layer_is_shown_with_its_view() {
 #[test]
 fn the_selected_scene_is_shown_beside_the_list_and_opens_from_its_answers() {
     let mut trial = Trial::open("plain");
-    trial.press("s <home> <down>");
+    trial.press("s <home> <down*2>");
     assert_eq!(trial.session.preview, None, "no room");
-    trial.press("<esc> <resize 120x40> s <home> <down>");
+    trial.press("<esc> <resize 120x40> s <home> <down*2>");
     let preview = trial.session.preview.as_deref().expect("the scene");
     assert_eq!(preview.scene.name, "capture");
     assert!(preview.trajectory().is_some() && !preview.is_busy());

@@ -104,7 +104,7 @@ fn no_list_puts_a_view_that_can_show_nothing_in_place_of_a_plot() {
     trial.goes(&[
         ("V/damping<enter>", "notice damping needs a recorded motion: :fit FILE opens one"),
         ("V/speeds<enter>", "notice belt diagram needs a machine: :belt clutch opens one"),
-        ("<space>residuals<enter>", "notice residuals needs a recorded motion: .."),
+        ("V/residuals<enter>", "notice residuals needs a recorded motion: .."),
         ("V/margin<enter>", "notice margin distribution needs a recorded motion: .."),
         ("V/scan<enter>", "notice scan needs a scan: % opens the line for one"),
     ]);

@@ -84,6 +84,7 @@ proptest! {
             trial.give(Msg::Key(key));
         }
         trial.press("<esc*3>");
+        prop_assert_eq!((&trial.session.overlay, trial.session.pending), (&None, None));
         while trial.session.history.depth().1 > 0 {
             trial.press("U");
         }
