@@ -30,8 +30,9 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some(parts) => {
             panes(&parts, session, screen);
             caption::draw(parts.caption, session, screen);
-            let list = preview(area, session, screen);
-            lists::draw(list, session, screen);
+            // What becomes of the motion stays in sight.
+            let above = Rect { height: parts.status.y.saturating_sub(area.y) + 1, ..area };
+            lists::draw(preview(area, session, screen).unwrap_or(above), session, screen);
             footer::draw(parts.footer, session, screen);
             help::draw(area, session, screen);
             explained(&parts, session, screen);
@@ -77,18 +78,18 @@ fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
 const NARROWEST_LIST: u16 = 40;
 
 /// Draws the scene that is selected in the list of scenes, as it would open; returns the area that is left for the list.
-fn preview(area: Rect, session: &Session, screen: &mut Surface) -> Rect {
-    let Some(preview) = &session.preview else { return area };
+fn preview(area: Rect, session: &Session, screen: &mut Surface) -> Option<Rect> {
+    let preview = session.preview.as_ref()?;
     let width = (area.width / 2).max(SMALLEST.0);
     if area.width < width + NARROWEST_LIST {
-        return area;
+        return None;
     }
     let list = Rect { width: area.width - width, ..area };
     let beside = Rect { x: list.right(), width, ..area };
-    let Some(parts) = layout(beside, preview) else { return area };
+    let parts = layout(beside, preview)?;
     Clear.render(area, screen.buffer);
     panes(&parts, preview, screen);
-    list
+    Some(list)
 }
 
 /// Explains what is asked about; the plot that draws it is drawn a second time, so that it stands out.

@@ -190,9 +190,9 @@ fn oscillator(session: &Session, width: usize) -> Option<String> {
     }))
 }
 
-/// A sentence about the margin that says what it is.
+/// A sentence about the margin, with what that is.
 fn defined(text: &str) -> String {
-    text.replacen("margin", "margin (the smallest kick that is not survived)", 1)
+    format!("{text}; a margin is the smallest kick that is not survived")
 }
 
 /// How much of the margin from the centre the Lyapunov circle (24) proves. It accounts for linear damping only: where

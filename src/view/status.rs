@@ -12,13 +12,13 @@ use crate::session::wants::named;
 use crate::words::motion::swings;
 use crate::words::{count, duration, significant};
 
-/// Draws the title line: what the scene is, the equation of motion, and the name of the scene. Where there is no room for
-/// all, the equation matters more than the name, and a short title than a long one.
+/// Draws the title line: what the scene is, the name of the scene, and where there is room for it beside a short title the
+/// equation of motion.
 pub fn title(area: Rect, session: &Session, screen: &mut Surface) {
     let (title, name, equation) = (&*session.scene.title, &session.scene.name, session.equation());
     let full = format!("{equation}  {name}");
     let brief = title.split(" (").next().unwrap_or(title);
-    let ways = [(title, &full), (title, &equation), (brief, &equation), (name, &equation)];
+    let ways = [(title, &full), (brief, &full), (title, name)];
     let letters = |text: &str| text.chars().count();
     let fits = |way: &(&str, &String)| letters(way.0) + letters(way.1) + 5 <= area.width.into();
     let (title, right) = ways.into_iter().find(fits).unwrap_or((title, name));

@@ -267,6 +267,9 @@ fn no_letter_means_two_things_outside_of_lists_and_forms() {
         }
     }
     assert!(meanings.len() > 30, "{meanings:?}");
+    // In the table of a scan nothing is kicked: there t is what it was before there were kicks.
+    let both: BTreeSet<_> = ["scan-table", "try-kick"].into();
+    assert_eq!(meanings.remove(&'t'), Some(both));
     meanings.retain(|_, names| {
         names.len() > 1 && !ALIKE.iter().any(|alike| names.iter().all(|it| alike.contains(it)))
     });

@@ -244,7 +244,7 @@ const CLAIMS: [Claim; 24] = [
     ("From here it swings up", |stage| !stage.rests_in_the_end()),
     ("What the motion gains", |stage| !stage.rests_in_the_end()),
     ("The motion climbs", |stage| !stage.rests_in_the_end()),
-    ("is the unstable cycle that borders", |stage| stage.edge() == Border::Cycle),
+    ("an unstable cycle, borders their basin", |stage| stage.edge() == Border::Cycle),
     ("it is the border of the basin", |stage| stage.edge() == Border::Cycle),
     ("the two make the unstable cycle", |stage| stage.kinds().0),
     ("There is one cycle, unstable", |stage| stage.kinds() == (true, false)),
