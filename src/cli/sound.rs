@@ -28,7 +28,7 @@ pub struct SoundCommand {
     #[arg(long, value_name = "S", value_parser = |text: &str| input::within(text, "s", 0.1..=600.0))]
     seconds: Option<f64>,
     /// Frequency at which the natural frequency is heard, 1 .. 20000 Hz (default: a machine's own from 20 Hz, or 220)
-    #[arg(long, value_name = "HZ", value_parser = |text: &str| input::within(text, "Hz", 1.0..=*HEARD.end()))]
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = |text: &str| input::within(text, "Hz", 1.0..=*HEARD.end()))]
     pitch: Option<f64>,
     /// A parameter, or a number of the machine, that glides from the beginning to the end while the motion goes on
     #[arg(long, value_name = "NAME=FROM:TO")]
@@ -44,11 +44,12 @@ impl SoundCommand {
         let is_machine = sound.subject.paper().is_none();
         let numbers = if is_machine { &MACHINE } else { &OSCILLATOR };
         sound.glide = given("--over", self.over.as_ref(), |text| numbers.glide(text, pieces))?;
-        let content = wav::wav(&sound, &Limits::PATIENT).map_err(Failure::Unanswered)?;
-        write(&self.output, &content, self.force)?;
+        let wav = wav::wav(&sound, &Limits::PATIENT).map_err(Failure::Unanswered)?;
+        write(&self.output, &wav.content, self.force)?;
         let (path, Sound { seconds, pitch, .. }) = (self.output.display(), sound);
-        let pitch = significant(pitch, 5);
-        print(&format!("{path}: {seconds} s, the natural frequency at {pitch} Hz\n"))
+        let [pitch, from, to] = [pitch, wav.heard[0], wav.heard[1]].map(|it| significant(it, 4));
+        let heard = format!("louder than a hundredth of its peak from {from} to {to} s");
+        print(&format!("{path}: {seconds} s, the natural frequency at {pitch} Hz, {heard}\n"))
     }
 
     /// The machine, or what a scene draws: by the whole model if it is that of a machine.

@@ -34,6 +34,7 @@ use crate::flow::Problem;
 use crate::picture;
 use crate::picture::fit::pictures;
 use crate::report::json::text;
+use crate::session::read::completion::difference;
 use crate::session::{Key, Session};
 use crate::words::provenance::Provenance;
 
@@ -97,6 +98,15 @@ fn panel(session: &Session, plot: usize) -> Panel {
     Panel { nothing, ..Panel::of(&picture) }
 }
 
+/// What the title adds where A stands beside B: the numbers of each that differ.
+fn beside(session: &Session) -> String {
+    let setups = session.sides().map(|sides| sides.map(|(letter, of)| (letter, of.setup())));
+    let Some([(a, first), (b, second)]) = setups.filter(|[(_, a), (_, b)]| a != b) else {
+        return String::new();
+    };
+    format!("; {a}: {}; {b}: {}", difference(&second, &first), difference(&first, &second))
+}
+
 impl Figure {
     /// The same, which says what wrote it.
     pub fn from(self, provenance: Provenance) -> Self {
@@ -108,7 +118,7 @@ impl Figure {
         let Problem { parameters, initial, until, method, tolerance, .. } = session.problem;
         Figure {
             figure: session.scene.name.clone(),
-            title: session.scene.title.clone(),
+            title: format!("{}{}", session.scene.title, beside(session)),
             program: PROGRAM,
             provenance: None,
             units: match session.running() {

@@ -94,7 +94,9 @@ impl Application for Explorer {
             Content::Page { forget } => self.page(path, forget, keys),
             Content::Sound => {
                 let sound = Sound::usual(session.subject()).map_err(|why| why.to_string())?;
-                Ok(Box::new(move |limits: &Limits| Ok(vec![(path, wav::wav(&sound, limits)?)])))
+                Ok(Box::new(move |limits: &Limits| {
+                    Ok(vec![(path, wav::wav(&sound, limits)?.content)])
+                }))
             }
             Content::Figure { plot } => {
                 let form = FigureForm::of_file(&path)?;

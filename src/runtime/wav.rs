@@ -5,6 +5,7 @@ use std::io::Cursor;
 use hound::{SampleFormat, WavSpec, WavWriter};
 
 use crate::flow::{Limits, Reason};
+use crate::numerics::real;
 use crate::scan::Sound;
 use crate::scan::sound::RATE;
 use crate::words::significant;
@@ -19,8 +20,15 @@ const SPEC: WavSpec = WavSpec {
     sample_format: SampleFormat::Int,
 };
 
-/// A sound as the content of a file. Fails with one line if the motion ends before the sound, or is none.
-pub fn wav(sound: &Sound, limits: &Limits) -> Result<Vec<u8>, String> {
+/// A sound as a file.
+pub struct Wav {
+    pub content: Vec<u8>,
+    /// From when until when, in s, it is louder than a hundredth of its peak: a motion may end early, or grow.
+    pub heard: [f64; 2],
+}
+
+/// A sound as a file. Fails with one line if the motion ends before the sound, or is none.
+pub fn wav(sound: &Sound, limits: &Limits) -> Result<Wav, String> {
     let ended = |(seconds, why): (f64, Reason)| {
         format!("no sound: {why}, within {} s", significant(seconds, 3))
     };
@@ -36,5 +44,9 @@ pub fn wav(sound: &Sound, limits: &Limits) -> Result<Vec<u8>, String> {
         samples.try_for_each(|sample| writer.write_sample(sample as i16))?;
         writer.finalize()
     });
-    written.map(|()| bytes.into_inner()).map_err(|why| format!("no sound: {why}"))
+    written.map_err(|why| format!("no sound: {why}"))?;
+    let loud = |velocity: &f64| velocity.abs() > 0.01 * peak;
+    let ends = [velocities.iter().position(loud), velocities.iter().rposition(loud)];
+    let heard = ends.map(|at| real(at.unwrap_or(0)) / f64::from(RATE));
+    Ok(Wav { content: bytes.into_inner(), heard })
 }

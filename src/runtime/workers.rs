@@ -131,6 +131,10 @@ impl Workers {
         {
             self.jobs.retain(|job| job.request != reply.request);
         }
+        // The thread has no more to do, whether it has ended already or not.
+        if let Msg::Written(_) = msg {
+            self.writer = None;
+        }
     }
 
     /// Begins to make and write files, the first of which is this one; [`Msg::Written`] reports the result. Fails with one
@@ -138,7 +142,7 @@ impl Workers {
     pub fn write(&mut self, path: &Path, replace: bool, work: Work) -> Result<(), String> {
         let failed = format!("{} not written", path.display());
         if self.writer.as_ref().is_some_and(|thread| !thread.is_finished()) {
-            return Err(format!("{failed}: another file still is"));
+            return Err(format!("{failed}: another file is still being written"));
         }
         let (report, told) = (Arc::clone(&self.report), failed.clone());
         let begun = start("figures", move |limits| {

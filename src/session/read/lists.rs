@@ -66,6 +66,13 @@ impl PaletteRow {
         self.texts()[2]
     }
 
+    /// Whether this is the name of something to be shown. Names of commands are words like others.
+    fn is_called(self, name: &str) -> bool {
+        let is_shown =
+            matches!(self, PaletteRow::Scene(_) | PaletteRow::View(_) | PaletteRow::Layer(_));
+        is_shown && plain(self.name()) == plain(name)
+    }
+
     /// All of its names.
     fn names(self) -> Vec<&'static str> {
         let [name, other, ..] = self.texts();
@@ -79,8 +86,9 @@ impl PaletteRow {
 
 impl Session {
     /// All rows that contain all searched words. Without a search, the commands of the pane in focus come first, and what
-    /// cannot be run is left out; in a search it comes last, and of equal matches what was used last first. One thing has one row: left out are commands with words where
-    /// another row does the same, machines that have a scene of their name, and claims that no scene shows.
+    /// cannot be run is left out; in a search it comes last, and of equal matches what was used last first. One thing
+    /// has one row: left out are commands with words where another row does the same, machines that have a scene of their
+    /// name, and claims that no scene shows.
     pub fn palette_rows(&self, list: &List) -> Vec<PaletteRow> {
         let lines = self.keymap.lines().filter(|line| line.hint.is_empty());
         let commands = self.listed_commands().chain(lines).map(PaletteRow::Command);
@@ -152,8 +160,8 @@ impl Session {
         let search = &list.search;
         let rank = |row: PaletteRow| match search.trim() {
             "" => 0,
-            _ if self.keys(row).contains(search) => 0,
-            _ => rank(search, &row.names(), row.meaning()),
+            _ if self.keys(row).contains(search) || row.is_called(search) => 0,
+            _ => 1 + rank(search, &row.names(), row.meaning()),
         };
         let mut found: Vec<T> = all.filter(|it| list.matches(&self.words(row(*it)))).collect();
         found.sort_by_cached_key(|it| (rank(row(*it)), order(*it)));
