@@ -94,7 +94,8 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     if shows(Layer::Belt) {
         belt(picture, session);
     }
-    if (shows(Layer::Margin) || session.kicking) && session.variants(index).is_none() {
+    let told = (shows(Layer::Margin) || session.kicking) && !session.is_asked();
+    if told && session.variants(index).is_none() {
         margin(picture, session);
     }
     if shows(Layer::Trajectory) {

@@ -13,46 +13,51 @@ const WIDTH: u16 = 100;
 /// Columns of the frame and of a blank beside it.
 const FRAME: u16 = 4;
 
-/// Heading and paragraphs, with keys as they are written; `None` where nothing is said.
-fn texts(session: &Session, write: impl Fn(Key) -> String) -> Option<(String, Vec<String>)> {
+/// Headings, the longest first, and paragraphs, with keys as they are written; `None` where nothing is said.
+fn texts(session: &Session, write: impl Fn(Key) -> String) -> Option<(Vec<String>, Vec<String>)> {
     let filled = |text: &str| session.keymap.fill(text, &write);
     Some(match &session.caption {
         SessionCaption::Tour(caption, place) => {
-            let place = placed(session, *place);
             let named = caption.contains('{');
             let on = if named {
                 "keys named here work, any other: on"
             } else {
                 "any key: on"
             };
-            let heading = format!(" {place}{on}, backspace: back, esc: leave ");
-            (heading, vec![filled(caption)])
+            (headings(session, *place, on), vec![filled(caption)])
         }
         SessionCaption::Asked(text, place, answer) => {
-            let place = placed(session, *place);
             let how = if answer.is_some() {
-                "y or n, backspace: back"
+                "y or n"
             } else {
                 "do it, page down: show how"
             };
-            (format!(" {place}{how}, esc: leave "), vec![filled(text)])
+            (headings(session, *place, how), vec![filled(text)])
         }
         SessionCaption::Scene => {
             let [look, press] = [&session.scene.watch, &session.scene.press];
             let said = [look, press].map(|text| filled(&session.said(text)));
-            (filled(" {explain}: hide "), said.to_vec())
+            (vec![filled(" {explain}: hide ")], said.to_vec())
         }
         SessionCaption::Nothing => return None,
     })
 }
 
-/// The chapter, the number of a caption and of all.
-fn placed(session: &Session, place: Option<(usize, usize)>) -> String {
+/// The chapter, the number of a caption and of all, and which keys are heard: in full, and where there is less room.
+fn headings(session: &Session, place: Option<(usize, usize)>, how: &str) -> Vec<String> {
     let number = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));
-    match &*session.chapter {
-        "" => number,
-        chapter => format!("{chapter}: {number}"),
-    }
+    let chapter = match &*session.chapter {
+        "" => String::new(),
+        chapter => format!("{chapter}: "),
+    };
+    // A task is begun again by no key.
+    let back = if how.starts_with("do it") {
+        ""
+    } else {
+        ", backspace: back"
+    };
+    let ways = [(&*chapter, back), (&chapter, ""), ("", back), ("", "")];
+    ways.map(|(chapter, back)| format!(" {chapter}{number}{how}{back}, esc: leave ")).to_vec()
 }
 
 /// Rows of the box on a screen of this width; none where nothing is said.
@@ -67,7 +72,7 @@ pub fn rows(width: u16, session: &Session) -> u16 {
 pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let said = texts(session, |key| look.key(key)).filter(|_| area.height > 2);
-    let Some((heading, paragraphs)) = said else { return };
+    let Some((headings, paragraphs)) = said else { return };
     // A tour is read from a distance.
     let role = if session.caption == SessionCaption::Scene {
         Role::Text
@@ -77,6 +82,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let styled = |text| Line::styled(text, look.style(role));
     let width = area.width.min(WIDTH);
     let place = Rect { x: area.x + (area.width - width) / 2, width, ..area };
+    let heading = pane::fitting(headings, width.saturating_sub(FRAME).into());
     let text = screen.boxed(place, &heading, "");
     screen.prose(text, paragraphs.into_iter().map(styled).collect());
 }

@@ -16,7 +16,10 @@ use crate::session::{
 const ALWAYS: [&str; 5] = ["help", "accept", "replay", "forget", "quit"];
 
 /// The hints that are left in a lecture.
-const LECTURE: [&str; 8] = ["step", "play", "lecture", "help", "accept", "replay", "forget", CLOSE];
+const LECTURE: [&str; 12] = [
+    "step", "size", "far", "turn", "let go", "play", "lecture", "help", "accept", "replay",
+    "forget", CLOSE,
+];
 
 /// The hint that joins them while something is open.
 const CLOSE: &str = "close";

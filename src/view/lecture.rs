@@ -36,30 +36,60 @@ fn large(sentence: &str) -> &'static str {
 /// Draws the numbers of the scene in a line, the selected one marked.
 pub fn numbers(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
-    let setup = session.setup();
     let focused = session.focus == Pane::Parameters;
     let internal = |row: &Row| match row {
         Row::Method | Row::Tolerance => true,
         Row::Number(knob) => [Knob::Until, Knob::Step, Knob::Epsilon].contains(knob),
     };
     let mut rows = session.rows();
-    rows.retain(|row| !internal(row) || (focused && *row == session.selected));
+    // On the belt D, D2, D3 and r follow from the numbers of the machine, of which its speed is changed most.
+    let on_the_belt = session.is_on_the_belt() == Some(true);
+    let follows = |row: &Row| {
+        on_the_belt && row.stepped().is_some_and(|knob| Knob::PARAMETERS.contains(&knob))
+    };
+    let left_out = |row: &Row| match row {
+        row if focused && *row == session.selected => false,
+        row => internal(row) || follows(row) || (!on_the_belt && row.is_of_machine()),
+    };
+    rows.retain(|row| !left_out(row));
+    rows.sort_by_key(|row| *row != Row::BELT && !follows(row));
     let number = |row: Row| {
         let selected = focused && row == session.selected;
         let pointer = if selected { &look.symbols().pointer } else { " " };
-        let value = parameters::value(session, &setup, row, NUMBER, look);
-        let text = format!("{pointer}{} {value} ", row.name_in(&session.problem));
+        let value = |of: &Session| parameters::value(of, &of.setup(), row, NUMBER, look);
+        let own = value(session);
+        let [unit, theirs] = [unit(row), theirs(session, &own, value)];
+        let text = format!("{pointer}{} {own}{unit}{theirs} ", row.name_in(&session.problem));
         let role = if selected { Role::Focus } else { Role::Text };
         look.span(text, role)
     };
     let mut texts: Vec<Span> = rows.iter().map(|row| number(*row)).collect();
-    let selected = rows.iter().position(|row| focused && *row == session.selected).unwrap_or(0);
-    let width: usize = texts.iter().map(Span::width).sum();
-    // Where not all fit, those from the selected one on are shown.
-    if width > area.width.into() {
-        texts.drain(..selected);
+    let mut selected = rows.iter().position(|row| focused && *row == session.selected).unwrap_or(0);
+    // Where not all fit, the selected one does, and none is cut.
+    let width = |texts: &[Span]| texts.iter().map(Span::width).sum::<usize>();
+    let room = usize::from(area.width);
+    while selected > 0 && width(&texts[..=selected]) > room {
+        texts.remove(0);
+        selected -= 1;
     }
+    let fitting = (0..=texts.len()).rev().find(|count| width(&texts[..*count]) <= room);
+    texts.truncate(fitting.unwrap_or(0).max(1));
     screen.line(area, 0, texts);
+}
+
+/// The unit of a number of a machine.
+fn unit(row: Row) -> String {
+    let knob = row.stepped().filter(|_| row.is_of_machine());
+    let unit = knob.map(|knob| knob.spec().unit).filter(|unit| !unit.is_empty());
+    unit.map_or_else(String::new, |unit| format!(" {unit}"))
+}
+
+/// The value of the pinned point, where it is another.
+fn theirs(session: &Session, own: &str, value: impl Fn(&Session) -> String) -> String {
+    let pinned = session.letters().zip(session.other.as_deref());
+    let theirs = pinned.map(|([_, letter], other)| (letter, value(other)));
+    let theirs = theirs.filter(|(_, theirs)| theirs != own);
+    theirs.map_or_else(String::new, |(letter, theirs)| format!(" ({letter} {theirs})"))
 }
 
 /// Columns of a number.
@@ -72,7 +102,9 @@ pub fn outcome(area: Rect, session: &Session, screen: &mut Surface) {
     let tall = Rect { height: area.height.saturating_sub(2), ..area };
     // While it is played, one looks.
     if !session.playback.playing {
-        letters(tall, large(&sentence), screen);
+        let whose = session.letter().map_or_else(String::new, |letter| format!("{letter} "));
+        let large = Some(large(&sentence)).filter(|large| !large.is_empty());
+        letters(tall, &large.map_or_else(String::new, |large| whose + large), screen);
     }
     let width = usize::from(area.width);
     let below = Rect { y: tall.bottom(), height: area.height.min(2), ..area };

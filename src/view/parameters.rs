@@ -80,8 +80,8 @@ pub fn shown(session: &Session, height: u16) -> Range<usize> {
 /// What to look at in this scene and what to press. Where there is no room for a text, the key that shows both stands in
 /// its place.
 fn guide(area: Rect, session: &Session, screen: &mut Surface) {
-    // A first screen begins with both.
-    if session.scene.next.is_some() {
+    // A first screen begins with both; while a question is open, they would tell its answer.
+    if session.scene.next.is_some() || session.is_asked() {
         return;
     }
     let look = screen.look;
@@ -294,7 +294,8 @@ fn cells(cycle: &Cycle, units: Option<Units>) -> [String; 5] {
 fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
     /// Columns of the symbol before the numbers.
     const SYMBOL: usize = 3;
-    let Some(found) = session.cycles() else { return Vec::new() };
+    // They would tell the answer of a question.
+    let Some(found) = session.cycles().filter(|_| !session.is_asked()) else { return Vec::new() };
     let units = units::shown(session);
     let mut used = SYMBOL;
     let fits = |(_, columns): &&(&str, usize)| {

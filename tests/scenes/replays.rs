@@ -5,7 +5,7 @@ use hopfscope::flow::Limits;
 use hopfscope::runtime::{Options, play};
 use hopfscope::scene::plain;
 use hopfscope::session::replay::{Action, Player, Recorder, parse, text};
-use hopfscope::session::{Instruction, LESSONS, Msg, Notice, Session, Size};
+use hopfscope::session::{Instruction, LESSONS, Msg, Notice, Script, Session, Size};
 use hopfscope::terminal::Environment;
 
 /// Name and text of every file in `assets/replays`.
@@ -18,6 +18,24 @@ fn files() -> Vec<(String, String)> {
     std::fs::read_dir(folder).unwrap().map(read).collect()
 }
 
+/// The same script, with a picture of the screen when a task has been told.
+fn before_tasks(script: &Script) -> Script {
+    let mut script = script.clone();
+    for mut located in std::mem::take(&mut script.steps) {
+        if let Instruction::Until { task, .. } = &located.step {
+            let told = Msg::Ask { text: task.clone(), answer: None, place: None };
+            let until = located.step.clone();
+            for step in [Instruction::Give(told), Instruction::Screen("task".to_owned())] {
+                located.step = step;
+                script.steps.push(located.clone());
+            }
+            located.step = until;
+        }
+        script.steps.push(located);
+    }
+    script
+}
+
 #[test]
 fn every_lesson_holds_what_it_says_at_every_size_and_in_a_lecture() {
     for (name, text) in LESSONS {
@@ -25,17 +43,28 @@ fn every_lesson_holds_what_it_says_at_every_size_and_in_a_lecture() {
         let count = |word: &str| text.matches(word).count();
         assert!(count("<ask ") + count("<until ") >= 3, "{name} asks before it shows");
         assert!(count("<chapter ") >= 2 && text.starts_with("# Lesson: "), "{name}");
-        for ((width, height), lecture) in [((80, 24), false), ((80, 24), true), ((200, 60), false)]
-        {
+        let sizes = [((60, 16), false), ((80, 24), false), ((80, 24), true), ((200, 60), false)];
+        for ((width, height), lecture) in sizes {
             let mut session = Session::new(plain(), Size { width, height });
             session.display.lecture = lecture;
             let played = play(
                 session,
                 Environment::of(|_| None),
-                Options { replay: Some(script.clone()), ..Options::default() },
+                Options { replay: Some(before_tasks(&script)), ..Options::default() },
                 &Limits::PATIENT,
             );
-            assert_eq!(played.unmet, None, "{name} at {width}x{height}, lecture: {lecture}");
+            let place = format!("{name} at {width}x{height}, lecture: {lecture}");
+            assert_eq!(played.unmet, None, "{place}");
+            let tasks = script.steps.iter().filter_map(|located| match &located.step {
+                Instruction::Until { shown, .. } => Some(shown),
+                _ => None,
+            });
+            let mut kept = played.kept.iter();
+            for shown in tasks {
+                let screen = kept.next().map(|(_, screen)| hopfscope::view::screen::text(screen));
+                let screen = screen.expect("a screen of each task");
+                assert!(!screen.contains(shown), "{place}: nothing is left to do\n{screen}");
+            }
         }
     }
 }
@@ -54,7 +83,14 @@ fn while_a_question_is_open_nothing_tells_its_answer() {
         );
         let screen = hopfscope::view::screen::text(&played.kept[0].1);
         assert!(screen.contains("what becomes of it?"), "{screen}");
-        for telling in ["onto the stable cycle", "(outside", "margin from rest"] {
+        for telling in [
+            "onto the stable cycle",
+            "(outside",
+            "margin from rest",
+            "margin 0",
+            "Two cycles",
+            "border: ",
+        ] {
             assert!(!screen.contains(telling), "{telling}\n{screen}");
         }
     }
@@ -203,6 +239,10 @@ fn mistakes_are_named_with_their_place_before_anything_runs() {
         (
             "<ask \"a\" x>",
             "line 1, column 1: <ask \"a\" x>: ask takes a question in quotes and y or n",
+        ),
+        (
+            "<until \"lost?\" \"lost\" \"set D=-1\">",
+            "line 1, column 1: <until \"lost?\" \"lost\" \"set D=-1\">: until takes a task, a text of the screen",
         ),
         (
             "<until \"a\">",

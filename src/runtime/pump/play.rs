@@ -15,6 +15,12 @@ pub(super) enum Pause {
     Wished,
 }
 
+/// What is said of a question that was answered rightly or a task that was done, of a wrong answer, and of a task whose way
+/// was shown.
+pub(super) const RIGHT: &str = "Right. ";
+const WRONG: &str = "No. ";
+pub(super) const SHOWN: &str = "Shown: ";
+
 /// A file that is being played.
 pub(super) struct Replay {
     pub(super) player: Player,
@@ -27,8 +33,8 @@ pub(super) struct Replay {
     pub(super) pause: Pause,
     /// The question that waits for this answer.
     pub(super) question: Option<Key>,
-    /// Which questions were answered rightly and which tasks done, by the numbers of their captions.
-    pub(super) answers: BTreeMap<usize, bool>,
+    /// What was said of answers and tasks, by the numbers of their captions: one of [`RIGHT`], [`WRONG`], [`SHOWN`].
+    pub(super) answers: BTreeMap<usize, &'static str>,
     /// Whether the user wants to be shown how a task is done.
     pub(super) shows: bool,
     /// Why the first file that it asked for was not written.
@@ -59,16 +65,18 @@ impl Replay {
         (self.question, self.shows) = (None, false);
     }
 
-    /// Notes whether a question was answered rightly, or a task done; only the first time counts.
-    pub(super) fn note(&mut self, number: usize, is_right: bool) {
-        self.answers.entry(number).or_insert(is_right);
+    /// Notes how a question was answered or a task done; only the first time counts.
+    pub(super) fn note(&mut self, number: usize, how: &'static str) {
+        self.answers.entry(number).or_insert(how);
     }
 
     /// Goes on from a caption by a key: from a question only by an answer, and by Tab to the next chapter.
     pub(super) fn goes_on(&mut self, key: Key) {
         match (self.question, self.player.next_chapter()) {
             (Some(_), _) if !ANSWERS.contains(&key) => return,
-            (Some(answer), _) => self.note(self.player.said(), key == answer),
+            (Some(answer), _) => {
+                self.note(self.player.said(), if key == answer { RIGHT } else { WRONG });
+            }
             (None, Some(passed)) if key == Key::plain(Code::Tab) => self.again(passed),
             // Keys that the user has tried are undone.
             _ if self.tried => self.again(self.player.said()),
@@ -84,11 +92,7 @@ impl Replay {
         if number <= self.passed || self.player.has_task() {
             return msg;
         }
-        let remark = match self.answers.get(&(number - 1)) {
-            Some(true) => "Right. ",
-            Some(false) => "No. ",
-            None => "",
-        };
+        let remark = self.answers.get(&(number - 1)).copied().unwrap_or_default();
         match msg {
             Msg::Say(text, place) => {
                 (self.pause, self.question) = (Pause::Caption, None);
@@ -102,12 +106,12 @@ impl Replay {
         }
     }
 
-    /// How many answers were right; empty where nothing was asked.
+    /// That it is done, and how many answers were right where something was asked.
     pub(super) fn score(&self) -> String {
-        let right = self.answers.values().filter(|is_right| **is_right).count();
+        let right = self.answers.values().filter(|how| **how == RIGHT).count();
         match self.answers.len() {
-            0 => String::new(),
-            all => format!(": {right} of {all} right"),
+            0 => "replay done".to_owned(),
+            all => format!("lesson done: {right} of {all} right"),
         }
     }
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use ratatui::layout::Size;
 
-use super::play::{Pause, Replay};
+use super::play::{Pause, RIGHT, Replay, SHOWN};
 use super::{Application, Files, Pump, Step};
 use crate::flow::Limits;
 use crate::runtime::{Event, LoopEnd, ReplayResult};
@@ -159,7 +159,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             let action = playing.player.next(idle, screen);
             let is_done = had_task && !playing.player.has_task();
             if is_done && !passes {
-                playing.note(number, true);
+                playing.note(number, RIGHT);
             }
             return match action {
                 Ok(Action::Keep(name)) => {
@@ -171,7 +171,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                 Ok(Action::Give(Msg::Resize { .. })) if !self.unattended => continue,
                 Ok(Action::Task(msg)) if passes || playing.shows => {
                     if !passes {
-                        playing.note(number, false);
+                        playing.note(number, SHOWN);
                     }
                     playing.shows = false;
                     playing.player.helped();
@@ -189,10 +189,11 @@ impl<M: Application, W: Write> Pump<M, W> {
                 }
                 Ok(Action::Done) if self.unattended => Err(LoopEnd::Quit),
                 Ok(Action::Done) => {
-                    let unwritten = playing.unwritten.take().map(|why| format!(", but {why}"));
+                    let unwritten = playing.unwritten.take();
                     let failed = unwritten.is_some();
-                    let how = unwritten.unwrap_or_else(|| playing.score());
-                    self.played(failed, format!("replay done{how}"))
+                    let but = unwritten.map(|why| format!("replay done, but {why}"));
+                    let how = but.unwrap_or_else(|| playing.score());
+                    self.played(failed, how)
                 }
                 Err(unmet) => self.fail(unmet),
             };

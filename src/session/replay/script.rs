@@ -228,7 +228,7 @@ const PLACE: &str = "\"N X Y\" on plot N, from 1, or \"row N\", as in <click 1 0
 const NAME: &str = "a name of letters, digits, \"-\", \"_\" and \".\", as in <screen a-1>";
 const NUMBERS: &str = "some of D, D2, D3, r, q0, v0, or nothing, as in <start D3 r>";
 const ASK: &str = "a question in quotes and y or n, as in <ask \"Does it rest?\" y>";
-const UNTIL: &str = "a task, a text of the screen and a line that does it, each in quotes, as in \
+const UNTIL: &str = "a task, a text of the screen that it does not say itself and a line that does it, each in quotes, as in \
                      <until \"Let it rest.\" \"comes to rest\" \"set D=0.1\">";
 const FILE: &str = "a name and a text, both in quotes, as in <file \"a.toml\" \"..\">";
 
@@ -391,12 +391,16 @@ fn ask(rest: &str) -> Option<Instruction> {
     (!text.is_empty()).then_some(Give(Msg::Ask { text, answer: Some(answer), place: None }))
 }
 
-/// A task, what the screen then shows, and the line that does it, each in quotes.
+/// A task, what the screen then shows, which the task does not say itself, and the line that does it, each in quotes.
 fn until(rest: &str) -> Option<Instruction> {
     let (task, rest) = leading(rest)?;
     let (shown, rest) = leading(rest.trim_start())?;
     let line = text(rest.trim_start())?;
-    (!(task.is_empty() || shown.is_empty())).then_some(Instruction::Until { task, shown, line })
+    (!(task.is_empty() || task.contains(&shown))).then_some(Instruction::Until {
+        task,
+        shown,
+        line,
+    })
 }
 
 /// A name and a text, both in quotes.
