@@ -17,8 +17,8 @@ fn both_values_of_what_differs_stand_in_one_row_at_every_size_in_every_scene() {
             let pane = pane(&session);
             let case = format!("{} {width}x{height}\n{pane}", scene.name);
             assert!(pane.contains("parameters  of B"), "{case}");
-            let rows = pane.lines().filter(|line| line.starts_with('▸'));
-            let told = rows.filter_map(|row| row.split_once(" A ")).next();
+            let mut rows = pane.lines().filter(|line| line.starts_with('▸'));
+            let told = rows.find_map(|row| row.split_once(" A "));
             let (_, there) = told.unwrap_or_else(|| panic!("{case}"));
             let there = there.split(' ').next().unwrap().parse::<f64>().unwrap();
             let opened = session.marks.left.as_ref().unwrap();
