@@ -8,9 +8,9 @@
 
 use super::{Dash, LineStyle, Picture, Role, Ticks};
 use crate::flow::Sample;
-use crate::numerics::real;
+use crate::numerics::{powi, real};
 use crate::scene::{Layer, Point, Span, Window, rectangle};
-use crate::session::Session;
+use crate::session::{Framing, Session};
 use crate::words::Notation;
 
 /// Columns and rows of a plot, a row being twice as high as a column is wide.
@@ -64,10 +64,15 @@ struct Sketch {
     height: f64,
 }
 
-pub fn draw(picture: &mut Picture, session: &Session, [columns, rows]: Room) {
+pub fn draw(picture: &mut Picture, session: &Session, index: usize, [columns, rows]: Room) {
     picture.axes("q", "");
     // Heights without meaning have no scale.
     picture.upward = Some(Ticks::default());
+    // Before the motion is played, its start.
+    let moment = session.head().or_else(|| session.trajectory()?.at(0.0));
+    if session.plots[index].framing != Framing::User {
+        picture.window.x = in_sight(picture.window.x, session, moment);
+    }
     let across = picture.window.x;
     let height = (0.5 * WIDTH * columns).round().min(rows - BELT).max(1.0);
     let free = rows - BELT - height;
@@ -81,19 +86,30 @@ pub fn draw(picture: &mut Picture, session: &Session, [columns, rows]: Room) {
     if let Some(cursor) = &mut picture.cursor {
         cursor.y = sketch.top + 0.5 * height;
     }
-    // Before the motion is played, its start.
-    let moment = session.head().or_else(|| session.trajectory()?.at(0.0));
     // The cursor points to a position only.
     let pointed = picture.cursor.map(|Point { x: q, .. }| Sample { tau: 0.0, q, v: 0.0 });
     picture.reading = pointed.or(moment).map(|moment| reading(session, &moment));
     let Some(moment) = moment.filter(|_| session.layers.contains(&Layer::Mass)) else { return };
     if forces > 0.0 {
-        bars(picture, session, &moment);
+        bars(picture, session, &moment, columns);
     }
     sketch.machine(picture, session, &moment);
     if let Some(rows) = trail {
         sketch.trail(picture, session, &moment, rows);
     }
+}
+
+/// This range, doubled until the mass stays in it as far as it has swung: a mass that is lost is what one wants to see.
+fn in_sight(across: Span, session: &Session, moment: Option<Sample>) -> Span {
+    let last = moment.map_or(0.0, |moment| moment.tau);
+    let samples = session.trajectory().into_iter().flat_map(|motion| &motion.samples);
+    let swung = samples.take_while(|sample| sample.tau <= last).copied().chain(moment);
+    let half = 0.5 * WIDTH * across.width();
+    let ends = [across.from() + half, across.to() - half];
+    let parts = swung.flat_map(|sample| ends.map(|end| sample.q / end));
+    let least = parts.fold(0.0, f64::max);
+    let wider = (0..1000).map(|power| powi(2.0, power)).find(|times| *times >= least);
+    across.scaled(0.0, wider.unwrap_or(1.0))
 }
 
 /// The moment in numbers, physical ones where the scene is of a machine.
@@ -107,7 +123,9 @@ fn reading(session: &Session, moment: &Sample) -> String {
 
 /// The forces on the mass as bars, from above, and the limits of dry friction: where the spring at rest reaches beyond
 /// them, the mass lets go.
-fn bars(picture: &mut Picture, session: &Session, moment: &Sample) {
+fn bars(picture: &mut Picture, session: &Session, moment: &Sample, columns: f64) {
+    /// Columns of a name and its blanks.
+    const NAME: f64 = 10.0;
     let Some(forces) = session.forces(moment) else { return };
     for end in [-forces.limit, forces.limit] {
         picture.curve("limit of friction", [[end, 0.0], [end, FORCES]]);
@@ -119,11 +137,14 @@ fn bars(picture: &mut Picture, session: &Session, moment: &Sample) {
         (damping, "damping on the mass", forces.damping),
         ("spring", "spring on the mass", Some(forces.spring)),
     ];
-    let left = picture.window.x.from();
+    let [left, right] = picture.window.x.ends();
+    let named = left + NAME * picture.window.x.width() / columns.max(1.0);
     for (row, (name, line, force)) in (0_u8..).zip(all) {
         let y = f64::from(row) + 0.5;
         let line = LineStyle::from(line);
-        picture.caption([left, y], name, line.role);
+        // Where the bar reaches the name, that stands at the other end of its row.
+        let hidden = force.is_some_and(|force| force < named);
+        picture.caption([if hidden { right } else { left }, y], name, line.role);
         if let Some(force) = force {
             picture.curve(line, [[0.0, y], [force, y]]);
         }

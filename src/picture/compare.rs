@@ -7,6 +7,9 @@ use super::{Caption, Dash, Item, LineStyle, Marks, Picture, Role};
 use crate::scene::{Point, View, Window};
 use crate::session::{Session, VariantTag};
 
+/// Lines of the other point that a legend explains: what else has their colour goes with them.
+const TOLD: [&str; 4] = ["motion", "stable cycle", "unstable cycle", "border of the basin"];
+
 /// Adds what a plot shows of the other point, its picture alone, behind the present one.
 pub fn add<'a>(
     picture: &mut Picture<'a>,
@@ -96,10 +99,16 @@ fn pale(line: LineStyle, (index, label): (usize, &'static str)) -> Option<LineSt
         broken => broken,
     };
     let named = !line.name.is_empty();
-    // A figure has it in its legend.
+    // The legend of a screen has room for what is asked of both points.
+    let own = line.brief.as_ref().unwrap_or(&line.name);
+    let told = if TOLD.contains(&&**own) {
+        format!("{own}, {label}")
+    } else {
+        String::new()
+    };
     let name = format!("{}, {label}", line.name).into();
     let tag = VariantTag { index, label: String::new() };
-    named.then(|| LineStyle { name, role, dash, ..line.briefly(label) }.of(&tag))
+    named.then(|| LineStyle { name, role, dash, ..line.briefly(told) }.of(&tag))
 }
 
 /// Whether two parts of a picture are the same, however they are drawn.

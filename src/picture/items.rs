@@ -19,7 +19,7 @@ pub struct LineStyle {
     /// What it is; empty for lines that need no name.
     pub name: Text,
     /// What the legend of the screen says in place of the name; nothing where this is empty.
-    pub brief: Option<&'static str>,
+    pub brief: Option<Text>,
     /// The variant that it belongs to; `None` where it belongs to all.
     pub variant: Option<VariantTag>,
     /// What it is, as far as its colour goes.
@@ -41,8 +41,8 @@ impl LineStyle {
     }
 
     /// The same line with other words in the legend of the screen.
-    pub fn briefly(self, words: &'static str) -> Self {
-        LineStyle { brief: Some(words), ..self }
+    pub fn briefly(self, words: impl Into<Text>) -> Self {
+        LineStyle { brief: Some(words.into()), ..self }
     }
 
     /// The same line with its name beside it: the legend of the screen leaves it out.
@@ -67,7 +67,7 @@ impl LineStyle {
     fn described(text: &'static str) -> Option<Self> {
         let parts: Vec<&str> = text.split(" | ").collect();
         let [name, role, dash, ref legend @ ..] = parts[..] else { return None };
-        let brief = legend.first().map(|words| if *words == "-" { "" } else { *words });
+        let brief = legend.first().map(|words| if *words == "-" { "" } else { *words }.into());
         Some(LineStyle { brief, ..LineStyle::new(name, named(role)?, named(dash)?) })
     }
 }

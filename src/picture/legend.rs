@@ -57,7 +57,7 @@ fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
         Item::Texture(_) => return None,
     };
     let line = item.seen(picture.window)?;
-    Some(told(sample, line.role, line.brief.unwrap_or(&line.name)))
+    Some(told(sample, line.role, line.brief.as_ref().unwrap_or(&line.name)))
 }
 
 /// What an item is called, as in the legend or where that leaves it out by its own name, and what it stands for as far as

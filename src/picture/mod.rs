@@ -92,7 +92,7 @@ fn alone(session: &Session, index: usize, room: Room) -> Picture<'_> {
         View::Eigenvalues => eigenvalues::draw(&mut picture, session, index),
         View::Scan => scan::draw(&mut picture, session),
         View::BeltDiagram => belt_diagram::draw(&mut picture, session, index),
-        View::Belt => belt::draw(&mut picture, session, room),
+        View::Belt => belt::draw(&mut picture, session, index, room),
         View::Damping => picture = fitted(fit::damping).unwrap_or(picture),
         View::Residuals => picture = fitted(fit::residuals).unwrap_or(picture),
         View::Spread => picture = fitted(fit::margin).unwrap_or(picture),

@@ -122,6 +122,8 @@ fn record(picture: &mut Picture, fitted: &FitResult) {
 fn margin(picture: &mut Picture, session: &Session) {
     /// Half the width and the length of its head, as parts of the window.
     const HEAD: [f64; 2] = [0.012, 0.03];
+    /// How far from it its name stands, as a part of the height.
+    const BEYOND: f64 = 0.08;
     let State { q, v } = session.problem.initial;
     let kick = session.kick().filter(|_| session.kicking);
     let tried = kick.and_then(|kick| Some(State { q, v: kick.border?.copysign(v) }));
@@ -132,7 +134,9 @@ fn margin(picture: &mut Picture, session: &Session) {
     picture.curve("margin", shaft);
     let (one, unit) = session.unit_of_kick(false);
     let text = format!("margin {}", with_unit(v.abs() * one, 4, unit));
-    picture.caption([q, 0.6 * v], text, Role::Special);
+    // Beyond its tip, where it hides neither the axis nor what is within the border.
+    let beyond = v + BEYOND * picture.window.y.width().copysign(v);
+    picture.caption([q, beyond], text, Role::Special);
 }
 
 /// The velocity at which the mass sticks to its belt, and where the motion reaches it.

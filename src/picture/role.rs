@@ -143,8 +143,8 @@ impl Mark {
 pub fn end_mark(outcome: &Outcome) -> Option<Mark> {
     match outcome {
         Outcome::Captured { .. } => Some(Mark::Rest),
-        Outcome::Moving { .. } => Some(Mark::Head),
-        Outcome::Escaped { .. } | Outcome::GaveUp { .. } => None,
+        Outcome::Moving { .. } | Outcome::Escaped { .. } => Some(Mark::Head),
+        Outcome::GaveUp { .. } => None,
     }
 }
 

@@ -1,10 +1,10 @@
 //! A beside B in words: what differs in a row of the parameters, the margins of both points, and what becomes of both
 //! motions.
 
-use super::{margin, pane, verdict};
+use super::{margin, margin::Sizes, pane, verdict};
 use crate::numerics::decimal_sum;
 use crate::picture::Role;
-use crate::portrait::{Border, Drawing};
+use crate::portrait::{Border, Drawing, Margin};
 use crate::scene::Topic;
 use crate::session::{Row, Session};
 use crate::words::{cycles, exact};
@@ -17,13 +17,14 @@ pub fn row(
     room: usize,
     value: impl Fn(&Session, usize) -> String,
 ) -> Option<String> {
-    /// Columns of a number.
+    /// Columns of a number, and of one whose digits all matter: those that follow from others have more.
     const NUMBER: usize = 8;
+    const EXACT: usize = 14;
     let ([present, pinned], other) = (session.letters()?, session.other.as_deref()?);
     if value(session, usize::MAX) == value(other, usize::MAX) {
         return None;
     }
-    let theirs = format!("{pinned} {}", value(other, room.saturating_sub(4).max(NUMBER)));
+    let theirs = format!("{pinned} {}", value(other, room.saturating_sub(4).clamp(NUMBER, EXACT)));
     let short = ["  ", " "].map(|blanks| format!("{blanks}{theirs}"));
     let Row::Number(knob) = row else { return Some(pane::fitting(short, room)) };
     let difference = decimal_sum(session.value(knob), -other.value(knob));
@@ -43,7 +44,10 @@ pub fn counts(session: &Session) -> Option<String> {
 pub fn margins(session: &Session, width: usize) -> Option<String> {
     /// Columns of what leads, and of a margin without names.
     const REST: usize = 44;
-    let told = session.sides()?.map(|(letter, of)| margin(of, letter, width.saturating_sub(REST)));
+    let sides = session.sides()?;
+    let beside = known(sides[0].1).map_or([None; 2], |it| margin::sizes(sides[0].1, it.from_rest));
+    let room = width.saturating_sub(REST);
+    let told = sides.map(|(letter, of)| margin(of, letter, beside, room));
     let [Some(a), Some(b)] = told else { return None };
     // One margin is told as always.
     let differ = a[1..] != b[1..];
@@ -53,14 +57,18 @@ pub fn margins(session: &Session, width: usize) -> Option<String> {
 }
 
 /// That of one of them; `None` while it is not known.
-fn margin(session: &Session, letter: &str, width: usize) -> Option<String> {
-    let found = fresh(session).filter(|found| found.parameters.r > 0.0)?;
-    let known = session.machine_margins().map_or(found.margin, |both| both.whole);
-    Some(match found.portrait.border {
+fn margin(session: &Session, letter: &str, beside: Sizes, width: usize) -> Option<String> {
+    let known = known(session)?;
+    Some(match fresh(session)?.portrait.border {
         Border::NoBasin => format!("{letter} rest repels"),
-        _ => margin::in_pane(session, letter, &known, width)
+        _ => margin::in_pane(session, (letter, &known), beside, width)
             .unwrap_or_else(|| format!("{letter} every kick is survived")),
     })
+}
+
+fn known(session: &Session) -> Option<Margin> {
+    let found = fresh(session).filter(|found| found.parameters.r > 0.0)?;
+    Some(session.machine_margins().map_or(found.margin, |both| both.whole))
 }
 
 /// What becomes of both motions, A first; `None` where none is pinned.

@@ -19,7 +19,7 @@ pub fn gauge(session: &Session, width: usize, look: &Look) -> Option<Vec<Span<'s
     let kick @ TriedKick { is_shift, size, border } = session.kick()?;
     let border = border?;
     let guaranteed = margin::guaranteed(session, is_shift);
-    let told = |size: f64| margin::told(session, is_shift, size, DIGITS);
+    let told = |size: f64| margin::told(session, is_shift, [size, border], DIGITS);
     let name = if is_shift { " shift " } else { " kick " };
     let numbers = format!("  {} of {}", told(size), told(border));
     let more = guaranteed.map(|size| format!("{numbers}, {} guaranteed", told(size)));

@@ -7,7 +7,7 @@ use crate::portrait::{Border, Margin, RestMargin};
 use crate::question::CertainZones;
 use crate::scene::Topic;
 use crate::session::{MachineMargins, Session};
-use crate::words::{joined, rounded_down, significant, too_large, with_unit};
+use crate::words::{joined, rounded_down, significant, too_large, with_unit_of};
 
 /// Columns of a screen that has room for margins as forces too.
 const WIDE: u16 = 110;
@@ -34,6 +34,17 @@ struct KickNotation<'a> {
     named: bool,
     /// Whether the numbers are bounds, which must not be rounded up.
     bound: bool,
+    /// The kick beside it, in SI units, in whose unit it is told.
+    beside: Sizes,
+}
+
+/// The sizes of a shift and of an impulse.
+pub type Sizes = [Option<f64>; 2];
+
+/// Those of a kick, in the units of the machine or the record.
+pub fn sizes(session: &Session, kick: RestMargin) -> Sizes {
+    let of = |is_shift, size: Option<f64>| Some(size? * session.unit_of_kick(is_shift).0);
+    [of(true, kick.displacement), of(false, kick.impulse)]
 }
 
 impl KickNotation<'_> {
@@ -43,23 +54,23 @@ impl KickNotation<'_> {
             return None;
         }
         let named = self.named && self.session.units().is_none();
-        let sizes = [("shift ", true, kick.displacement), ("impulse ", false, kick.impulse)];
-        let texts = sizes.into_iter().map(|(name, is_shift, size)| {
+        let sizes = sizes(self.session, kick).into_iter().zip(self.beside);
+        let texts = sizes.zip(["shift ", "impulse "]).map(|((size, beside), name)| {
+            let (_, unit) = self.session.unit_of_kick(name == "shift ");
             let name = if named { name } else { "" };
-            let (one, unit) = self.session.unit_of_kick(is_shift);
-            let size = size.map(|size| self.size(size * one, unit));
+            let size = size.map(|size| self.size(size, beside, unit));
             format!("{name}{}", size.unwrap_or_else(|| "any".to_owned()))
         });
         Some(joined(texts, ", "))
     }
 
-    fn size(self, size: f64, unit: &str) -> String {
+    fn size(self, size: f64, beside: Option<f64>, unit: &str) -> String {
         let size = if self.bound {
             rounded_down(size, self.places)
         } else {
             size
         };
-        with_unit(size, self.places, unit)
+        with_unit_of(beside.unwrap_or(size), size, self.places, unit)
     }
 
     /// The kicks from where the spring is relaxed, after those from rest: in the same order, without their names.
@@ -68,7 +79,7 @@ impl KickNotation<'_> {
         let units = self.session.units().filter(|units| units.force.is_finite());
         // The force that holds the mass there.
         let force = units.zip(margin.displacement).filter(|_| self.session.size.width >= WIDE);
-        let force = force.map(|(units, q)| format!(" ({})", self.size(q * units.force, "N")));
+        let force = force.map(|(units, q)| format!(" ({})", self.size(q * units.force, None, "N")));
         let letter = if self.session.running().is_some() { "x" } else { "q" };
         Some(format!("from {letter} = 0: {kick}{}", force.unwrap_or_default()))
     }
@@ -86,7 +97,9 @@ impl KickNotation<'_> {
 /// The first of the texts that fits, with as many digits as possible.
 fn fitting(session: &Session, width: usize, texts: impl Fn(KickNotation) -> Vec<String>) -> String {
     let ways = (1..=PLACES).rev();
-    let ways = ways.map(|places| KickNotation { session, places, named: true, bound: false });
+    let beside = [None; 2];
+    let ways =
+        ways.map(|places| KickNotation { session, places, named: true, bound: false, beside });
     pane::fitting(ways.flat_map(texts), width)
 }
 
@@ -107,25 +120,31 @@ pub fn brief_guaranteed(session: &Session, width: usize) -> Option<String> {
         Ok(sure) if sure.from_rest == RestMargin::default() => {
             Some("guaranteed: every kick".to_owned())
         }
-        Ok(sure) => in_pane(session, GUARANTEED, sure, width),
+        Ok(sure) => in_pane(session, (GUARANTEED, sure), [None; 2], width),
     }
 }
 
-/// What the pane says about a margin of this name, in a line of this width.
-pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> Option<String> {
+/// What the pane says about a margin of this name, in the units of another one, in a line of this width.
+pub fn in_pane(
+    session: &Session,
+    (name, margin): (&str, &Margin),
+    beside: Sizes,
+    width: usize,
+) -> Option<String> {
     let bound = name == GUARANTEED;
     let all = (1..=PLACES).rev().flat_map(|places| [(places, true), (places, false)]);
     let mut texts = all.filter_map(|(places, named)| {
-        let write = KickNotation { session, places, named, bound };
+        let write = KickNotation { session, places, named, bound, beside };
         Some(format!("{name} {}", write.kick(margin.from_rest)?))
     });
     texts.find(|text| text.chars().count() <= width)
 }
 
-/// The size of a kick, in the unit of a machine or a record.
-pub fn told(session: &Session, is_shift: bool, size: f64, digits: usize) -> String {
+/// The size of a kick, in the unit of a machine or a record in which another size is told.
+pub fn told(session: &Session, is_shift: bool, sizes: [f64; 2], digits: usize) -> String {
     let (one, unit) = session.unit_of_kick(is_shift);
-    with_unit(size * one, digits, unit)
+    let [size, other] = sizes.map(|size| size * one);
+    with_unit_of(other, size, digits, unit)
 }
 
 /// The guaranteed margin of a shift from where the spring is relaxed, or of an impulse from rest, where there is one.
@@ -150,6 +169,7 @@ fn zones(session: &Session) -> Option<&CertainZones> {
 /// Nominal and guaranteed.
 fn certain(session: &Session, width: usize) -> Option<String> {
     let CertainZones { nominal, guaranteed, .. } = zones(session)?;
+    let beside = sizes(session, nominal.from_rest);
     let texts = |write: KickNotation| {
         let headline = write.headline(nominal);
         let sure = match guaranteed {
@@ -160,7 +180,7 @@ fn certain(session: &Session, width: usize) -> Option<String> {
             }
         };
         let [named, unnamed] =
-            [true, false].map(|named| KickNotation { named, bound: true, ..write });
+            [true, false].map(|named| KickNotation { named, bound: true, beside, ..write });
         let [told, brief] = [named, unnamed].map(|write| {
             let kick = write.kick(sure.from_rest);
             format!("{headline}; guaranteed: {}", kick.as_deref().unwrap_or("every kick"))

@@ -25,10 +25,12 @@ pub fn line(session: &Session, width: usize, look: &Look) -> Option<Line<'static
         let told = format!("{letter} {}", with_unit(point.value, 4, line.knob.spec().unit));
         let place = column(point.value);
         let next = taken.iter().copied().filter(|other| *other > place).min().unwrap_or(length);
-        let text = if place + told.chars().count() < next {
-            &told
-        } else {
-            letter
+        let ends = |text: &str| place + text.chars().count();
+        // A name is not cut: without room for it there is a tick.
+        let text = match letter {
+            _ if ends(&told) < next => &told,
+            letter if ends(letter) <= next => letter,
+            _ => &*symbols.axis[4],
         };
         for (cell, letter) in cells[place..].iter_mut().zip(text.chars()) {
             *cell = look.span(letter.to_string(), Role::Special);

@@ -85,7 +85,12 @@ impl Surface<'_> {
         };
         let width = usize::from(area.width);
         let mark = heading.mark.map(|mark| look.span(format!(" {mark}"), Role::Warning));
-        let reading = heading.reading.as_ref();
+        let reading = heading.reading.as_ref().map(|reading| {
+            let ends = reading.match_indices("  ").map(|(end, _)| end).chain([reading.len()]);
+            // Whole quantities, as many as fit.
+            let fit = ends.filter(|end| reading[..*end].chars().count() < width).last();
+            &reading[..fit.unwrap_or(reading.len())]
+        });
         let reading = reading.map(|reading| look.span(format!(" {reading}"), Role::Cursor));
         // What the cursor reads matters more than the end of the title.
         let right = fitted(mark.into_iter().chain(reading).collect(), width, look);

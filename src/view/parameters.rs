@@ -369,7 +369,8 @@ fn basin(session: &Session, found: &Drawing, width: usize, look: &Look) -> Vec<S
     };
     // Without friction there is no set of rests that could survive anything.
     let rests = Some(found).filter(|_| found.parameters.r > 0.0);
-    let kicks = rests.and_then(|found| margin::in_pane(session, "from rest", &found.margin, width));
+    let kicks = rests
+        .and_then(|found| margin::in_pane(session, ("from rest", &found.margin), [None; 2], width));
     // Where there is a second status line, it says what kicks are survived.
     let low = !session.size.tells_margin();
     let mut lines = vec![border.to_owned()];

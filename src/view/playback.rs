@@ -31,7 +31,7 @@ pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let end = session.last_moment();
     let state = match session.playback.at {
         _ if session.playback.playing => "playing",
-        Some(_) if at >= end => "ended",
+        Some(_) if session.drawn_until().is_none() => "ended",
         _ => "paused",
     };
     let notation = Notation(units::shown(session));

@@ -105,19 +105,22 @@ fn busy(session: &Session) -> String {
 }
 
 /// A verdict that fits into this many columns, if that is possible: why it is so matters more than after how many
-/// half swings, or how large a cycle is that the parameter pane lists.
+/// half swings or what time and where, or how large a cycle is that the parameter pane lists.
 fn shorter(session: &Session, mut text: String, room: usize) -> String {
     let too_long = |text: &String| text.chars().count() > room;
     let swings = session.trajectory().map(|motion| swings(motion.crossings.len()));
     if let Some(swings) = swings.filter(|_| too_long(&text)) {
         text = text.replacen(&swings, "", 1);
     }
-    let size = [", q_max ", ", x_max "].into_iter().find_map(|size| text.split_once(size));
-    let size = size.and_then(|(head, rest)| Some((head, rest.split_once(" (")?)));
-    match size {
-        Some((head, (_, why))) if too_long(&text) => format!("{head} ({why}"),
-        _ => text,
+    for part in [", q_max ", ", x_max ", ", after ", " at q = ", " at x = "] {
+        // The part goes on to the reason.
+        let (head, rest) = text.split_once(part).unwrap_or((&text, ""));
+        let why = rest.find(" (").map_or("", |start| &rest[start..]);
+        if too_long(&text) && !rest.is_empty() {
+            text = format!("{head}{why}");
+        }
     }
+    text
 }
 
 /// How often the words of the second line can be shortened, for narrow screens.

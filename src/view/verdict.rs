@@ -36,7 +36,7 @@ const LOST: &str = "lost";
 /// The kick that is being played, whose end is not told yet.
 fn tried(session: &Session, TriedKick { size, border, .. }: TriedKick) -> String {
     let place = Notation(units::shown(session)).position(session.problem.initial.q, 3);
-    let size_told = margin::told(session, false, size, 4);
+    let size_told = margin::told(session, false, [size, border.unwrap_or(size)], 4);
     let part = border.map_or_else(String::new, |border| {
         format!(", {} of the margin there", significant(size / border, 2))
     });

@@ -81,6 +81,11 @@ const LEAST: f64 = 0.1;
 /// Pure numbers, units that already have a prefix (kg), and those that begin with a power (s^2/m^2), of which the prefix
 /// would be a part, get none.
 pub fn with_unit(value: f64, digits: usize, unit: &str) -> String {
+    with_unit_of(value, value, digits, unit)
+}
+
+/// The same with the prefix that another number has, for numbers that are to be compared.
+pub fn with_unit_of(other: f64, value: f64, digits: usize, unit: &str) -> String {
     let plain = |value: f64| significant(value, digits);
     if unit.is_empty() {
         return plain(value);
@@ -88,10 +93,10 @@ pub fn with_unit(value: f64, digits: usize, unit: &str) -> String {
     let least = |scale: f64| if scale > 1.0 { scale } else { scale * LEAST };
     let begins_with_power = unit.split(['/', ' ']).next().is_some_and(|first| first.contains('^'));
     let takes_none = unit.starts_with("kg") || begins_with_power;
-    let (prefix, scale) = if value == 0.0 || !value.is_finite() || takes_none {
+    let (prefix, scale) = if other == 0.0 || !other.is_finite() || takes_none {
         ("", 1.0)
     } else {
-        let found = PREFIXES.into_iter().find(|(_, scale)| value.abs() >= least(*scale));
+        let found = PREFIXES.into_iter().find(|(_, scale)| other.abs() >= least(*scale));
         found.unwrap_or(PREFIXES[PREFIXES.len() - 1])
     };
     format!("{} {prefix}{unit}", plain(value / scale))

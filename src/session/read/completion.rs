@@ -8,7 +8,7 @@ use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, Window};
 use crate::session::{
     Command, Completion, Context, Keymap, NamedValue, Row, Session, Setup, called, choices,
 };
-use crate::words::{counted, joined};
+use crate::words::{counted, in_unit, joined, significant};
 
 /// These names as candidates.
 pub fn all<Name: ToString>(names: impl IntoIterator<Item = Name>) -> Vec<String> {
@@ -167,6 +167,9 @@ pub(crate) fn plain_value(session: &Session, row: Row) -> String {
     }
 }
 
+/// Letters of a number that somebody may have typed.
+const TYPED: usize = 14;
+
 /// The differences of `new` from `old`, as `name = value`. If a number of the machine differs, only that: the
 /// parameters follow from it.
 pub(crate) fn difference(old: &Setup, new: &Setup) -> String {
@@ -175,6 +178,10 @@ pub(crate) fn difference(old: &Setup, new: &Setup) -> String {
     let rows = Row::all().filter(|row| !(belt && follows(row)));
     let said = rows.filter(|row| typed(old, *row) != typed(new, *row)).map(|row| {
         let value = typed(new, row).unwrap_or_else(|| "as in its file".to_owned());
+        let knob = row.knob_in(&new.problem);
+        let number = new.get(knob).filter(|number| shortest(*number).len() > TYPED);
+        // One that follows from others is not told to all its digits.
+        let value = number.map_or(value, |it| in_unit(&significant(it, 5), knob.spec().unit));
         format!("{} = {value}", row.name_in(&new.problem))
     });
     let count = |setup: &Setup| setup.others.len() + 1;
