@@ -149,7 +149,7 @@ fn arrows_change_the_size_and_a_key_turns_the_direction() {
     assert_eq!(first, -0.56);
     assert_eq!([speed("<right>"), speed("<left>")], [-0.58, -0.56]);
     assert_eq!([speed("<up>"), speed("<down>")], [-0.66, -0.56]);
-    assert_eq!([speed("-"), speed("<enter>"), speed("r")], [0.56, 0.56, -0.56]);
+    assert_eq!([speed("-"), speed("<enter>"), speed("-")], [0.56, 0.56, -0.56]);
     assert_eq!(speed("<left*40>"), -0.02);
     assert_eq!(kicked.0.notice.clone().unwrap().text, "no smaller kick; - turns its direction");
     assert!(kicked.press("<esc>").0.contexts()[0] == Context::Parameters);

@@ -223,8 +223,9 @@ proptest! {
         for key in keys {
             trial.give(Msg::Key(key));
         }
-        // Trying kicks ends with the program, and with it what is asked only for that.
+        // Trying kicks and a lecture end with the program, and with them what is asked only for that.
         trial.session.kicking = false;
+        trial.session.display.lecture = false;
         prop_assert_eq!(asks(&reopened(&trial.session)), asks(&trial.session));
     }
 
