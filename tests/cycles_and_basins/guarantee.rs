@@ -399,7 +399,7 @@ fn an_interval_is_taken_by_its_middle_and_a_bare_value_is_exact() {
     refuses(
         "plain",
         &[
-            ("set r=0.1+--1", "a tolerance is 0 or more"),
+            ("set r=0.1+--1", "an uncertainty is 0 or more"),
             ("set r=0.1+-0.2", "r = -0.1"),
             ("set q0=1+-0.1", "q0 has no uncertainty; only D, D2, D3 and r have one"),
             ("set w=-1", "disturbance = -1 is outside its range 0 .. 1e150"),
