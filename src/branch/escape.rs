@@ -23,17 +23,22 @@ use crate::model::Parameters;
 use crate::numerics::{PlaceTolerance, illinois};
 use crate::portrait::{Equation, Route, forgotten, weighed_closing};
 
+/// `D_c = -sqrt(2/pi) r abs(D2)`, to leading order in r D2.
+pub fn leading_escape(d2: f64, r: f64) -> f64 {
+    -(2.0 / PI).sqrt() * r * d2.abs()
+}
+
 /// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`); and what it
 /// cost.
 ///
 /// Bracketing secant (the Illinois rule) on the difference of the two swings from and to infinity, to
-/// rounding. To leading order `D_c = -sqrt(2/pi) r abs(D2)`.
+/// rounding, from [`leading_escape`] on.
 ///
 /// # Errors
 /// The [`Reason`](crate::model::Reason) why a swing failed.
 pub fn escape_point(parameters: &Parameters, limits: &Limits) -> Result<(Option<f64>, Cost)> {
     let Parameters { d2, d3, r, .. } = *parameters;
-    let leading = -(2.0 / PI).sqrt() * r * d2.abs();
+    let leading = leading_escape(d2, r);
     let mut cost = Cost::default();
     if d3 != 0.0 || leading == 0.0 || 0.8 * leading < -1.0 {
         return Ok((None, cost));

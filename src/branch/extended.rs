@@ -11,6 +11,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+use crate::branch::escape::leading_escape;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason, Result};
 use crate::model::{Knob, Parameters};
@@ -79,8 +80,7 @@ impl FoldEstimate {
         let symmetric = (amplitude - 0.98 + 0.09 * d3).max(2e-3);
         let clearance = symmetric + 2.0 / 3.0 * amplitude * bend * (1.0 + 0.6 * bend);
         let farthest = 14.0 / d2;
-        let escape = (2.0 / std::f64::consts::PI).sqrt() * d2;
-        let d = -cbrt(powi(escape, 3) - powi(harmonic.d, 3));
+        let d = cbrt(powi(leading_escape(d2, 1.0), 3) + powi(harmonic.d, 3));
         Some(FoldEstimate { d, u: ln(r * clearance.min(farthest)), bend })
     }
 }

@@ -14,6 +14,7 @@ use crate::runtime::{Files, Options, RecordingFile, explore, provenance_file};
 use crate::scene::library::{FIRST, names};
 use crate::scene::machine::NO_BELT;
 use crate::scene::{PLAIN, Scene, find, plain};
+use crate::session::act::history::FIRST_KEYS;
 use crate::session::config::Config;
 use crate::session::replay::{Instruction, Recorder, Script};
 use crate::session::save::opening;
@@ -220,7 +221,7 @@ fn welcome(session: &mut Session, memory: &Memory) {
     } else if !session.interrupted.is_empty() {
         "a session was interrupted: {restore} resumes it, {forget-interrupted} forgets it"
     } else if memory.is_new && session.scene.next.is_none() {
-        return session.say_first_keys();
+        FIRST_KEYS
     } else {
         return;
     };

@@ -82,8 +82,8 @@ impl Numbers {
 
     /// `NAME=FROM:TO` or `NAME=log:FROM:TO`, through so many values.
     pub fn glide(&self, text: &str, count: usize) -> Result<Sweep, String> {
-        let sweep = Sweep::read(&format!("{text}:{count}"), self.over)
-            .map_err(|why| why.replace(":COUNT", "").replace(":400", ""))?;
+        const FORM: &str = "expected NAME=FROM:TO, such as D=-0.95:0, or NAME=log:FROM:TO";
+        let sweep = Sweep::read_as(FORM, &format!("{text}:{count}"), self.over)?;
         if matches!(sweep.symbol, Knob::Q0 | Knob::V0) {
             return Err(format!("{}: a start does not glide", sweep.symbol));
         }

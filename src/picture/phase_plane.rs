@@ -122,8 +122,9 @@ fn record(picture: &mut Picture, fitted: &FitResult) {
 fn margin(picture: &mut Picture, session: &Session) {
     /// Half the width and the length of its head, as parts of the window.
     const HEAD: [f64; 2] = [0.012, 0.03];
-    /// How far from it its name stands, as a part of the height.
+    /// How far from it its name stands, and how long it is at least where it has one, as parts of the height.
     const BEYOND: f64 = 0.08;
+    const LEAST: f64 = 0.06;
     let State { q, v } = session.problem.initial;
     let kick = session.kick().filter(|_| session.kicking);
     let tried = kick.and_then(|kick| Some(State { q, v: kick.border?.copysign(v) }));
@@ -132,6 +133,10 @@ fn margin(picture: &mut Picture, session: &Session) {
     let below = v - back.min(0.5 * v.abs()).copysign(v);
     let shaft = [[q, 0.0], [q, v], [q - aside, below], [q, v], [q + aside, below]];
     picture.curve("margin", shaft);
+    // Beside a short arrow it would hide more than it says; the status line has the number, too.
+    if v.abs() < LEAST * picture.window.y.width() {
+        return;
+    }
     let (one, unit) = session.unit_of_kick(false);
     let text = format!("margin {}", with_unit(v.abs() * one, 4, unit));
     // Beyond its tip, where it hides neither the axis nor what is within the border.

@@ -97,18 +97,16 @@ fn record(picture: &mut Picture, session: &Session) {
 /// The quantities of the motion in this place among those on show, the present one the first.
 fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: usize) {
     let LineStyle { name: of, role: beside, .. } = phase_plane::motion(session, place);
-    for (layer, letter, name, read) in quantities_on_show(session) {
+    for (layer, mut letter, mut name, read) in quantities_on_show(session) {
         let points: Vec<Point> =
             session.seen(place, motion).map(|sample| at(&sample, read)).collect();
         let Some(first) = points.first().copied() else { continue };
         let end = points.iter().rfind(|at| picture.window.contains(**at)).copied();
         // A displacement in metres has its own letter.
         let metres = layer == Layer::Position && matches!(picture.scales[1], Scale::Times { .. });
-        let (letter, name) = if metres {
-            ("x", "displacement x")
-        } else {
-            (letter, name)
-        };
+        if metres {
+            (letter, name) = ("x", "displacement x");
+        }
         let mut line = LineStyle::from(name);
         if place > 0 {
             let name = format!("{}, {of}", line.name);
@@ -116,12 +114,10 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Motion, place: 
         }
         let role = line.role;
         picture.curve(line, points);
-        let stuck = LineStyle::from("sticks");
-        let stuck = if place > 0 {
-            LineStyle { role, ..stuck.captioned() }
-        } else {
-            stuck
-        };
+        let mut stuck = LineStyle::from("sticks");
+        if place > 0 {
+            stuck = LineStyle { role, ..stuck.captioned() };
+        }
         for stretch in session.sticking(place, motion) {
             picture.curve(stuck.clone(), stretch.map(|end| at(&end, read)));
         }

@@ -42,9 +42,13 @@ pub fn extremes(
 fn conclusion(method: Method, verdicts: &[MethodsVerdict]) -> String {
     let answers = || verdicts.iter().filter_map(|it| it.answer(method));
     let wrong = answers().filter(|answer| answer.contradicts).count();
-    let lost = answers().filter_map(|answer| answer.digits_lost).fold(0.0, f64::max);
+    let digits = || answers().filter(|it| !it.contradicts).filter_map(|it| it.digits_lost);
+    let [exact, one, four] = [0.0, 1.0, 4.0].map(|most| digits().filter(|it| *it <= most).count());
+    let lost = significant(digits().fold(0.0, f64::max), 2);
     let answered = answered("motions", answers().map(|answer| answer.outcome.answered().err()));
-    format!("{method}: {answered}; {wrong} wrong; at most {} digits lost", significant(lost, 2))
+    format!(
+        "{method}: {answered}; {wrong} wrong; {exact} with all digits, {one} with 1 lost at most, {four} with 4, the others with {lost}"
+    )
 }
 
 /// How many are answered, and why the others are not: each kind of reason with its number of times.
@@ -165,10 +169,14 @@ fn set_columns<'a>() -> Columns<'a, SetRow<'a>> {
         .and(cycle_fields(|(_, cycle): &SetRow| Some((*cycle)?.cycle)))
 }
 
+/// Residual above which a cycle is counted as not closed.
+const CLOSED: f64 = 1e-11;
+
 /// What a person reads of the cycles: whether all are found, why not, and how well they close.
 fn set_conclusion(verdicts: &[SetVerdict]) -> [String; 2] {
     let found = answered("sets", verdicts.iter().map(|it| it.answer.as_ref().err().copied()));
     let residuals = || verdicts.iter().flat_map(SetVerdict::cycles).map(|it| it.residual);
     let largest = significant(residuals().fold(0.0, f64::max), 2);
-    [found, format!("{} cycles; largest residual {largest}", residuals().count())]
+    let (count, open) = (residuals().count(), residuals().filter(|it| *it > CLOSED).count());
+    [found, format!("{count} cycles, {open} not closed to {CLOSED:e}; largest residual {largest}")]
 }

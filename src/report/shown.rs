@@ -7,6 +7,7 @@ use super::cycle_numbers::{machine_cycles, number_columns};
 use super::cycles::{NO_CYCLE, border, known};
 use super::margin::{MarginRow, margin_columns};
 use super::{About, Answer, Columns};
+use crate::numerics::distinct;
 use crate::portrait::{Cycle, Portrait};
 use crate::scene::GlossaryEntry;
 use crate::session::act::copy::command_line;
@@ -28,13 +29,10 @@ pub fn shown(session: &Session, outcome: String, beside: &Path) -> Answer {
     if let Some(found) = session.cycles() {
         answer = portrayed(answer, &about, &found.portrait);
     }
+    let meaning = |entry: &&GlossaryEntry| format!("{}: {}", entry.name, text(entry.definition));
     answer
         .heading("What the words mean")
-        .lines(
-            words(session)
-                .iter()
-                .map(|entry| format!("{}: {}", entry.name, text(entry.definition))),
-        )
+        .lines(words(session).iter().map(meaning))
         .heading("The same on the command line")
         .lines(commands(session))
         .heading("The same in the explorer")
@@ -60,20 +58,13 @@ fn portrayed(answer: Answer, about: &About, found: &Portrait) -> Answer {
         .table(margin.and(margin_columns(about, DIGITS)).table([("", found.margin)]).transposed())
 }
 
-/// What explains the numbers and the layers on show, each once.
+/// What explains the numbers and the layers on show, and the margin, each once.
 fn words(session: &Session) -> Vec<&'static GlossaryEntry> {
     let numbers = session.rows().into_iter().map(|row| ("number", row.name_in(&session.problem)));
-    let views = session.on_show().map(|plot| session.plots[plot].view);
-    let views: Vec<_> = views.collect();
-    let layers = session.layers.iter().map(|layer| layer.spec());
-    let layers = layers.filter(|layer| views.contains(&layer.view));
-    let names =
-        numbers.chain(layers.map(|layer| ("layer", layer.name))).chain([("word", "margin")]);
-    let mut words: Vec<_> =
-        names.filter_map(|(kind, name)| GlossaryEntry::of(kind, name)).collect();
-    words.sort_by_key(|entry| entry.name);
-    words.dedup();
-    words
+    let layers = session.layers.iter().filter(|layer| session.shows(**layer));
+    let layers = layers.map(|layer| ("layer", layer.spec().name));
+    let all = numbers.chain(layers).chain([("word", "margin")]);
+    distinct(all.filter_map(|(kind, name)| GlossaryEntry::of(kind, name)))
 }
 
 /// The commands that give the numbers of the panes, each once.

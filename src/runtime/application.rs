@@ -10,7 +10,7 @@ use rustix::io::Errno;
 use super::Work;
 use crate::scene::Request;
 use crate::session::replay::{Recorder, ScriptError};
-use crate::session::{Content, Effect, Gesture, Key, Msg, PointerTarget, Session, save};
+use crate::session::{ComputedContent, Effect, Gesture, Key, Msg, PointerTarget, Session, save};
 use crate::terminal::Cast;
 use crate::view;
 
@@ -64,9 +64,13 @@ pub trait Application {
         save::text(session).ok()
     }
 
-    /// Prepares what [takes time](Content::takes_time) to make; the returned work makes it. `keys` is what was
-    /// pressed so far. Fails with one line that says why there is none.
-    fn make(&self, _path: &Path, _content: &Content, _keys: &Recorder) -> Result<Work, String> {
+    /// Prepares what takes time to make; the returned work makes it. `keys` is what was pressed so far. Fails with one line that says why there is none.
+    fn make(
+        &self,
+        _path: &Path,
+        _content: ComputedContent,
+        _keys: &Recorder,
+    ) -> Result<Work, String> {
         Err("nothing to write".to_owned())
     }
 

@@ -23,7 +23,7 @@ use crate::report::shown::shown;
 use crate::scan::Sound;
 use crate::scene::{Finding, Request, plain};
 use crate::session::replay::{Recorder, parse};
-use crate::session::{Content, Effect, Msg, Session, update};
+use crate::session::{ComputedContent, Effect, Msg, Session, update};
 use crate::terminal::{Cast, Environment, Screen};
 use crate::view::{self, Look, verdict};
 
@@ -88,24 +88,23 @@ impl Application for Explorer {
         Some(&self.session)
     }
 
-    fn make(&self, path: &Path, content: &Content, keys: &Recorder) -> Result<Work, String> {
+    fn make(&self, path: &Path, content: ComputedContent, keys: &Recorder) -> Result<Work, String> {
         let (path, session) = (path.to_owned(), self.session.clone());
-        match *content {
-            Content::Page { forget } => self.page(path, forget, keys),
-            Content::Sound => {
+        match content {
+            ComputedContent::Page { forget } => self.page(path, forget, keys),
+            ComputedContent::Sound => {
                 let sound = Sound::usual(session.subject()).map_err(|why| why.to_string())?;
                 Ok(Box::new(move |limits: &Limits| {
                     Ok(vec![(path, wav::wav(&sound, limits)?.content)])
                 }))
             }
-            Content::Figure { plot } => {
+            ComputedContent::Figure { plot } => {
                 let form = FigureForm::of_file(&path)?;
                 Ok(Box::new(move |limits: &Limits| {
                     let (_, drawn) = drawn(session, plot, limits);
                     Ok(vec![(path, figure::file(&drawn, form)?)])
                 }))
             }
-            _ => Err("nothing to write".to_owned()),
         }
     }
 

@@ -22,7 +22,7 @@ use super::{
 use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script, ScriptError};
 use crate::session::update::is_press;
-use crate::session::{Content, Effect, MouseAction, Msg, Notice};
+use crate::session::{ComputedContent, Content, Effect, MouseAction, Msg, Notice};
 use crate::terminal::{Cast, Screen};
 use crate::view;
 
@@ -268,17 +268,16 @@ impl<M: Application, W: Write> Pump<M, W> {
     /// Writes a file, and tells the session what became of it.
     fn write(&mut self, path: &Path, content: Content, replace: bool) -> Step {
         let done = match content {
-            content if content.takes_time() => return self.make(path, &content, replace),
+            Content::Computed(content) => return self.make(path, content, replace),
             Content::Record { forget } => self.write_record(path, forget, replace),
             Content::Scan(scan, rows) => scan_file::save(path, &scan, &rows),
             Content::Text(text) => Files::write(path, text, replace, Readers::Owner),
-            Content::Figure { .. } | Content::Page { .. } | Content::Sound => return Ok(()),
         };
         self.told(done.into(), Msg::Told)
     }
 
     /// Begins to make and write files; if that fails, the session is told why.
-    fn make(&mut self, path: &Path, content: &Content, replace: bool) -> Step {
+    fn make(&mut self, path: &Path, content: ComputedContent, replace: bool) -> Step {
         let begun = Files::admit(path, replace)
             .and_then(|()| self.application.make(path, content, &self.options.recorder))
             .and_then(|work| self.workers.write(path, replace, work));
@@ -341,7 +340,7 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     fn carry_out(&mut self, effect: Effect) -> Step {
         if let Some(text) = self.withheld(&effect) {
-            let awaited = matches!(&effect, Effect::Write { content, .. } if content.takes_time());
+            let awaited = matches!(&effect, Effect::Write { content: Content::Computed(_), .. });
             let message = if awaited { Msg::Written } else { Msg::Told };
             let notice = Notice { error: true, text };
             return if notice.text.is_empty() {

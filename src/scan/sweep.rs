@@ -64,14 +64,19 @@ impl Sweep {
     /// Reads `NAME=FROM:TO:COUNT` or `NAME=log:FROM:TO:COUNT`, with a number of these groups; both ends with a unit or
     /// none. Fails with one line that says what is wrong and what is allowed.
     pub fn read(text: &str, groups: &[Group]) -> Result<Self, String> {
-        let (name, range) = text.split_once('=').ok_or(FORM)?;
+        Sweep::read_as(FORM, text, groups)
+    }
+
+    /// The same of what was given in another form, which a refusal names.
+    pub fn read_as(form: &str, text: &str, groups: &[Group]) -> Result<Self, String> {
+        let (name, range) = text.split_once('=').ok_or(form)?;
         let symbol = Knob::named(name.trim(), groups)?;
         let (spacing, range) = match range.trim().strip_prefix("log:") {
             Some(range) => (Spacing::Logarithmic, range),
             None => (Spacing::Even, range),
         };
         let [from, to, count] = range.split(':').map(str::trim).collect::<Vec<_>>()[..] else {
-            return Err(FORM.to_owned());
+            return Err(form.to_owned());
         };
         let whole = || format!("COUNT = {count} is not a whole number in 2 .. 1000000");
         let count = count.parse().map_err(|_| whole())?;

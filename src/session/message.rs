@@ -143,8 +143,8 @@ pub enum Effect {
     Copy(String),
     /// Put the characters on the screen there, too.
     CopyScreen,
-    /// Write a file; the outcome comes back as a notice, that of what [takes time](Content::takes_time) as
-    /// `Msg::Written`.
+    /// Write a file; the outcome comes back as a notice, that of
+    /// [`Content::Computed`] as `Msg::Written`.
     Write {
         path: PathBuf,
         content: Content,
@@ -167,6 +167,15 @@ pub enum Content {
     Text(String),
     /// All input since the start as a keystroke file, except so many presses at the end.
     Record { forget: u32 },
+    /// The rows of a scan, beginning with the first point, in the form given by the file's extension.
+    Scan(Arc<Scan>, Vec<ScanRow>),
+    /// What takes time to make; only one such file is in work at a time.
+    Computed(ComputedContent),
+}
+
+/// What is computed once more, to be written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ComputedContent {
     /// A figure of this plot, or of all that are on show, in the format that the file's extension asks for.
     Figure { plot: Option<usize> },
     /// What is on show as a page, and beside it, ending in .cast, how the session came there, without so many presses at the
@@ -174,13 +183,4 @@ pub enum Content {
     Page { forget: u32 },
     /// The motion on show, to be heard.
     Sound,
-    /// The rows of a scan, beginning with the first point, in the form given by the file's extension.
-    Scan(Arc<Scan>, Vec<ScanRow>),
-}
-
-impl Content {
-    /// Whether it takes time to make; only one such file is in work at a time.
-    pub fn takes_time(&self) -> bool {
-        matches!(self, Content::Figure { .. } | Content::Page { .. } | Content::Sound)
-    }
 }

@@ -13,6 +13,9 @@ const WIDTH: u16 = 100;
 /// Columns of the frame and of a blank beside it.
 const FRAME: u16 = 4;
 
+/// How one goes back.
+const BACK: &str = ", backspace: back";
+
 /// Headings, the longest first, and paragraphs, with keys as they are written; `None` where nothing is said.
 fn texts(session: &Session, write: impl Fn(Key) -> String) -> Option<(Vec<String>, Vec<String>)> {
     let filled = |text: &str| session.keymap.fill(text, &write);
@@ -24,15 +27,13 @@ fn texts(session: &Session, write: impl Fn(Key) -> String) -> Option<(Vec<String
             } else {
                 "any key: on"
             };
-            (headings(session, *place, on), vec![filled(caption)])
+            (headings(session, *place, [on, BACK]), vec![filled(caption)])
         }
         SessionCaption::Asked(text, place, answer) => {
-            let how = if answer.is_some() {
-                "y or n"
-            } else {
-                "do it, page down: show how"
-            };
-            (headings(session, *place, how), vec![filled(text)])
+            // A task is begun again by no key.
+            let task = ["do it, page down: show how", ""];
+            let keys = answer.map_or(task, |_| ["y or n", BACK]);
+            (headings(session, *place, keys), vec![filled(text)])
         }
         SessionCaption::Scene => {
             let [look, press] = [&session.scene.watch, &session.scene.press];
@@ -44,17 +45,12 @@ fn texts(session: &Session, write: impl Fn(Key) -> String) -> Option<(Vec<String
 }
 
 /// The chapter, the number of a caption and of all, and which keys are heard: in full, and where there is less room.
-fn headings(session: &Session, place: Option<(usize, usize)>, how: &str) -> Vec<String> {
+fn headings(session: &Session, place: Option<(usize, usize)>, keys: [&str; 2]) -> Vec<String> {
+    let [how, back] = keys;
     let number = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));
     let chapter = match &*session.chapter {
         "" => String::new(),
         chapter => format!("{chapter}: "),
-    };
-    // A task is begun again by no key.
-    let back = if how.starts_with("do it") {
-        ""
-    } else {
-        ", backspace: back"
     };
     let ways = [(&*chapter, back), (&chapter, ""), ("", back), ("", "")];
     ways.map(|(chapter, back)| format!(" {chapter}{number}{how}{back}, esc: leave ")).to_vec()

@@ -12,6 +12,7 @@ use crate::model::Knob;
 use crate::numerics::cells;
 use crate::picture::Role;
 use crate::session::{Glyphs, Pane, Row, Session};
+use crate::words::joined;
 
 /// Rows of a letter, before it is enlarged.
 const HEIGHT: usize = 5;
@@ -47,14 +48,13 @@ pub fn numbers(area: Rect, session: &Session, screen: &mut Surface) {
     let follows = |row: &Row| {
         on_the_belt && row.stepped().is_some_and(|knob| Knob::PARAMETERS.contains(&knob))
     };
-    let left_out = |row: &Row| match row {
-        row if focused && *row == session.selected => false,
-        row => internal(row) || follows(row) || (!on_the_belt && row.is_of_machine()),
-    };
-    rows.retain(|row| !left_out(row));
+    let left_out =
+        |row: &Row| internal(row) || follows(row) || (!on_the_belt && row.is_of_machine());
+    let is_selected = |row: &Row| focused && *row == session.selected;
+    rows.retain(|row| is_selected(row) || !left_out(row));
     rows.sort_by_key(|row| *row != Row::BELT && !follows(row));
     let number = |row: Row| {
-        let selected = focused && row == session.selected;
+        let selected = is_selected(&row);
         let pointer = if selected { &look.symbols().pointer } else { " " };
         let value = |of: &Session| parameters::value(of, &of.setup(), row, NUMBER, look);
         let own = value(session);
@@ -64,15 +64,13 @@ pub fn numbers(area: Rect, session: &Session, screen: &mut Surface) {
         look.span(text, role)
     };
     let mut texts: Vec<Span> = rows.iter().map(|row| number(*row)).collect();
-    let mut selected = rows.iter().position(|row| focused && *row == session.selected).unwrap_or(0);
+    let selected = rows.iter().position(is_selected).unwrap_or(0);
     // Where not all fit, the selected one does, and none is cut.
-    let width = |texts: &[Span]| texts.iter().map(Span::width).sum::<usize>();
-    let room = usize::from(area.width);
-    while selected > 0 && width(&texts[..=selected]) > room {
-        texts.remove(0);
-        selected -= 1;
-    }
-    let fitting = (0..=texts.len()).rev().find(|count| width(&texts[..*count]) <= room);
+    let fits =
+        |texts: &[Span]| texts.iter().map(Span::width).sum::<usize>() <= usize::from(area.width);
+    let first = (0..selected).find(|first| fits(&texts[*first..=selected])).unwrap_or(selected);
+    texts.drain(..first);
+    let fitting = (0..=texts.len()).rev().find(|count| fits(&texts[..*count]));
     texts.truncate(fitting.unwrap_or(0).max(1));
     screen.line(area, 0, texts);
 }
@@ -102,9 +100,9 @@ pub fn outcome(area: Rect, session: &Session, screen: &mut Surface) {
     let tall = Rect { height: area.height.saturating_sub(2), ..area };
     // While it is played, one looks.
     if !session.playback.playing {
-        let whose = session.letter().map_or_else(String::new, |letter| format!("{letter} "));
-        let large = Some(large(&sentence)).filter(|large| !large.is_empty());
-        letters(tall, &large.map_or_else(String::new, |large| whose + large), screen);
+        let large = large(&sentence);
+        let whose = session.letter().filter(|_| !large.is_empty());
+        letters(tall, &joined(whose.into_iter().chain([large]), " "), screen);
     }
     let width = usize::from(area.width);
     let below = Rect { y: tall.bottom(), height: area.height.min(2), ..area };
@@ -154,6 +152,29 @@ fn letters(area: Rect, text: &str, screen: &mut Surface) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::flow::Limits;
+    use crate::question::answer;
+    use crate::scene::library;
+    use crate::session::{Msg, Size, settle};
+
+    #[test]
+    fn what_becomes_of_the_motion_of_every_scene_has_large_letters() {
+        let mut told = 0;
+        for scene in library() {
+            let mut session = Session::new(scene.clone(), Size { width: 80, height: 24 });
+            session.playback.at = None;
+            settle(&mut session, |_, request| {
+                let found = answer(request, &Limits::PATIENT).ok()?;
+                Some(Msg::answered(request.clone(), Ok(found), 0.0))
+            });
+            let (sentence, role) = verdict::outcome(&session);
+            if role == Role::Text && session.follows_motion() {
+                assert!(!large(&sentence).is_empty(), "{}: {sentence}", scene.name);
+                told += 1;
+            }
+        }
+        assert!(told > 20, "{told}");
+    }
 
     #[test]
     fn every_outcome_can_be_written_in_large_letters() {

@@ -163,11 +163,7 @@ impl Look {
     /// The same look, in which what stands for a role looks as the cursor does, without colours reversed.
     pub fn pointing(mut self, role: Role) -> Self {
         let cursor = self.style(Role::Cursor);
-        let attribute = if cursor.fg.is_none() {
-            Modifier::REVERSED
-        } else {
-            Modifier::BOLD
-        };
+        let attribute = cursor.fg.map_or(Modifier::REVERSED, |_| Modifier::BOLD);
         self.styles[role as usize] = cursor.add_modifier(attribute);
         self
     }
@@ -519,6 +515,9 @@ mod tests {
                     for other in &meanings[..index] {
                         let [one, other] = [one, other].map(|role| look.style(*role));
                         assert_ne!(one, other, "{theme:?} {colors:?}");
+                        // Of the sixteen, four can be read on a light ground: two meanings differ there by weight.
+                        let is_short = theme == Theme::Light && colors == Colors::Sixteen;
+                        assert!(is_short || one.fg != other.fg, "{theme:?} {colors:?}: {one:?}");
                     }
                 }
             }

@@ -286,9 +286,9 @@ fn found(words: &str) -> Vec<(&'static str, &'static str)> {
 
 /// Words that a person may type, and the row that is meant.
 #[rustfmt::skip]
-const MEANT: [(&str, &str); 58] = [
+const MEANT: [(&str, &str); 59] = [
     ("fold", "walk-to-next"), ("export", "save-figure"), ("stable", "cycles"), ("animate", "play-motion"),
-    ("fig 16", "fig16"), ("fig16b", "supercritical"), ("time series", "time-series"),
+    ("fig 16", "fig16"), ("fig16b", "supercritical"), ("time series", "time-series"), ("damping", "damper"),
     ("save", "write"), ("zoom", "zoom-in"), ("undo", "undo"), ("amplitude", "diagram"), ("basin", "basin"),
     ("hopf", "hopf"), ("period", "axes"), ("quit", "quit"), ("exit", "quit"), ("copy", "copy-number"),
     ("theme", "theme"), ("help", "help"), ("keys", "help"), ("color", "color"), ("bifurcation", "diagram"),

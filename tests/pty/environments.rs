@@ -83,7 +83,7 @@ fn the_theme_follows_the_background_that_the_terminal_tells_at_any_time() {
     assert_eq!((asked(&terminal), heading(&terminal)), (1, vt100::Color::Idx(6)));
     terminal.types("\x1b]11;rgb:fdfd/f6f6/e3e3\x1b\\");
     // On a light ground colours are finer than the sixteen, where the terminal has them.
-    terminal.wait("light theme", |terminal| heading(terminal) != vt100::Color::Idx(6));
+    terminal.wait("light theme", |terminal| heading(terminal) == vt100::Color::Idx(24));
     terminal.types("q");
     assert_eq!(terminal.end(), 0);
     for chosen in [&[PROGRAM, "--theme", "dark"][..], &[PROGRAM, "--color", "never"]] {

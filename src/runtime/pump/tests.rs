@@ -9,7 +9,7 @@ use ratatui::widgets::Widget;
 use super::*;
 use crate::flow::Reason;
 use crate::runtime::{Tell, Work};
-use crate::session::{Code, Key, replay};
+use crate::session::{Code, ComputedContent, Key, replay};
 use crate::terminal::pacing::FRAME_TIME;
 
 /// An application that counts right-arrow keys, shows the last notice, moves for a while after `p`, and quits
@@ -61,7 +61,7 @@ impl Application for Counter {
         self.notice.contains("try") && key.code == Code::Right
     }
 
-    fn make(&self, path: &Path, _: &Content, _: &Recorder) -> Result<Work, String> {
+    fn make(&self, path: &Path, _: ComputedContent, _: &Recorder) -> Result<Work, String> {
         let gate = self.gate.clone().ok_or("nothing to write")?;
         let path = path.to_owned();
         Ok(Box::new(move |_| {
@@ -200,7 +200,7 @@ fn keys_are_answered_while_a_figure_is_written() {
     let path = folder.path().join("a.svg");
     let Bench { mut pump, events, written } = bench();
     let (open, gate) = unbounded();
-    let asks = written_to(&path, Content::Figure { plot: None });
+    let asks = written_to(&path, Content::Computed(ComputedContent::Figure { plot: None }));
     (pump.application.asks, pump.application.gate) = (Some(asks), Some(gate));
     events.send(key("<enter>")).unwrap();
     let running = std::thread::spawn(move || pump.run());

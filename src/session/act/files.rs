@@ -8,7 +8,9 @@ use crate::question::record::{RecordOptions, apart};
 use crate::scene::machine::file;
 use crate::scene::{Machine, Recording, ScaledMachine};
 use crate::session::act::{history, lists, prompt};
-use crate::session::{Content, Done, Effect, ListKind, Overlay, Purpose, Session, replay, save};
+use crate::session::{
+    ComputedContent, Content, Done, Effect, ListKind, Overlay, Purpose, Session, replay, save,
+};
 use crate::words::one_of;
 
 /// The built-in tour.
@@ -46,34 +48,41 @@ const NONE_INTERRUPTED: &str = "no session was interrupted";
 
 /// Writes a figure of one plot, or of all.
 pub fn figure(session: &mut Session, path: &str, plot: Option<usize>, replace: bool) -> Done {
-    let endings = "a figure ends in .svg, .png, .csv or .json";
-    make(session, path, endings, Content::Figure { plot }, replace)
+    let content = ComputedContent::Figure { plot };
+    make(session, path, ("a figure", &["svg", "png", "csv", "json"]), content, replace)
 }
 
 /// Writes what is on show as a page, and beside it how the session came there.
 pub fn page(session: &mut Session, path: &str, replace: bool) -> Done {
-    let content = Content::Page { forget: session.chord };
-    make(session, path, "a page ends in .html", content, replace)
+    let content = ComputedContent::Page { forget: session.chord };
+    make(session, path, ("a page", &["html"]), content, replace)
 }
 
 /// Writes the motion as it sounds.
 pub fn sound(session: &mut Session, path: &str, replace: bool) -> Done {
-    make(session, path, "a sound ends in .wav", Content::Sound, replace)
+    make(session, path, ("a sound", &["wav"]), ComputedContent::Sound, replace)
 }
 
 /// Writes what takes time to make, unless something else is in work, to a file with one of these endings.
-fn make(session: &mut Session, path: &str, endings: &str, content: Content, replace: bool) -> Done {
-    let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending).to_lowercase();
-    if !endings.split([' ', ',']).any(|known| known.strip_prefix('.') == Some(&ending)) {
-        return Err(format!("{endings}, not {path:?}"));
-    }
+fn make(
+    session: &mut Session,
+    path: &str,
+    (kind, endings): (&str, &[&str]),
+    content: ComputedContent,
+    replace: bool,
+) -> Done {
     let path = PathBuf::from(path);
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    if !endings.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
+        let (path, endings) = (path.display().to_string(), endings.join(", ."));
+        return Err(format!("{kind} ends in .{endings}, not {path:?}"));
+    }
     if let Some(other) = &session.writing {
         let stops = session.with_keys("{drop-cursor} stops that");
         return Err(format!("{} is still being written; {stops}", other.display()));
     }
     session.writing = Some(path.clone());
-    session.effect(Effect::Write { path, content, replace })
+    session.effect(Effect::Write { path, content: Content::Computed(content), replace })
 }
 
 /// Offers to write a file that is named after the scene: opens the line with a command and the file name, to be edited or

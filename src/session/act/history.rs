@@ -141,24 +141,15 @@ pub fn open_scene(session: &mut Session, scene: Arc<Scene>) {
 }
 
 /// What to press first.
-const FIRST_KEYS: &str = "arrows change the numbers; {help} keys, {palette} commands, {explain} what to see, {tour} a tour";
+pub const FIRST_KEYS: &str = "arrows change the numbers; {help} keys, {palette} commands, {explain} what to see, {tour} a tour";
 
 /// Goes on from a first screen to the scene that it leads to. Returns whether there is one.
 pub fn goes_deeper(session: &mut Session) -> bool {
     let next = session.scene.next.as_deref().and_then(|next| find(next).ok());
-    let found = next.is_some();
-    if let Some(next) = next {
-        open_scene(session, next);
-        session.say_first_keys();
-    }
-    found
-}
-
-impl Session {
-    /// Says what to press first.
-    pub fn say_first_keys(&mut self) {
-        self.inform_of_keys(FIRST_KEYS);
-    }
+    let Some(next) = next else { return false };
+    open_scene(session, next);
+    session.inform_of_keys(FIRST_KEYS);
+    true
 }
 
 /// Makes the present state the start of a session: its scene opens like this, with these parameters added to

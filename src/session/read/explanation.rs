@@ -1,7 +1,8 @@
 //! The present numbers in the texts of the glossary, and the equation of motion with them.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
+use crate::branch::escape::leading_escape;
 use crate::closed_form::{LinearFlow, fold, large_asymptote, lyapunov, small_asymptote};
 use crate::model::{Knob, Parameters};
 use crate::session::{Row, Session};
@@ -45,7 +46,7 @@ impl Session {
             "D_F1" => Some(fold(it.d3, it.r)?.d),
             "A_1" => small_asymptote(it),
             "A_2" => large_asymptote(it),
-            "D_c" => Some(-(2.0 / PI).sqrt() * it.r * it.d2.abs()).filter(|it| *it < 0.0),
+            "D_c" => Some(leading_escape(it.d2, it.r)).filter(|it| *it < 0.0),
             "displacement" => found?.margin.displacement,
             "shift" => found?.margin.from_rest.displacement,
             "impulse" => found?.margin.from_rest.impulse,

@@ -9,8 +9,8 @@ use crate::numerics::distinct;
 use crate::paper::{Claim, ClaimResult, Verdict, claims};
 use crate::scene::machine::library::machines;
 use crate::scene::{
-    GLOSSARY, GlossaryEntry, LAYERS, LayerSpec, Machine, Scene, SceneGroup, VIEWS, View, ViewSpec,
-    library,
+    GLOSSARY, GlossaryEntry, LAYERS, Layer, LayerSpec, Machine, Scene, SceneGroup, VIEWS, View,
+    ViewSpec, library,
 };
 use crate::session::{
     CONTEXTS, Code, Command, Context, KeptSession, Key, List, ListKind, Session, place,
@@ -95,7 +95,7 @@ impl Session {
         let scenes = library().iter().map(PaletteRow::Scene);
         let views = VIEWS.iter().map(PaletteRow::View);
         // That of the whole model is a command of a key.
-        let layers = LAYERS.iter().filter(|row| row.name != "whole").map(PaletteRow::Layer);
+        let layers = LAYERS.iter().filter(|row| row.layer != Layer::Whole).map(PaletteRow::Layer);
         let claims = claims().filter(|claim| claim.scene.is_some()).map(PaletteRow::Claim);
         let alone = |machine: &&Machine| library().iter().all(|it| it.name != machine.name);
         let machines = machines().iter().filter(alone).map(PaletteRow::Machine);
@@ -140,11 +140,8 @@ impl Session {
 
     /// The heading under which a row stands in the list of everything.
     pub fn heading_in(&self, list: &List, row: PaletteRow) -> &'static str {
-        if self.is_out(list, row) {
-            NOT_NOW
-        } else {
-            self.heading(row)
-        }
+        let out = self.is_out(list, row).then_some(NOT_NOW);
+        out.unwrap_or_else(|| self.heading(row))
     }
 
     /// The rows that contain all searched words: the best matches first, those alike in this order. The rows of a group stay

@@ -3,7 +3,7 @@
 use crate::branch::Special;
 use crate::model::Knob;
 use crate::scene::{Span, Topic, View};
-use crate::session::{Session, Setup};
+use crate::session::{Plot, Session, Setup};
 
 /// Steps to either side of the scene's value where no diagram says which values matter.
 const STEPS: f64 = 10.0;
@@ -24,13 +24,12 @@ impl Session {
     pub fn number_line(&self) -> Option<NumberLine> {
         let knob = self.selected.stepped()?;
         let over = |plot: &usize| {
-            let (view, axes) = (self.plots[*plot].view, self.plots[*plot].axes);
-            let varied = if view == View::Diagram {
-                axes.abscissa
-            } else {
-                axes.machine
-            };
-            matches!(view, View::Diagram | View::BeltDiagram) && varied == knob
+            let Plot { view, axes, .. } = self.plots[*plot];
+            match view {
+                View::Diagram => axes.abscissa == knob,
+                View::BeltDiagram => axes.machine == knob,
+                _ => false,
+            }
         };
         let plot = self.on_show().find(over);
         let value = self.value(knob);

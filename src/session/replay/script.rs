@@ -54,9 +54,9 @@ pub enum Instruction {
     /// A message: the mouse, `<click 1 0.5 -0.25>` on the first plot, `<click row 2>`, and `<nearer ..>` and
     /// `<farther ..>` for its wheel; text pasted at once, `<paste "text">`; time that passes, in seconds, `<elapse 0.25>`;
     /// the size of the screen, `<resize 80x24>`; a line of the command line, independently of key bindings,
-    /// `<run "set D=-0.3">`; a caption, for which the explorer waits for a key, `<say "text">`; a
-    /// question, for which it waits for y or n, `<ask "text" y>`; the chapter of what follows, `<chapter "text">`; and the present state as
-    /// the start of the session, with an empty history: `<start>`, or `<start D3 r>` with the parameters that are added to
+    /// `<run "set D=-0.3">`; a caption, for which the explorer waits for a key, `<say "text">`; a question, for which it
+    /// waits for y or n, `<ask "text" y>`; the chapter of what follows, `<chapter "text">`; and the present state as the
+    /// start of the session, with an empty history: `<start>`, or `<start D3 r>` with the parameters that are added to
     /// those of its scene.
     Give(Msg),
     /// Wait until no computation is pending: `<wait>`.

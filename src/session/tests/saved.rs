@@ -9,7 +9,8 @@ use super::{Trial, answered};
 use crate::model::Knob;
 use crate::scene::{Request, Topic, library};
 use crate::session::{
-    Content, Effect, KeptSession, Msg, Notice, Purpose, Session, Setup, StepSizes, save, update,
+    ComputedContent, Content, Effect, KeptSession, Msg, Notice, Purpose, Session, Setup, StepSizes,
+    save, update,
 };
 
 /// Everything of a session that its file holds.
@@ -82,7 +83,11 @@ fn a_scene_changed_on_the_command_line_is_saved_in_full() {
 }
 
 fn figure(path: &str, plot: Option<usize>, replace: bool) -> Effect {
-    Effect::Write { path: path.into(), content: Content::Figure { plot }, replace }
+    Effect::Write {
+        path: path.into(),
+        content: Content::Computed(ComputedContent::Figure { plot }),
+        replace,
+    }
 }
 
 #[test]
@@ -124,10 +129,11 @@ fn lines_write_open_and_play_files_without_touching_any() {
     assert_eq!(other.effects.last(), Some(&figure("supercritical-3.png", Some(2), false)));
     other.give(Msg::Written(stopped.clone()));
     for (keys, path, content) in [
-        ("<A-h><enter>", "supercritical.html", Content::Page { forget: 2 }),
-        ("<A-s><enter>", "supercritical.wav", Content::Sound),
+        ("<A-h><enter>", "supercritical.html", ComputedContent::Page { forget: 2 }),
+        ("<A-s><enter>", "supercritical.wav", ComputedContent::Sound),
     ] {
         other.press(keys);
+        let content = Content::Computed(content);
         let asked = Effect::Write { path: path.into(), content, replace: false };
         assert_eq!(other.effects.last(), Some(&asked));
         other.give(Msg::Written(stopped.clone()));
