@@ -22,5 +22,5 @@ static BEFORE_MAIN: extern "C" fn() = {
 fn main() -> color_eyre::Result<ExitCode> {
     // For defects of the program only: what users do wrong is said in one line.
     color_eyre::install()?;
-    Ok(hopfscope::cli::main())
+    Ok(hopfscope::cli::main().into())
 }

@@ -31,20 +31,20 @@ fn range_of(over: &Sweep) -> (f64, f64) {
 }
 
 /// The cycles of a machine along a number, and the changes between its values.
-fn followed(subject: &Source, over: &Sweep) -> Result<MachineBranch, String> {
+fn followed(subject: &Source, over: &Sweep, limits: &Limits) -> Result<MachineBranch, String> {
     let (range, values) = ((over.from, over.to), (over.count, Some([].as_slice())));
-    MachineBranch::along(subject, over.symbol, range, values, &Limits::PATIENT)
+    MachineBranch::along(subject, over.symbol, range, values, limits)
 }
 
 impl BranchCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
-        let case = asked.source.exact()?;
+        let (case, limits) = (asked.source.exact()?, asked.output.limits());
         let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
         let Sweep { symbol, count, .. } = over;
         let about = case.about().but(&[symbol]).told_as(asked.output.format);
         let Some(problem) = case.described.subject.paper() else {
             let source = &case.described.subject.source;
-            let (found, seconds) = timed(asked.output.repeat, || followed(source, &over));
+            let (found, seconds) = timed(asked.output.repeat, || followed(source, &over, &limits));
             return asked.output.print(report::of_machine(&about, symbol, &found?, seconds));
         };
         if !symbol.is_parameter() {
@@ -53,8 +53,7 @@ impl BranchCommand {
         }
         let (base, tolerance) = (&problem.parameters, problem.tolerance);
         let ends = range_of(&over);
-        let follow =
-            || branch(base, symbol, ends, Points::Even(count), tolerance, &Limits::PATIENT);
+        let follow = || branch(base, symbol, ends, Points::Even(count), tolerance, &limits);
         let (found, seconds) = asked.output.timed("the branch could not be completed", follow)?;
         let certified = self.certify.then(|| range(&ParameterBox::from(base), symbol, ends));
         let certified = certified.as_ref();
@@ -78,7 +77,7 @@ pub struct BorderCommand {
 
 impl BorderCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
-        let case = asked.source.exact()?;
+        let (case, limits) = (asked.source.exact()?, asked.output.limits());
         let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
         let Some(Problem { parameters, .. }) = case.described.subject.paper() else {
             return self.of_machine(&case, &over, &asked.output);
@@ -92,7 +91,7 @@ impl BorderCommand {
             .into());
         }
         let range = range_of(&over);
-        let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
+        let follow = || border(&parameters, symbol, range, count, &limits);
         let (found, seconds) = asked.output.timed("the boundary could not be completed", follow)?;
         let certified = self.certify.then(|| enclosed(&found));
         let about = case.about().but(&[symbol]);
@@ -113,9 +112,10 @@ impl BorderCommand {
         if first == second {
             return Err(format!("{second} is varied twice, by --along and by --over").into());
         }
+        let limits = output.limits();
         let row = |index| {
             let value = over.value(index);
-            Ok((value, followed(&subject.with(second, value)?, &along)?.special))
+            Ok((value, followed(&subject.with(second, value)?, &along, &limits)?.special))
         };
         let follow = || (0..over.count).map(row).collect::<Result<Vec<_>, String>>();
         let (found, seconds) = timed(output.repeat, follow);

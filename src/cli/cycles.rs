@@ -53,11 +53,12 @@ impl CyclesCommand {
             self.certify(&proof)?;
             return asked.output.print(boxed(&proof));
         }
-        let problem = asked.source.scene()?.problem;
-        let (found, seconds) = timed(asked.output.repeat, || self.find(&problem.parameters));
+        let (problem, limits) = (asked.source.scene()?.problem, asked.output.limits());
+        let (found, seconds) =
+            timed(asked.output.repeat, || self.find(&problem.parameters, &limits));
         let (found, proof, rungs) = found?;
         self.certify(&proof)?;
-        asked.output.print(report::cycles(&found, &proof, rungs.as_deref(), seconds))
+        asked.output.print(report::cycles(&found, Some(&proof), rungs.as_deref(), seconds))
     }
 
     /// Writes the certificate, if asked for.
@@ -72,8 +73,7 @@ impl CyclesCommand {
     }
 
     /// The cycles, their proof, and the harmonic balance if asked for.
-    fn find(&self, parameters: &Parameters) -> Result<(Cycles, Proof, Rungs)> {
-        let limits = &Limits::PATIENT;
+    fn find(&self, parameters: &Parameters, limits: &Limits) -> Result<(Cycles, Proof, Rungs)> {
         let gave_up = |why: Reason| Failure::unanswered("the search gave up", why);
         let found = cycles(parameters, limits).map_err(&gave_up)?;
         let proof = proved(&found).map_err(|wrong| Failure::Unanswered(wrong.to_string()))?;

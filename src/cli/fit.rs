@@ -10,7 +10,6 @@ use super::progress::{Outlet, StatusLine};
 use super::{Failure, Output, Result, half_widths, input, timed, write};
 use crate::figure::{self, Figure, FigureForm};
 use crate::fit::{DRAWS, FitResult, Inertia, MarginQuestion, NoEstimate, Record, length_in_metres};
-use crate::flow::Limits;
 use crate::model::{DimensionalNumber, Knob, LENGTH, measured};
 use crate::question::{OpenedRecord, record::RecordOptions};
 use crate::report::fit as forms;
@@ -51,7 +50,7 @@ pub struct FitCommand {
     #[arg(long, requires = "written")]
     force: bool,
     #[command(flatten)]
-    output: Output,
+    pub output: Output,
 }
 
 fn not_negative(text: &str) -> Result<DimensionalNumber, String> {
@@ -106,7 +105,7 @@ impl FitCommand {
         let line = RefCell::new(StatusLine::new(place));
         let report = |motions| line.borrow_mut().renew(|_| format!("fitting: {motions} motions"));
         let (found, seconds) =
-            timed(self.output.repeat, || opened.estimated(&asked, &Limits::PATIENT, &report));
+            timed(self.output.repeat, || opened.estimated(&asked, &self.output.limits(), &report));
         line.borrow().end();
         let (estimate, margins) = found.map_err(|reason| match reason {
             NoEstimate::TooFew { .. } | NoEstimate::NotAlternating { .. } => {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::{Failure, Output, Result, timed};
 use crate::flow::machine::stepped::ALLOWED;
-use crate::flow::{Limits, Method, Problem, Reason, Subject};
+use crate::flow::{Method, Problem, Reason, Subject};
 use crate::model::{Body, Group, Knob, TolerancedNumber};
 use crate::portrait::Portrait;
 use crate::report::About;
@@ -24,6 +24,7 @@ const UNCERTAIN_MODE: &str =
     "a mode takes no uncertainties and no --disturbance: its guaranteed margins are not computed";
 
 /// What a command is about, and the motion to compute.
+#[derive(Clone)]
 pub struct CommandCase {
     pub described: Description,
     /// The files that it was read from.
@@ -79,7 +80,7 @@ impl CommandCase {
     pub fn portrait(&self, output: &Output, reach: f64) -> Result<(Portrait, f64)> {
         let subject = &self.described.subject;
         if let Some(Problem { parameters, .. }) = subject.paper() {
-            let find = || Portrait::of_oscillator(&parameters, reach, &Limits::PATIENT);
+            let find = || Portrait::of_oscillator(&parameters, reach, &output.limits());
             return output.timed("the basin could not be found", find);
         }
         let (found, seconds) = timed(output.repeat, || subject.source.portrait());

@@ -6,7 +6,7 @@ use super::input::{self, WINDOW};
 use super::{
     CERTIFY, CommandCase, Output, QuestionOptions, Result, given, number, read, timed, troubled,
 };
-use crate::flow::{Limits, Subject};
+use crate::flow::Subject;
 use crate::model::Knob;
 use crate::portrait::guarantee::machine;
 use crate::portrait::{Portrait, guaranteed, proved_kicks, repeated};
@@ -32,8 +32,8 @@ impl MarginCommand {
         }
         let (known, bound) = (asked.source.known()?, bound.unwrap_or(0.0));
         let ask = || {
-            let nominal = Portrait::innermost(&known.middle(), 0.0, &Limits::PATIENT)?;
-            Ok((nominal, guaranteed(&known, bound, 0.0, &Limits::PATIENT)?))
+            let nominal = Portrait::innermost(&known.middle(), 0.0, &asked.output.limits())?;
+            Ok((nominal, guaranteed(&known, bound, 0.0, &asked.output.limits())?))
         };
         let timed = asked.output.timed("the margin could not be computed", ask)?;
         let ((nominal, certain), seconds) = timed;
@@ -94,7 +94,7 @@ impl BasinCommand {
             }
         };
         let window = window.unwrap_or_else(usual);
-        let count = || found.count(&window, self.grid, &Limits::PATIENT);
+        let count = || found.count(&window, self.grid, &asked.output.limits());
         let (counts, seconds) = asked.output.timed("the starts could not be counted", count)?;
         // What is proved, is proved of the oscillator of the paper.
         let parameters = found.model.parameters().filter(|_| self.certify && !about.is_machine());
@@ -119,7 +119,7 @@ impl KicksCommand {
         let case = asked.source.exact()?;
         let r = case.described.subject.source.get(Knob::R).unwrap_or(0.0);
         let (portrait, before) = case.portrait(&asked.output, law.reach() + r)?;
-        let follow = || repeated(&portrait, &law, &Limits::PATIENT);
+        let follow = || repeated(&portrait, &law, &asked.output.limits());
         let (found, seconds) = asked.output.timed("the kicks could not be followed", follow)?;
         let held = portrait.model.guide_static;
         asked.output.print(kicks(&case.about(), &law, &found, held, before + seconds))

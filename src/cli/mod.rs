@@ -6,6 +6,7 @@
 
 mod belt;
 mod branch;
+mod call;
 mod cycles;
 mod explore;
 mod figure;
@@ -28,7 +29,6 @@ mod sound;
 mod source;
 
 use std::ffi::OsString;
-use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::{ArgMatches, Args, Command};
@@ -36,16 +36,20 @@ use explore::ExploreCommand;
 use signal_hook::consts::SIGXFSZ;
 use signal_hook::flag;
 
+pub use call::{Call, answer, scan};
+pub use machine::CommandCase;
+
 pub(super) use crate::runtime::failure::{Failure, Result};
 pub(super) use input::{given, half_widths, number, read, signed};
-pub(super) use machine::{CommandCase, second, troubled};
+pub(super) use machine::{second, troubled};
 pub(super) use output::{CERTIFY, Output, in_turn, print, timed, write};
 pub(super) use source::{QuestionOptions, SourceOptions, StartOptions};
 
+use crate::runtime::provenance_file::words;
 use crate::words::usage;
 
-/// Runs a command with the options that were given.
-type Run = Box<dyn Fn(&ArgMatches) -> Result<()>>;
+/// Runs a command with the options that were given, for a caller in this process if there is one.
+type Run = Box<dyn Fn(&ArgMatches, Option<&Arc<Call>>) -> Result<()>>;
 
 /// A command that needs no terminal.
 struct Subcommand {
@@ -56,7 +60,7 @@ struct Subcommand {
 }
 
 fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<()>) -> Subcommand {
-    let run = move |given: &ArgMatches| run(&parsed(given)?);
+    let run = move |given: &ArgMatches, _: Option<&Arc<Call>>| run(&parsed(given)?);
     Subcommand { name, options: C::augment_args, run: Box::new(run) }
 }
 
@@ -66,7 +70,12 @@ fn question<C: Args + 'static>(
     run: fn(&C, &QuestionOptions) -> Result<()>,
 ) -> Subcommand {
     let options = |command| C::augment_args(QuestionOptions::augment_args(command));
-    let run = move |given: &ArgMatches| run(&parsed(given)?, &parsed(given)?);
+    let run = move |given: &ArgMatches, call: Option<&Arc<Call>>| {
+        let mut asked: QuestionOptions = parsed(given)?;
+        asked.source.case = call.and_then(|call| call.case.clone());
+        asked.output.call = call.cloned();
+        run(&parsed(given)?, &asked)
+    };
     Subcommand { name, options, run: Box::new(run) }
 }
 
@@ -135,16 +144,16 @@ fn settings_last(mut words: Vec<OsString>) -> Vec<OsString> {
 }
 
 /// Parses the command line of this process, runs one command and returns its exit code.
-pub fn main() -> ExitCode {
+pub fn main() -> u8 {
     // At the limit of its size the write of a file fails; it does not end the program.
     drop(flag::register(SIGXFSZ, Arc::default()));
-    let words = settings_last(std::env::args_os().collect());
+    let words = settings_last(words());
     let result = match program().try_get_matches_from(words) {
         Ok(given) => run(&given),
         Err(error) if error.use_stderr() => Err(usage::line(&error).into()),
         Err(help) => print(&help.render().to_string()),
     };
-    result.map_or_else(|failure| failure.report(), |()| ExitCode::SUCCESS)
+    result.map_or_else(|failure| failure.report(), |()| 0)
 }
 
 /// Runs the command that was given.
@@ -153,7 +162,7 @@ fn run(given: &ArgMatches) -> Result<()> {
         Some((commands().into_iter().find(|row| row.name == name)?, options))
     });
     match named {
-        Some((row, options)) => (row.run)(options),
+        Some((row, options)) => (row.run)(options, None),
         None => parsed::<ExploreCommand>(given)?.run(&command_names()),
     }
 }

@@ -12,18 +12,19 @@ use crate::report::{About, motion};
 use crate::view::trade_plot::in_letters;
 
 /// The motion that is asked for.
-struct AskedMotion {
+struct AskedMotion<'a> {
     about: About,
     problem: Problem,
     /// That of a machine, whose motions are in SI units; `None` for the oscillator of the paper.
     model: Option<Model>,
+    limits: Limits<'a>,
 }
 
-impl AskedMotion {
+impl<'a> AskedMotion<'a> {
     /// The motion of the scene or the machine until a time. That of a machine is followed by the method and to the
     /// tolerance that are asked for or else its own.
     fn new(
-        QuestionOptions { source, output }: &QuestionOptions,
+        QuestionOptions { source, output }: &'a QuestionOptions,
         until: Option<&String>,
     ) -> Result<Self> {
         let mut case = source.case()?;
@@ -39,13 +40,13 @@ impl AskedMotion {
             problem.tolerance = source.start.tol.unwrap_or(Knob::Tolerance.usual());
         }
         let about = case.about().told_as(output.format);
-        Ok(AskedMotion { about, problem, model })
+        Ok(AskedMotion { about, problem, model, limits: output.limits() })
     }
 
     /// Follows the motion, as a problem that may have another method or accuracy.
     fn follow(&self, problem: &Problem, energy: bool) -> Motion {
         let detail = Detail { energy, ..Detail::default() };
-        problem.followed(self.model.as_ref(), detail, &Limits::PATIENT)
+        problem.followed(self.model.as_ref(), detail, &self.limits)
     }
 }
 
@@ -102,7 +103,7 @@ impl TradeCommand {
             Some(_) => troubled(reason),
             None => Failure::unanswered("there is nothing to measure errors against", reason),
         };
-        let found = Trade::of(machine, &asked.problem, &Limits::PATIENT);
+        let found = Trade::of(machine, &asked.problem, &asked.limits);
         let mut found = found.map_err(unmeasured)?;
         let seconds = in_turn(question.output.repeat, found.rows.len(), |index| {
             // A row that was given up used its whole budget; it is not repeated.

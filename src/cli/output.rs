@@ -3,12 +3,13 @@
 use std::hint::black_box;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use clap::Args;
 
-use super::{Failure, Result};
-use crate::flow::Reason;
+use super::{Call, Failure, Result};
+use crate::flow::{Limits, Reason};
 use crate::numerics::{real, truncated};
 use crate::report::{Answer, Format};
 use crate::runtime::{Readers, new_file, provenance_file, standard};
@@ -29,6 +30,10 @@ pub struct Output {
     /// Writes the answer to FILE, and its provenance (program, version, command line) to FILE.provenance
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
+
+    /// The caller that is answered in place of all that, if one asks in this process.
+    #[arg(skip)]
+    pub call: Option<Arc<Call>>,
 }
 
 impl Output {
@@ -43,6 +48,11 @@ impl Output {
         Ok((found.map_err(|why| Failure::unanswered(failed, why))?, seconds))
     }
 
+    /// What a question may cost, and what interrupts it.
+    pub fn limits(&self) -> Limits<'_> {
+        self.call.as_ref().map_or(Limits::PATIENT, |call| call.limits())
+    }
+
     /// The width of the terminal in which the answer is shown, if it is shown in one.
     pub fn width(&self) -> Option<usize> {
         columns().filter(|_| self.write.is_none())
@@ -51,6 +61,10 @@ impl Output {
     /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other
     /// file.
     pub fn print(&self, answer: Answer) -> Result<()> {
+        if let Some(call) = &self.call {
+            call.take(answer);
+            return Ok(());
+        }
         let content = sourced(answer, self.format);
         let Some(path) = &self.write else { return print(&content) };
         let (content, keep) = (printable::lines(&content), Some("--write replaces nothing"));

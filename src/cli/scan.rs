@@ -32,7 +32,7 @@ use crate::words::joined;
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct ScanCommand {
     #[command(flatten)]
-    source: SourceOptions,
+    pub source: SourceOptions,
     /// A parameter and its values, evenly spaced, or at equal ratios with log: before FROM; repeatable, the last
     /// one varies fastest
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", required = true)]
@@ -69,7 +69,7 @@ pub struct ScanCommand {
     until: Option<String>,
     /// Number of threads (default: one per core)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    jobs: Option<u16>,
+    pub jobs: Option<u16>,
     /// Output format; json writes one object per line (default: the extension of FILE, or csv)
     #[arg(long)]
     format: Option<Format>,

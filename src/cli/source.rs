@@ -34,12 +34,15 @@ pub struct SourceOptions {
     /// are then its own, such as --set "R=2 N", with a unit or in SI units
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "step", "epsilon"])]
     machine: Option<String>,
+    /// The machine of a caller in this process.
+    #[arg(skip)]
+    pub case: Option<CommandCase>,
 }
 
 impl SourceOptions {
     /// The numbers by which the other options are read.
     pub fn numbers(&self) -> &'static Numbers {
-        if self.machine_name().is_some() {
+        if self.case.is_some() || self.machine_name().is_some() {
             &MACHINE
         } else {
             &OSCILLATOR
@@ -91,8 +94,10 @@ impl SourceOptions {
 
     /// The machine with the values set on the command line, if it is about one.
     pub fn machine(&self) -> Result<Option<CommandCase>> {
-        let Some(name) = self.machine_name() else { return Ok(None) };
-        let mut case = CommandCase::named(name)?;
+        let named = || self.machine_name().map(|name| CommandCase::named(name)).transpose();
+        let Some(mut case) = self.case.clone().map_or_else(named, |case| Ok(Some(case)))? else {
+            return Ok(None);
+        };
         case.set(&self.start.assigned(&MACHINE)?)?;
         case.described.subject.source.tolerance = self.start.tol;
         Ok(Some(case))

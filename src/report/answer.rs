@@ -191,6 +191,14 @@ impl Answer {
         self.with("provenance", provenance)
     }
 
+    /// Its document, or the list that it consists of.
+    pub fn document(self) -> serde_json::Value {
+        match self.list {
+            Some(list) => json::value(&list),
+            None => json::value(&self.document),
+        }
+    }
+
     /// The answer in a form.
     pub fn told(self, format: Format) -> String {
         match (format, self.list) {

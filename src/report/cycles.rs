@@ -5,15 +5,16 @@ use super::cycle_numbers::machine_cycles;
 use super::{About, Answer, Columns, Document, PLACES, ProvedRow, Quantity, with_proof};
 use crate::accuracy::{BalanceResult, HarmonicBalance};
 use crate::closed_form::{Harmonic, HarmonicCycle, amplitudes};
+use crate::model::ParameterBox;
 use crate::portrait::{Border, Cycle, Cycles, Portrait};
 use crate::proof::Proof;
 use crate::words::{stability, with_unit};
 
-/// Every cycle with what is proved about it, to the digits that are proved in text; the border of the basin; the harmonic
+/// Every cycle, with what is proved about it, if that is known, to the digits that are proved in text; the border of the basin; the harmonic
 /// balance if asked for.
 pub fn cycles(
     found: &Cycles,
-    proof: &Proof,
+    proof: Option<&Proof>,
     rungs: Option<&[HarmonicBalance]>,
     seconds: f64,
 ) -> Answer {
@@ -23,8 +24,12 @@ pub fn cycles(
         .text("by one harmonic", |it: &Harmonic| stability(it.stable))
         .number("amplitude", SHORT, |it| it.amplitude)
         .number("mean", SHORT, |it| it.mean);
-    let answer = About::boxed(&proof.parameters).answer();
-    let mut answer = with_proof(answer, &ProvedRow::found(&found.cycles, proof), proof)
+    let answer = About::boxed(&ParameterBox::from(&found.parameters)).answer();
+    let answer = match proof {
+        Some(proof) => with_proof(answer, &ProvedRow::found(&found.cycles, proof), proof),
+        None => answer.with("cycles", &found.cycles),
+    };
+    let mut answer = answer
         .with("harmonic", &by_one)
         .with_any("balance", rungs.map(|rungs| balance_columns().objects(balances(rungs))))
         .with("basin", Document::of("edge", found.border))

@@ -3,7 +3,6 @@
 use std::fmt;
 use std::io::{self, ErrorKind};
 use std::path::Path;
-use std::process::ExitCode;
 
 use thiserror::Error;
 
@@ -78,14 +77,14 @@ impl Failure {
         }
     }
 
-    /// Prints the line to standard error.
-    pub fn report(&self) -> ExitCode {
+    /// Prints the line to standard error; returns the exit code.
+    pub fn report(&self) -> u8 {
         let code = match self {
-            Failure::Said(code) => return ExitCode::from(*code),
+            Failure::Said(code) => return *code,
             Failure::Usage(_) => 2,
             Failure::Unanswered(_) => 1,
         };
         tell(self);
-        ExitCode::from(code)
+        code
     }
 }

@@ -3,10 +3,12 @@
 //! The file of rows itself stays as other programs expect it, with nothing before the line of column names. And what
 //! identifies a file that an answer was computed from: its name, its date and its SHA-256.
 
+use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::os::unix::fs::{FileExt, MetadataExt};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use sha2::{Digest, Sha256};
 use time::OffsetDateTime;
@@ -24,9 +26,17 @@ pub fn of_process() -> Provenance {
     Provenance::of(&arguments())
 }
 
+/// The words of the command line where they are not those of the process, as in an interpreter that runs the program.
+pub static WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// The words of the command line, the name of the program first.
+pub fn words() -> Vec<OsString> {
+    WORDS.get().cloned().unwrap_or_else(|| std::env::args_os().collect())
+}
+
 /// The arguments of this process.
 pub fn arguments() -> Vec<String> {
-    std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
+    words().iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
 }
 
 pub fn beside(path: &Path) -> PathBuf {
