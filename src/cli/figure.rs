@@ -6,6 +6,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::output::columns;
+use super::sheet::SheetOptions;
 use super::{Failure, Result, SourceOptions, input, print, write};
 use crate::figure::{FigureForm, file};
 use crate::flow::Limits;
@@ -33,6 +34,8 @@ pub struct FigureCommand {
     #[arg(long, value_enum, default_value_t = FigureForm::Text,
           conflicts_with = "output")]
     format: FigureForm,
+    #[command(flatten)]
+    sheet: SheetOptions,
 }
 
 /// Size of a panel drawn with characters; a narrower terminal reduces the width.
@@ -43,7 +46,11 @@ const NARROWEST: u16 = 40;
 
 impl FigureCommand {
     pub fn run(&self) -> Result<()> {
-        let (mut session, plots) = completed(self.scene()?)?;
+        let mut scene = self.scene()?;
+        self.sheet.apply(Arc::make_mut(&mut scene))?;
+        let mut session = printed(scene);
+        self.sheet.look(&mut session)?;
+        let plots = complete_for_print(&mut session)?;
         let (path, form) = self.output.clone().unzip();
         let form = form.unwrap_or(self.format);
         if form == FigureForm::Text {
@@ -74,14 +81,25 @@ impl FigureCommand {
 
 /// A session of a scene with everything on show computed for print, and its plots.
 pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>)> {
+    let mut session = printed(scene);
+    let plots = complete_for_print(&mut session)?;
+    Ok((session, plots))
+}
+
+/// A session of a scene, for print.
+fn printed(scene: Arc<Scene>) -> Session {
     let width = columns().and_then(|width| u16::try_from(width).ok());
     let width = width.unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
     let mut session = Session::new(scene, Size { width, height: PANEL.1 });
     // On paper nothing is played: the whole motion is drawn.
     session.playback = Playback::default();
-    complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
-    let plots = (0..session.plots.len()).collect();
-    Ok((session, plots))
+    session
+}
+
+/// Computes everything on show; the plots.
+fn complete_for_print(session: &mut Session) -> Result<Vec<usize>> {
+    complete(session, Fineness::PRINT, &Limits::PATIENT)?;
+    Ok((0..session.plots.len()).collect())
 }
 
 /// Every plot, one above the other.

@@ -24,6 +24,7 @@ mod progress;
 mod replay;
 mod scan;
 mod settings;
+mod sheet;
 mod shell;
 mod sound;
 mod source;

@@ -11,7 +11,7 @@ use crate::picture::{
     self, Caption, Dash, Fill, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap,
 };
 use crate::report::Document;
-use crate::scene::{Point, Span, Window, rectangle};
+use crate::scene::{Point, Sheet, Span, Window, rectangle};
 use crate::words::provenance::Provenance;
 
 /// What plots show, as data.
@@ -38,6 +38,9 @@ pub struct Figure {
     pub method: String,
     /// Relative error of a step.
     pub tolerance: f64,
+    /// How it is printed.
+    #[serde(skip)]
+    pub sheet: Sheet,
     /// One for each plot.
     pub panels: Vec<Panel>,
 }

@@ -35,6 +35,7 @@ use crate::picture;
 use crate::picture::fit::pictures;
 use crate::report::json::text;
 use crate::session::read::completion::difference;
+use crate::scene::Sheet;
 use crate::session::{Key, Session};
 use crate::words::provenance::Provenance;
 
@@ -130,6 +131,7 @@ impl Figure {
             until,
             method: method.to_string(),
             tolerance,
+            sheet: session.scene.sheet.clone(),
             panels: plots.into_iter().map(|plot| panel(session, plot)).collect(),
         }
     }
@@ -151,6 +153,7 @@ impl Figure {
             until: p[OMEGA0] * estimate.data.duration(),
             method: "half swings with exact derivatives".into(),
             tolerance: 1e-13,
+            sheet: Sheet::default(),
             panels: pictures(fitted).iter().map(Panel::of).collect(),
         }
     }

@@ -11,6 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::machine::{ScaledMachine, Setting, library};
 use super::plot_setup::{Arrangement, PlotSetup};
+use super::sheet::Sheet;
 use super::views::Layer;
 use crate::flow::Problem;
 use crate::model::Knob;
@@ -51,6 +52,9 @@ pub struct Scene {
     pub next: Option<String>,
     /// How the plots share the screen.
     pub arrangement: Arrangement,
+    /// How its figure is printed.
+    #[serde(default, skip_serializing_if = "Sheet::is_usual")]
+    pub sheet: Sheet,
     /// The machine that the numbers describe, if any.
     #[serde(default, deserialize_with = "named_or_whole", skip_serializing_if = "Option::is_none")]
     pub machine: Option<Box<ScaledMachine>>,

@@ -56,21 +56,23 @@ fn extents_of_the_basin_are_those_of_the_formulas() {
 #[test]
 fn the_borders_of_the_basins_are_the_cycles_of_the_formulas() {
     let drawn = figure("fig07", Fineness::PRINT);
-    for (panel, d) in [(0, -0.4), (2, -0.7), (3, -0.999)] {
+    // The present D in a plot of its own, and the three of the paper in one.
+    for (panel, d) in [(0, -0.4), (2, -0.4), (2, -0.7), (2, -0.999)] {
         let (q, v) = linear_extents(d, 1.0);
-        let [cycle] = &curves(&drawn, panel, "unstable cycle")[..] else { panic!("one cycle") };
-        let areas = &drawn.panels[panel].areas;
-        let basin = areas.iter().find(|area| area.name == "basin of the sticking set").unwrap();
-        for (points, parameters) in
-            [(&cycle.points, &cycle.parameters), (&basin.points, &basin.parameters)]
-        {
-            assert_eq!(parameters["D"], d);
+        let all = curves(&drawn, panel, "unstable cycle");
+        let cycle = all.iter().find(|cycle| cycle.parameters["D"] == d).unwrap();
+        let areas = &mut drawn.panels[panel].areas.iter();
+        let is_basin = |area: &&Outline| area.kind == "basin of the sticking set";
+        let basin = areas.filter(is_basin).find(|area| area.parameters["D"] == d).unwrap();
+        for points in [&cycle.points, &basin.points] {
             let farthest = |axis: usize| points.iter().map(|at| at[axis]).fold(0.0, f64::max);
             assert!((farthest(0) / q - 1.0).abs() < 1e-9, "{d}: {}", farthest(0));
             assert!((farthest(1) / v - 1.0).abs() < 1e-4, "{d}: {}", farthest(1));
         }
         let radius = -1.0 / (2.0 * d);
-        for [q, v] in &curves(&drawn, panel, "Lyapunov circle")[0].points {
+        let circles = curves(&drawn, panel, "Lyapunov circle");
+        let circle = circles.iter().find(|circle| circle.parameters["D"] == d).unwrap();
+        for [q, v] in &circle.points {
             assert!((hypot(*q, *v) / radius - 1.0).abs() < 1e-14);
         }
     }
