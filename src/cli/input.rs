@@ -211,7 +211,7 @@ pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
 
 /// The options whose values may begin with a minus, with blanks between them.
 pub const SIGNED: &str =
-    "along design disturbance epsilon half-width kicks over set start step tol until window";
+    "along design disturbance epsilon half-width kicks over sample set start step tol until window";
 
 /// A command whose numbers may be negative: a minus begins no option there.
 pub fn signed(command: Command) -> Command {

@@ -2,13 +2,16 @@
 
 use clap::Args;
 
+use super::times::TimeOptions;
 use super::{CERTIFY, Failure, QuestionOptions, Result, in_turn, number, second, timed, troubled};
 use crate::accuracy::Trade;
-use crate::flow::{Detail, Limits, Motion, Outcome, Problem};
+use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem};
 use crate::model::{Knob, Model};
 use crate::numerics::Interval;
 use crate::proof::{ParameterBox, follow as enclosed};
+use crate::report::motion::MomentRow;
 use crate::report::{About, motion};
+use crate::runtime::tell;
 use crate::view::trade_plot::in_letters;
 
 /// The motion that is asked for.
@@ -48,6 +51,20 @@ impl<'a> AskedMotion<'a> {
         let detail = Detail { energy, ..Detail::default() };
         problem.followed(self.model.as_ref(), detail, &self.limits)
     }
+
+    /// Where the motion is at these times; a time at which that is not known keeps its row, and a note says so.
+    fn at_times(&self, times: &[f64]) -> Vec<MomentRow> {
+        let (model, detail) = (self.model.as_ref(), Detail::default());
+        let (found, samples) = self.problem.at_times(model, times, detail, &Limits::PATIENT);
+        let rows: Vec<_> = times.iter().copied().zip(samples).collect();
+        let unknown = rows.iter().filter(|(_, sample)| sample.is_none()).count();
+        if unknown > 0 {
+            let (word, tau, all) = (found.outcome.word(), found.outcome.tau(), rows.len());
+            let without = format!("{unknown} of {all} times have no state");
+            tell(format!("note: {word} at tau = {tau:?}, so {without}"));
+        }
+        rows
+    }
 }
 
 /// Computes one motion: its turning points, how it ends, where its energy goes
@@ -58,6 +75,8 @@ pub struct TrajectoryCommand {
     until: Option<String>,
     #[arg(long, help = CERTIFY)]
     certify: bool,
+    #[command(flatten)]
+    times: TimeOptions,
 }
 
 impl TrajectoryCommand {
@@ -71,12 +90,24 @@ impl TrajectoryCommand {
         if !is_machine && !matches!(found.outcome, Outcome::GaveUp { .. }) {
             found = asked.follow(problem, true);
         }
+        let times = self.times.asked(question.source.numbers().until, problem.until)?;
+        if is_machine && times.is_some() && problem.method != Method::Taylor {
+            let line = "a step of this method is known at its end alone; at times a machine is followed by --method auto or taylor";
+            return Err(line.into());
+        }
+        let samples = times.map(|times| asked.at_times(&times));
         let enclose = || {
             let start = [problem.initial.q, problem.initial.v].map(Interval::point);
             enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
         };
         let certified = (self.certify && !is_machine).then(enclose);
-        question.output.print(motion::motion(&asked.about, &found, certified.as_ref(), seconds))?;
+        question.output.print(motion::motion(
+            &asked.about,
+            &found,
+            certified.as_ref(),
+            samples.as_deref(),
+            seconds,
+        ))?;
         match found.outcome {
             Outcome::GaveUp { tau, reason } if !is_machine => {
                 let place = format!("gave up at tau = {tau:?} of {:?}", problem.until);

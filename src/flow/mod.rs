@@ -18,6 +18,7 @@
 //! assert!(matches!(motion.outcome, Outcome::Captured { q, .. } if (q + 0.116_144).abs() < 1e-6));
 //! ```
 
+pub(crate) mod at_times;
 pub(crate) mod auto;
 pub(crate) mod comparison;
 pub(crate) mod exact;

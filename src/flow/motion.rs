@@ -211,7 +211,7 @@ pub struct Crossing<N = f64> {
 }
 
 /// A point of a motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Sample {
     /// Time.
     pub tau: f64,
@@ -292,7 +292,8 @@ pub struct Motion<N = f64> {
     pub extremes: Option<[(f64, f64); 2]>,
     /// The energy balance, if requested; of a machine only Taylor series count it.
     pub ledger: Option<Ledger>,
-    /// Points for drawing, if requested; the first is the start. Of a machine there are always its start and its end.
+    /// Points for drawing, if requested; the first is the start. Of a machine there are always its start and its end. Of
+    /// one that is evaluated at given times, in their place those points.
     pub samples: Vec<Sample>,
     /// Cost of the computation.
     pub cost: Cost,

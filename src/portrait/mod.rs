@@ -47,6 +47,7 @@ mod without_belt;
 
 pub use basin::capture::bands;
 pub use basin::cycle::{Cycles, Drawing, cycles};
+pub use basin::in_time::orbit;
 pub use basin::stability::Share;
 pub use basin::{Counts, StartWindow};
 pub use border::Edge;

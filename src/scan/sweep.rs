@@ -99,18 +99,23 @@ impl Sweep {
                 let value = mean(self.from, self.to);
                 let rounding = 4.0 * f64::EPSILON * self.from.abs().max(self.to.abs());
                 // Where the ends have few digits the values between have few: -0.4, not -0.39999999999999997.
-                let short = format!("{value:.14e}").parse().unwrap_or(value);
-                if (short - value).abs() <= rounding {
-                    short
-                } else {
-                    value
-                }
+                brief(value, rounding)
             }
             Spacing::Logarithmic => {
                 let exponent = mean(log10(self.from.abs()), log10(self.to.abs()));
                 pow(10.0, exponent).copysign(self.from)
             }
         }
+    }
+}
+
+/// The number of at most fifteen digits that is within this distance of a value, or the value where there is none.
+pub fn brief(value: f64, within: f64) -> f64 {
+    let short = format!("{value:.14e}").parse().unwrap_or(value);
+    if (short - value).abs() <= within {
+        short
+    } else {
+        value
     }
 }
 

@@ -8,6 +8,7 @@ pub(crate) mod arc;
 #[doc(hidden)]
 pub mod capture;
 pub mod cycle;
+pub mod in_time;
 pub(crate) mod orbit;
 #[doc(hidden)]
 pub mod stability;

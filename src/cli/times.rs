@@ -1,0 +1,69 @@
+//! The times at which a motion is evaluated.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{Failure, Result, number};
+use crate::model::Knob;
+use crate::numerics::{real, truncated};
+use crate::runtime::bounded;
+use crate::scan::brief;
+
+/// At which times; none unless one of both is given.
+#[derive(Args)]
+pub struct TimeOptions {
+    /// Evaluates the motion at times this far apart, from 0 on
+    #[arg(long, value_name = "STEP", conflicts_with = "times")]
+    sample: Option<String>,
+    /// Evaluates the motion at the times in FILE: one on a line, or the column tau of comma-separated values
+    #[arg(long, value_name = "FILE")]
+    times: Option<PathBuf>,
+}
+
+/// Most times at which a motion is evaluated.
+const MOST: usize = 1_000_000;
+
+impl TimeOptions {
+    /// The times, if any are asked for, of a motion that ends at this one; `knob` reads them.
+    pub fn asked(&self, knob: Knob, until: f64) -> Result<Option<Vec<f64>>> {
+        let step = number("--sample", self.sample.as_ref(), knob)?;
+        let apart = step.map(|step| apart(step, until));
+        apart.or_else(|| Some(within(self.times.as_ref()?, knob, until))).transpose()
+    }
+}
+
+/// Times from 0 on, this far apart.
+fn apart(step: f64, until: f64) -> Result<Vec<f64>> {
+    let rounding = 4.0 * f64::EPSILON;
+    let count = (until / step * (1.0 + rounding)).floor();
+    if step > 0.0 && count < real(MOST) {
+        let time = |index| brief(real(index) * step, rounding * until).min(until);
+        return Ok((0..=truncated(count)).map(time).collect());
+    }
+    let least = until / real(MOST);
+    Err(format!("--sample {step:?}: expected {least:?} or more, for at most {MOST} times").into())
+}
+
+/// The times in a file.
+fn within(path: &Path, knob: Knob, until: f64) -> Result<Vec<f64>> {
+    let text = bounded::text(path)?;
+    let is_row = |(_, line): &(usize, &str)| !line.trim().is_empty() && !line.starts_with('#');
+    let mut rows = text.lines().enumerate().filter(is_row).peekable();
+    let place = |line: &str| line.split(',').position(|name| ["tau", "t"].contains(&name.trim()));
+    let named = rows.next_if(|(_, line)| place(line).is_some());
+    let column = named.and_then(|(_, line)| place(line)).unwrap_or(0);
+    let time = |(index, line): (usize, &str)| {
+        let cell = line.split(',').nth(column).unwrap_or_default().trim();
+        let outside = || format!("{cell} is outside of the motion, 0 .. {until:?}, see --until");
+        let inside = |time: &f64| (0.0..=until).contains(time);
+        let time = knob.parse(cell);
+        let time = time.and_then(|time| Some(time).filter(inside).ok_or_else(outside));
+        time.map_err(|why| Failure::file(path, format!("line {}: {why}", index + 1)))
+    };
+    let times: Vec<f64> = rows.take(MOST + 1).map(time).collect::<Result<_>>()?;
+    if times.is_empty() || times.len() > MOST {
+        return Err(Failure::file(path, format!("expected 1 .. {MOST} times, a line each")));
+    }
+    Ok(times)
+}
