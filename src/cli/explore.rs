@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::replay::script;
 use super::settings::{Looks, Memory, Settings};
+use super::study::file_of;
 use super::{CommandCase, Failure, Result, StartOptions};
 use crate::numerics::similar;
 use crate::runtime::{Files, Options, RecordingFile, explore, provenance_file};
@@ -25,7 +26,7 @@ use crate::words::joined;
 /// Opens the explorer.
 #[derive(Args)]
 pub struct ExploreCommand {
-    /// Scene to open; `hopfscope scenes` lists them
+    /// Scene to open, by its name or file; `hopfscope scenes` lists those of the program
     #[arg(value_name = "SCENE", conflicts_with = "scene")]
     named: Option<String>,
     /// Opens a machine in physical units: a file, or the name of a built-in one; see `hopfscope belt`
@@ -75,7 +76,7 @@ impl ExploreCommand {
             let scene = CommandCase::named(file)?.scene()?;
             self.start.applied(scene.ok_or_else(|| format!("{file}: {NO_BELT}"))?)?
         } else {
-            if self.named.is_some() {
+            if self.named.is_some() && file_of(name).is_none() {
                 find(name).map_err(|_| neither_scene_nor_command(name, commands))?;
             }
             self.start.scene(Some(name))?

@@ -67,7 +67,9 @@ impl FigureCommand {
 
     /// The scene to show: that of a machine, or one that is named.
     fn scene(&self) -> Result<Arc<Scene>> {
-        if let Some(case) = self.source.machine()? {
+        if self.source.machine_name().is_some()
+            && let Some(case) = self.source.machine()?
+        {
             return case.checked()?.scene()?.ok_or_else(|| NO_BELT.into());
         }
         if self.source.named.is_none() && self.source.start.scene.is_none() {

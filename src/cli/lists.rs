@@ -18,7 +18,7 @@ use crate::report::extremes::{extreme_cycles, extremes};
 use crate::report::scenes::{OPENING, QuestionBatch, QuestionCost, SceneCost, costs, scenes};
 use crate::report::{Answer, Columns, Format, SCREEN, claims};
 use crate::runtime::tell;
-use crate::scene::{Scene, library};
+use crate::scene::{Scene, find, library};
 use crate::session::{
     self, CONTEXTS, Command, ContextSpec, Msg, Row, Session, Size, commands, update,
 };
@@ -32,10 +32,16 @@ pub struct ScenesCommand {
     /// Shows what each scene computes, what that costs, and what a step of each number recomputes
     #[arg(long)]
     cost: bool,
+    /// Prints the file of a scene, to begin one of your own with: hopfscope scenes --show fig17 > my.toml
+    #[arg(long, value_name = "SCENE", conflicts_with_all = ["format", "cost"])]
+    show: Option<String>,
 }
 
 impl ScenesCommand {
     pub fn run(&self) -> Result<()> {
+        if let Some(name) = &self.show {
+            return print(library::text(&*find(name)?).unwrap_or_default());
+        }
         let answer = if self.cost {
             costs(&library().iter().map(cost_of).collect::<Result<Vec<_>>>()?)
         } else {

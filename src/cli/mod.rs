@@ -28,6 +28,7 @@ mod sheet;
 mod shell;
 mod sound;
 mod source;
+mod study;
 mod times;
 
 use std::ffi::OsString;

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::input::{self, MACHINE, Numbers, OSCILLATOR};
+use super::study::{self, file_of, scene_named};
 use super::{CommandCase, Output, Result, read, second};
-use crate::flow::{METHODS, Method};
+use crate::flow::{METHODS, Method, Problem};
 use crate::model::{Knob, ParameterBox, TolerancedNumber};
 use crate::runtime::tell;
 use crate::scene::machine::library;
@@ -25,7 +26,8 @@ pub struct QuestionOptions {
 /// What a command is about: the motion of a scene, or a machine.
 #[derive(Args)]
 pub struct SourceOptions {
-    /// Scene that sets what the options leave open, or the name of a built-in machine (see hopfscope belt)
+    /// Scene that sets what the options leave open, by its name or file, or the name of a built-in machine (see
+    /// hopfscope belt)
     #[arg(value_name = "SCENE", conflicts_with_all = ["scene", "machine"])]
     pub named: Option<String>,
     #[command(flatten)]
@@ -42,7 +44,8 @@ pub struct SourceOptions {
 impl SourceOptions {
     /// The numbers by which the other options are read.
     pub fn numbers(&self) -> &'static Numbers {
-        if self.case.is_some() || self.machine_name().is_some() {
+        let study = || self.study_of_machine().is_ok_and(|it| it.is_some());
+        if self.case.is_some() || self.machine_name().is_some() || study() {
             &MACHINE
         } else {
             &OSCILLATOR
@@ -92,12 +95,21 @@ impl SourceOptions {
         self.machine.as_ref().or(self.named.as_ref().filter(is_machine))
     }
 
+    /// The scene of the user that is named, if it is about a machine.
+    fn study_of_machine(&self) -> Result<Option<Arc<Scene>>> {
+        let Some(name) = self.named.as_deref().or(self.start.scene.as_deref()) else { return Ok(None) };
+        let scene = file_of(name).map(|_| scene_named(name)).transpose()?;
+        Ok(scene.filter(|scene| scene.machine.is_some()))
+    }
+
     /// The machine with the values set on the command line, if it is about one.
     pub fn machine(&self) -> Result<Option<CommandCase>> {
-        let named = || self.machine_name().map(|name| CommandCase::named(name)).transpose();
-        let Some(mut case) = self.case.clone().map_or_else(named, |case| Ok(Some(case)))? else {
-            return Ok(None);
+        let case = match (&self.case, self.machine_name()) {
+            (Some(case), _) => Some(case.clone()),
+            (None, Some(name)) => Some(CommandCase::named(name)?),
+            (None, None) => self.study_of_machine()?.and_then(study::machine),
         };
+        let Some(mut case) = case else { return Ok(None) };
         case.set(&self.start.assigned(&MACHINE)?)?;
         case.described.subject.source.tolerance = self.start.tol;
         Ok(Some(case))
@@ -107,7 +119,7 @@ impl SourceOptions {
 /// Which motion is meant.
 #[derive(Args)]
 pub struct StartOptions {
-    /// Scene that sets what the other options leave open
+    /// Scene that sets what the other options leave open: its name or file
     #[arg(long = "scene", value_name = "NAME")]
     pub scene: Option<String>,
 
@@ -143,7 +155,12 @@ fn methods_help() -> String {
 impl StartOptions {
     /// The scene with this name, or of the option, with the values set on the command line.
     pub fn scene(&self, named: Option<&str>) -> Result<Arc<Scene>> {
-        self.applied(self.found(named)?)
+        let scene = self.found(named)?;
+        let name = named.or(self.scene.as_deref());
+        if scene.machine.is_some() && name.and_then(file_of).is_some() {
+            return self.applied_to_machine(scene);
+        }
+        self.applied(scene)
     }
 
     /// Whether anything is chosen.
@@ -172,11 +189,29 @@ impl StartOptions {
                 terms.insert(symbol);
             }
         }
+        self.compute(problem);
+        Ok(scene)
+    }
+
+    /// The same of a scene of the user that is about a machine, of which the numbers are then.
+    fn applied_to_machine(&self, mut scene: Arc<Scene>) -> Result<Arc<Scene>> {
+        let changed = Arc::make_mut(&mut scene);
+        for (knob, value) in self.assigned(&MACHINE)? {
+            if !value.ends.is_point() {
+                return Err(format!("{knob}: this command takes a number, not an interval").into());
+            }
+            changed.set_in_machine(knob, value.middle.value)?;
+        }
+        self.compute(&mut changed.problem);
+        Ok(scene)
+    }
+
+    /// Chooses the method and its accuracy.
+    fn compute(&self, problem: &mut Problem) {
         problem.method = self.method.unwrap_or(problem.method);
         problem.tolerance = self.tol.unwrap_or(problem.tolerance);
         problem.step = self.step.unwrap_or(problem.step);
         problem.epsilon = self.epsilon.unwrap_or(problem.epsilon);
-        Ok(scene)
     }
 
     /// The parameters, each as the interval in which it was given.
@@ -191,6 +226,6 @@ impl StartOptions {
     }
 
     fn found(&self, named: Option<&str>) -> Result<Arc<Scene>> {
-        Ok(find(named.or(self.scene.as_deref()).unwrap_or(PLAIN))?)
+        scene_named(named.or(self.scene.as_deref()).unwrap_or(PLAIN))
     }
 }

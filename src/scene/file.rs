@@ -1,33 +1,43 @@
-//! Scene files: reads TOML into a [`Scene`]; and the scenes of what is opened from a file of the user, a machine or a
-//! recorded motion.
+//! Scene files, of the program and of the user: reads TOML into a [`Scene`]; and the scenes of what is opened by itself, a
+//! machine or a recorded motion.
 //!
-//! Only the program itself has scene files, so that what they say beyond their syntax is examined by tests.
+//! A scene leaves out what follows from its source, which is an oscillator, a machine or a record: its numbers, and what is
+//! drawn of it.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::LazyLock;
+use std::path::Path;
 
 use serde::Serialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::machine::ScaledMachine;
+use super::examine::{examine, place};
+use super::machine::{Machine, ScaledMachine, Setting, file};
 use super::mistake::{Complaint, FileMistake, Result, built_in};
 use super::placed::Placed;
 use super::plot_setup::{Arrangement, Axes};
-use super::scene::Scene;
+use super::scene::{Scene, named_or_whole};
 use super::views::Layer;
 use crate::fit::{Signal, length_in_metres};
 use crate::flow::Problem;
 use crate::model::Knob;
 use crate::question::Recording;
+use crate::question::record::{RecordOptions, apart};
 
-/// What the scene of a file may leave out; a saved session, which holds a scene too, leaves out nothing.
+/// Reads a file that a scene names, by that name, or says in one line why it cannot be read.
+pub type Fetch<'a> = dyn FnMut(&str) -> Result<String, String> + 'a;
+
+/// What a scene may leave out; a saved session, which holds a scene too, leaves out nothing.
 #[derive(Default, Serialize)]
 struct UsualScene {
     name: String,
+    title: String,
+    look: String,
+    press: String,
     terms: BTreeSet<Knob>,
     problem: Problem,
     steps: BTreeMap<Knob, f64>,
+    layers: BTreeSet<Layer>,
     arrangement: Arrangement,
     plots: [UsualPlot; 1],
 }
@@ -38,30 +48,57 @@ struct UsualPlot {
     axes: Axes,
 }
 
-/// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages. Fails with [`FileMistake`],
-/// which names the place and what is allowed there.
+/// Reads a scene of the program, which names no file.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, FileMistake> {
-    let read = DeTable::parse(text).map_err(Complaint::from);
-    let scene = read.and_then(scene).map_err(|complaint| complaint.in_file(file, text))?;
-    Ok(Scene { name: name.to_owned(), ..scene })
+    study(name, file, text, &mut |_| Err("a scene of the program stands alone".to_owned()))
 }
 
-/// The scene of a file. A machine sets its numbers itself.
-fn scene(read: Spanned<DeTable>) -> Result<Scene> {
-    static USUAL: LazyLock<String> = LazyLock::new(|| {
-        let usual: &dyn erased_serde::Serialize = &UsualScene::default();
-        toml::to_string(usual).expect("it is made of tables")
+/// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages, and `fetch` reads the files
+/// that it names. Fails with [`FileMistake`], which names the place and what is allowed there.
+pub fn study(name: &str, file: &str, text: &str, fetch: &mut Fetch) -> Result<Scene, FileMistake> {
+    let read = DeTable::parse(text).map_err(Complaint::from).and_then(|read| {
+        let places = read.clone();
+        let scene = scene(read, fetch)?;
+        let placed = |(path, message): (String, String)| {
+            Complaint { at: place(places.get_ref(), &path), message }
+        };
+        examine(&scene).map_err(placed)?;
+        Ok(scene)
     });
-    let given = read.get_ref();
-    let numbers = ["problem", "terms"].iter().find_map(|name| Some(given.get(*name)?.span()));
+    let mut scene = read.map_err(|complaint| complaint.in_file(file, text))?;
+    name.clone_into(&mut scene.name);
+    if scene.title.is_empty() {
+        name.clone_into(&mut scene.title);
+    }
+    Ok(scene)
+}
+
+/// The scene of a file.
+fn scene(mut read: Spanned<DeTable>, fetch: &mut Fetch) -> Result<Scene> {
+    let given = read.get_mut();
+    if let Some(key) = given.get("hopfscope") {
+        let message = "a saved session, not a scene: --open FILE opens it".to_owned();
+        return Err(Complaint { at: key.span(), message });
+    }
+    let machine = given.remove("machine").map(|value| machine(value, fetch)).transpose()?;
+    let record = given.remove("record").map(|value| record(&value, fetch)).transpose()?;
+    let running = running(machine.as_deref(), given)?;
+    let is_absent = |name: &&str| !given.contains_key(*name);
+    let absent: Vec<_> = ["look", "press", "terms", "layers", "plots"].into_iter().filter(is_absent).collect();
+    let no_plots = || Spanned::new(0..0, DeValue::Array(toml::de::DeArray::default()));
+    if absent.contains(&"plots") {
+        given.insert(Spanned::new(0..0, "plots".into()), no_plots());
+    }
+    let usual = UsualScene { problem: running.clone().unwrap_or_default(), ..UsualScene::default() };
+    let usual = toml::to_string(&usual as &dyn erased_serde::Serialize);
+    let usual = usual.expect("it is made of tables");
     let mut own = Placed::from(read);
-    complete(own.0.get_mut(), Placed::from(DeTable::parse(&USUAL)?).0.get_ref());
+    complete(own.0.get_mut(), Placed::from(DeTable::parse(&usual)?).0.get_ref());
     let mut scene: Scene = own.read()?;
-    if let Some(scaled) = scene.machine.as_deref() {
-        if let Some(at) = numbers {
-            return Err(Complaint { at, message: "a machine sets its numbers itself".to_owned() });
-        }
-        (scene.problem, scene.terms) = (scaled.problem(), scaled.terms());
+    scene.machine = machine;
+    scene.recording = record.or(scene.recording);
+    if !absent.is_empty() {
+        scene.fill(&absent);
     }
     Ok(scene)
 }
@@ -83,6 +120,78 @@ fn complete<'a>(own: &mut DeValue<'a>, usual: &DeValue<'a>) {
             }
         }
         _ => {}
+    }
+}
+
+/// The motion of a machine with the numbers that a scene sets in it.
+fn running(machine: Option<&ScaledMachine>, given: &DeTable) -> Result<Option<Problem>> {
+    let Some(set) = given.get("set") else { return Ok(machine.map(ScaledMachine::problem)) };
+    let refused = |message: String| Complaint { at: set.span(), message };
+    let own = machine.ok_or_else(|| refused("the numbers of a machine; there is none".to_owned()))?;
+    let setting: Setting = Placed(set.clone()).read()?;
+    let running = setting.on(&own.machine).map_err(refused)?;
+    Ok(Some(own.brought_to(&running, own.problem())))
+}
+
+/// A machine of the program by its name, one of a file beside the scene, or one in full.
+fn machine(value: Spanned<DeValue>, fetch: &mut Fetch) -> Result<Box<ScaledMachine>> {
+    let at = value.span();
+    let refused = |message: String| Complaint { at: at.clone(), message };
+    let path = match value.get_ref() {
+        DeValue::String(name) if name.ends_with(".toml") => name.to_string(),
+        _ => {
+            let read = named_or_whole(Placed(value)).map_err(|why| why.or_at(at.clone()))?;
+            return read.ok_or_else(|| refused("no machine".to_owned()));
+        }
+    };
+    let text = fetch(&path).map_err(refused)?;
+    let beside = |table: &str| fetch(&Path::new(&path).with_file_name(table).to_string_lossy());
+    let title = Path::new(&path).file_stem().unwrap_or_default().to_string_lossy();
+    let described = file::parse(&title, &path, &text, beside);
+    let described = described.map_err(|error| refused(error.to_string()))?;
+    let scaled = Machine::try_from(described).map_err(str::to_owned);
+    let scaled = scaled.and_then(|it| ScaledMachine::try_from(it).map_err(|why| why.to_string()));
+    scaled.map(Box::new).map_err(|why| refused(format!("{path}: {why}")))
+}
+
+/// A record beside the scene, with how it is read, as in `run.csv mass=2 kg columns=1,3`.
+fn record(value: &Spanned<DeValue>, fetch: &mut Fetch) -> Result<Recording> {
+    let line: String = Placed(value.clone()).read()?;
+    let (file, words) = apart(&line);
+    let opened = RecordOptions::of_words(words).and_then(|options| {
+        let opened = options.opened(Path::new(file), fetch(file)?.as_bytes());
+        opened.map_err(|why| format!("{file}: {why}"))
+    });
+    opened.map(Recording::from).map_err(|message| Complaint { at: value.span(), message })
+}
+
+impl Scene {
+    /// Puts what a file leaves out: what is drawn of a machine or a record that is opened by itself, or of the plain
+    /// oscillator.
+    fn fill(&mut self, absent: &[&str]) {
+        let usual = match (&self.machine, &self.recording) {
+            (Some(scaled), _) => scaled.as_ref().clone().scene(),
+            (None, Some(recording)) => recording.clone().scene(),
+            (None, None) => template(include_str!("../../assets/scenes/plain.toml")),
+        };
+        for name in absent {
+            match *name {
+                "look" => self.watch.clone_from(&usual.watch),
+                "press" => self.press.clone_from(&usual.press),
+                "layers" => self.layers.clone_from(&usual.layers),
+                "plots" => self.plots.clone_from(&usual.plots),
+                _ => self.terms.extend(usual.terms.iter().copied().chain(self.varied())),
+            }
+        }
+    }
+
+    /// The parameters that are not zero, or vary.
+    fn varied(&self) -> Vec<Knob> {
+        let held = self.families.iter().flatten().flat_map(|variant| variant.held.keys());
+        let axes = self.plots.iter().flat_map(|plot| [plot.axes.abscissa, plot.axes.against]);
+        let varied: BTreeSet<Knob> = held.copied().chain(axes).collect();
+        let needs = |knob: &Knob| varied.contains(knob) || self.problem.get(*knob) != 0.0;
+        Knob::PARAMETERS.into_iter().filter(needs).collect()
     }
 }
 

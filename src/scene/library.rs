@@ -64,6 +64,11 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     library().iter().flat_map(|scene| scene.names())
 }
 
+/// The file of a built-in scene, to begin one of one's own with.
+pub fn text(scene: &Scene) -> Option<&'static str> {
+    FILES.iter().find(|(name, _)| *name == scene.name).map(|(_, text)| *text)
+}
+
 /// The plain oscillator: linear damping and dry friction with the defaults of the parameter table.
 pub fn plain() -> Arc<Scene> {
     Arc::clone(&library()[0])

@@ -1,5 +1,6 @@
 //! Scenes: what is on show, the layers in which it is drawn, and the questions that these ask.
 
+pub mod examine;
 pub mod file;
 pub mod glossary;
 pub mod library;

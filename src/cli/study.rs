@@ -1,0 +1,46 @@
+//! Scenes of the user: files that stand where the name of a scene does.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{CommandCase, Failure, Result};
+use crate::fit::decoded;
+use crate::runtime::bounded;
+use crate::scene::file::study;
+use crate::scene::{Layer, Scene, find};
+use crate::session::{Session, Setup, Size};
+
+/// The file that a name means: it ends in .toml or names a folder, and no scene of the program is called so.
+pub fn file_of(name: &str) -> Option<&Path> {
+    let path = Path::new(name);
+    let is_file = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+        || path.components().nth(1).is_some();
+    Some(path).filter(|_| is_file && find(name).is_err())
+}
+
+/// The scene with this name, or in this file.
+pub fn scene_named(name: &str) -> Result<Arc<Scene>> {
+    let Some(path) = file_of(name) else { return Ok(find(name)?) };
+    let text = bounded::text(path)?;
+    let title = path.file_stem().unwrap_or_default().to_string_lossy();
+    let mut fetch = |beside: &str| {
+        let read = bounded::bytes(&path.with_file_name(beside));
+        read.map(|bytes| decoded(&bytes)).map_err(|why| why.to_string())
+    };
+    let scene = study(&title, name, &text, &mut fetch).map_err(|mistake| mistake.to_string())?;
+    Setup::of_scene(&scene).check().map_err(|why| Failure::file(path, why))?;
+    Ok(Arc::new(scene))
+}
+
+/// The machine of a scene as a question is put to it: by the whole model, whatever is drawn, from where its motion starts.
+pub fn machine(mut scene: Arc<Scene>) -> Option<CommandCase> {
+    let running = scene.running()?;
+    let as_opened = scene.problem == running.problem();
+    let mut described = running.machine.described();
+    if !as_opened {
+        Arc::make_mut(&mut scene).layers.insert(Layer::Whole);
+        let drawn = Session::new(scene, Size::default()).subject();
+        (described.subject.source.body, described.subject.motion) = (drawn.source.body, drawn.motion);
+    }
+    Some(CommandCase { described, sources: Vec::new() })
+}
