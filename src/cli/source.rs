@@ -97,7 +97,9 @@ impl SourceOptions {
 
     /// The scene of the user that is named, if it is about a machine.
     fn study_of_machine(&self) -> Result<Option<Arc<Scene>>> {
-        let Some(name) = self.named.as_deref().or(self.start.scene.as_deref()) else { return Ok(None) };
+        let Some(name) = self.named.as_deref().or(self.start.scene.as_deref()) else {
+            return Ok(None);
+        };
         let scene = file_of(name).map(|_| scene_named(name)).transpose()?;
         Ok(scene.filter(|scene| scene.machine.is_some()))
     }

@@ -40,7 +40,8 @@ pub fn machine(mut scene: Arc<Scene>) -> Option<CommandCase> {
     if !as_opened {
         Arc::make_mut(&mut scene).layers.insert(Layer::Whole);
         let drawn = Session::new(scene, Size::default()).subject();
-        (described.subject.source.body, described.subject.motion) = (drawn.source.body, drawn.motion);
+        (described.subject.source.body, described.subject.motion) =
+            (drawn.source.body, drawn.motion);
     }
     Some(CommandCase { described, sources: Vec::new() })
 }

@@ -134,11 +134,16 @@ fn scan_of(scene: &Scene, scan: &SceneScan) -> Result<(), Placeless> {
 fn files(scene: &Scene) -> Result<(), Placeless> {
     let own = (0..).zip(&scene.outputs).map(|(index, name)| (format!("outputs.{index}"), name));
     let scans = (0..).zip(&scene.scans);
-    let scans = scans.filter_map(|(i, it)| Some((format!("scans.{i}.output"), it.output.as_ref()?)));
+    let scans =
+        scans.filter_map(|(i, it)| Some((format!("scans.{i}.output"), it.output.as_ref()?)));
     let mut known = BTreeSet::new();
     for (path, name) in own.chain(scans) {
         let outside = !Path::new(name).components().all(|it| matches!(it, Component::Normal(_)));
-        unless(outside || name.is_empty(), path.clone(), "a file is named from this folder, without ..")?;
+        unless(
+            outside || name.is_empty(),
+            path.clone(),
+            "a file is named from this folder, without ..",
+        )?;
         unless(!known.insert(name), path, "this file is named twice")?;
     }
     Ok(())

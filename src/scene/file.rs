@@ -59,8 +59,9 @@ pub fn study(name: &str, file: &str, text: &str, fetch: &mut Fetch) -> Result<Sc
     let read = DeTable::parse(text).map_err(Complaint::from).and_then(|read| {
         let places = read.clone();
         let scene = scene(read, fetch)?;
-        let placed = |(path, message): (String, String)| {
-            Complaint { at: place(places.get_ref(), &path), message }
+        let placed = |(path, message): (String, String)| Complaint {
+            at: place(places.get_ref(), &path),
+            message,
         };
         examine(&scene).map_err(placed)?;
         Ok(scene)
@@ -84,12 +85,14 @@ fn scene(mut read: Spanned<DeTable>, fetch: &mut Fetch) -> Result<Scene> {
     let record = given.remove("record").map(|value| record(&value, fetch)).transpose()?;
     let running = running(machine.as_deref(), given)?;
     let is_absent = |name: &&str| !given.contains_key(*name);
-    let absent: Vec<_> = ["look", "press", "terms", "layers", "plots"].into_iter().filter(is_absent).collect();
+    let absent: Vec<_> =
+        ["look", "press", "terms", "layers", "plots"].into_iter().filter(is_absent).collect();
     let no_plots = || Spanned::new(0..0, DeValue::Array(toml::de::DeArray::default()));
     if absent.contains(&"plots") {
         given.insert(Spanned::new(0..0, "plots".into()), no_plots());
     }
-    let usual = UsualScene { problem: running.clone().unwrap_or_default(), ..UsualScene::default() };
+    let usual =
+        UsualScene { problem: running.clone().unwrap_or_default(), ..UsualScene::default() };
     let usual = toml::to_string(&usual as &dyn erased_serde::Serialize);
     let usual = usual.expect("it is made of tables");
     let mut own = Placed::from(read);
@@ -127,7 +130,8 @@ fn complete<'a>(own: &mut DeValue<'a>, usual: &DeValue<'a>) {
 fn running(machine: Option<&ScaledMachine>, given: &DeTable) -> Result<Option<Problem>> {
     let Some(set) = given.get("set") else { return Ok(machine.map(ScaledMachine::problem)) };
     let refused = |message: String| Complaint { at: set.span(), message };
-    let own = machine.ok_or_else(|| refused("the numbers of a machine; there is none".to_owned()))?;
+    let own =
+        machine.ok_or_else(|| refused("the numbers of a machine; there is none".to_owned()))?;
     let setting: Setting = Placed(set.clone()).read()?;
     let running = setting.on(&own.machine).map_err(refused)?;
     Ok(Some(own.brought_to(&running, own.problem())))
@@ -258,6 +262,7 @@ press = "That."
 terms = ["D", "r"]
 problem.parameters = { D = -0.4, D2 = 0, D3 = 0, r = 0.1 }
 problem.initial = { q = 2, v = 0 }
+problem.until = 60
 layers = ["trajectory"]
 plots = [
   { view = "phase", window = { x = [-3, 3], y = [-2.5, 2.5] } },
@@ -303,24 +308,33 @@ plots = [
             ("A test\"", "A test", "1:", ""),
             ("\"D\", \"r\"", "\"D4\"", "4:10", "no number \"D4\"; did you mean D"),
             ("D = -0.4", "D = \"a\"", "5:28", "expected f64"),
-            ("[-3, 3]", "[3, -3]", "9:36", "the second larger"),
+            ("[-3, 3]", "[3, -3]", "10:36", "the second larger"),
             (
                 "abscissa = \"D\"",
                 "ordinate = \"size\"",
-                "10:43",
+                "11:43",
                 "expected one of `q_max`, `q_min`",
             ),
-            ("abscissa = \"D\"", "unit = \"m\"", "10:39", "expected `1` or `r`"),
-            ("abscissa", "over", "10:32", "unknown field `over`"),
-            ("\"phase\"", "\"plane\"", "9:12", "unknown variant `plane`"),
-            ("view = \"phase\", window", "view = \"phase\", x", "9:21", "unknown field `x`"),
-            ("\"trajectory\"", "\"tail\"", "7:11", "expected one of `trajectory`"),
+            ("abscissa = \"D\"", "unit = \"m\"", "11:39", "expected `1` or `r`"),
+            ("abscissa", "over", "11:32", "unknown field `over`"),
+            ("\"phase\"", "\"plane\"", "10:12", "unknown variant `plane`"),
+            ("view = \"phase\", window", "view = \"phase\", x", "10:21", "unknown field `x`"),
+            ("\"trajectory\"", "\"tail\"", "8:11", "expected one of `trajectory`"),
+            ("D = -0.4", "D = nan", "5:28", "D = NaN is outside its range"),
+            ("until = 60", "until = -1", "7:17", "until = -1 is outside its range"),
+            ("view = \"phase\"", "view = \"speeds\"", "10:12", "needs machine = "),
+            ("abscissa = \"D\"", "abscissa = \"q0\"", "11:43", "an axis is D, D2, D3 or r"),
             (
-                "terms = [\"D\", \"r\"]",
-                "machine = \"groan\"",
-                "5:",
-                "a machine sets its numbers itself",
+                "{ view = \"diagram\"",
+                "{ family = 0, view = \"diagram\"",
+                "11:14",
+                "there are 0 families",
             ),
+            ("title", "set = { v0 = 1 }\ntitle", "1:7", "there is none"),
+            ("title", "hopfscope = 1\ntitle", "1:13", "--open FILE"),
+            ("title", "outputs = [\"../a.svg\"]\ntitle", "1:12", "from this folder"),
+            ("title", "machine = \"x.toml\"\ntitle", "1:11", "stands alone"),
+            ("title", "record = \"x.csv mass=2 m\"\ntitle", "1:10", "m = 2 m has the wrong unit"),
             ("title", "machine = \"groan 1 m\"\ntitle", "1:11", "\"1 m\" is no speed of its belt"),
             ("title", "machine = \"none\"\ntitle", "1:", "no machine \"none\"; there are textbook"),
         ] {
