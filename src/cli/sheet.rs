@@ -79,7 +79,8 @@ impl SheetOptions {
             let drawn = 1..=session.plots.len();
             let only = only.map(|panel| {
                 let number = panel.trim().parse().ok().filter(|number| drawn.contains(number));
-                let refused = || format!("there is no panel {panel:?} among {} .. {}", 1, drawn.end());
+                let refused =
+                    || format!("there is no panel {panel:?} among {} .. {}", 1, drawn.end());
                 number.ok_or_else(refused)
             });
             let only = read("--window", text, |_| only.transpose())?;

@@ -34,8 +34,8 @@ use crate::flow::Problem;
 use crate::picture;
 use crate::picture::fit::pictures;
 use crate::report::json::text;
-use crate::session::read::completion::difference;
 use crate::scene::Sheet;
+use crate::session::read::completion::difference;
 use crate::session::{Key, Session};
 use crate::words::provenance::Provenance;
 

@@ -91,8 +91,7 @@ fn scene(mut read: Spanned<DeTable>, fetch: &mut Fetch) -> Result<Scene> {
     if absent.contains(&"plots") {
         given.insert(Spanned::new(0..0, "plots".into()), no_plots());
     }
-    let usual =
-        UsualScene { problem: running.clone().unwrap_or_default(), ..UsualScene::default() };
+    let usual = UsualScene { problem: running.unwrap_or_default(), ..UsualScene::default() };
     let usual = toml::to_string(&usual as &dyn erased_serde::Serialize);
     let usual = usual.expect("it is made of tables");
     let mut own = Placed::from(read);

@@ -194,7 +194,9 @@ mod tests {
     #[test]
     fn widths_have_a_unit_and_a_range() {
         let width = |text: &str| text.parse().map(|PaperWidth(width)| width);
-        for (text, millimetres) in [("84mm", 84.0), ("8.4 cm", 84.0), ("3.5in", 88.9), ("144 pt", 50.8)] {
+        for (text, millimetres) in
+            [("84mm", 84.0), ("8.4 cm", 84.0), ("3.5in", 88.9), ("144 pt", 50.8)]
+        {
             assert!((width(text).unwrap() - millimetres).abs() < 1e-9, "{text}");
         }
         for (text, words) in [
@@ -208,7 +210,10 @@ mod tests {
             ("", "not a number"),
         ] {
             let refused = width(text).unwrap_err();
-            assert!(refused.contains(words) && refused.contains("such as 84mm"), "{text}: {refused}");
+            assert!(
+                refused.contains(words) && refused.contains("such as 84mm"),
+                "{text}: {refused}"
+            );
         }
     }
 
