@@ -1,14 +1,16 @@
 //! Places texts beside their points, where they cover nothing and cannot be mistaken for the name of another
 //! curve.
 
-use super::elements::{self, Anchor};
-use super::paper::{Frame, Spot, ink};
+use super::elements::{Anchor, Element, Spot, TextLine};
+use super::letters;
+use super::paper::{Frame, ink};
+use super::symbols::runs;
 use super::{Outline, Panel};
 use crate::numerics::{hypot, real};
 use crate::picture::{Caption, Dash, along};
 
-/// Width of a letter and height of a line, in pixels.
-const LETTER: f64 = 5.6;
+/// Size of letters and height of a line, in pixels.
+const LETTERS: f64 = 10.5;
 const LINE: f64 = 12.0;
 
 /// Room between a text and its point.
@@ -115,7 +117,7 @@ impl Surroundings {
         /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
         /// it, what names a point stands there.
         const FAR: (f64, f64) = (0.3, 1.0);
-        let width = LETTER * real(text.chars().count());
+        let width = letters::width(&runs(text), LETTERS);
         let inside = |Rectangle { left, top, .. }: &Rectangle| {
             let corners = [(*left, *top), (left + width, top + LINE)];
             corners.into_iter().all(|corner| self.frame.holds(corner, 2.0))
@@ -184,16 +186,10 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
     placed
 }
 
-pub fn write(out: &mut String, panel: &Panel, frame: Frame) {
+pub fn write(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
     for (Caption { role, .. }, text, Rectangle { left, top, .. }) in places(panel, frame) {
-        let (_, color) = ink(*role);
-        let spot = (left, top + LINE - 2.5);
-        // First its halo, so that what understands no order of painting shows the letters too.
-        for paint in [
-            "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"2.5\"".to_owned(),
-            format!("fill=\"{color}\""),
-        ] {
-            elements::text(out, spot, Anchor::Start, &format!("font-size=\"10.5\" {paint}"), text);
-        }
+        let at = (left, top + LINE - 2.5);
+        let line = TextLine::new(at, Anchor::Start, LETTERS, text);
+        out.push(TextLine { color: ink(*role).1, halo: Some(2.5), ..line }.into());
     }
 }

@@ -1,7 +1,7 @@
-//! A map and its scale as SVG: cells of one hue, the stronger the more dangerous.
+//! A map and its scale on paper: cells of one hue, the stronger the more dangerous.
 
-use super::elements::{Anchor, path, text};
-use super::paper::{Frame, PLOT, Spot, shading};
+use super::elements::{Anchor, Element, Shape, Spot, TextLine, Tint};
+use super::paper::{Frame, PLOT, shading};
 use crate::numerics::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
 use crate::scene::Point;
@@ -26,23 +26,22 @@ pub fn role(word: &str) -> Role {
     }
 }
 
-/// The attributes of a cell.
-fn paint(cell: MapCell, scale: Option<Danger>) -> String {
+/// How a cell is filled; nothing where it has a number and there is no scale.
+fn paint(cell: MapCell, scale: Option<Danger>) -> Option<Tint> {
     match (cell, scale) {
-        (MapCell::Number(value), Some(scale)) => color(scale.strength(scale.part(value))),
-        (MapCell::Number(_), None) => "fill=\"none\"".to_owned(),
-        (MapCell::Word(word), _) => shading(role(word)),
+        (MapCell::Number(value), scale) => scale.map(|it| tint(it.strength(it.part(value)))),
+        (MapCell::Word(word), _) => Some(shading(role(word))),
     }
 }
 
-/// The attributes of a strength from 0 to 1: the colour of one of the steps.
-fn color(strength: f64) -> String {
+/// The colour of a strength from 0 to 1: one of the steps.
+fn tint(strength: f64) -> Tint {
     let step = truncated(strength * real(STEPS)).min(STEPS - 1);
     let part = real(step) / real(STEPS - 1);
     let [weak, strong] = ENDS;
-    let mixed =
-        [0, 1, 2].map(|index| truncated(weak[index] + part * (strong[index] - weak[index])));
-    format!("fill=\"#{:02x}{:02x}{:02x}\" fill-opacity=\"1\"", mixed[0], mixed[1], mixed[2])
+    let mixed = |index: usize| truncated(weak[index] + part * (strong[index] - weak[index]));
+    let color = [0, 1, 2].map(|index| u8::try_from(mixed(index)).unwrap_or(u8::MAX));
+    Tint { color, opacity: 1.0 }
 }
 
 /// The borders of cells around these places: in the middle between neighbours, and as far beyond the ends.
@@ -56,10 +55,10 @@ fn borders(places: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Draws the cells, equal neighbours above each other as one.
-pub fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
+/// The cells, equal neighbours above each other as one.
+pub fn cells(map: &ScanMap, frame: Frame) -> Vec<Shape> {
     let (across, upward) = (borders(&map.x), borders(&map.y));
-    out.push_str("<g shape-rendering=\"crispEdges\" stroke=\"none\">\n");
+    let mut shapes = Vec::new();
     for (column, cells) in across.windows(2).zip(&map.values) {
         let mut row = 0;
         for same in cells.chunk_by(|one, other| paint(*one, map.scale) == paint(*other, map.scale))
@@ -68,26 +67,25 @@ pub fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
             row += same.len();
             let (left, bottom) = frame.spot(Point { x: column[0], y: low });
             let (right, top) = frame.spot(Point { x: column[1], y: high });
-            let cell = format!("M{left:.2} {bottom:.2}H{right:.2}V{top:.2}H{left:.2}Z");
-            path(out, &cell, &paint(same[0], map.scale));
+            let cell = Shape::rectangle((left, top), (right - left, bottom - top));
+            shapes.extend(paint(same[0], map.scale).map(|tint| cell.filled(tint)));
         }
     }
-    out.push_str("</g>\n");
+    shapes
 }
 
 /// Draws the scale at a place, if the map has numbers: what is measured, the colours, and the numbers that they
 /// stand for.
-pub fn scale(out: &mut String, map: &ScanMap, (x, y): Spot) {
+pub fn scale(out: &mut Vec<Element>, map: &ScanMap, (x, y): Spot) {
     let Some(scale) = map.scale else { return };
     let (width, top) = (PLOT.0, y + 20.0);
-    text(out, (x + width / 2.0, y + 14.0), Anchor::Middle, "font-size=\"11\"", &map.name);
-    out.push_str("<g shape-rendering=\"crispEdges\" stroke=\"none\">\n");
-    for step in 0..STEPS {
+    let name = TextLine::new((x + width / 2.0, y + 14.0), Anchor::Middle, 11.0, &map.name);
+    let step = |step: usize| {
         let [from, to] = [step, step + 1].map(|edge| x + width * real(edge) / real(STEPS));
-        let fill = color(scale.strength((real(step) + 0.5) / real(STEPS)));
-        path(out, &format!("M{from:.2} {top}H{to:.2}v10H{from:.2}Z"), &fill);
-    }
-    out.push_str("</g>\n");
+        let part = (real(step) + 0.5) / real(STEPS);
+        Shape::rectangle((from, top), (to - from, 10.0)).filled(tint(scale.strength(part)))
+    };
+    out.extend([name.into(), Element::Cells((0..STEPS).map(step).collect())]);
     let [lowest, highest] = scale.ends();
     let ends =
         [(0.0, Anchor::Start, lowest), (0.5, Anchor::Middle, ""), (1.0, Anchor::End, highest)];
@@ -98,6 +96,6 @@ pub fn scale(out: &mut String, map: &ScanMap, (x, y): Spot) {
         } else {
             format!("{value} ({end})")
         };
-        text(out, (x + part * width, top + 22.0), anchor, "font-size=\"10\"", &words);
+        out.push(TextLine::new((x + part * width, top + 22.0), anchor, 10.0, &words).into());
     }
 }

@@ -2,25 +2,31 @@
 //!
 //! A [`Figure`] is what the plots of a session show, with every function sampled and every line a list
 //! of points; each form writes the same data, and with it the parameters, method, tolerance and version
-//! that it was computed with. The SVG is written here: plotting libraries for Rust round coordinates
-//! to whole pixels and have no dashed curves. The PNG is
-//! that SVG, painted.
+//! that it was computed with. A picture is first a page of [`elements`], which SVG, PDF and PNG write alike; plotting
+//! libraries for Rust round coordinates to whole pixels and have no dashed curves.
 
 mod areas;
 mod captions;
 mod content;
 mod data;
 mod elements;
+mod letters;
 mod lines;
 mod map;
+#[cfg(feature = "print")]
+mod outlines;
+mod page;
 mod paper;
-#[cfg(feature = "png")]
+#[cfg(feature = "print")]
+mod pdf;
+#[cfg(feature = "print")]
 mod png;
 mod svg;
+mod symbols;
 
 pub use content::{Axis, Figure, MarkedPoint, Outline, Panel};
 pub use lines::FAINT;
-pub use svg::{panels, svg};
+pub use symbols::runs;
 
 use std::path::Path;
 
@@ -28,6 +34,7 @@ use clap::ValueEnum;
 use strum::EnumString;
 
 use data::csv;
+use svg::svg;
 
 use crate::fit::{FitResult, OMEGA0, parameters};
 use crate::flow::Problem;
@@ -52,6 +59,9 @@ pub enum FigureForm {
     Csv,
     /// A vector picture.
     Svg,
+    /// The same picture, its letters in fonts that come with it.
+    #[value(skip)]
+    Pdf,
     /// The same picture as dots, 288 to the inch.
     #[value(skip)]
     Png,
@@ -61,25 +71,46 @@ impl FigureForm {
     /// The form that the ending of a file asks for. Fails with one line with the endings that there are.
     pub fn of_file(path: &Path) -> Result<FigureForm, String> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-        ending.parse().map_err(|_| "a figure ends in .svg, .png, .csv or .json".to_owned())
+        ending.parse().map_err(|_| "a figure ends in .pdf, .svg, .png, .csv or .json".to_owned())
     }
 }
+
+/// Dots to the inch of a picture of dots: three to a pixel of a browser.
+#[cfg(feature = "print")]
+const DOTS: f64 = 288.0;
 
 /// A figure as the content of a file. Fails with one line if the picture cannot be painted; only for [`FigureForm::Png`],
 /// and for [`FigureForm::Text`], which is for what is drawn by a screen.
 pub fn file(figure: &Figure, form: FigureForm) -> Result<Vec<u8>, String> {
     match form {
-        FigureForm::Svg => Ok(svg(figure).into_bytes()),
+        FigureForm::Svg => Ok(svg(&page::page(figure), figure, "plot").into_bytes()),
         FigureForm::Csv => Ok(csv(figure).into_bytes()),
         FigureForm::Json => Ok(text(figure).into_bytes()),
-        #[cfg(feature = "png")]
-        FigureForm::Png => png::png(&svg(figure)),
+        #[cfg(feature = "print")]
+        FigureForm::Pdf => pdf::pdf(&page::page(figure), figure),
+        #[cfg(feature = "print")]
+        FigureForm::Png => png::png(&page::page(figure), figure, DOTS),
         FigureForm::Text => Err("the screen draws it with characters".into()),
-        #[cfg(not(feature = "png"))]
-        FigureForm::Png => {
-            Err("this program was built without .png; .svg, .csv and .json are there".into())
+        #[cfg(not(feature = "print"))]
+        FigureForm::Pdf | FigureForm::Png => {
+            Err("this program was built without .pdf and .png; .svg, .csv and .json are there"
+                .into())
         }
     }
+}
+
+/// Each panel as SVG of its own with its part of the legend, so that a page of any width can hold them.
+pub fn panels(figure: &Figure) -> Vec<String> {
+    let alone = |panel: &Panel| Figure {
+        title: panel.title.clone(),
+        panels: vec![panel.clone()],
+        ..figure.clone()
+    };
+    let written = |(number, panel): (usize, &Panel)| {
+        let figure = alone(panel);
+        svg(&page::alone(&figure), &figure, &format!("panel{number}-"))
+    };
+    figure.panels.iter().enumerate().map(written).collect()
 }
 
 /// What draws it.

@@ -3,6 +3,7 @@
 
 use std::sync::LazyLock;
 
+use super::elements::{Color, Pen, Spot, Tint};
 use crate::numerics::{cells, named};
 use crate::picture::{Dash, Role};
 use crate::scene::{Point, Window};
@@ -22,8 +23,8 @@ pub const HEAD: f64 = 34.0;
 /// Height of a line of the legend, and width of one of its columns.
 pub const ENTRY: (f64, f64) = (214.0, 18.0);
 
-/// A place on paper, in pixels.
-pub type Spot = (f64, f64);
+/// Frames, ticks, and lines of roles that have no line in the file.
+pub const DARK: Color = [0x22; 3];
 
 /// The plot of a panel on paper.
 #[derive(Clone, Copy, Debug)]
@@ -34,11 +35,10 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The plot of the panel with this number, from 0, among `count`.
-    pub fn of(number: u32, panels: u32, window: Window) -> Self {
-        let across = columns(panels);
-        let (column, row) = (f64::from(number % across), f64::from(number / across));
-        let (left, top) = (column * PANEL.0 + MARGIN.0, HEAD + row * PANEL.1 + MARGIN.2);
+    /// The plot of the panel with this number, from 0, in rows of as many `columns` below a `head` of this height.
+    pub fn of(number: u32, columns: u32, head: f64, window: Window) -> Self {
+        let (column, row) = (f64::from(number % columns), f64::from(number / columns));
+        let (left, top) = (column * PANEL.0 + MARGIN.0, head + row * PANEL.1 + MARGIN.2);
         Frame { left, top, window }
     }
 
@@ -62,43 +62,45 @@ pub fn columns(panels: u32) -> u32 {
 }
 
 /// Width and colour of the lines of roles, on white paper: the lines of `assets/paper.txt`.
-static INKS: LazyLock<Vec<(Role, f64, &str)>> = LazyLock::new(|| {
+static INKS: LazyLock<Vec<(Role, f64, Color)>> = LazyLock::new(|| {
     include_str!("../../assets/paper.txt").lines().filter_map(described).collect()
 });
 
-fn described(line: &'static str) -> Option<(Role, f64, &'static str)> {
+fn described(line: &'static str) -> Option<(Role, f64, Color)> {
     let [role, width, color] = cells(line)?;
-    Some((named(role)?, width.parse().ok()?, color))
+    let [_, red, green, blue] =
+        u32::from_str_radix(color.strip_prefix('#')?, 16).ok()?.to_be_bytes();
+    Some((named(role)?, width.parse().ok()?, [red, green, blue]))
 }
 
 /// Width and colour of the lines of a role.
-pub fn ink(role: Role) -> (f64, &'static str) {
+pub fn ink(role: Role) -> (f64, Color) {
     let row = INKS.iter().find(|(known, ..)| *known == role);
-    row.map_or((1.0, "#222222"), |(_, width, color)| (*width, *color))
+    row.map_or((1.0, DARK), |(_, width, color)| (*width, *color))
 }
 
-/// The attributes of a line of a role.
-pub fn stroke(role: Role, dash: Dash) -> String {
+/// How a line of a role is drawn.
+pub fn pen(role: Role, dash: Dash) -> Pen {
     let (width, color) = ink(role);
     let width = if dash == Dash::Thick { 3.0 } else { width };
-    let dashes = match dash {
-        Dash::Solid | Dash::Thick => "",
-        Dash::Dashed => " stroke-dasharray=\"7 4\"",
-        Dash::DashDot => " stroke-dasharray=\"7 3 1.6 3\"",
-        Dash::Dotted => " stroke-dasharray=\"1.6 2.6\"",
-        Dash::Sparse => " stroke-dasharray=\"1.6 5\"",
+    let dash: &[f64] = match dash {
+        Dash::Solid | Dash::Thick => &[],
+        Dash::Dashed => &[7.0, 4.0],
+        Dash::DashDot => &[7.0, 3.0, 1.6, 3.0],
+        Dash::Dotted => &[1.6, 2.6],
+        Dash::Sparse => &[1.6, 5.0],
     };
-    format!("stroke=\"{color}\" stroke-width=\"{width}\"{dashes}")
+    Pen { width, color, dash }
 }
 
-/// The attributes of a shaded area: its colour and opacity.
-pub fn shading(role: Role) -> String {
+/// How an area of a role is shaded.
+pub fn shading(role: Role) -> Tint {
     let (color, opacity) = match role {
         Role::Danger | Role::Safe | Role::Field => (ink(role).1, 0.12),
         Role::Sticking | Role::Failure => (ink(role).1, 0.18),
-        _ => ("#dbe7f3", 0.75),
+        _ => ([0xdb, 0xe7, 0xf3], 0.75),
     };
-    format!("fill=\"{color}\" fill-opacity=\"{opacity}\"")
+    Tint { color, opacity }
 }
 
 #[cfg(test)]

@@ -1,149 +1,138 @@
-//! A figure as PNG: its SVG, painted with a font that comes with the program, so that it looks the same on
-//! every machine.
+//! A page as PNG, with letters that come with the program, so that it looks the same on every machine.
 
-use std::fmt::Write;
+use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
+use tiny_skia::{
+    FillRule, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform,
+};
 
-use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{Options, Tree};
-use roxmltree::{Document, Node};
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
+use super::Figure;
+use super::data::remarks;
+use super::elements::{
+    Color, Element, Page, PathStep, Pen, Shape, Spot, TextLine, Tint, WHITE, single,
+};
+use crate::numerics::truncated;
 
-/// Dots of a PNG along a pixel of the vector picture, which is a 96th of an inch: 288 to the inch.
-const SCALE: f32 = 3.0;
-
-/// Upright and slanted letters.
-const FONTS: [&[u8]; 2] = [
-    include_bytes!("../../assets/fonts/DejaVuSans.ttf"),
-    include_bytes!("../../assets/fonts/DejaVuSans-Oblique.ttf"),
-];
-
-/// Attributes that say how letters are set; all others say how they are painted.
-const SETTING: [&str; 5] = ["x", "y", "text-anchor", "font-size", "font-style"];
-
-/// Paints an SVG. Fails with one line if it is not one, or too large.
-pub fn png(svg: &str) -> Result<Vec<u8>, String> {
-    let tree = Tree::from_str(&outlined(svg)?, &Options::default()).map_err(failed)?;
-    let size = tree.size().to_int_size().scale_by(SCALE).ok_or_else(|| failed("it has no size"))?;
-    let mut dots =
-        Pixmap::new(size.width(), size.height()).ok_or_else(|| failed("it is too large"))?;
-    resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut dots.as_mut());
-    dots.encode_png().map_err(failed)
+/// Paints a page with this many dots to the inch. Fails with one line if these are too many.
+pub fn png(page: &Page, figure: &Figure, dots: f64) -> Result<Vec<u8>, String> {
+    /// Dots of the largest picture, which take 400 MB.
+    const MOST: f64 = 1e8;
+    let scale = dots * page.unit.in_points() / 72.0;
+    let [width, height] = [page.size.0, page.size.1].map(|side| (scale * side).round().max(1.0));
+    let size = format!("{width} x {height} dots");
+    let whole = |side: f64| u32::try_from(truncated(side)).unwrap_or(u32::MAX);
+    let canvas = (width * height <= MOST).then(|| Pixmap::new(whole(width), whole(height)));
+    let canvas = canvas.flatten();
+    let mut canvas = canvas.ok_or_else(|| format!("not painted: {size}, of at most {MOST:e}"))?;
+    canvas.fill(tiny_skia::Color::WHITE);
+    let scale = Transform::from_scale(single(scale), single(scale));
+    let mut painter = Painter { canvas, scale, mask: None };
+    page.elements.iter().for_each(|part| painter.element(part));
+    encoded(&painter.canvas, figure, dots).map_err(|why| format!("not painted: {why}"))
 }
 
-fn failed(why: impl std::fmt::Display) -> String {
-    format!("not painted: {why}")
-}
-
-/// The SVG with its texts as paths, so that painting it takes no fonts.
-fn outlined(svg: &str) -> Result<String, String> {
-    let document = Document::parse(svg).map_err(failed)?;
-    let [upright, slanted] = FONTS.map(|font| Face::parse(font, 0));
-    let (upright, slanted) = (upright.map_err(failed)?, slanted.map_err(failed)?);
-    let mut out = String::with_capacity(2 * svg.len());
-    let mut copied = 0;
-    for text in document.descendants().filter(|node| node.has_tag_name("text")) {
-        let italic = text.attribute("font-style") == Some("italic");
-        let path = outline(&text, if italic { &slanted } else { &upright });
-        out.push_str(&svg[copied..text.range().start]);
-        let _ = write!(out, "<path d=\"{path}\"");
-        for painted in text.attributes().filter(|it| !SETTING.contains(&it.name())) {
-            let _ = write!(out, " {}=\"{}\"", painted.name(), painted.value());
-        }
-        out.push_str("/>");
-        copied = text.range().end;
+/// The dots as a file, which says how large it is meant to be and what it shows.
+fn encoded(canvas: &Pixmap, figure: &Figure, dots: f64) -> Result<Vec<u8>, png::EncodingError> {
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, canvas.width(), canvas.height());
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    let in_metre = u32::try_from(truncated((dots / 0.0254).round())).unwrap_or(u32::MAX);
+    let (xppu, yppu, unit) = (in_metre, in_metre, Unit::Meter);
+    encoder.set_pixel_dims(Some(PixelDimensions { xppu, yppu, unit }));
+    let said = [
+        ("Title", figure.title.clone()),
+        ("Software", figure.program.to_owned()),
+        ("Description", remarks(figure).join("\n")),
+    ];
+    for (keyword, text) in said {
+        encoder.add_itxt_chunk(keyword.to_owned(), text)?;
     }
-    out.push_str(&svg[copied..]);
-    Ok(out)
+    let mut writer = encoder.write_header()?;
+    // Everything stands on white, through which nothing is seen.
+    let colors = canvas.data().chunks_exact(4).flat_map(|dot| dot[..3].iter().copied());
+    writer.write_image_data(&colors.collect::<Vec<u8>>())?;
+    writer.finish()?;
+    Ok(file)
 }
 
-/// The letters of a text element as the data of a path.
-fn outline(text: &Node, font: &Face) -> String {
-    let number = |name| text.attribute(name).and_then(|it| it.parse().ok()).unwrap_or(0.0);
-    let size = text.ancestors().find_map(|node| node.attribute("font-size")?.parse().ok());
-    let scale = size.unwrap_or(12.0) / f32::from(font.units_per_em());
-    let letters = text.text().unwrap_or_default().chars();
-    let glyphs: Vec<GlyphId> =
-        letters.map(|letter| font.glyph_index(letter).unwrap_or_default()).collect();
-    let step = |glyph: &GlyphId| scale * f32::from(font.glyph_hor_advance(*glyph).unwrap_or(0));
-    let width: f32 = glyphs.iter().map(step).sum();
-    let before = match text.attribute("text-anchor") {
-        Some("middle") => width / 2.0,
-        Some("end") => width,
-        _ => 0.0,
-    };
-    let mut letter =
-        GlyphPath { scale, left: number("x") - before, base: number("y"), path: String::new() };
-    for glyph in glyphs {
-        // A space has no outline; the fonts are those of the program, so that no glyph is damaged.
-        let _ = font.outline_glyph(glyph, &mut letter);
-        letter.left += step(&glyph);
-    }
-    letter.path
+struct Painter {
+    canvas: Pixmap,
+    /// From the unit of the page to dots.
+    scale: Transform,
+    /// What is seen of what is painted, if not all.
+    mask: Option<Mask>,
 }
 
-/// A letter that is written to the data of a path: where it stands, and the size of a unit of its font.
-struct GlyphPath {
-    scale: f32,
-    left: f32,
-    base: f32,
-    path: String,
-}
-
-impl GlyphPath {
-    /// Adds a command of a path with its points. Letters grow upwards, the picture downwards.
-    fn add(&mut self, command: char, points: &[(f32, f32)]) {
-        self.path.push(command);
-        for &(x, y) in points {
-            let (x, y) = (self.left + self.scale * x, self.base - self.scale * y);
-            let _ = write!(self.path, "{x:.3} {y:.3} ");
+impl Painter {
+    fn element(&mut self, element: &Element) {
+        match element {
+            Element::Shape(shape) => self.shape(shape, true),
+            Element::Cells(cells) => cells.iter().for_each(|cell| self.shape(cell, false)),
+            Element::Text(line) => self.text(line),
+            Element::Clipped(corner, size, inside) => {
+                let mut mask = Mask::new(self.canvas.width(), self.canvas.height());
+                if let Some((mask, window)) =
+                    mask.as_mut().zip(path(&Shape::rectangle(*corner, *size).steps))
+                {
+                    mask.fill_path(&window, FillRule::Winding, true, self.scale);
+                }
+                let outer = std::mem::replace(&mut self.mask, mask);
+                inside.iter().for_each(|part| self.element(part));
+                self.mask = outer;
+            }
         }
     }
+
+    fn shape(&mut self, Shape { steps, pen, tint }: &Shape, smooth: bool) {
+        let Some(path) = path(steps) else { return };
+        if let Some(Tint { color, opacity }) = tint {
+            let paint = Paint { anti_alias: smooth, ..paint(*color, *opacity) };
+            self.canvas.fill_path(&path, &paint, FillRule::EvenOdd, self.scale, self.mask.as_ref());
+        }
+        if let Some(pen) = pen {
+            self.draw(&path, *pen);
+        }
+    }
+
+    fn text(&mut self, line: &TextLine) {
+        let Some(letters) = path(&line.outline()) else { return };
+        if let Some(width) = line.halo {
+            self.draw(&letters, Pen::solid(width, WHITE));
+        }
+        let paint = paint(line.color, 1.0);
+        self.canvas.fill_path(&letters, &paint, FillRule::Winding, self.scale, self.mask.as_ref());
+    }
+
+    fn draw(&mut self, path: &Path, Pen { width, color, dash }: Pen) {
+        let dash = StrokeDash::new(dash.iter().map(|length| single(*length)).collect(), 0.0);
+        let stroke =
+            Stroke { width: single(width), line_join: LineJoin::Round, dash, ..Stroke::default() };
+        self.canvas.stroke_path(path, &paint(color, 1.0), &stroke, self.scale, self.mask.as_ref());
+    }
 }
 
-impl OutlineBuilder for GlyphPath {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.add('M', &[(x, y)]);
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.add('L', &[(x, y)]);
-    }
-
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.add('Q', &[(x1, y1), (x, y)]);
-    }
-
-    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.add('C', &[(x1, y1), (x2, y2), (x, y)]);
-    }
-
-    fn close(&mut self) {
-        self.add('Z', &[]);
-    }
+fn paint([red, green, blue]: Color, opacity: f64) -> Paint<'static> {
+    let mut paint = Paint::default();
+    let mut color = tiny_skia::Color::from_rgba8(red, green, blue, 255);
+    color.set_alpha(single(opacity));
+    paint.set_color(color);
+    paint
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn letters_become_outlines_where_they_stood() {
-        let svg = r##"<svg xmlns="http://www.w3.org/2000/svg" font-size="20"><text x="50" y="30" text-anchor="middle" fill="#123456">o</text></svg>"##;
-        let outlined = outlined(svg).unwrap();
-        assert!(
-            !outlined.contains("<text") && outlined.contains(r##"fill="#123456"/>"##),
-            "{outlined}"
-        );
-        let (_, path) = outlined.split_once("d=\"M").unwrap();
-        let numbers = path.split('"').next().unwrap().split(|it: char| !".0123456789".contains(it));
-        let numbers: Vec<f64> = numbers.filter_map(|number| number.parse().ok()).collect();
-        let (across, up): (Vec<f64>, Vec<f64>) = numbers.chunks(2).map(|it| (it[0], it[1])).unzip();
-        let extent = |of: &[f64]| {
-            (of.iter().copied().fold(f64::MAX, f64::min), of.iter().copied().fold(0.0, f64::max))
-        };
-        // The letter is symmetric, 0.55 of the size high, and reaches a little below its base line.
-        let ((left, right), (top, bottom)) = (extent(&across), extent(&up));
-        assert!((f64::midpoint(left, right) - 50.0).abs() < 0.05, "{left} {right}");
-        assert!((bottom - 30.0).abs() < 0.5 && (bottom - top - 11.0).abs() < 1.0, "{top} {bottom}");
+/// A path, if it leads anywhere.
+fn path(steps: &[PathStep]) -> Option<Path> {
+    let at = |(x, y): Spot| (single(x), single(y));
+    let mut path = PathBuilder::new();
+    for step in steps {
+        match *step {
+            PathStep::Move((x, y)) => path.move_to(single(x), single(y)),
+            PathStep::Line((x, y)) => path.line_to(single(x), single(y)),
+            PathStep::Curve(leave, reach, to) => {
+                let [(x1, y1), (x2, y2), (x, y)] = [leave, reach, to].map(at);
+                path.cubic_to(x1, y1, x2, y2, x, y);
+            }
+            PathStep::Close => path.close(),
+        }
     }
+    path.finish()
 }
