@@ -1,7 +1,7 @@
 //! Places texts beside their points, where they cover nothing and cannot be mistaken for the name of another
 //! curve.
 
-use super::elements::{Anchor, Element, Spot, TextLine};
+use super::elements::{Anchor, Element, Pen, Spot, TextLine, WHITE};
 use super::letters;
 use super::paper::{Frame, ink};
 use super::symbols::runs;
@@ -190,6 +190,8 @@ pub fn write(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
     for (Caption { role, .. }, text, Rectangle { left, top, .. }) in places(panel, frame) {
         let at = (left, top + LINE - 2.5);
         let line = TextLine::new(at, Anchor::Start, LETTERS, text);
-        out.push(TextLine { color: ink(*role).1, halo: Some(2.5), ..line }.into());
+        out.push(
+            TextLine { color: ink(*role).1, edge: Some(Pen::solid(2.5, WHITE)), ..line }.into(),
+        );
     }
 }

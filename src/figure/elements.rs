@@ -193,8 +193,8 @@ pub struct TextLine {
     /// Size of its letters.
     pub size: f64,
     pub color: Color,
-    /// Width of the white around its letters, where it stands on lines.
-    pub halo: Option<f64>,
+    /// A line around its letters, below them: in white, where it stands on lines; in its own colour, to be bold.
+    pub edge: Option<Pen>,
     /// Whether it is read upwards.
     pub upward: bool,
     pub runs: Vec<TextRun>,
@@ -204,7 +204,7 @@ impl TextLine {
     /// A text in black, its symbols set as one writes them.
     pub fn new(at: Spot, anchor: Anchor, size: f64, text: &str) -> Self {
         let runs = runs(text);
-        TextLine { at, anchor, size, color: BLACK, halo: None, upward: false, runs }
+        TextLine { at, anchor, size, color: BLACK, edge: None, upward: false, runs }
     }
 }
 

@@ -62,7 +62,7 @@ pub enum FigureForm {
     /// The same picture, its letters in fonts that come with it.
     #[value(skip)]
     Pdf,
-    /// The same picture as dots, 288 to the inch.
+    /// The same picture as dots.
     #[value(skip)]
     Png,
 }
@@ -75,10 +75,6 @@ impl FigureForm {
     }
 }
 
-/// Dots to the inch of a picture of dots: three to a pixel of a browser.
-#[cfg(feature = "print")]
-const DOTS: f64 = 288.0;
-
 /// A figure as the content of a file. Fails with one line if the picture cannot be painted; only for [`FigureForm::Png`],
 /// and for [`FigureForm::Text`], which is for what is drawn by a screen.
 pub fn file(figure: &Figure, form: FigureForm) -> Result<Vec<u8>, String> {
@@ -89,7 +85,7 @@ pub fn file(figure: &Figure, form: FigureForm) -> Result<Vec<u8>, String> {
         #[cfg(feature = "print")]
         FigureForm::Pdf => pdf::pdf(&page::page(figure), figure),
         #[cfg(feature = "print")]
-        FigureForm::Png => png::png(&page::page(figure), figure, DOTS),
+        FigureForm::Png => png::png(&page::page(figure), figure),
         FigureForm::Text => Err("the screen draws it with characters".into()),
         #[cfg(not(feature = "print"))]
         FigureForm::Pdf | FigureForm::Png => {

@@ -13,9 +13,7 @@ use krilla::{Data, Document};
 
 use super::Figure;
 use super::data::remarks;
-use super::elements::{
-    Color, Element, Page, PathStep, Pen, Shape, Spot, TextLine, Tint, WHITE, single,
-};
+use super::elements::{Color, Element, Page, PathStep, Pen, Shape, Spot, TextLine, Tint, single};
 use super::letters::{FONTS, PlacedRun, placed};
 use crate::numerics::truncated;
 
@@ -87,11 +85,10 @@ impl Printer<'_> {
         self.surface.draw_path(path);
     }
 
-    /// The halo of a text is no text, so that whoever searches finds it once.
+    /// The edge of a text is no text, so that whoever searches finds it once.
     fn text(&mut self, line: &TextLine) {
-        let halo = line.halo.and_then(|width| Some((width, self.path(&line.outline())?)));
-        if let Some((width, letters)) = halo {
-            let stroke = self.stroked(Pen::solid(width, WHITE));
+        if let Some((pen, letters)) = line.edge.zip(self.path(&line.outline())) {
+            let stroke = self.stroked(pen);
             self.paint(&letters, None, Some(stroke));
         }
         let (x, y) = self.at(line.at);

@@ -7,15 +7,14 @@ use tiny_skia::{
 
 use super::Figure;
 use super::data::remarks;
-use super::elements::{
-    Color, Element, Page, PathStep, Pen, Shape, Spot, TextLine, Tint, WHITE, single,
-};
+use super::elements::{Color, Element, Page, PathStep, Pen, Shape, Spot, TextLine, Tint, single};
 use crate::numerics::truncated;
 
-/// Paints a page with this many dots to the inch. Fails with one line if these are too many.
-pub fn png(page: &Page, figure: &Figure, dots: f64) -> Result<Vec<u8>, String> {
+/// Paints a page with as many dots to the inch as its sheet says. Fails with one line if these are too many.
+pub fn png(page: &Page, figure: &Figure) -> Result<Vec<u8>, String> {
     /// Dots of the largest picture, which take 400 MB.
     const MOST: f64 = 1e8;
+    let dots = figure.sheet.dpi();
     let scale = dots * page.unit.in_points() / 72.0;
     let [width, height] = [page.size.0, page.size.1].map(|side| (scale * side).round().max(1.0));
     let size = format!("{width} x {height} dots");
@@ -96,8 +95,8 @@ impl Painter {
 
     fn text(&mut self, line: &TextLine) {
         let Some(letters) = path(&line.outline()) else { return };
-        if let Some(width) = line.halo {
-            self.draw(&letters, Pen::solid(width, WHITE));
+        if let Some(pen) = line.edge {
+            self.draw(&letters, pen);
         }
         let paint = paint(line.color, 1.0);
         self.canvas.fill_path(&letters, &paint, FillRule::Winding, self.scale, self.mask.as_ref());

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::Figure;
 use super::data::remarks;
 use super::elements::{
-    BLACK, Color, Element, Page, PageUnit, PathStep, Pen, Shape, Slant, Spot, TextLine, Tint, WHITE,
+    BLACK, Color, Element, Page, PageUnit, PathStep, Pen, Shape, Slant, Spot, TextLine, Tint,
 };
 use crate::words::printable::xml;
 
@@ -85,7 +85,7 @@ impl Writer<'_> {
     }
 
     fn text(&mut self, line: &TextLine) {
-        let TextLine { at, anchor, size, color, halo, .. } = line;
+        let TextLine { at, anchor, size, color, edge, .. } = line;
         let (x, y) = (short(at.0), short(at.1));
         let anchor: &str = anchor.into();
         let turned = if line.upward {
@@ -98,10 +98,10 @@ impl Writer<'_> {
             short(*size)
         );
         let letters = spans(line);
-        // First its halo, so that what understands no order of painting shows the letters too.
-        if let Some(width) = halo {
-            let halo = stroked(Pen::solid(*width, WHITE));
-            self.add(format_args!("{begun} fill=\"none\"{halo}>{letters}</text>"));
+        // First its edge, so that what understands no order of painting shows the letters too.
+        if let Some(pen) = edge {
+            let edge = stroked(*pen);
+            self.add(format_args!("{begun} fill=\"none\"{edge}>{letters}</text>"));
         }
         let fill = if *color == BLACK {
             String::new()
