@@ -1,18 +1,12 @@
 //! What a printed page is made of, as data: lines, areas and texts at their places. SVG, PDF and PNG write the same page.
 
 use strum::IntoStaticStr;
+use tiny_skia_path::{Path, PathBuilder};
 
 use super::symbols::runs;
 
 /// A place on a page, in its unit: to the right and down from the upper left corner. Also a width and a height.
 pub type Spot = (f64, f64);
-
-/// A length as the painters take it, with seven digits.
-#[cfg(feature = "print")]
-#[expect(clippy::cast_possible_truncation, reason = "a page is no finer than that")]
-pub fn single(length: f64) -> f32 {
-    length as f32
-}
 
 /// Red, green and blue.
 pub type Color = [u8; 3];
@@ -20,32 +14,18 @@ pub type Color = [u8; 3];
 pub const BLACK: Color = [0; 3];
 pub const WHITE: Color = [255; 3];
 
+/// A pixel of a browser and a point of print, a 96th and a 72nd of an inch, in points.
+pub const PIXEL: f64 = 0.75;
+pub const POINT: f64 = 1.0;
+
 /// A page with what stands on it, from back to front.
 #[derive(Clone, Debug)]
 pub struct Page {
     /// Width and height.
     pub size: Spot,
-    /// The unit of all its lengths.
-    pub unit: PageUnit,
+    /// The unit of all its lengths, in points.
+    pub unit: f64,
     pub elements: Vec<Element>,
-}
-
-/// What lengths on a page are measured in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PageUnit {
-    /// A pixel of a browser: a 96th of an inch.
-    Pixel,
-    /// A point of print: a 72nd of an inch.
-    Point,
-}
-
-impl PageUnit {
-    pub fn in_points(self) -> f64 {
-        match self {
-            PageUnit::Pixel => 0.75,
-            PageUnit::Point => 1.0,
-        }
-    }
 }
 
 #[derive(Clone, Debug)]
@@ -71,20 +51,12 @@ impl From<TextLine> for Element {
 }
 
 /// A path that is drawn, filled, or both. What it encloses is filled by the even-odd rule; lines are joined roundly.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Shape {
-    pub steps: Vec<PathStep>,
+    /// `None` if it leads nowhere.
+    pub path: Option<Path>,
     pub pen: Option<Pen>,
     pub tint: Option<Tint>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PathStep {
-    Move(Spot),
-    Line(Spot),
-    /// A cubic Bezier curve: its two control points, and its end.
-    Curve(Spot, Spot, Spot),
-    Close,
 }
 
 /// How a line is drawn.
@@ -109,21 +81,40 @@ impl Pen {
     }
 }
 
+/// A length as paths have it, with seven digits.
+#[expect(clippy::cast_possible_truncation, reason = "no page is seen more finely")]
+pub fn single(length: f64) -> f32 {
+    length as f32
+}
+
+/// Adds a line through these spots to a path.
+pub fn lead(path: &mut PathBuilder, spots: impl IntoIterator<Item = Spot>) {
+    for (number, (x, y)) in spots.into_iter().enumerate() {
+        match number {
+            0 => path.move_to(single(x), single(y)),
+            _ => path.line_to(single(x), single(y)),
+        }
+    }
+}
+
 impl Shape {
+    pub fn along(path: PathBuilder) -> Self {
+        Shape { path: path.finish(), pen: None, tint: None }
+    }
+
     /// A line through these spots.
     pub fn line(spots: impl IntoIterator<Item = Spot>) -> Self {
-        let mut steps: Vec<PathStep> = spots.into_iter().map(PathStep::Line).collect();
-        if let Some(PathStep::Line(first)) = steps.first().copied() {
-            steps[0] = PathStep::Move(first);
-        }
-        Shape { steps, ..Shape::default() }
+        let mut path = PathBuilder::new();
+        lead(&mut path, spots);
+        Shape::along(path)
     }
 
     /// A closed polygon.
     pub fn polygon(spots: impl IntoIterator<Item = Spot>) -> Self {
-        let mut shape = Shape::line(spots);
-        shape.steps.push(PathStep::Close);
-        shape
+        let mut path = PathBuilder::new();
+        lead(&mut path, spots);
+        path.close();
+        Shape::along(path)
     }
 
     /// An upright rectangle: its upper left corner, and its width and height.
@@ -131,21 +122,10 @@ impl Shape {
         Shape::polygon([(x, y), (x + width, y), (x + width, y + height), (x, y + height)])
     }
 
-    /// A circle, as four curves that miss it by 0.03 % of its radius.
     pub fn circle((x, y): Spot, radius: f64) -> Self {
-        /// Distance of the control points from the ends of a quarter, in radii.
-        const ARM: f64 = 0.552_284_75;
-        let at = |across: f64, down: f64| (x + radius * across, y + radius * down);
-        let quarters = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(x0, y0)| {
-            // The next end is this one turned by a right angle, and the way there begins in its direction.
-            let (x1, y1) = (-y0, x0);
-            let leave = at(x0 + ARM * x1, y0 + ARM * y1);
-            PathStep::Curve(leave, at(x1 + ARM * x0, y1 + ARM * y0), at(x1, y1))
-        });
-        let mut steps = vec![PathStep::Move(at(1.0, 0.0))];
-        steps.extend(quarters);
-        steps.push(PathStep::Close);
-        Shape { steps, ..Shape::default() }
+        let mut path = PathBuilder::new();
+        path.push_circle(single(x), single(y), single(radius));
+        Shape::along(path)
     }
 
     /// The same, drawn.
@@ -171,17 +151,6 @@ pub enum Anchor {
     Start,
     Middle,
     End,
-}
-
-impl Anchor {
-    /// How far a text of this width starts before its spot.
-    pub fn before(self, width: f64) -> f64 {
-        match self {
-            Anchor::Start => 0.0,
-            Anchor::Middle => 0.5 * width,
-            Anchor::End => width,
-        }
-    }
 }
 
 /// A line of text.
@@ -212,36 +181,27 @@ impl TextLine {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextRun {
     pub text: String,
-    pub slant: Slant,
-    pub level: TextLevel,
+    pub setting: Setting,
 }
 
+/// How letters are set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Slant {
+pub enum Setting {
     Upright,
     Italic,
+    Subscript,
+    Superscript,
 }
 
-/// Where a run stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TextLevel {
-    /// On the base line.
-    Base,
-    /// A subscript.
-    Below,
-    /// A superscript.
-    Above,
-}
-
-impl TextLevel {
-    /// Size of the letters of a run, and how far it stands below the base line, in a text of this size. No letter is
-    /// smaller than 6 where those beside it are not.
-    pub fn set(self, size: f64) -> (f64, f64) {
+impl Setting {
+    /// Size of the letters, and how far they stand below the base line, in a text of this size. No letter is smaller
+    /// than 6 where those beside it are not.
+    pub fn of(self, size: f64) -> (f64, f64) {
         let smaller = (0.72 * size).max(size.min(6.0));
         match self {
-            TextLevel::Base => (size, 0.0),
-            TextLevel::Below => (smaller, 0.2 * size),
-            TextLevel::Above => (smaller, -0.36 * size),
+            Setting::Upright | Setting::Italic => (size, 0.0),
+            Setting::Subscript => (smaller, 0.2 * size),
+            Setting::Superscript => (smaller, -0.36 * size),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use ttf_parser::{Face, GlyphId};
 
-use super::elements::{Spot, TextRun};
+use super::elements::{Anchor, Setting, Spot, TextRun};
 
 /// Upright and slanted letters.
 pub const FONTS: [&[u8]; 2] = [
@@ -18,43 +18,40 @@ pub static FACES: LazyLock<[Face<'static>; 2]> =
 /// A run in its place.
 #[derive(Clone, Debug)]
 pub struct PlacedRun<'a> {
-    pub run: &'a TextRun,
+    pub text: &'a str,
+    /// Its font: the place in [`FONTS`].
+    pub font: usize,
     /// Size of its letters.
     pub size: f64,
-    /// Where it starts, to the right of the start of the text and down from the base line.
+    /// Where it starts, to the right of the spot of the text and down.
     pub at: Spot,
-    pub letters: Vec<FontLetter>,
-}
-
-/// A letter of a font.
-#[derive(Clone, Copy, Debug)]
-pub struct FontLetter {
-    /// Its number in its font.
-    pub glyph: GlyphId,
-    /// From its origin to that of the next letter, in sizes of the letters.
-    pub advance: f64,
+    /// Its letters by their numbers in the font, and how far the next one stands from each, in sizes of the letters.
+    pub letters: Vec<(GlyphId, f64)>,
 }
 
 /// The runs of a text in their places, and how wide it is.
-pub fn placed(runs: &[TextRun], size: f64) -> (Vec<PlacedRun<'_>>, f64) {
-    let (mut placed, mut along) = (Vec::new(), 0.0);
-    for run in runs {
-        let face = &FACES[run.slant as usize];
+pub fn placed(runs: &[TextRun], size: f64, anchor: Anchor) -> (Vec<PlacedRun<'_>>, f64) {
+    let (mut placed, mut width) = (Vec::new(), 0.0);
+    for TextRun { text, setting } in runs {
+        let font = usize::from(*setting == Setting::Italic);
+        let face = &FACES[font];
         let letter = |char: char| {
             let glyph = face.glyph_index(char).unwrap_or_default();
             let advance = f64::from(face.glyph_hor_advance(glyph).unwrap_or(0));
-            FontLetter { glyph, advance: advance / f64::from(face.units_per_em()) }
+            (glyph, advance / f64::from(face.units_per_em()))
         };
-        let letters: Vec<FontLetter> = run.text.chars().map(letter).collect();
-        let (size, down) = run.level.set(size);
-        let width = size * letters.iter().map(|letter| letter.advance).sum::<f64>();
-        placed.push(PlacedRun { run, size, at: (along, down), letters });
-        along += width;
+        let letters: Vec<_> = text.chars().map(letter).collect();
+        let (size, down) = setting.of(size);
+        let advance = size * letters.iter().map(|(_, advance)| advance).sum::<f64>();
+        placed.push(PlacedRun { text, font, size, at: (width, down), letters });
+        width += advance;
     }
-    (placed, along)
+    let before = 0.5 * width * f64::from(anchor as u8);
+    placed.iter_mut().for_each(|run| run.at.0 -= before);
+    (placed, width)
 }
 
 /// Width of a text.
 pub fn width(runs: &[TextRun], size: f64) -> f64 {
-    placed(runs, size).1
+    placed(runs, size, Anchor::Start).1
 }

@@ -1,69 +1,68 @@
-//! Letters as paths, for what paints them without knowing fonts, and for the white around them.
+//! Letters as paths, for what paints them without knowing fonts, and for the line around them.
 
+use tiny_skia_path::{Path, PathBuilder, Transform};
 use ttf_parser::OutlineBuilder;
 
-use super::elements::{PathStep, Spot, TextLine};
-use super::letters::{FACES, PlacedRun, placed};
+use super::elements::{TextLine, single};
+use super::letters::{FACES, placed};
 
 impl TextLine {
+    /// From places to the right of its spot and down to places on the page: the rows of a matrix.
+    pub fn turned(&self) -> [f32; 6] {
+        let (x, y) = (single(self.at.0), single(self.at.1));
+        if self.upward {
+            [0.0, -1.0, 1.0, 0.0, x, y]
+        } else {
+            [1.0, 0.0, 0.0, 1.0, x, y]
+        }
+    }
+
     /// The outlines of its letters on the page.
-    pub fn outline(&self) -> Vec<PathStep> {
-        let (runs, width) = placed(&self.runs, self.size);
-        let (before, (x, y)) = (self.anchor.before(width), self.at);
-        let on_page = |along: f64, down: f64| match self.upward {
-            true => (x + down, y - along),
-            false => (x + along, y + down),
-        };
-        let mut steps = Vec::new();
-        for PlacedRun { run, size, at: (start, down), letters } in runs {
-            let face = &FACES[run.slant as usize];
-            let (scale, mut origin) = (size / f64::from(face.units_per_em()), start - before);
-            for letter in letters {
-                let place = |right: f32, up: f32| {
-                    on_page(origin + scale * f64::from(right), down - scale * f64::from(up))
-                };
+    pub fn outline(&self) -> Option<Path> {
+        let [sx, ky, kx, sy, tx, ty] = self.turned();
+        let turned = Transform::from_row(sx, ky, kx, sy, tx, ty);
+        let mut outline = PathBuilder::new();
+        for run in placed(&self.runs, self.size, self.anchor).0 {
+            let face = &FACES[run.font];
+            let scale = single(run.size / f64::from(face.units_per_em()));
+            let (mut along, down) = run.at;
+            for (glyph, advance) in run.letters {
+                let mut letter = GlyphPath(PathBuilder::new());
                 // A space has no outline; the fonts are those of the program, so that no letter is damaged.
-                let _ =
-                    face.outline_glyph(letter.glyph, &mut GlyphPath { place, steps: &mut steps });
-                origin += size * letter.advance;
+                let _ = face.outline_glyph(glyph, &mut letter);
+                let place =
+                    Transform::from_row(scale, 0.0, 0.0, -scale, single(along), single(down));
+                let path =
+                    letter.0.finish().and_then(|path| path.transform(place.post_concat(turned)));
+                path.iter().for_each(|path| outline.push_path(path));
+                along += run.size * advance;
             }
         }
-        steps
+        outline.finish()
     }
 }
 
-/// Takes the outline of a letter; `place` says where a point of its font stands on the page.
-struct GlyphPath<'a, P: Fn(f32, f32) -> Spot> {
-    place: P,
-    steps: &'a mut Vec<PathStep>,
-}
+/// The outline of a letter, in units of its font.
+struct GlyphPath(PathBuilder);
 
-impl<P: Fn(f32, f32) -> Spot> OutlineBuilder for GlyphPath<'_, P> {
+impl OutlineBuilder for GlyphPath {
     fn move_to(&mut self, x: f32, y: f32) {
-        self.steps.push(PathStep::Move((self.place)(x, y)));
+        self.0.move_to(x, y);
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
-        self.steps.push(PathStep::Line((self.place)(x, y)));
+        self.0.line_to(x, y);
     }
 
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        let (control, end) = ((self.place)(x1, y1), (self.place)(x, y));
-        let from = match self.steps.last() {
-            Some(PathStep::Move(at) | PathStep::Line(at) | PathStep::Curve(_, _, at)) => *at,
-            Some(PathStep::Close) | None => control,
-        };
-        // A curve of second degree as one of third.
-        let toward = |(x, y): Spot| (x + (control.0 - x) / 1.5, y + (control.1 - y) / 1.5);
-        self.steps.push(PathStep::Curve(toward(from), toward(end), end));
+        self.0.quad_to(x1, y1, x, y);
     }
 
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        let place = &self.place;
-        self.steps.push(PathStep::Curve(place(x1, y1), place(x2, y2), place(x, y)));
+        self.0.cubic_to(x1, y1, x2, y2, x, y);
     }
 
     fn close(&mut self) {
-        self.steps.push(PathStep::Close);
+        self.0.close();
     }
 }

@@ -1,7 +1,9 @@
 //! A figure as a page: its panels beside and above each other, the legend and the scales of maps below.
 
+use tiny_skia_path::PathBuilder;
+
 use super::elements::{
-    Anchor, Color, Element, Page, PageUnit, PathStep, Pen, Shape, Spot, TextLine, WHITE,
+    Anchor, Color, Element, PIXEL, Page, Pen, Shape, Spot, TextLine, WHITE, lead, single,
 };
 use super::paper::{self, DARK, ENTRY, Frame, HEAD, MARGIN, PANEL, PLOT, ink, pen, shading};
 use super::{Figure, MarkedPoint, Outline, Panel, areas::loops, captions, map};
@@ -50,7 +52,7 @@ fn finished(figure: &Figure, mut out: Vec<Element>, (width, mut height): Spot) -
         map::scale(&mut out, shown, (MARGIN.0, height));
         height += map::SCALE;
     }
-    Page { size: (width, height + 12.0), unit: PageUnit::Pixel, elements: out }
+    Page { size: (width, height + 12.0), unit: PIXEL, elements: out }
 }
 
 fn draw(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
@@ -83,23 +85,20 @@ fn draw(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
 /// A polyline, run by run between points that are not finite, if any of it is seen. What lies far outside of the plot is
 /// moved to where its lines still run where they ran, and left out where they cannot be seen.
 fn polyline(points: &[[f64; 2]], pen: Pen, frame: Frame) -> Option<Element> {
-    let mut steps = Vec::new();
+    let mut path = PathBuilder::new();
     let mut down = false;
     for (index, point) in points.iter().enumerate() {
         let around = &points[index.saturating_sub(1)..points.len().min(index + 2)];
         let seen = around.iter().any(|point| near(*point, frame));
         let drawn = seen && point.iter().all(|value| value.is_finite());
         if drawn {
-            let spot = reached(*point, frame);
-            steps.push(if down {
-                PathStep::Line(spot)
-            } else {
-                PathStep::Move(spot)
-            });
+            let (x, y) = reached(*point, frame);
+            let (x, y) = (single(x), single(y));
+            if down { path.line_to(x, y) } else { path.move_to(x, y) }
         }
         down = drawn;
     }
-    (!steps.is_empty()).then(|| Shape { steps, ..Shape::default() }.drawn(pen).into())
+    (!path.is_empty()).then(|| Shape::along(path).drawn(pen).into())
 }
 
 /// Where a point stands; what is far outside keeps its side.
@@ -115,12 +114,12 @@ fn near([x, y]: [f64; 2], frame: Frame) -> bool {
 }
 
 fn shade(areas: &[Outline], frame: Frame) -> Shape {
-    let polygons = areas.iter().flat_map(|area| loops(&area.points, frame.window));
-    let closed = |polygon: Vec<[f64; 2]>| {
-        Shape::polygon(polygon.into_iter().map(|point| reached(point, frame))).steps
-    };
-    let steps = polygons.flat_map(closed).collect();
-    Shape { steps, ..Shape::default() }.filled(shading(areas[0].role))
+    let mut path = PathBuilder::new();
+    for polygon in areas.iter().flat_map(|area| loops(&area.points, frame.window)) {
+        lead(&mut path, polygon.into_iter().map(|point| reached(point, frame)));
+        path.close();
+    }
+    Shape::along(path).filled(shading(areas[0].role))
 }
 
 /// An arrow about a point of the world, which points a way in the world.
@@ -135,10 +134,10 @@ fn arrow(at: Point, way: Point, frame: Frame) -> Option<Element> {
     let (sin, cos) = sin_cos(atan2(down, across));
     let turned =
         |(along, aside): Spot| (x + along * cos - aside * sin, y + along * sin + aside * cos);
-    let shaft = Shape::line([(-6.0, 0.0), (6.0, 0.0)].map(turned)).steps;
-    let head = Shape::line([(3.0, 1.8), (6.0, 0.0), (3.0, -1.8)].map(turned)).steps;
-    let steps = [shaft, head].concat();
-    Some(Shape { steps, ..Shape::default() }.drawn(Pen::solid(0.7, [0xa8; 3])).into())
+    let mut path = PathBuilder::new();
+    lead(&mut path, [(-6.0, 0.0), (6.0, 0.0)].map(turned));
+    lead(&mut path, [(3.0, 1.8), (6.0, 0.0), (3.0, -1.8)].map(turned));
+    Some(Shape::along(path).drawn(Pen::solid(0.7, [0xa8; 3])).into())
 }
 
 fn dot(mark: &MarkedPoint, frame: Frame) -> Option<Element> {
@@ -165,9 +164,10 @@ fn spot(mark: Mark, (x, y): Spot, color: Color) -> Shape {
             round(3.2).solid(WHITE).drawn(Pen::solid(1.2, color))
         }
         Mark::Outlier => {
-            let bar = |up: f64| Shape::line([(x - 3.0, y - up), (x + 3.0, y + up)]).steps;
-            let steps = [bar(3.0), bar(-3.0)].concat();
-            Shape { steps, ..Shape::default() }.drawn(Pen::solid(1.4, color))
+            let mut path = PathBuilder::new();
+            lead(&mut path, [(x - 3.0, y - 3.0), (x + 3.0, y + 3.0)]);
+            lead(&mut path, [(x - 3.0, y + 3.0), (x + 3.0, y - 3.0)]);
+            Shape::along(path).drawn(Pen::solid(1.4, color))
         }
         Mark::Saturated => {
             let corners = [(x - 3.0, y), (x, y - 3.0), (x + 3.0, y), (x, y + 3.0)];
@@ -191,8 +191,8 @@ fn axes(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
         // What has no name is not a quantity: a place on paper, the number of a line.
         upward.ticks.clear();
     }
-    let mut notches = Vec::new();
-    let mut notch = |from: Spot, to: Spot| notches.extend(Shape::line([from, to]).steps);
+    let mut notches = PathBuilder::new();
+    let mut notch = |from: Spot, to: Spot| lead(&mut notches, [from, to]);
     for tick in &rightward.ticks {
         let x = left + tick.fraction * width;
         notch((x, bottom), (x, bottom - 5.0));
@@ -205,7 +205,7 @@ fn axes(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
         notch((right, y), (right - 5.0, y));
         out.push(TextLine::new((left - 8.0, y + 4.0), Anchor::End, LETTERS, &tick.label).into());
     }
-    out.push(Shape { steps: notches, ..Shape::default() }.drawn(Pen::solid(0.8, DARK)).into());
+    out.push(Shape::along(notches).drawn(Pen::solid(0.8, DARK)).into());
     let (center, middle) = (left + width / 2.0, top + height / 2.0);
     let around = |at: Spot, size: f64, text: &str| TextLine::new(at, Anchor::Middle, size, text);
     out.push(around((center, top - 9.0), 12.5, &panel.title).into());

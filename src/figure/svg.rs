@@ -2,27 +2,24 @@
 
 use std::fmt::Write;
 
+use tiny_skia_path::{PathSegment, Point};
+
 use super::Figure;
 use super::data::remarks;
-use super::elements::{
-    BLACK, Color, Element, Page, PageUnit, PathStep, Pen, Shape, Slant, Spot, TextLine, Tint,
-};
+use super::elements::{BLACK, Color, Element, Page, Pen, Setting, Shape, TextLine, Tint};
 use crate::words::printable::xml;
 
 /// Writes a page of a figure. Several pages can stand in one document if the names of their parts differ, which begin with
 /// `name`.
 pub fn svg(page: &Page, figure: &Figure, name: &str) -> String {
     let (width, height) = page.size;
-    // Programs agree on what a millimetre is, but not on what a point is.
-    let side = |length: f64| match page.unit {
-        PageUnit::Pixel => short(length),
-        PageUnit::Point => format!("{}mm", short(length * 25.4 / 72.0)),
-    };
     let mut writer = Writer { name, clips: 0, out: String::new() };
     page.elements.iter().for_each(|part| writer.element(part));
     format!(
         include_str!("../../assets/figure.svg"),
-        size = format_args!("width=\"{}\" height=\"{}\"", side(width), side(height)),
+        // Programs agree on what a millimetre is, but not on what a point is.
+        across = short(width * page.unit * 25.4 / 72.0),
+        down = short(height * page.unit * 25.4 / 72.0),
         width = short(width),
         height = short(height),
         title = xml(&figure.title),
@@ -32,8 +29,8 @@ pub fn svg(page: &Page, figure: &Figure, name: &str) -> String {
 }
 
 /// A number with up to three decimals.
-fn short(value: f64) -> String {
-    let text = format!("{value:.3}");
+fn short(value: impl Into<f64>) -> String {
+    let text = format!("{:.3}", value.into());
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }
 }
@@ -50,11 +47,6 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// Adds a line. Writing to a string cannot fail.
-    fn add(&mut self, line: std::fmt::Arguments) {
-        let _ = writeln!(self.out, "{line}");
-    }
-
     fn element(&mut self, element: &Element) {
         match element {
             Element::Shape(shape) => self.shape(shape),
@@ -63,52 +55,48 @@ impl Writer<'_> {
                 let name = format!("{}{}", self.name, self.clips);
                 self.clips += 1;
                 let [x, y, width, height] = [x, y, width, height].map(|length| short(*length));
-                self.add(format_args!(
+                self.out += &format!(
                     "<clipPath id=\"{name}\"><rect x=\"{x}\" y=\"{y}\" width=\"{width}\" \
-                     height=\"{height}\"/></clipPath>\n<g clip-path=\"url(#{name})\">"
-                ));
+                     height=\"{height}\"/></clipPath>\n<g clip-path=\"url(#{name})\">\n"
+                );
                 inside.iter().for_each(|part| self.element(part));
-                self.add(format_args!("</g>"));
+                self.out += "</g>\n";
             }
             Element::Cells(cells) => {
-                self.add(format_args!("<g shape-rendering=\"crispEdges\">"));
+                self.out += "<g shape-rendering=\"crispEdges\">\n";
                 cells.iter().for_each(|cell| self.shape(cell));
-                self.add(format_args!("</g>"));
+                self.out += "</g>\n";
             }
         }
     }
 
-    fn shape(&mut self, Shape { steps, pen, tint }: &Shape) {
-        let fill = tint.map_or_else(|| " fill=\"none\"".into(), filled);
-        let stroke = pen.map_or_else(String::new, stroked);
-        self.add(format_args!("<path d=\"{}\"{fill}{stroke}/>", path(steps)));
+    fn shape(&mut self, shape: &Shape) {
+        let fill = shape.tint.map_or(" fill=\"none\"".into(), filled);
+        let stroke = shape.pen.map_or(String::new(), stroked);
+        self.out += &format!("<path d=\"{}\"{fill}{stroke}/>\n", path(shape));
     }
 
     fn text(&mut self, line: &TextLine) {
-        let TextLine { at, anchor, size, color, edge, .. } = line;
-        let (x, y) = (short(at.0), short(at.1));
-        let anchor: &str = anchor.into();
+        let (x, y, size) = (short(line.at.0), short(line.at.1), short(line.size));
+        let (anchor, letters): (&str, _) = (line.anchor.into(), spans(line));
         let turned = if line.upward {
             format!(" transform=\"rotate(-90 {x} {y})\"")
         } else {
             String::new()
         };
-        let begun = format!(
-            "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{}\"{turned}",
-            short(*size)
-        );
-        let letters = spans(line);
-        // First its edge, so that what understands no order of painting shows the letters too.
-        if let Some(pen) = edge {
-            let edge = stroked(*pen);
-            self.add(format_args!("{begun} fill=\"none\"{edge}>{letters}</text>"));
-        }
-        let fill = if *color == BLACK {
+        let fill = if line.color == BLACK {
             String::new()
         } else {
-            format!(" fill=\"{}\"", hex(*color))
+            format!(" fill=\"{}\"", hex(line.color))
         };
-        self.add(format_args!("{begun}{fill}>{letters}</text>"));
+        // First its edge, so that what understands no order of painting shows the letters too.
+        let edge = line.edge.map(|pen| format!(" fill=\"none\"{}", stroked(pen)));
+        for painted in edge.into_iter().chain([fill]) {
+            self.out += &format!(
+                "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{size}\"{turned}\
+                 {painted}>{letters}</text>\n"
+            );
+        }
     }
 }
 
@@ -123,25 +111,24 @@ fn filled(Tint { color, opacity }: Tint) -> String {
 
 fn stroked(Pen { width, color, dash }: Pen) -> String {
     let dash: Vec<String> = dash.iter().map(|length| short(*length)).collect();
-    let dash = match dash[..] {
-        [] => String::new(),
-        _ => format!(" stroke-dasharray=\"{}\"", dash.join(" ")),
-    };
-    format!(" stroke=\"{}\" stroke-width=\"{}\"{dash}", hex(color), short(width))
+    let dashes = format!(" stroke-dasharray=\"{}\"", dash.join(" "));
+    let dashes = if dash.is_empty() { "" } else { &dashes };
+    format!(" stroke=\"{}\" stroke-width=\"{}\"{dashes}", hex(color), short(width))
 }
 
 /// The data of a path.
-fn path(steps: &[PathStep]) -> String {
-    let at = |(x, y): Spot| format!("{} {}", short(x), short(y));
+fn path(shape: &Shape) -> String {
+    let at = |point: Point| format!("{} {}", short(point.x), short(point.y));
     let mut out = String::new();
-    for step in steps {
-        let _ = match *step {
-            PathStep::Move(to) => write!(out, "M{}", at(to)),
-            PathStep::Line(to) => write!(out, "L{}", at(to)),
-            PathStep::Curve(leave, reach, to) => {
-                write!(out, "C{} {} {}", at(leave), at(reach), at(to))
+    for segment in shape.path.iter().flat_map(|path| path.segments()) {
+        let _ = match segment {
+            PathSegment::MoveTo(to) => write!(out, "M{}", at(to)),
+            PathSegment::LineTo(to) => write!(out, "L{}", at(to)),
+            PathSegment::QuadTo(by, to) => write!(out, "Q{} {}", at(by), at(to)),
+            PathSegment::CubicTo(one, two, to) => {
+                write!(out, "C{} {} {}", at(one), at(two), at(to))
             }
-            PathStep::Close => write!(out, "Z"),
+            PathSegment::Close => write!(out, "Z"),
         };
     }
     out
@@ -151,23 +138,24 @@ fn path(steps: &[PathStep]) -> String {
 fn spans(line: &TextLine) -> String {
     let (mut out, mut below) = (String::new(), 0.0);
     for run in &line.runs {
-        let (size, down) = run.level.set(line.size);
-        let mut attributes = String::new();
-        if run.slant == Slant::Italic {
-            attributes += " font-style=\"italic\"";
-        }
-        if size != line.size {
-            attributes += &format!(" font-size=\"{}\"", short(size));
-        }
-        if down != below {
-            attributes += &format!(" dy=\"{}\"", short(down - below));
-            below = down;
-        }
-        let text = xml(&run.text);
-        match attributes.as_str() {
-            "" => out += &text,
-            _ => out += &format!("<tspan{attributes}>{text}</tspan>"),
-        }
+        let ((size, down), text) = (run.setting.of(line.size), xml(&run.text));
+        let moved = if down == below {
+            String::new()
+        } else {
+            format!(" dy=\"{}\"", short(down - below))
+        };
+        below = down;
+        let set = match run.setting {
+            Setting::Upright => String::new(),
+            Setting::Italic => " font-style=\"italic\"".into(),
+            Setting::Subscript | Setting::Superscript => format!(" font-size=\"{}\"", short(size)),
+        };
+        let attributes = set + &moved;
+        out += &if attributes.is_empty() {
+            text
+        } else {
+            format!("<tspan{attributes}>{text}</tspan>")
+        };
     }
     out
 }

@@ -4,7 +4,7 @@
 
 use std::sync::LazyLock;
 
-use super::elements::{Slant, TextLevel, TextRun};
+use super::elements::{Setting, TextRun};
 use crate::numerics::cells;
 use crate::words::printable::signs;
 
@@ -19,120 +19,103 @@ static SYMBOLS: LazyLock<Vec<[&str; 3]>> =
 /// A text as runs of letters that are set alike.
 pub fn runs(text: &str) -> Vec<TextRun> {
     let text = signs(text);
-    let mut setting = Setting { runs: Vec::new(), before: "" };
-    while let Some(first) = text[setting.before.len()..].chars().next() {
-        let rest = &text[setting.before.len()..];
-        let length = match first {
-            '0'..='9' => setting.number(rest),
-            'a'..='z' | 'A'..='Z' => setting.word(rest),
-            '-' => setting.hyphen(rest),
-            '^' => setting.power(rest),
-            _ => setting.plain(&rest[..first.len_utf8()]),
+    let mut composer = Composer::default();
+    while composer.done < text.len() {
+        let (before, rest) = text.split_at(composer.done);
+        composer.done += match rest.as_bytes()[0] {
+            b'0'..=b'9' => composer.number(rest),
+            b'a'..=b'z' | b'A'..=b'Z' => composer.word(before, rest),
+            b'-' => composer.plain(if is_minus(before, rest) { MINUS } else { "-" }).min(1),
+            b'^' if whole(&rest[1..]) > 0 => 1 + composer.raised(&rest[1..]),
+            _ => composer.plain(&rest[..rest.chars().next().map_or(1, char::len_utf8)]),
         };
-        setting.before = &text[..setting.before.len() + length];
     }
-    setting.runs
+    composer.runs
 }
 
-/// A text that is being set.
-struct Setting<'a> {
+/// Sets a text. Each of its functions sets what a text begins with, and says how long that is.
+#[derive(Default)]
+struct Composer {
     runs: Vec<TextRun>,
-    /// What is set already, as it was written.
-    before: &'a str,
+    /// How much of the text is set.
+    done: usize,
 }
 
-/// Each function sets what a text begins with, and says how much of it that is.
-impl Setting<'_> {
-    fn add(&mut self, text: &str, slant: Slant, level: TextLevel) {
-        match self.runs.last_mut().filter(|last| (last.slant, last.level) == (slant, level)) {
-            Some(last) => last.text.push_str(text),
-            None => self.runs.push(TextRun { text: text.to_owned(), slant, level }),
+impl Composer {
+    fn add(&mut self, text: &str, setting: Setting) {
+        match self.runs.last_mut().filter(|last| last.setting == setting) {
+            Some(last) => last.text += text,
+            None => self.runs.push(TextRun { text: text.to_owned(), setting }),
         }
     }
 
     fn plain(&mut self, text: &str) -> usize {
-        self.add(text, Slant::Upright, TextLevel::Base);
+        self.add(text, Setting::Upright);
         text.len()
+    }
+
+    /// A whole number as a power.
+    fn raised(&mut self, text: &str) -> usize {
+        let length = whole(text);
+        self.add(&text[..length].replace('-', MINUS), Setting::Superscript);
+        length
     }
 
     /// A number; its exponent is a power of ten.
     fn number(&mut self, text: &str) -> usize {
         let length = leading(text, |char| char.is_ascii_digit() || char == '.');
         let (number, rest) = text.split_at(length);
-        let exponent = rest.strip_prefix('e').map_or(0, whole);
-        if exponent == 0 {
+        let Some(exponent) = rest.strip_prefix('e').filter(|rest| whole(rest) > 0) else {
             return self.plain(number);
-        }
+        };
         let factor = if number == "1" {
             String::new()
         } else {
             format!("{number}\u{b7}")
         };
         self.plain(&format!("{factor}10"));
-        self.raised(&rest[1..=exponent]);
-        length + 1 + exponent
+        length + 1 + self.raised(exponent)
     }
 
-    fn power(&mut self, text: &str) -> usize {
-        match whole(&text[1..]) {
-            0 => self.plain("^"),
-            length => {
-                self.raised(&text[1..=length]);
-                1 + length
-            }
-        }
-    }
-
-    fn raised(&mut self, number: &str) {
-        self.add(&number.replace('-', MINUS), Slant::Upright, TextLevel::Above);
-    }
-
-    fn word(&mut self, text: &str) -> usize {
+    fn word(&mut self, before: &str, text: &str) -> usize {
         let length = leading(text, |char| char.is_ascii_alphanumeric() || char == '_');
         let (word, rest) = text.split_at(length);
-        let Some(symbol) = self.symbol(word) else { return self.plain(word) };
-        let (letter, subscript) = symbol.split_once('_').unwrap_or((&symbol, ""));
-        self.add(letter, Slant::Italic, TextLevel::Base);
-        let primed = rest.starts_with('\'');
-        if primed {
-            self.add(PRIME, Slant::Upright, TextLevel::Base);
+        let Some((letter, subscript)) = symbol(before, word) else { return self.plain(word) };
+        self.add(letter, Setting::Italic);
+        let prime = rest.starts_with('\'');
+        if prime {
+            self.plain(PRIME);
         }
         if !subscript.is_empty() {
-            self.add(&subscript.replace('_', ","), Slant::Upright, TextLevel::Below);
+            self.add(&subscript, Setting::Subscript);
         }
-        length + usize::from(primed)
+        length + usize::from(prime)
     }
+}
 
-    /// The symbol that a word is, with a low line before its subscript.
-    fn symbol(&self, word: &str) -> Option<String> {
-        let measures = |char: char| char.is_ascii_digit() || "[/".contains(char);
-        let behind_a_number = self.before.trim_end().ends_with(measures);
-        SYMBOLS.iter().find_map(|[written, symbol, when]| {
-            let subscript = word.strip_prefix(written)?;
-            let applies = match *when {
-                "with a subscript" => !subscript.is_empty(),
-                "not behind a number" => !behind_a_number || !subscript.is_empty(),
-                _ => true,
-            };
-            let subscript = match subscript.chars().next() {
-                Some('0'..='9') => format!("_{subscript}"),
-                Some('_') | None => subscript.to_owned(),
-                Some(_) => return None,
-            };
-            applies.then(|| format!("{symbol}{subscript}"))
-        })
-    }
+/// The symbol that a word is behind such a text, and its subscript.
+fn symbol(before: &str, word: &str) -> Option<(&'static str, String)> {
+    let measured =
+        before.trim_end().ends_with(|char: char| char.is_ascii_digit() || "[/".contains(char));
+    SYMBOLS.iter().find_map(|[written, letter, when]| {
+        let subscript = word.strip_prefix(written)?;
+        let applies = match *when {
+            "with a subscript" => !subscript.is_empty(),
+            "not behind a number" => !measured || !subscript.is_empty(),
+            _ => true,
+        };
+        let ends = ["", "c"].contains(&subscript) || !subscript.starts_with(char::is_alphabetic);
+        let subscript = subscript.trim_start_matches('_');
+        (applies && ends).then(|| (*letter, subscript.replace('_', ",")))
+    })
+}
 
-    /// A minus before a number or a symbol, but a hyphen within a word or a date.
-    fn hyphen(&mut self, text: &str) -> usize {
-        let last = self.before.chars().next_back();
-        let next = text[1..].chars().next();
-        let digit = |char: Option<char>| char.is_some_and(|char| char.is_ascii_digit());
-        let is_sign = last.is_none_or(|char| " ([=,/".contains(char)) && next != Some('-');
-        let is_difference = digit(next) && !digit(last) && last != Some('-');
-        self.plain(if is_sign || is_difference { MINUS } else { "-" });
-        1
-    }
+/// Whether the hyphen that a text begins with is a minus: before a number or a symbol, but not within a word or a date.
+fn is_minus(before: &str, text: &str) -> bool {
+    let is_digit = |char: char| char.is_ascii_digit();
+    let begins = before.is_empty() || before.ends_with([' ', '(', '[', '=', ',', '/']);
+    let differs = text[1..].starts_with(is_digit) && !before.ends_with(is_digit);
+    !text.starts_with("--") && !before.ends_with('-') && (begins || differs)
 }
 
 /// How many letters at the beginning of a text are such; they are of one byte.
@@ -143,8 +126,6 @@ fn leading(text: &str, is_such: impl Fn(char) -> bool) -> usize {
 /// Length of the whole number, with its sign, at the beginning of a text; 0 if there is none.
 fn whole(text: &str) -> usize {
     let sign = usize::from(text.starts_with(['-', '+']));
-    match leading(&text[sign..], |char| char.is_ascii_digit()) {
-        0 => 0,
-        digits => sign + digits,
-    }
+    let digits = leading(&text[sign..], |char| char.is_ascii_digit());
+    if digits == 0 { 0 } else { sign + digits }
 }
