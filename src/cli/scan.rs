@@ -22,8 +22,8 @@ use crate::report::Format;
 use crate::report::scan::ScanPart;
 use crate::runtime::scanning::rows;
 use crate::runtime::signals::exit_code;
-use crate::runtime::{ScanFile, provenance_file, tell};
-use crate::scan::{Conditions, MEASURES, Measure, Scan, Sweep};
+use crate::runtime::{ScanFile, bounded, provenance_file, tell};
+use crate::scan::{Conditions, MEASURES, Measure, PointList, Scan, Sweep};
 use crate::words::joined;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
@@ -35,8 +35,11 @@ pub struct ScanCommand {
     pub source: SourceOptions,
     /// A parameter and its values, evenly spaced, or at equal ratios with log: before FROM; repeatable, the last
     /// one varies fastest
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", required = true)]
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", required_unless_present = "list")]
     over: Vec<String>,
+    /// A list of parameter sets in place of --over: comma-separated values below a line of names, such as D,r
+    #[arg(long = "points", value_name = "FILE", conflicts_with = "over")]
+    list: Option<PathBuf>,
     #[arg(long, value_name = "NAME,..", required = true, value_delimiter = ',',
           value_parser = Measure::named, help = measures_help(), long_help = measures_list())]
     measure: Vec<Measure>,
@@ -185,10 +188,15 @@ impl ScanCommand {
             measures.push(Measure::Proved);
         }
         let groups = self.source.numbers().set;
-        let over = self.over.iter();
-        let over = over.map(|text| read("--over", text, |text| Sweep::read(text, groups)));
-        let over = over.collect::<Result<_, _>>()?;
-        let scan = Scan::new(base, over, measures, conditions)?;
+        let scan = if let Some(path) = &self.list {
+            let list = PointList::read(&bounded::text(path)?, groups);
+            let list = list.map_err(|why| Failure::file(path, why))?;
+            Scan::of_list(base, list, measures, conditions)?
+        } else {
+            let over = self.over.iter();
+            let over = over.map(|text| read("--over", text, |text| Sweep::read(text, groups)));
+            Scan::new(base, over.collect::<Result<_, _>>()?, measures, conditions)?
+        };
         let points = self.part.points(scan.points())?;
         // By default only the first part has a heading, so that `cat` can join the parts.
         let headed = points.start == 0 || self.header == HeaderWhen::Always;

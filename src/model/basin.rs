@@ -71,6 +71,49 @@ pub struct RestKicks<T> {
     pub impulse: T,
 }
 
+/// How a margin is to be read, and why it has no size where it has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MarginRegime {
+    /// It is the smallest kick that is not survived.
+    Finite,
+    /// It has no size: every kick is survived.
+    EveryKickSurvived,
+    /// It is 0: rest repels, and no kick is survived.
+    NoRest,
+    /// Every kick within it is survived, and larger ones are not known; or nothing is known at all.
+    Unknown,
+}
+
+impl Serialize for MarginRegime {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.serialize_str(self.word())
+    }
+}
+
+impl MarginRegime {
+    /// That of a margin within this border.
+    #[must_use]
+    pub fn of(border: Border, margin: &Margin) -> Self {
+        match border {
+            Border::Unknown(_) => MarginRegime::Unknown,
+            _ if *margin == Margin::ZERO => MarginRegime::NoRest,
+            _ if *margin == Margin::ENDLESS => MarginRegime::EveryKickSurvived,
+            _ => MarginRegime::Finite,
+        }
+    }
+
+    /// What files call it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            MarginRegime::Finite => "finite",
+            MarginRegime::EveryKickSurvived => "every kick survived",
+            MarginRegime::NoRest => "no rest",
+            MarginRegime::Unknown => "unknown",
+        }
+    }
+}
+
 /// The sizes of the kicks; `None` where every kick is survived.
 pub type Margin = Kicks<Option<f64>>;
 

@@ -60,4 +60,4 @@ pub(crate) use self::{
     return_map::*, without_belt::*,
 };
 // They stand in the model so that the proofs, which share nothing with this ring, say the same words.
-pub use crate::model::{Border, Kicks, Margin, Reach, RestMargin};
+pub use crate::model::{Border, Kicks, Margin, MarginRegime, Reach, RestMargin};

@@ -46,7 +46,7 @@ impl ScanPart {
     /// The line before the rows; empty if there is none.
     pub fn heading(&self) -> String {
         let inputs = self.inputs(0).into_iter().map(|(name, _)| name);
-        let names = inputs.chain(self.scan.measured().into_iter().map(str::to_owned));
+        let names = inputs.chain(self.columns().into_iter().map(str::to_owned));
         match self.form {
             _ if !self.headed => String::new(),
             Format::Csv => names.map(|name| name + ",").collect::<String>() + "reason\n",
@@ -68,7 +68,7 @@ impl ScanPart {
     /// The row of point `index`.
     pub fn line(&self, index: usize, row: &ScanRow) -> String {
         let mut line = self.beginning(index);
-        let values = self.scan.measured().into_iter().zip(&row.values);
+        let values = self.columns().into_iter().zip(&row.values);
         line.extend(values.map(|(name, value)| self.cell(name, *value)));
         let reason = row.reason.clone();
         match self.form {
@@ -86,9 +86,19 @@ impl ScanPart {
         }
     }
 
+    /// The measured columns; that which says how to read a margin is for programs.
+    fn columns(&self) -> Vec<&'static str> {
+        if self.form == Format::Table {
+            self.scan.measured()
+        } else {
+            self.scan.columns()
+        }
+    }
+
     /// The inputs at a point, of which the table shows those that vary.
     fn inputs(&self, index: usize) -> Vec<(String, Value)> {
-        let varies = |name: &str| self.scan.over().iter().any(|it| it.symbol.spec().name == name);
+        let varied = self.scan.varied();
+        let varies = |name: &str| varied.iter().any(|symbol| symbol.spec().name == name);
         let mut inputs = self.scan.inputs(index);
         inputs.retain(|(name, _)| self.form != Format::Table || varies(name));
         inputs

@@ -1,10 +1,10 @@
-//! A scan: the same measures at every point of a line or grid of parameters.
+//! A scan: the same measures at every point of a line or grid of parameters, or of a list.
 //!
 //! A [`Scan`] is a list of numbered points, and a [`ScanRow`] is what was measured at one of them. Rows do
 //! not depend on each other: any of them can be computed anywhere, at any time, and is the same to the
 //! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
-use super::{Conditions, Measure, OF_THE_PAPER, ScanRow, Sweep, Value, measure};
+use super::{Conditions, Measure, OF_THE_PAPER, PointList, ScanRow, Sweep, Value, measure};
 use crate::flow::{Cost, Limits, Problem, Result, Subject};
 use crate::model::{FrictionLaw, Interval, Knob, State};
 use crate::portrait::{RandomKick, StartWindow};
@@ -18,6 +18,8 @@ pub struct Scan {
     /// What is scanned: the sweeps replace its numbers.
     base: Subject,
     over: Vec<Sweep>,
+    /// The points, where these are no grid.
+    list: Option<PointList>,
     measures: Vec<Measure>,
     conditions: Conditions,
 }
@@ -32,12 +34,33 @@ impl Scan {
         conditions: impl Into<Conditions>,
     ) -> Result<Self, String> {
         let (base, conditions) = (base.into(), conditions.into());
-        if over.is_empty() || measures.is_empty() {
+        Scan { base, over, list: None, measures, conditions }.checked()
+    }
+
+    /// The same at the points of a list, in their order.
+    ///
+    /// # Errors
+    /// One line, as for [`Self::new`].
+    pub fn of_list(
+        base: impl Into<Subject>,
+        list: PointList,
+        measures: Vec<Measure>,
+        conditions: impl Into<Conditions>,
+    ) -> Result<Self, String> {
+        let (base, conditions) = (base.into(), conditions.into());
+        Scan { base, over: Vec::new(), list: Some(list), measures, conditions }.checked()
+    }
+
+    /// The scan, if it makes sense.
+    fn checked(self) -> Result<Self, String> {
+        let Scan { base, measures, conditions, .. } = &self;
+        let (varied, first) = (self.varied(), self.values(0));
+        if varied.is_empty() || measures.is_empty() {
             return Err("a scan goes over at least one parameter and measures something".to_owned());
         }
-        for (index, Sweep { symbol, from, .. }) in over.iter().enumerate() {
-            base.clone().set(*symbol, *from)?;
-            if over[..index].iter().any(|other| other.symbol == *symbol) {
+        for (index, symbol) in varied.iter().enumerate() {
+            base.clone().set(*symbol, first[index].1)?;
+            if varied[..index].contains(symbol) {
                 return Err(format!("{symbol} is scanned over twice"));
             }
             if !measures.iter().any(|measure| measure.depends_on(*symbol)) {
@@ -56,16 +79,22 @@ impl Scan {
                 return Err("design needs the margin that is wanted".to_owned());
             }
         }
-        let points = over.iter().try_fold(1_usize, |points, sweep| points.checked_mul(sweep.count));
+        let mut counts = self.over.iter().map(|sweep| sweep.count);
+        let points = counts.try_fold(1_usize, usize::checked_mul);
         if points.is_none_or(|points| points > MOST_POINTS) {
             return Err(format!("too many points; allowed: {MOST_POINTS}"));
         }
-        Ok(Scan { base, over, measures, conditions })
+        Ok(self)
     }
 
     /// The numbers that are scanned over; the last one varies fastest.
     pub fn over(&self) -> &[Sweep] {
         &self.over
+    }
+
+    /// The numbers that differ from point to point.
+    pub fn varied(&self) -> Vec<Knob> {
+        self.values(0).into_iter().map(|(symbol, _)| symbol).collect()
     }
 
     /// What is measured at each point.
@@ -75,7 +104,8 @@ impl Scan {
 
     /// How many points there are.
     pub fn points(&self) -> usize {
-        self.over.iter().map(|sweep| sweep.count).product()
+        let of_grid = || self.over.iter().map(|sweep| sweep.count).product();
+        self.list.as_ref().map_or_else(of_grid, |list| list.rows.len())
     }
 
     /// Which value of each sweep point number `index` has.
@@ -89,11 +119,20 @@ impl Scan {
         place
     }
 
+    /// The numbers that are set at point number `index`, and their values there.
+    fn values(&self, index: usize) -> Vec<(Knob, f64)> {
+        if let Some(PointList { knobs, rows }) = &self.list {
+            return knobs.iter().copied().zip(rows[index].iter().copied()).collect();
+        }
+        let swept = self.over.iter().zip(self.place(index));
+        swept.map(|(sweep, which)| (sweep.symbol, sweep.value(which))).collect()
+    }
+
     /// What is measured at point number `index`.
     fn subject(&self, index: usize) -> Subject {
         let mut subject = self.base.clone();
-        for (sweep, which) in self.over.iter().zip(self.place(index)) {
-            let set = subject.set(sweep.symbol, sweep.value(which));
+        for (symbol, value) in self.values(index) {
+            let set = subject.set(symbol, value);
             debug_assert!(set.is_ok(), "a scan goes over numbers that there are: {set:?}");
         }
         subject
@@ -118,6 +157,12 @@ impl Scan {
     /// The columns that are measured, in their order.
     pub fn measured(&self) -> Vec<&'static str> {
         self.measures.iter().flat_map(|measure| &measure.spec().columns).copied().collect()
+    }
+
+    /// The same, and last, where a margin is measured, how it is to be read.
+    pub fn columns(&self) -> Vec<&'static str> {
+        let told = self.measures.iter().any(|measure| measure.is_margin());
+        self.measured().into_iter().chain(told.then_some("regime")).collect()
     }
 
     /// All that the row of point number `index` depends on, by name.

@@ -38,7 +38,7 @@ impl Cells<'_> {
                 if paper.is_some() {
                     self.cost += basin.cost;
                 }
-                self.margin(Measure::Guaranteed, margin);
+                self.margin(Measure::Guaranteed, basin.border, margin);
             }
             (Measure::Design, _) => {
                 let Some((kick, wanted)) = conditions.wanted else { return Ok(()) };

@@ -6,12 +6,12 @@ use std::error::Error;
 use super::table::CYCLES;
 use super::{Conditions, Measure, Value};
 use crate::flow::{Cost, Limits, Motion, Outcome, Result, Subject};
-use crate::portrait::{Cycle, Cycles, Margin, Portrait, Share, StartWindow};
+use crate::portrait::{Border, Cycle, Cycles, Margin, MarginRegime, Portrait, Share, StartWindow};
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanRow {
-    /// The cells, one for each column of the measures.
+    /// The cells, one for each column of the measures, and how a margin among them is to be read.
     pub values: Vec<Value>,
     /// What could not be computed, and why.
     pub reason: Option<String>,
@@ -28,6 +28,8 @@ pub(super) struct Cells<'a> {
     pub conditions: &'a Conditions,
     pub limits: &'a Limits<'a>,
     filled: BTreeMap<Measure, Vec<Value>>,
+    /// How the margin is to be read, once it is known.
+    pub regime: Option<MarginRegime>,
     /// What gave up, and why.
     pub reasons: Vec<String>,
     pub cost: Cost,
@@ -59,6 +61,7 @@ pub fn measure(
         conditions,
         limits,
         filled: BTreeMap::new(),
+        regime: None,
         reasons: Vec::new(),
         cost: Cost::default(),
         known: None,
@@ -78,7 +81,10 @@ pub fn measure(
         filled.resize(measure.spec().columns.len(), Value::Nothing);
         filled
     };
-    let values = measures.iter().flat_map(columns).collect();
+    let mut values: Vec<_> = measures.iter().flat_map(columns).collect();
+    if measures.iter().any(|measure| measure.is_margin()) {
+        values.push(Value::Word(cells.regime.unwrap_or(MarginRegime::Unknown).word()));
+    }
     let reason = (!cells.reasons.is_empty()).then(|| cells.reasons.join("; "));
     Ok(ScanRow { values, reason, cost: cells.cost })
 }
@@ -130,7 +136,7 @@ impl Cells<'_> {
     pub fn around_rest(&mut self, portrait: &Portrait) {
         let (conditions, margin) = (self.conditions, portrait.margin);
         self.fill(Measure::Border, || [Value::Word(portrait.border.name())]);
-        self.margin(Measure::Margin, margin);
+        self.margin(Measure::Margin, portrait.border, margin);
         let rest = margin.from_rest;
         self.fill(Measure::FromRest, || [rest.displacement, rest.impulse]);
         self.share(Measure::Stability, || {
@@ -142,8 +148,9 @@ impl Cells<'_> {
         self.fill(Measure::Integrity, || [portrait.inner_radius(), portrait.integrity()]);
     }
 
-    /// A margin, of this measure.
-    pub fn margin(&mut self, measure: Measure, margin: Margin) {
+    /// A margin, of this measure, and what borders its basin; the nominal one, which comes first, says how to read both.
+    pub fn margin(&mut self, measure: Measure, border: Border, margin: Margin) {
+        self.regime.get_or_insert(MarginRegime::of(border, &margin));
         self.fill(measure, || [margin.displacement, margin.impulse]);
     }
 

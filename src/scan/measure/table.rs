@@ -118,6 +118,11 @@ impl Measure {
         matches!(self, Measure::Lost | Measure::Repeated)
     }
 
+    /// Whether it is a margin, which may have no size.
+    pub fn is_margin(self) -> bool {
+        matches!(self, Measure::Margin | Measure::FromRest | Measure::Guaranteed)
+    }
+
     /// Whether its computation depends on a number.
     pub fn depends_on(self, knob: Knob) -> bool {
         let with = self.with();
