@@ -4,11 +4,15 @@
 use clap::Args;
 use rayon::prelude::*;
 
+use super::cycles::{ORBIT, followed as outlined, orbit_points};
 use super::input::MACHINE;
 use super::{CERTIFY, CommandCase, Output, QuestionOptions, Result, given, read, timed};
-use crate::branch::{Boundary, BoundaryPoint, MachineBranch, Points, border, branch};
-use crate::flow::{Limits, Problem};
+use crate::branch::{
+    Boundary, BoundaryPoint, BranchPoint, MachineBranch, Points, PortraitPoint, border, branch,
+};
+use crate::flow::{Limits, Problem, Sample};
 use crate::model::{Belt, Knob, Source};
+use crate::portrait::orbit;
 use crate::proof::bifurcation::{enclose_escape, enclose_fold};
 use crate::proof::{ParameterBox, change_near, range};
 use crate::report::{BorderProof, branch as report};
@@ -23,6 +27,8 @@ pub struct BranchCommand {
     /// approximate for D, D2, D3 and r
     #[arg(long, value_name = "NAME=FROM:TO:COUNT")]
     over: String,
+    #[arg(long, value_name = "N", value_parser = orbit_points, help = ORBIT)]
+    orbit: Option<usize>,
 }
 
 /// The ends of a range, the smaller first.
@@ -36,16 +42,34 @@ fn followed(subject: &Source, over: &Sweep, limits: &Limits) -> Result<MachineBr
     MachineBranch::along(subject, over.symbol, range, values, limits)
 }
 
+/// The orbits of all cycles of a machine along a number; a value without an answer has none.
+fn machine_orbits(found: &MachineBranch, count: usize) -> Vec<(f64, Option<Vec<Sample>>)> {
+    let orbits = found.points.iter().flat_map(|PortraitPoint { value, found }| match found {
+        Ok(found) => {
+            let orbit = |index| (*value, found.orbit(index, count));
+            (0..found.cycles.len()).map(orbit).collect()
+        }
+        Err(why) => vec![(*value, Err(*why))],
+    });
+    outlined(orbits)
+}
+
 impl BranchCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let (case, limits) = (asked.source.exact()?, asked.output.limits());
         let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
         let Sweep { symbol, count, .. } = over;
-        let about = case.about().but(&[symbol]).told_as(asked.output.format);
+        let about = case.about().but(&[symbol]).told_as(asked.output.format());
+        let along = ("points", Some(symbol));
         let Some(problem) = case.described.subject.paper() else {
             let source = &case.described.subject.source;
             let (found, seconds) = timed(asked.output.repeat, || followed(source, &over, &limits));
-            return asked.output.print(report::of_machine(&about, symbol, &found?, seconds));
+            let found = found?;
+            let answer = report::of_machine(&about, symbol, &found, seconds);
+            return asked.output.print(match self.orbit {
+                None => answer,
+                Some(count) => answer.orbits(&about, along, &machine_orbits(&found, count)),
+            });
         };
         if !symbol.is_parameter() {
             let line = format!("cycles do not depend on {symbol}; allowed: D, D2, D3, r");
@@ -57,7 +81,12 @@ impl BranchCommand {
         let (found, seconds) = asked.output.timed("the branch could not be completed", follow)?;
         let certified = self.certify.then(|| range(&ParameterBox::from(base), symbol, ends));
         let certified = certified.as_ref();
-        asked.output.print(report::branch(&about, &found, certified, tolerance, seconds))
+        let answer = report::branch(&about, &found, certified, tolerance, seconds);
+        let Some(count) = self.orbit else { return asked.output.print(answer) };
+        let orbits = found.pieces.iter().flatten().map(|BranchPoint { value, cycle }| {
+            (*value, orbit(&base.with(symbol, *value), cycle, count, &limits))
+        });
+        asked.output.print(answer.orbits(&about, along, &outlined(orbits)))
     }
 }
 

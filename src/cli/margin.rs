@@ -1,17 +1,14 @@
-//! `hopfscope margin`, `hopfscope basin` and `hopfscope kicks`: how large a kick is survived.
+//! `hopfscope margin` and `hopfscope kicks`: how large a kick is survived.
 
 use clap::Args;
 
-use super::input::{self, WINDOW};
-use super::{
-    CERTIFY, CommandCase, Output, QuestionOptions, Result, given, number, read, timed, troubled,
-};
+use super::{CommandCase, Output, QuestionOptions, Result, number, read, timed, troubled};
 use crate::flow::Subject;
 use crate::model::Knob;
 use crate::portrait::guarantee::machine;
-use crate::portrait::{Portrait, guaranteed, proved_kicks, repeated};
+use crate::portrait::{Margin, MarginRegime, Portrait, guaranteed, repeated};
 use crate::report::About;
-use crate::report::margin::{basin, kicks, margins};
+use crate::report::margin::{kicks, margins};
 
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Args)]
@@ -42,9 +39,14 @@ impl MarginCommand {
             cost += worst.cost;
             margin
         });
-        let answer = margins(&About::boxed(&known), nominal.margin, certain, bound);
+        let answer = margins(&About::boxed(&known), read_as(&nominal), certain, bound);
         asked.output.print(answer.cost(cost, seconds))
     }
+}
+
+/// A margin, and how it is to be read.
+fn read_as(found: &Portrait) -> (Margin, MarginRegime) {
+    (found.margin, found.margin_regime())
 }
 
 /// Answers about a machine; what is known exactly has its own margin for certain.
@@ -61,47 +63,8 @@ fn of_machine(case: &CommandCase, output: &Output) -> Result<()> {
     };
     let uncertain = source.of_belt().map(|belt| tolerances.intervals(belt));
     let about = case.about().within(&uncertain.unwrap_or_default());
-    let answer = margins(&about, found.margin, certain, tolerances.disturbance);
+    let answer = margins(&about, read_as(&found), certain, tolerances.disturbance);
     output.print(answer.portrayed(&found, seconds))
-}
-
-/// Shows where the starts in a window end, and how large a kick is survived
-#[derive(Args)]
-pub struct BasinCommand {
-    #[arg(long, help = CERTIFY)]
-    certify: bool,
-    /// Displacements and velocities of the starts (default: -3:3,-3:3; of a machine one and a half times its largest
-    /// cycle, or its margin)
-    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX")]
-    window: Option<String>,
-    /// Number of starts, evenly spaced, including both ends of the window
-    #[arg(long, value_name = "WxH", default_value = "320x384", value_parser = input::grid)]
-    grid: (usize, usize),
-}
-
-impl BasinCommand {
-    pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
-        let numbers = asked.source.numbers();
-        let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
-        let case = asked.source.exact()?;
-        let reach = window.unwrap_or(WINDOW).reach();
-        let (about, (found, before)) = (case.about(), case.portrait(&asked.output, reach)?);
-        let usual = || {
-            if about.is_machine() {
-                found.surroundings()
-            } else {
-                WINDOW
-            }
-        };
-        let window = window.unwrap_or_else(usual);
-        let count = || found.count(&window, self.grid, &asked.output.limits());
-        let (counts, seconds) = asked.output.timed("the starts could not be counted", count)?;
-        // What is proved, is proved of the oscillator of the paper.
-        let parameters = found.model.parameters().filter(|_| self.certify && !about.is_machine());
-        let certified = parameters.map(|parameters| proved_kicks(&parameters, &found));
-        let seconds = before + seconds;
-        asked.output.print(basin(&about, &found, (&window, counts), certified.as_ref(), seconds))
-    }
 }
 
 /// Finds the share of random kicks that is lost, and how many in a row are survived

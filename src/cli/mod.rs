@@ -4,6 +4,7 @@
 //! and ends. What a command prints to standard output is its answer and nothing else; notes and errors
 //! go to standard error, one line each. Exit codes: 0 answered, 1 could not be computed or written, 2 bad input.
 
+mod basin;
 mod belt;
 mod branch;
 mod call;
@@ -98,7 +99,7 @@ fn commands() -> [Subcommand; 24] {
         question("cycles", cycles::CyclesCommand::run),
         question("branch", branch::BranchCommand::run),
         question("border", branch::BorderCommand::run),
-        question("basin", margin::BasinCommand::run),
+        question("basin", basin::BasinCommand::run),
         question("margin", margin::MarginCommand::run),
         question("kicks", margin::KicksCommand::run),
         row("scan", scan::ScanCommand::run),

@@ -42,7 +42,7 @@ impl<'a> AskedMotion<'a> {
             problem.method = way;
             problem.tolerance = source.start.tol.unwrap_or(Knob::Tolerance.usual());
         }
-        let about = case.about().told_as(output.format);
+        let about = case.about().told_as(output.format());
         Ok(AskedMotion { about, problem, model, limits: output.limits() })
     }
 

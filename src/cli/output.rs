@@ -11,6 +11,7 @@ use clap::Args;
 use super::{Call, Failure, Result};
 use crate::flow::{Limits, Reason};
 use crate::numerics::{real, truncated};
+use crate::report::arrays::{self, Array, npz};
 use crate::report::{Answer, Format};
 use crate::runtime::{Readers, new_file, provenance_file, standard};
 use crate::words::printable;
@@ -18,17 +19,18 @@ use crate::words::printable;
 /// How an answer is printed.
 #[derive(Args)]
 pub struct Output {
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    pub format: Format,
+    /// Output format (default: the ending of FILE, or table)
+    #[arg(long, value_enum)]
+    format: Option<Format>,
 
     /// Computes N times and reports the median time
     #[arg(long, value_name = "N", default_value_t = 1, hide_default_value = true,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub repeat: u32,
 
-    /// Writes the answer to FILE, and its provenance (program, version, command line) to FILE.provenance
-    #[arg(long, value_name = "FILE")]
+    /// Writes the answer to FILE, and its provenance (program, version, command line) to FILE.provenance; the ending .npz
+    /// or .parquet makes arrays of its comma-separated values
+    #[arg(long, visible_alias = "output", value_name = "FILE")]
     write: Option<PathBuf>,
 
     /// The caller that is answered in place of all that, if one asks in this process.
@@ -37,6 +39,12 @@ pub struct Output {
 }
 
 impl Output {
+    /// The format that is asked for.
+    pub fn format(&self) -> Format {
+        let of_file = self.write.as_deref().and_then(Format::of_ending);
+        self.format.or(of_file).unwrap_or(Format::Table)
+    }
+
     /// Computes as often as asked for; returns the answer and the median time in seconds. `failed` begins the
     /// message of a failure.
     pub fn timed<T>(
@@ -65,15 +73,29 @@ impl Output {
             call.take(answer);
             return Ok(());
         }
-        let content = sourced(answer, self.format);
+        let content = sourced(answer, self.format());
         let Some(path) = &self.write else { return print(&content) };
-        let (content, keep) = (printable::lines(&content), Some("--write replaces nothing"));
-        new_file::write(path, content.as_bytes(), Readers::Usual, keep)?;
-        if self.format == Format::Json {
-            return Ok(());
+        let content = printable::lines(&content);
+        match self.format() {
+            Format::Json => new_file::write(path, content.as_bytes(), Readers::Usual, KEEP),
+            _ => keep(path, &arrays::packed(path, &content)?),
         }
-        provenance_file::write(path, &provenance_file::of_process())
     }
+
+    /// Writes arrays in place of an answer, if the file that is asked for holds such.
+    pub fn archive(&self, arrays: impl FnOnce() -> Result<Vec<Array>>) -> Result<Option<()>> {
+        let path = self.write.as_ref().filter(|path| arrays::form_of(path) == Some("npz"));
+        path.map(|path| keep(path, &npz(&arrays()?))).transpose()
+    }
+}
+
+/// What becomes of a file that holds something else.
+const KEEP: Option<&str> = Some("--write replaces nothing");
+
+/// Writes a new file, with its provenance beside it.
+fn keep(path: &Path, content: &[u8]) -> Result<()> {
+    new_file::write(path, content, Readers::Usual, KEEP)?;
+    provenance_file::write(path, &provenance_file::of_process())
 }
 
 /// The answer, with its provenance if it is a JSON document.

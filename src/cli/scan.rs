@@ -18,8 +18,8 @@ use super::progress::{Outlet, StatusLine, message};
 use super::{Failure, Result, SourceOptions, given, half_widths, number, print, read, signed};
 use crate::flow::{Limits, Subject};
 use crate::model::Knob;
-use crate::report::Format;
 use crate::report::scan::ScanPart;
+use crate::report::{Format, arrays};
 use crate::runtime::scanning::rows;
 use crate::runtime::signals::exit_code;
 use crate::runtime::{ScanFile, bounded, provenance_file, tell};
@@ -170,14 +170,15 @@ impl ScanCommand {
                 return Err(Failure::unanswered(to, format!("{error}; {tally}")));
             }
             None if signal != 0 && file.left() > 0 => {
-                let again = if path.is_some() { "; --resume continues" } else { "" };
+                let kept = path.is_some_and(|path| arrays::form_of(path).is_none());
+                let again = if kept { "; --resume continues" } else { "" };
                 tell(format!("stopped: {tally}{again}"));
                 return Err(Failure::Said(exit_code(signal)));
             }
             None if given_up > 0 => tell(format!("note: {tally}; the last column says why")),
             None => {}
         }
-        Ok(())
+        if file.left() == 0 { file.end() } else { Ok(()) }
     }
 
     /// The scan and the points to compute, after checking the options.
@@ -199,7 +200,8 @@ impl ScanCommand {
         };
         let points = self.part.points(scan.points())?;
         // By default only the first part has a heading, so that `cat` can join the parts.
-        let headed = points.start == 0 || self.header == HeaderWhen::Always;
+        let whole = self.output.as_deref().and_then(arrays::form_of).is_some();
+        let headed = points.start == 0 || self.header == HeaderWhen::Always || whole;
         Ok(ScanPart { scan, form: self.form()?, points, headed })
     }
 
@@ -251,6 +253,9 @@ impl ScanCommand {
             return Err(line.into());
         }
         let provenance = provenance_file::of_process();
+        if arrays::form_of(path).is_some() {
+            return ScanFile::archive(path, part, provenance);
+        }
         if !self.resume {
             return ScanFile::create(path, part, provenance);
         }
@@ -274,6 +279,11 @@ impl ScanCommand {
     fn form(&self) -> Result<Format> {
         let of_file = || self.output.as_deref().map_or(Format::Csv, Format::of_file);
         let form = self.format.unwrap_or_else(of_file);
+        let arrays = self.output.as_deref().and_then(arrays::form_of);
+        if let (Some(name), true) = (arrays, self.resume || form != Format::Csv) {
+            let line = format!(".{name} is written at the end, whole, of csv rows");
+            return Err(format!("{line}: without --format, and --resume needs csv or json").into());
+        }
         if form == Format::Table && self.resume {
             return Err("--format table rounds its numbers; --resume needs csv or json".into());
         }

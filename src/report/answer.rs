@@ -88,6 +88,18 @@ impl Answer {
         self.with_any(name, objects)
     }
 
+    /// Gives each object in a list of its document another field.
+    pub(super) fn extend_each<V: Serialize>(
+        &mut self,
+        list: &str,
+        name: &str,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        if self.makes(Format::Json) {
+            self.document.extend_each(list, name, values);
+        }
+    }
+
     /// With the fields of a record in its document.
     pub(super) fn and(self, record: &impl Serialize) -> Self {
         Answer { document: self.document.and(record), ..self }

@@ -5,6 +5,8 @@ use super::cycle_numbers::machine_cycles;
 use super::{About, Answer, Columns, Document, PLACES, ProvedRow, Quantity, with_proof};
 use crate::accuracy::{BalanceResult, HarmonicBalance};
 use crate::closed_form::{Harmonic, HarmonicCycle, amplitudes};
+use crate::flow::Sample;
+use crate::model::Knob;
 use crate::model::ParameterBox;
 use crate::portrait::{Border, Cycle, Cycles, Portrait};
 use crate::proof::Proof;
@@ -62,6 +64,40 @@ impl Answer {
     /// With what is known of the motions of a machine, and what its portrait cost.
     pub fn portrayed(self, portrait: &Portrait, seconds: f64) -> Self {
         self.lines(known(portrait)).cost(portrait.cost, seconds)
+    }
+}
+
+/// A point of an orbit: the number of its cycle, the value of what varies, if anything does, and where it is.
+type OrbitRow = (usize, f64, Sample);
+
+impl Answer {
+    /// With the orbit of each cycle, or none where it could not be followed: a field of each object in the list `field` of its
+    /// document, and rows of files. Along a number each has its value.
+    pub fn orbits(
+        mut self,
+        about: &About,
+        (field, along): (&str, Option<Knob>),
+        found: &[(f64, Option<Vec<Sample>>)],
+    ) -> Self {
+        self.extend_each(field, "orbit", found.iter().map(|(_, orbit)| orbit));
+        let [time, length, speed] = ["s", "m", "m/s"].map(|unit| about.quantity(unit, 10));
+        let number = if along.is_some() { "point" } else { "cycle" };
+        let mut columns = Columns::default().word(number, |(number, ..): &OrbitRow| *number);
+        if let Some(along) = along {
+            let along = along.spec();
+            columns =
+                columns.number(along.name, about.quantity(along.unit, 10), |(_, value, _)| *value);
+        }
+        let columns = columns
+            .number("tau", time, |(.., at)| at.tau)
+            .number("q", length, |(.., at)| at.q)
+            .number("v", speed, |(.., at)| at.v);
+        let row = |(index, (value, orbit)): (usize, &(f64, Option<Vec<Sample>>))| {
+            let points = orbit.iter().flatten();
+            points.map(|at| (index + 1, *value, *at)).collect::<Vec<_>>()
+        };
+        let rows: Vec<_> = found.iter().enumerate().flat_map(row).collect();
+        self.rows(&columns, &rows)
     }
 }
 

@@ -39,6 +39,19 @@ impl Document {
         self
     }
 
+    /// Gives each object in a list of the document another field.
+    pub(super) fn extend_each<V: Serialize>(
+        &mut self,
+        list: &str,
+        name: &str,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        let objects = self.0.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
+        for (object, value) in objects.zip(values) {
+            object[name] = self::value(&value);
+        }
+    }
+
     /// The value at the end of these names, each a field of the one before; null if there is none.
     pub(super) fn at(&self, place: &[String]) -> &Value {
         let Some((name, inner)) = place.split_first() else { return &Value::Null };

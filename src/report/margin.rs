@@ -1,7 +1,11 @@
 //! How large a kick is survived: margins, nominal and guaranteed, the basin over a window of starts, and random kicks.
 
 use super::{About, Answer, Columns, Document, Quantity, cycles, kick_columns};
-use crate::portrait::{Counts, Margin, NoGuarantee, Portrait, RandomKick, StartWindow, Survival};
+use crate::model::State;
+use crate::portrait::{
+    Border, Counts, Margin, MarginRegime, NoGuarantee, Portrait, RandomKick, Return, StartWindow,
+    Survival,
+};
 use crate::proof::ProvedKicks;
 use crate::words::significant;
 
@@ -36,12 +40,14 @@ pub(super) fn guaranteed(about: &About, margin: Margin, digits: usize) -> Margin
 /// nothing is guaranteed.
 pub fn margins(
     about: &About,
-    nominal: Margin,
+    (nominal, regime): (Margin, MarginRegime),
     certain: Result<Margin, NoGuarantee>,
     disturbance: f64,
 ) -> Answer {
     let reason = certain.err().map(|why| why.to_string());
     let margin = certain.unwrap_or(Margin::ENDLESS);
+    let of = |margin| MarginRegime::of(Border::default(), margin);
+    let certainly = certain.as_ref().map_or(MarginRegime::Unknown, of);
     let rows = [("nominal", nominal), (GUARANTEED, margin)];
     let shown = certain.map(|margin| guaranteed(about, margin, 12));
     let shown = [rows[0]].into_iter().chain(shown);
@@ -56,13 +62,40 @@ pub fn margins(
     let bound = about.quantity("N", 12).text(disturbance);
     about
         .answer_to(&format!("; disturbance {bound}"))
-        .with("nominal", nominal)
-        .with(GUARANTEED, Document::default().and(&margin).with("reason", reason))
+        .with("nominal", read_as(&nominal, regime))
+        .with(GUARANTEED, read_as(&margin, certainly).with("reason", reason))
         .with("disturbance", disturbance)
         .with("parameters", known)
         .csv(&columns, rows)
         .table(columns.table(shown).transposed())
         .lines(nothing)
+}
+
+/// A margin in a document, and how it is to be read.
+fn read_as(margin: &Margin, regime: MarginRegime) -> Document {
+    Document::default().and(margin).with("regime", regime)
+}
+
+impl Answer {
+    /// With the border of the basin as a polyline; a closed one ends with its first point.
+    pub fn bordered(self, about: &About, border: &[State]) -> Self {
+        let [length, speed] = [about.quantity("m", 10), about.quantity("m/s", 10)];
+        let columns =
+            Columns::default().number("q", length, |at: &State| at.q).number("v", speed, |at| at.v);
+        self.with_rows("border", &columns, border).rows(&columns, border)
+    }
+
+    /// With the return map as polylines, one for each side.
+    pub fn returned(self, about: &About, sides: &[Vec<Return>]) -> Self {
+        let length = about.quantity("m", 10);
+        let columns = Columns::default()
+            .word("side", |(side, _): &(&str, Return)| *side)
+            .number("from", length, |(_, it)| it.from)
+            .number("to", length, |(_, it)| it.to);
+        let named = ["right", "left"].into_iter().zip(sides);
+        let rows = named.flat_map(|(side, turns)| turns.iter().map(move |turn| (side, *turn)));
+        self.with_rows("return_map", &columns, rows.clone()).rows(&columns, rows)
+    }
 }
 
 /// The basin, where the starts of a window end, and what is proved of it.
@@ -106,7 +139,7 @@ pub fn basin(
         .lines(lines)
         .with("edge", found.border)
         .with("counts", counts)
-        .with("margin", found.margin)
+        .with("margin", read_as(&found.margin, found.margin_regime()))
         .with("captured", captured)
         .with_any("area", on_paper.then_some(area))
         .with_any("lyapunov_share", on_paper.then_some(share))

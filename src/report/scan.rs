@@ -4,6 +4,7 @@
 //! other scans, whichever file they come from.
 
 use std::ops::Range;
+use std::path::Path;
 
 use super::{Format, lines};
 use crate::scan::{Scan, ScanRow, Value};
@@ -34,11 +35,18 @@ impl Format {
         if self == Format::Json { "json" } else { "csv" }
     }
 
-    /// The form for a file: JSON if its extension is `json` or `jsonl`, else CSV.
-    pub fn of_file(path: &std::path::Path) -> Self {
-        let ending = path.extension();
-        let json = ending.is_some_and(|ending| ending == "json" || ending == "jsonl");
-        if json { Format::Json } else { Format::Csv }
+    /// The form for a file of rows: JSON if its extension is `json` or `jsonl`, else CSV.
+    pub fn of_file(path: &Path) -> Self {
+        Format::of_ending(path).unwrap_or(Format::Csv)
+    }
+
+    /// The form for which the ending of a file stands, if it does for one; arrays are made of CSV.
+    pub fn of_ending(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()? {
+            "json" | "jsonl" => Some(Format::Json),
+            "csv" | "npz" | "parquet" => Some(Format::Csv),
+            _ => None,
+        }
     }
 }
 

@@ -64,7 +64,8 @@ impl<'a> RowReader<'a> {
             if line != heading.as_bytes()
                 && (this.bytes > 0 || !heading.as_bytes().starts_with(&line))
             {
-                return Err(this.foreign(1, "names other columns"));
+                let own = heading.trim_end();
+                return Err(this.foreign(1, &format!("names other columns than {own}")));
             }
         }
         Ok(this)

@@ -4,9 +4,12 @@
 //! motions that come to ride on the belt leave it at the same place. So at most one cycle sticks to the belt, and its
 //! multiplier is exactly 0; the fixed points order everything else.
 
-use crate::flow::{ArcEnd, Flow, MachineCurve, MachineStep, PhaseSeries, Reason, Result, Turn};
+use crate::flow::{
+    ArcEnd, Flow, Limits, MachineCurve, MachineStep, PhaseSeries, Reason, Result, Turn,
+};
 use crate::model::{ContactState, Lines, Phase};
 use crate::numerics::ln;
+use crate::portrait::{Portrait, Return, evenly};
 
 /// The image of a right turning point.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +54,27 @@ pub struct Landmarks {
     /// Right turning point beyond which motions overtake the belt instead of ending on the band; `None` if all
     /// end on it.
     pub beyond: Option<f64>,
+}
+
+impl Portrait {
+    /// The return map at `count` evenly spaced right turning points between these, outside of what the guide holds: the next
+    /// one, or where the mass comes to rest before; `None` where it escapes, or its law ends.
+    #[must_use]
+    pub fn returns(&self, (near, far): (f64, f64), count: usize) -> Vec<Return> {
+        let near = near.max(self.model.guide_static);
+        let next = |from: f64| {
+            let mut flow = Flow::new(&self.model);
+            let rest = |mut flow: Flow| flow.rest_of(from, 0.0, &Limits::PATIENT).ok();
+            let to = match flow.returned(from) {
+                Ok(Some(image)) => Some(image.x),
+                Ok(None) => rest(flow),
+                Err(_) => None,
+            };
+            Return { from, to }
+        };
+        let starts = (near < far).then(|| evenly((near, far), count));
+        starts.into_iter().flatten().map(next).collect()
+    }
 }
 
 impl Flow<'_> {
