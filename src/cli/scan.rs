@@ -249,7 +249,12 @@ impl ScanCommand {
         };
         let name = path.display();
         if !self.resume && !self.force && holds_something(path) {
-            let line = format!("{name} is not empty; --resume continues it, --force starts over");
+            let again = if arrays::form_of(path).is_some() {
+                ""
+            } else {
+                "--resume continues it, "
+            };
+            let line = format!("{name} is not empty; {again}--force starts over");
             return Err(line.into());
         }
         let provenance = provenance_file::of_process();

@@ -7,6 +7,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::{Format, lines};
+use crate::portrait::MarginRegime;
 use crate::scan::{Scan, ScanRow, Value};
 use crate::words::measurement;
 
@@ -88,10 +89,17 @@ impl ScanPart {
                 format!("{line}\"reason\":{}}}\n", serde_json::Value::from(reason))
             }
             Format::Table => {
+                let reason = reason.or_else(|| self.missing(row));
                 let reason = reason.map(|why| format!("  {why}")).unwrap_or_default();
                 (line + &reason).trim_end().to_owned() + "\n"
             }
         }
+    }
+
+    /// Why a margin is not finite, for the table.
+    fn missing(&self, row: &ScanRow) -> Option<String> {
+        let Value::Word(word) = row.values.get(self.scan.measured().len())? else { return None };
+        (*word != MarginRegime::Finite.word()).then(|| (*word).to_owned())
     }
 
     /// The measured columns; that which says how to read a margin is for programs.

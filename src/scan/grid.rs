@@ -63,7 +63,9 @@ impl Scan {
             if varied[..index].contains(symbol) {
                 return Err(format!("{symbol} is scanned over twice"));
             }
-            if !measures.iter().any(|measure| measure.depends_on(*symbol)) {
+            // A list may have columns that others of its measures need.
+            let counts = |measure: &Measure| measure.depends_on(*symbol);
+            if self.list.is_none() && !measures.iter().any(counts) {
                 let names: Vec<_> = measures.iter().map(|measure| measure.spec().name).collect();
                 return Err(format!("{} does not depend on {symbol}", names.join(", ")));
             }

@@ -65,7 +65,8 @@ impl Portrait {
 fn samples(period: f64, count: usize, at: impl Fn(f64) -> State) -> Vec<Sample> {
     let sample = |tau| {
         let State { q, v } = at(tau);
-        Sample { tau, q, v }
+        // Without negative zeros.
+        Sample { tau, q: q + 0.0, v: v + 0.0 }
     };
     evenly((0.0, period), count).map(sample).collect()
 }
