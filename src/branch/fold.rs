@@ -104,7 +104,7 @@ pub struct BoundaryPoint {
     pub harmonic_fold: Option<f64>,
     /// `D_c`, where the cycle goes to infinity.
     pub escape: Option<f64>,
-    /// Why one of them could not be computed.
+    /// Why one of them could not be computed, or why there is neither.
     pub reason: Option<String>,
 }
 
@@ -142,18 +142,36 @@ pub fn border(
         let here = parameters.with(second, value);
         let found = Reason::tolerated(fold(&here, limits))?;
         let escape = Reason::tolerated(escape_point(&here, limits))?;
-        let reason = found.as_ref().err().or(escape.as_ref().err()).copied();
+        let failed = found.as_ref().err().or(escape.as_ref().err()).map(Reason::to_string);
         let fold = border.cost.spend(found.unwrap_or_default());
         let escape = border.cost.spend(escape.unwrap_or_default());
+        let neither = fold.is_none() && escape.is_none();
+        let reason = failed.or_else(|| neither.then(|| no_border(&here).to_owned()));
         border.points.push(BoundaryPoint {
             value,
             fold,
             harmonic_fold: harmonic::fold(here.d3, here.r).map(|fold| fold.d),
             escape,
-            reason: reason.map(|reason| reason.to_string()),
+            reason,
         });
     }
     Ok(border)
+}
+
+/// Why there is neither a fold nor an escape point, where none failed; [`Regime::of`](super::Regime::of) says the same.
+fn no_border(parameters: &Parameters) -> &'static str {
+    let Parameters { d2, d3, r, .. } = *parameters;
+    if r == 0.0 {
+        "r = 0: the Hopf bifurcation at D = 0 is the only border"
+    } else if d3 < 0.0 {
+        "D3 < 0: an unstable cycle borders the basin at every D above -1"
+    } else if d3 > 0.0 {
+        "no fold was found"
+    } else if d2 == 0.0 {
+        "D2 = D3 = 0: an unstable cycle at every D from -1 to 0, which grows beyond all bounds at 0"
+    } else {
+        "D3 = 0: D_c lies below -1, and a separatrix borders the basin at every D above"
+    }
 }
 
 // Where the stable cycle grazes the sticking set, instead of meeting an unstable one.

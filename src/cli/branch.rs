@@ -144,7 +144,7 @@ impl BorderCommand {
         let limits = output.limits();
         let row = |index| {
             let value = over.value(index);
-            Ok((value, followed(&subject.with(second, value)?, &along, &limits)?.special))
+            Ok((value, followed(&subject.with(second, value)?, &along, &limits)?))
         };
         let follow = || (0..over.count).map(row).collect::<Result<Vec<_>, String>>();
         let (found, seconds) = timed(output.repeat, follow);

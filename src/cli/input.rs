@@ -81,9 +81,14 @@ impl Numbers {
     }
 
     /// `NAME=FROM:TO` or `NAME=log:FROM:TO`, through so many values.
-    pub fn glide(&self, text: &str, count: usize) -> Result<Sweep, String> {
+    pub fn range(&self, text: &str, count: usize) -> Result<Sweep, String> {
         const FORM: &str = "expected NAME=FROM:TO, such as D=-0.95:0, or NAME=log:FROM:TO";
-        let sweep = Sweep::read_as(FORM, &format!("{text}:{count}"), self.over)?;
+        Sweep::read_as(FORM, &format!("{text}:{count}"), self.over)
+    }
+
+    /// The same of a number that glides while a motion goes on.
+    pub fn glide(&self, text: &str, count: usize) -> Result<Sweep, String> {
+        let sweep = self.range(text, count)?;
         if matches!(sweep.symbol, Knob::Q0 | Knob::V0) {
             return Err(format!("{}: a start does not glide", sweep.symbol));
         }

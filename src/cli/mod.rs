@@ -8,11 +8,13 @@ mod basin;
 mod belt;
 mod branch;
 mod call;
+mod conditions;
 mod cycles;
 mod explore;
 mod figure;
 mod fit;
 mod input;
+mod level;
 mod lists;
 mod machine;
 mod margin;
@@ -89,7 +91,7 @@ fn parsed<C: Args>(given: &ArgMatches) -> Result<C> {
 }
 
 /// The commands, in the order of the help.
-fn commands() -> [Subcommand; 24] {
+fn commands() -> [Subcommand; 25] {
     [
         row("tour", explore::TourCommand::run),
         row("lesson", explore::LessonCommand::run),
@@ -102,6 +104,7 @@ fn commands() -> [Subcommand; 24] {
         question("basin", basin::BasinCommand::run),
         question("margin", margin::MarginCommand::run),
         question("kicks", margin::KicksCommand::run),
+        question("level", level::LevelCommand::run),
         row("scan", scan::ScanCommand::run),
         row("merge", merge::MergeCommand::run),
         row("belt", belt::BeltCommand::run),

@@ -10,20 +10,19 @@ use clap::{Args, FromArgMatches, ValueEnum};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
-use super::input::{self, WINDOW};
+use super::conditions::ConditionOptions;
 use super::output::holds_something;
 use super::part::RowChoice;
 use super::plan::Plan;
 use super::progress::{Outlet, StatusLine, message};
-use super::{Failure, Result, SourceOptions, given, half_widths, number, print, read, signed};
-use crate::flow::{Limits, Subject};
-use crate::model::Knob;
+use super::{Failure, Result, SourceOptions, print, read, signed};
+use crate::flow::Limits;
 use crate::report::scan::ScanPart;
 use crate::report::{Format, arrays};
 use crate::runtime::scanning::rows;
 use crate::runtime::signals::exit_code;
 use crate::runtime::{ScanFile, bounded, provenance_file, tell};
-use crate::scan::{Conditions, MEASURES, Measure, PointList, Scan, Sweep};
+use crate::scan::{MEASURES, Measure, PointList, Scan, Sweep};
 use crate::words::joined;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
@@ -46,30 +45,8 @@ pub struct ScanCommand {
     /// Also measures `proved`, which is the same as naming it
     #[arg(long)]
     certify: bool,
-    /// Displacements and velocities of the starts of `stability`, `settling` and `finite-time` (default: -3:3,-3:3;
-    /// none for a machine)
-    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX")]
-    window: Option<String>,
-    /// Measures the window's displacements from the relaxed spring of a machine instead of the steady position
-    #[arg(long, requires_all = ["window", "machine"])]
-    elongation: bool,
-    /// The margin of `design`: a displacement, such as q=0.3, or an impulse, such as v=0.3; of a machine "2 mm" or
-    /// "0.1 N s"
-    #[arg(long, value_name = "MARGIN")]
-    design: Option<String>,
-    /// Bound on the disturbing force of `guaranteed`, in the units of r
-    #[arg(long, value_name = "W")]
-    disturbance: Option<String>,
-    /// Half width of a parameter for `guaranteed`, such as r=0.01; repeatable. Of a machine --set takes it
-    #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width, conflicts_with = "machine")]
-    half_width: Vec<(Knob, f64)>,
-    /// Random kicks of `lost` and `repeated`, mean and standard deviation; with uniform: before them, mean and
-    /// half width (default: q=0+-1,v=0+-1; none for a machine)
-    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD")]
-    kicks: Option<String>,
-    /// Time at which the motions of `outcome`, `rest`, `settling` and `finite-time` stop (default: the scene's)
-    #[arg(long, value_name = "T")]
-    until: Option<String>,
+    #[command(flatten)]
+    conditions: ConditionOptions,
     /// Number of threads (default: one per core)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
@@ -183,7 +160,7 @@ impl ScanCommand {
 
     /// The scan and the points to compute, after checking the options.
     pub fn asked(&self) -> Result<ScanPart> {
-        let (base, conditions) = self.subject()?;
+        let (base, conditions) = self.conditions.of(&self.source, &self.measure)?;
         let mut measures = self.measure.clone();
         if self.certify && !measures.contains(&Measure::Proved) {
             measures.push(Measure::Proved);
@@ -203,42 +180,6 @@ impl ScanCommand {
         let whole = self.output.as_deref().and_then(arrays::form_of).is_some();
         let headed = points.start == 0 || self.header == HeaderWhen::Always || whole;
         Ok(ScanPart { scan, form: self.form()?, points, headed })
-    }
-
-    /// What is scanned, and what its measures depend on beside it.
-    fn subject(&self) -> Result<(Subject, Conditions)> {
-        let numbers = self.source.numbers();
-        let until = number("--until", self.until.as_ref(), numbers.until)?;
-        let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
-        let kicks = given("--kicks", self.kicks.as_ref(), |text| numbers.kicks(text))?;
-        let disturbance = self.disturbance.as_ref();
-        let disturbance = number("--disturbance", disturbance, numbers.disturbance)?;
-        let wanted = given("--design", self.design.as_ref(), numbers.margin)?;
-        let conditions = Conditions {
-            elongation: self.elongation,
-            kicks: kicks.unwrap_or_default(),
-            wanted,
-            ..window.unwrap_or(WINDOW).into()
-        };
-        let mut case = self.source.case()?;
-        let Subject { tolerances, motion, .. } = &mut case.described.subject;
-        motion.until = until.unwrap_or(motion.until);
-        tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
-        let half_widths = Knob::PARAMETERS.into_iter().zip(half_widths(&self.half_width)?);
-        let wide = half_widths.filter(|(_, half_width)| *half_width > 0.0);
-        tolerances.half_widths.extend(wide.map(|(knob, half)| (knob.to_string(), half)));
-        let subject = case.checked()?.described.subject;
-        let machine = subject.paper().is_none();
-        for measure in self.measure.iter().filter(|_| machine) {
-            let needs = match (measure.is_over_window(), measure.is_of_kicks()) {
-                (true, _) if window.is_none() => "a --window",
-                (_, true) if kicks.is_none() => "--kicks",
-                _ => continue,
-            };
-            let name = measure.spec().name;
-            return Err(format!("{name} of a machine needs {needs}").into());
-        }
-        Ok((subject, conditions))
     }
 
     /// Where the rows go, with those that are already there.

@@ -22,11 +22,21 @@ pub enum DangerousValues {
 static COLUMNS: LazyLock<Vec<[&str; 5]>> =
     LazyLock::new(|| include_str!("../../assets/columns.txt").lines().filter_map(cells).collect());
 
-/// What [`COLUMNS`] says of the column that is plotted.
-fn plotted(scanned: &ScanOnShow) -> [&'static str; 5] {
-    let column = measured(scanned);
+/// What [`COLUMNS`] says of a column.
+fn described(column: &'static str) -> [&'static str; 5] {
     let row = COLUMNS.iter().find(|[known, ..]| *known == column);
     row.copied().unwrap_or([column, "-", "-", "-", "none"])
+}
+
+/// The same of the column that is plotted.
+fn plotted(scanned: &ScanOnShow) -> [&'static str; 5] {
+    described(measured(scanned))
+}
+
+/// What it means that a column has no number.
+pub fn absence(column: &'static str) -> &'static str {
+    let [.., nothing] = described(column);
+    nothing
 }
 
 /// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.

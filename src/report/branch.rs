@@ -206,25 +206,38 @@ fn jumps(special: &Special) -> String {
 pub fn border_of_machine(
     about: &About,
     (along, over): (Knob, Knob),
-    found: &[(f64, Vec<Special>)],
+    found: &[(f64, MachineBranch)],
     seconds: f64,
 ) -> Answer {
     let [over_name, along_name] = [over, along].map(|knob| knob.spec().name);
+    // Why a value has no row.
+    let reason = |branch: &MachineBranch| {
+        let failed = branch.points.iter().find_map(|point| point.found.as_ref().err());
+        let none = || format!("nothing changes along {along_name}");
+        let why = failed.map_or_else(none, |why| format!("not all is known: {why}"));
+        branch.special.is_empty().then_some(why)
+    };
     let columns = Columns::default()
         .number(over_name, Quantity::of(over.spec().unit, 13), |(value, _): &(f64, _)| *value)
         .and(special_columns(along, |(_, special): &(f64, &Special)| special));
-    let rows =
-        found.iter().flat_map(|(value, all)| all.iter().map(move |special| (*value, special)));
-    let nothing = rows.clone().next().is_none();
-    let points =
-        found.iter().map(|(value, special)| Document::of("value", value).with("special", special));
+    let rows = found
+        .iter()
+        .flat_map(|(value, branch)| branch.special.iter().map(move |special| (*value, special)));
+    let points = found.iter().map(|(value, branch)| {
+        let point = Document::of("value", value).with("special", &branch.special);
+        point.with("reason", reason(branch))
+    });
+    let nothing = found.iter().filter_map(|(value, branch)| {
+        let at = with_unit(*value, PLACES, over.spec().unit);
+        Some(format!("{over_name} = {at}: {}", reason(branch)?))
+    });
     about
         .answer()
         .with("parameter", over_name)
         .with("along", along_name)
         .with("points", points.collect::<Vec<_>>())
         .rows(&columns, rows)
-        .lines(nothing.then(|| format!("nothing changes along {along_name}")))
+        .lines(nothing)
         .cost(Cost::default(), seconds)
 }
 

@@ -13,6 +13,7 @@ pub mod cycles;
 pub mod extremes;
 pub mod fit;
 pub mod json;
+pub mod level;
 pub mod machine;
 pub mod margin;
 pub mod motion;

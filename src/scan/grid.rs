@@ -132,8 +132,13 @@ impl Scan {
 
     /// What is measured at point number `index`.
     fn subject(&self, index: usize) -> Subject {
+        self.with(self.values(index))
+    }
+
+    /// What is measured where these numbers are set.
+    fn with(&self, values: impl IntoIterator<Item = (Knob, f64)>) -> Subject {
         let mut subject = self.base.clone();
-        for (symbol, value) in self.values(index) {
+        for (symbol, value) in values {
             let set = subject.set(symbol, value);
             debug_assert!(set.is_ok(), "a scan goes over numbers that there are: {set:?}");
         }
@@ -148,6 +153,13 @@ impl Scan {
     /// Measures point number `index`. Fails with [`Reason::Interrupted`](crate::model::Reason::Interrupted), and no other.
     pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow> {
         measure(&self.subject(index), &self.measures, &self.conditions, limits)
+    }
+
+    /// Measures between the points, where the numbers that are scanned over have these values. Fails with
+    /// [`Reason::Interrupted`](crate::model::Reason::Interrupted), and no other.
+    pub fn row_at(&self, values: [f64; 2], limits: &Limits) -> Result<ScanRow> {
+        let values = self.over.iter().map(|sweep| sweep.symbol).zip(values);
+        measure(&self.with(values), &self.measures, &self.conditions, limits)
     }
 
     /// A row that could not be measured at all.

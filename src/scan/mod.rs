@@ -1,9 +1,11 @@
-//! Measures at many points, in rows that may be shared out; and one motion while a number glides, to be heard.
+//! Measures at many points, in rows that may be shared out; the curves over two numbers along which a measured number has a
+//! value; and one motion while a number glides, to be heard.
 
 pub mod grid;
+pub mod level;
 pub mod list;
 pub mod measure;
 pub mod sound;
 pub mod sweep;
 
-pub use self::{grid::*, list::PointList, measure::*, sound::Sound, sweep::*};
+pub use self::{grid::*, level::*, list::PointList, measure::*, sound::Sound, sweep::*};

@@ -83,6 +83,17 @@ impl Sweep {
         Sweep::new(symbol, ends(symbol, range, [from, to])?, count, spacing)
     }
 
+    /// The value this far, from 0 to 1, on the way from the first to the last, both of them exactly.
+    pub fn at(&self, part: f64) -> f64 {
+        if part <= 0.0 || part >= 1.0 {
+            return if part <= 0.0 { self.from } else { self.to };
+        }
+        match self.spacing {
+            Spacing::Even => self.from + part * (self.to - self.from),
+            Spacing::Logarithmic => self.from * pow(self.to / self.from, part),
+        }
+    }
+
     /// Value number `index`, the first and the last of them exactly.
     pub fn value(&self, index: usize) -> f64 {
         if index == 0 {
