@@ -19,12 +19,12 @@ use crate::session::{Playback, Session, Size};
 use crate::view::{self, Look, screen};
 use crate::words::joined;
 
-/// Writes the plots of a scene as SVG, PNG, CSV or JSON, or draws them in the terminal
+/// Writes the plots of a scene as PDF, SVG, PNG, CSV or JSON, or draws them in the terminal
 #[derive(Args)]
 pub struct FigureCommand {
     #[command(flatten)]
     source: SourceOptions,
-    /// File to write; its extension sets the format: .svg, .png, .csv or .json
+    /// File to write; its extension sets the format: .pdf, .svg, .png, .csv or .json
     #[arg(long, value_name = "FILE", value_parser = input::figure_file)]
     output: Option<(PathBuf, FigureForm)>,
     /// Replaces what FILE holds

@@ -40,7 +40,7 @@ pub struct FitCommand {
           value_parser = |text: &str| input::whole(text, 40..=1_000_000))]
     draws: usize,
     /// Also writes figures: record and residuals, damping over amplitude, phase plane, margin; the extension sets the
-    /// format: .svg, .png, .csv or .json
+    /// format: .pdf, .svg, .png, .csv or .json
     #[arg(long = "output", value_name = "FILE", value_parser = input::figure_file)]
     pictures: Option<(PathBuf, FigureForm)>,
     /// Also writes the answer as a page to print and sign: numbers, what they rest on, figures, SHA-256 of the record

@@ -3,7 +3,7 @@
 use strum::IntoStaticStr;
 use tiny_skia_path::{Path, PathBuilder};
 
-use super::symbols::runs;
+use super::symbols::{TextRun, runs};
 
 /// A place on a page, in its unit: to the right and down from the upper left corner. Also a width and a height.
 pub type Spot = (f64, f64);
@@ -14,18 +14,29 @@ pub type Color = [u8; 3];
 pub const BLACK: Color = [0; 3];
 pub const WHITE: Color = [255; 3];
 
-/// A pixel of a browser and a point of print, a 96th and a 72nd of an inch, in points.
-pub const PIXEL: f64 = 0.75;
-pub const POINT: f64 = 1.0;
-
 /// A page with what stands on it, from back to front.
 #[derive(Clone, Debug)]
 pub struct Page {
     /// Width and height.
     pub size: Spot,
-    /// The unit of all its lengths, in points.
-    pub unit: f64,
+    /// The unit of all its lengths.
+    pub unit: PageUnit,
     pub elements: Vec<Element>,
+}
+
+/// What lengths on a page are measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PageUnit {
+    /// A pixel of a browser: a 96th of an inch.
+    Pixel,
+    /// A point of print: a 72nd of an inch.
+    Point,
+}
+
+impl PageUnit {
+    pub fn in_points(self) -> f64 {
+        if self == PageUnit::Pixel { 0.75 } else { 1.0 }
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -34,8 +45,6 @@ pub enum Element {
     Text(TextLine),
     /// What is seen of others within a rectangle: its upper left corner, and its width and height.
     Clipped(Spot, Spot, Vec<Element>),
-    /// Areas beside each other, painted without smoothing: along smooth edges a hair of paper would show.
-    Cells(Vec<Shape>),
 }
 
 impl From<Shape> for Element {
@@ -174,34 +183,5 @@ impl TextLine {
     pub fn new(at: Spot, anchor: Anchor, size: f64, text: &str) -> Self {
         let runs = runs(text);
         TextLine { at, anchor, size, color: BLACK, edge: None, upward: false, runs }
-    }
-}
-
-/// A part of a text whose letters are set alike.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TextRun {
-    pub text: String,
-    pub setting: Setting,
-}
-
-/// How letters are set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Setting {
-    Upright,
-    Italic,
-    Subscript,
-    Superscript,
-}
-
-impl Setting {
-    /// Size of the letters, and how far they stand below the base line, in a text of this size. No letter is smaller
-    /// than 6 where those beside it are not.
-    pub fn of(self, size: f64) -> (f64, f64) {
-        let smaller = (0.72 * size).max(size.min(6.0));
-        match self {
-            Setting::Upright | Setting::Italic => (size, 0.0),
-            Setting::Subscript => (smaller, 0.2 * size),
-            Setting::Superscript => (smaller, -0.36 * size),
-        }
     }
 }

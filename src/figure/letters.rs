@@ -4,7 +4,8 @@ use std::sync::LazyLock;
 
 use ttf_parser::{Face, GlyphId};
 
-use super::elements::{Anchor, Setting, Spot, TextRun};
+use super::elements::{Anchor, Spot};
+use super::symbols::{Setting, TextRun};
 
 /// Upright and slanted letters.
 pub const FONTS: [&[u8]; 2] = [
@@ -47,7 +48,9 @@ pub fn placed(runs: &[TextRun], size: f64, anchor: Anchor) -> (Vec<PlacedRun<'_>
         width += advance;
     }
     let before = 0.5 * width * f64::from(anchor as u8);
-    placed.iter_mut().for_each(|run| run.at.0 -= before);
+    for run in &mut placed {
+        run.at.0 -= before;
+    }
     (placed, width)
 }
 

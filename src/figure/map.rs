@@ -1,6 +1,6 @@
 //! A map and its scale on paper: cells of one hue, the stronger the more dangerous.
 
-use super::elements::{Anchor, Element, Shape, Spot, TextLine, Tint};
+use super::elements::{Anchor, Element, Pen, Shape, Spot, TextLine, Tint};
 use super::paper::{Frame, PLOT, shading};
 use crate::numerics::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
@@ -44,6 +44,14 @@ fn tint(strength: f64) -> Tint {
     Tint { color, opacity: 1.0 }
 }
 
+/// A cell with a hair of its colour around it: between two smooth edges the paper would show. The colour is that on white,
+/// as one through which one sees would be darker along these hairs.
+fn covered(cell: Shape, Tint { color, opacity }: Tint) -> Shape {
+    let on_white = |part: u8| truncated(255.5 - opacity * (255.0 - f64::from(part)));
+    let color = color.map(|part| u8::try_from(on_white(part)).unwrap_or(u8::MAX));
+    cell.solid(color).drawn(Pen::solid(0.3, color))
+}
+
 /// The borders of cells around these places: in the middle between neighbours, and as far beyond the ends.
 fn borders(places: &[f64]) -> Vec<f64> {
     let [first, second, ..] = places else { return Vec::new() };
@@ -56,7 +64,7 @@ fn borders(places: &[f64]) -> Vec<f64> {
 }
 
 /// The cells, equal neighbours above each other as one.
-pub fn cells(map: &ScanMap, frame: Frame) -> Vec<Shape> {
+pub fn cells(map: &ScanMap, frame: Frame) -> Vec<Element> {
     let (across, upward) = (borders(&map.x), borders(&map.y));
     let mut shapes = Vec::new();
     for (column, cells) in across.windows(2).zip(&map.values) {
@@ -68,7 +76,7 @@ pub fn cells(map: &ScanMap, frame: Frame) -> Vec<Shape> {
             let (left, bottom) = frame.spot(Point { x: column[0], y: low });
             let (right, top) = frame.spot(Point { x: column[1], y: high });
             let cell = Shape::rectangle((left, top), (right - left, bottom - top));
-            shapes.extend(paint(same[0], map.scale).map(|tint| cell.filled(tint)));
+            shapes.extend(paint(same[0], map.scale).map(|tint| covered(cell, tint).into()));
         }
     }
     shapes
@@ -83,9 +91,11 @@ pub fn scale(out: &mut Vec<Element>, map: &ScanMap, (x, y): Spot) {
     let step = |step: usize| {
         let [from, to] = [step, step + 1].map(|edge| x + width * real(edge) / real(STEPS));
         let part = (real(step) + 0.5) / real(STEPS);
-        Shape::rectangle((from, top), (to - from, 10.0)).filled(tint(scale.strength(part)))
+        let cell = Shape::rectangle((from, top), (to - from, 10.0));
+        covered(cell, tint(scale.strength(part))).into()
     };
-    out.extend([name.into(), Element::Cells((0..STEPS).map(step).collect())]);
+    out.push(name.into());
+    out.extend((0..STEPS).map(step));
     let [lowest, highest] = scale.ends();
     let ends =
         [(0.0, Anchor::Start, lowest), (0.5, Anchor::Middle, ""), (1.0, Anchor::End, highest)];

@@ -26,7 +26,7 @@ mod symbols;
 
 pub use content::{Axis, Figure, MarkedPoint, Outline, Panel};
 pub use lines::FAINT;
-pub use symbols::runs;
+pub use symbols::{Setting, runs};
 
 use std::path::Path;
 
@@ -104,7 +104,7 @@ pub fn panels(figure: &Figure) -> Vec<String> {
     };
     let written = |(number, panel): (usize, &Panel)| {
         let figure = alone(panel);
-        svg(&page::alone(&figure), &figure, &format!("panel{number}-"))
+        svg(&page::alone(&figure), &figure, &format!("panel{number}"))
     };
     figure.panels.iter().enumerate().map(written).collect()
 }

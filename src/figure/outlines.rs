@@ -34,7 +34,9 @@ impl TextLine {
                     Transform::from_row(scale, 0.0, 0.0, -scale, single(along), single(down));
                 let path =
                     letter.0.finish().and_then(|path| path.transform(place.post_concat(turned)));
-                path.iter().for_each(|path| outline.push_path(path));
+                if let Some(path) = path {
+                    outline.push_path(&path);
+                }
                 along += run.size * advance;
             }
         }

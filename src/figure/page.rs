@@ -3,7 +3,7 @@
 use tiny_skia_path::PathBuilder;
 
 use super::elements::{
-    Anchor, Color, Element, PIXEL, Page, Pen, Shape, Spot, TextLine, WHITE, lead, single,
+    Anchor, Color, Element, Page, PageUnit, Pen, Shape, Spot, TextLine, WHITE, lead, single,
 };
 use super::paper::{self, DARK, ENTRY, Frame, HEAD, MARGIN, PANEL, PLOT, ink, pen, shading};
 use super::{Figure, MarkedPoint, Outline, Panel, areas::loops, captions, map};
@@ -52,13 +52,13 @@ fn finished(figure: &Figure, mut out: Vec<Element>, (width, mut height): Spot) -
         map::scale(&mut out, shown, (MARGIN.0, height));
         height += map::SCALE;
     }
-    Page { size: (width, height + 12.0), unit: PIXEL, elements: out }
+    Page { size: (width, height + 12.0), unit: PageUnit::Pixel, elements: out }
 }
 
 fn draw(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
     let mut inside = Vec::new();
     if let Some(shown) = &panel.map {
-        inside.push(Element::Cells(map::cells(shown, frame)));
+        inside.extend(map::cells(shown, frame));
     }
     // Parts of the same area are one path: between two paths a hair of paper would show.
     let alike = |one: &Outline, other: &Outline| (&one.name, one.role) == (&other.name, other.role);

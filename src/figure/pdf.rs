@@ -16,19 +16,19 @@ use super::Figure;
 use super::data::remarks;
 use super::elements::{Element, Page, Pen, Shape, TextLine, Tint, single};
 use super::letters::{FONTS, placed};
-use crate::numerics::truncated;
 
 /// Writes a page of a figure. Fails with one line if it cannot be one of a document.
 pub fn pdf(page: &Page, figure: &Figure) -> Result<Vec<u8>, String> {
-    let [width, height] = [page.size.0, page.size.1].map(|side| single(page.unit * side));
+    let unit = page.unit.in_points();
+    let [width, height] = [page.size.0, page.size.1].map(|side| single(unit * side));
     let size = PageSettings::from_wh(width, height).ok_or("not written: the page has no size")?;
     let fonts = FONTS.map(|font| Font::new(Data::from(font), 0).expect("a font of the program"));
     let mut document = Document::new();
     document.set_metadata(about(figure));
     let mut sheet = document.start_page_with(size);
     let mut surface = sheet.surface();
-    surface.push_transform(&Transform::from_scale(single(page.unit), single(page.unit)));
-    page.elements.iter().for_each(|part| element(&mut surface, part, &fonts));
+    surface.push_transform(&Transform::from_scale(single(unit), single(unit)));
+    draw(&mut surface, &page.elements, &fonts);
     surface.pop();
     surface.finish();
     sheet.finish();
@@ -46,56 +46,49 @@ fn about(figure: &Figure) -> Metadata {
         .creator(figure.program.to_owned())
 }
 
-fn element(surface: &mut Surface, part: &Element, fonts: &[Font; 2]) {
-    match part {
-        Element::Shape(shape) => draw(surface, shape),
-        Element::Cells(cells) => cells.iter().for_each(|cell| draw(surface, &overlapping(cell))),
-        Element::Text(line) => text(surface, line, fonts),
-        Element::Clipped(corner, size, inside) => {
-            let Some(window) = path(&Shape::rectangle(*corner, *size)) else { return };
-            surface.push_clip_path(&window, &FillRule::NonZero);
-            inside.iter().for_each(|part| element(surface, part, fonts));
-            surface.pop();
+fn draw(surface: &mut Surface, elements: &[Element], fonts: &[Font; 2]) {
+    for element in elements {
+        match element {
+            Element::Shape(shape) => outline(surface, shape),
+            Element::Text(line) => text(surface, line, fonts),
+            Element::Clipped(corner, size, inside) => {
+                let Some(window) = path(&Shape::rectangle(*corner, *size)) else { continue };
+                surface.push_clip_path(&window, &FillRule::NonZero);
+                draw(surface, inside, fonts);
+                surface.pop();
+            }
         }
     }
 }
 
-fn draw(surface: &mut Surface, shape: &Shape) {
+fn outline(surface: &mut Surface, shape: &Shape) {
+    let Some(path) = path(shape) else { return };
     surface.set_fill(shape.tint.map(filled));
     surface.set_stroke(shape.pen.map(stroked));
-    path(shape).iter().for_each(|path| surface.draw_path(path));
+    surface.draw_path(&path);
 }
 
 /// The line around a text is no text, so that whoever searches finds it once.
 fn text(surface: &mut Surface, line: &TextLine, fonts: &[Font; 2]) {
     if let Some(pen) = line.edge {
-        draw(surface, &Shape { path: line.outline(), pen: Some(pen), tint: None });
+        outline(surface, &Shape { path: line.outline(), pen: Some(pen), tint: None });
     }
     let [sx, ky, kx, sy, tx, ty] = line.turned();
     surface.push_transform(&Transform::from_row(sx, ky, kx, sy, tx, ty));
     surface.set_fill(Some(filled(Tint { color: line.color, opacity: 1.0 })));
     surface.set_stroke(None);
     for run in placed(&line.runs, line.size, line.anchor).0 {
-        let letter =
-            |((at, char), (glyph, advance)): ((usize, char), &(ttf_parser::GlyphId, f64))| {
-                let (glyph, place) = (GlyphId::new(glyph.0.into()), at..at + char.len_utf8());
-                KrillaGlyph::new(glyph, single(*advance), 0.0, 0.0, 0.0, place, None)
-            };
-        let letters: Vec<_> = run.text.char_indices().zip(&run.letters).map(letter).collect();
+        let places = run.text.char_indices().map(|(at, char)| at..at + char.len_utf8());
+        let letters = places.zip(&run.letters).map(|(place, (glyph, advance))| {
+            let (glyph, advance) = (GlyphId::new(glyph.0.into()), single(*advance));
+            KrillaGlyph::new(glyph, advance, 0.0, 0.0, 0.0, place, None)
+        });
+        let letters: Vec<KrillaGlyph> = letters.collect();
         let start = Point::from_xy(single(run.at.0), single(run.at.1));
         let font = fonts[run.font].clone();
         surface.draw_glyphs(start, &letters, font, run.text, single(run.size), false);
     }
     surface.pop();
-}
-
-/// A cell that reaches a little into its neighbours: what shows a document smooths all edges.
-fn overlapping(cell: &Shape) -> Shape {
-    let Some(Tint { color, opacity }) = cell.tint else { return cell.clone() };
-    // On white; a colour through which one sees would be darker where cells overlap.
-    let on_white = |part: u8| (255.0 - opacity * (255.0 - f64::from(part))).round();
-    let color = color.map(|part| u8::try_from(truncated(on_white(part))).unwrap_or(u8::MAX));
-    cell.clone().solid(color).drawn(Pen::solid(0.25, color))
 }
 
 fn path(shape: &Shape) -> Option<Path> {

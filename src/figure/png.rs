@@ -1,18 +1,18 @@
 //! A page as PNG, with letters that come with the program, so that it looks the same on every machine.
 
 use png::{ColorType, Encoder, EncodingError, PixelDimensions, Unit};
-use tiny_skia::{FillRule, LineJoin, Mask, Paint, Path, Pixmap, Stroke, StrokeDash, Transform};
+use tiny_skia::{FillRule, LineJoin, Mask, Paint, Pixmap, Stroke, StrokeDash, Transform};
 
 use super::Figure;
 use super::data::remarks;
-use super::elements::{Element, Page, Pen, Shape, TextLine, Tint, single};
+use super::elements::{Element, Page, Pen, Shape, Tint, single};
 use crate::numerics::truncated;
 
 /// Paints a page with as many dots to the inch as its sheet says. Fails with one line if these are too many.
 pub fn png(page: &Page, figure: &Figure) -> Result<Vec<u8>, String> {
     /// Dots of the largest picture, which take 400 MB.
     const MOST: f64 = 1e8;
-    let scale = figure.sheet.dpi() * page.unit / 72.0;
+    let scale = figure.sheet.dpi() * page.unit.in_points() / 72.0;
     let [width, height] = [page.size.0, page.size.1].map(|side| (scale * side).round().max(1.0));
     let canvas = (width * height <= MOST).then(|| Pixmap::new(whole(width), whole(height)));
     let too_large = || format!("not painted: {width} x {height} dots, of at most {MOST:e}");
@@ -20,7 +20,7 @@ pub fn png(page: &Page, figure: &Figure) -> Result<Vec<u8>, String> {
     canvas.fill(tiny_skia::Color::WHITE);
     let scale = Transform::from_scale(single(scale), single(scale));
     let mut painter = Painter { canvas, scale, mask: None };
-    page.elements.iter().for_each(|part| painter.element(part));
+    painter.paint(&page.elements);
     encoded(&painter.canvas, figure).map_err(|why| format!("not painted: {why}"))
 }
 
@@ -56,51 +56,45 @@ struct Painter {
 }
 
 impl Painter {
-    fn element(&mut self, element: &Element) {
-        match element {
-            Element::Shape(shape) => self.shape(shape, true),
-            Element::Cells(cells) => cells.iter().for_each(|cell| self.shape(cell, false)),
-            Element::Text(line) => self.text(line),
-            Element::Clipped(corner, size, inside) => {
-                let mut mask = Mask::new(self.canvas.width(), self.canvas.height());
-                let window = Shape::rectangle(*corner, *size).path;
-                if let Some((mask, window)) = mask.as_mut().zip(window) {
-                    mask.fill_path(&window, FillRule::Winding, true, self.scale);
+    fn paint(&mut self, elements: &[Element]) {
+        for element in elements {
+            match element {
+                Element::Shape(shape) => self.shape(shape, FillRule::EvenOdd),
+                Element::Text(line) => {
+                    let tint = Some(Tint { color: line.color, opacity: 1.0 });
+                    let letters = Shape { path: line.outline(), pen: None, tint };
+                    self.shape(
+                        &Shape { pen: line.edge, tint: None, ..letters.clone() },
+                        FillRule::Winding,
+                    );
+                    self.shape(&letters, FillRule::Winding);
                 }
-                let outer = std::mem::replace(&mut self.mask, mask);
-                inside.iter().for_each(|part| self.element(part));
-                self.mask = outer;
+                Element::Clipped(corner, size, inside) => {
+                    let mut mask = Mask::new(self.canvas.width(), self.canvas.height());
+                    let window = Shape::rectangle(*corner, *size).path;
+                    if let Some((mask, window)) = mask.as_mut().zip(window) {
+                        mask.fill_path(&window, FillRule::Winding, true, self.scale);
+                    }
+                    let outer = std::mem::replace(&mut self.mask, mask);
+                    self.paint(inside);
+                    self.mask = outer;
+                }
             }
         }
     }
 
-    fn shape(&mut self, Shape { path, pen, tint }: &Shape, smooth: bool) {
-        let Some(path) = path else { return };
+    fn shape(&mut self, Shape { path, pen, tint }: &Shape, rule: FillRule) {
+        let (Some(path), mask) = (path, self.mask.as_ref()) else { return };
         if let Some(tint) = tint {
-            let paint = Paint { anti_alias: smooth, ..paint(*tint) };
-            self.fill(path, &paint, FillRule::EvenOdd);
+            self.canvas.fill_path(path, &paint(*tint), rule, self.scale, mask);
         }
-        if let Some(pen) = pen {
-            self.draw(path, *pen);
+        if let Some(Pen { width, color, dash }) = *pen {
+            let dash = StrokeDash::new(dash.iter().map(|length| single(*length)).collect(), 0.0);
+            let (width, line_join) = (single(width), LineJoin::Round);
+            let stroke = Stroke { width, line_join, dash, ..Stroke::default() };
+            let paint = paint(Tint { color, opacity: 1.0 });
+            self.canvas.stroke_path(path, &paint, &stroke, self.scale, mask);
         }
-    }
-
-    fn text(&mut self, line: &TextLine) {
-        let Some(letters) = line.outline() else { return };
-        line.edge.iter().for_each(|pen| self.draw(&letters, *pen));
-        self.fill(&letters, &paint(Tint { color: line.color, opacity: 1.0 }), FillRule::Winding);
-    }
-
-    fn fill(&mut self, path: &Path, paint: &Paint, rule: FillRule) {
-        self.canvas.fill_path(path, paint, rule, self.scale, self.mask.as_ref());
-    }
-
-    fn draw(&mut self, path: &Path, Pen { width, color, dash }: Pen) {
-        let dash = StrokeDash::new(dash.iter().map(|length| single(*length)).collect(), 0.0);
-        let (width, line_join) = (single(width), LineJoin::Round);
-        let stroke = Stroke { width, line_join, dash, ..Stroke::default() };
-        let paint = paint(Tint { color, opacity: 1.0 });
-        self.canvas.stroke_path(path, &paint, &stroke, self.scale, self.mask.as_ref());
     }
 }
 

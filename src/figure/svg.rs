@@ -6,25 +6,26 @@ use tiny_skia_path::{PathSegment, Point};
 
 use super::Figure;
 use super::data::remarks;
-use super::elements::{BLACK, Color, Element, Page, Pen, Setting, Shape, TextLine, Tint};
+use super::elements::{Color, Element, Page, Pen, Shape, TextLine, Tint};
+use super::symbols::Setting;
 use crate::words::printable::xml;
 
 /// Writes a page of a figure. Several pages can stand in one document if the names of their parts differ, which begin with
 /// `name`.
 pub fn svg(page: &Page, figure: &Figure, name: &str) -> String {
     let (width, height) = page.size;
-    let mut writer = Writer { name, clips: 0, out: String::new() };
-    page.elements.iter().for_each(|part| writer.element(part));
+    let mut elements = String::new();
+    add(&mut elements, &page.elements, name);
     format!(
         include_str!("../../assets/figure.svg"),
         // Programs agree on what a millimetre is, but not on what a point is.
-        across = short(width * page.unit * 25.4 / 72.0),
-        down = short(height * page.unit * 25.4 / 72.0),
+        across = short(width * page.unit.in_points() * 25.4 / 72.0),
+        down = short(height * page.unit.in_points() * 25.4 / 72.0),
         width = short(width),
         height = short(height),
         title = xml(&figure.title),
         remarks = xml(&remarks(figure).join("\n")),
-        elements = writer.out,
+        elements = elements,
     )
 }
 
@@ -39,74 +40,48 @@ fn hex([red, green, blue]: Color) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-struct Writer<'a> {
-    out: String,
-    name: &'a str,
-    /// How many parts have a name.
-    clips: usize,
+fn add(out: &mut String, elements: &[Element], name: &str) {
+    for element in elements {
+        match element {
+            Element::Shape(shape) => {
+                let fill = shape.tint.map_or(" fill=\"none\"".into(), filled);
+                let stroke = shape.pen.map_or(String::new(), stroked);
+                *out += &format!("<path d=\"{}\"{fill}{stroke}/>\n", path(shape));
+            }
+            Element::Text(line) => text(out, line),
+            Element::Clipped(corner, size, inside) => {
+                // Nothing else of the name begins at the same place of the document.
+                let name = format!("{name}-{}", out.len());
+                let window = path(&Shape::rectangle(*corner, *size));
+                *out += &format!(
+                    "<clipPath id=\"{name}\"><path d=\"{window}\"/></clipPath>\n\
+                     <g clip-path=\"url(#{name})\">\n"
+                );
+                add(out, inside, &name);
+                *out += "</g>\n";
+            }
+        }
+    }
 }
 
-impl Writer<'_> {
-    fn element(&mut self, element: &Element) {
-        match element {
-            Element::Shape(shape) => self.shape(shape),
-            Element::Text(line) => self.text(line),
-            Element::Clipped((x, y), (width, height), inside) => {
-                let name = format!("{}{}", self.name, self.clips);
-                self.clips += 1;
-                let [x, y, width, height] = [x, y, width, height].map(|length| short(*length));
-                self.out += &format!(
-                    "<clipPath id=\"{name}\"><rect x=\"{x}\" y=\"{y}\" width=\"{width}\" \
-                     height=\"{height}\"/></clipPath>\n<g clip-path=\"url(#{name})\">\n"
-                );
-                inside.iter().for_each(|part| self.element(part));
-                self.out += "</g>\n";
-            }
-            Element::Cells(cells) => {
-                self.out += "<g shape-rendering=\"crispEdges\">\n";
-                cells.iter().for_each(|cell| self.shape(cell));
-                self.out += "</g>\n";
-            }
-        }
-    }
-
-    fn shape(&mut self, shape: &Shape) {
-        let fill = shape.tint.map_or(" fill=\"none\"".into(), filled);
-        let stroke = shape.pen.map_or(String::new(), stroked);
-        self.out += &format!("<path d=\"{}\"{fill}{stroke}/>\n", path(shape));
-    }
-
-    fn text(&mut self, line: &TextLine) {
-        let (x, y, size) = (short(line.at.0), short(line.at.1), short(line.size));
-        let (anchor, letters): (&str, _) = (line.anchor.into(), spans(line));
-        let turned = if line.upward {
-            format!(" transform=\"rotate(-90 {x} {y})\"")
-        } else {
-            String::new()
-        };
-        let fill = if line.color == BLACK {
-            String::new()
-        } else {
-            format!(" fill=\"{}\"", hex(line.color))
-        };
-        // First its edge, so that what understands no order of painting shows the letters too.
-        let edge = line.edge.map(|pen| format!(" fill=\"none\"{}", stroked(pen)));
-        for painted in edge.into_iter().chain([fill]) {
-            self.out += &format!(
-                "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{size}\"{turned}\
-                 {painted}>{letters}</text>\n"
-            );
-        }
+fn text(out: &mut String, line: &TextLine) {
+    let (x, y, size) = (short(line.at.0), short(line.at.1), short(line.size));
+    let (anchor, letters): (&str, _) = (line.anchor.into(), spans(line));
+    let turned = line.upward.then(|| format!(" transform=\"rotate(-90 {x} {y})\""));
+    let turned = turned.unwrap_or_default();
+    // First its edge, so that what understands no order of painting shows the letters too.
+    let edge = line.edge.map(|pen| format!(" fill=\"none\"{}", stroked(pen)));
+    for painted in edge.into_iter().chain([format!(" fill=\"{}\"", hex(line.color))]) {
+        *out += &format!(
+            "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{size}\"{turned}\
+             {painted}>{letters}</text>\n"
+        );
     }
 }
 
 fn filled(Tint { color, opacity }: Tint) -> String {
-    let opacity = if opacity < 1.0 {
-        format!(" fill-opacity=\"{}\"", short(opacity))
-    } else {
-        String::new()
-    };
-    format!(" fill=\"{}\"{opacity}", hex(color))
+    let opacity = (opacity < 1.0).then(|| format!(" fill-opacity=\"{}\"", short(opacity)));
+    format!(" fill=\"{}\"{}", hex(color), opacity.unwrap_or_default())
 }
 
 fn stroked(Pen { width, color, dash }: Pen) -> String {
@@ -134,28 +109,23 @@ fn path(shape: &Shape) -> String {
     out
 }
 
-/// The runs of a text; what is set as its element says stands there as it is.
+/// The runs of a text; one that is set as its element says stands there as it is.
 fn spans(line: &TextLine) -> String {
     let (mut out, mut below) = (String::new(), 0.0);
     for run in &line.runs {
         let ((size, down), text) = (run.setting.of(line.size), xml(&run.text));
-        let moved = if down == below {
-            String::new()
+        let style = if run.setting == Setting::Italic {
+            "italic"
         } else {
-            format!(" dy=\"{}\"", short(down - below))
+            "normal"
         };
+        let (size, dy) = (short(size), short(down - below));
+        let span = format!(
+            "<tspan font-style=\"{style}\" font-size=\"{size}\" dy=\"{dy}\">{text}</tspan>"
+        );
+        let plain = run.setting == Setting::Upright && dy == "0";
+        out += if plain { &text } else { &span };
         below = down;
-        let set = match run.setting {
-            Setting::Upright => String::new(),
-            Setting::Italic => " font-style=\"italic\"".into(),
-            Setting::Subscript | Setting::Superscript => format!(" font-size=\"{}\"", short(size)),
-        };
-        let attributes = set + &moved;
-        out += &if attributes.is_empty() {
-            text
-        } else {
-            format!("<tspan{attributes}>{text}</tspan>")
-        };
     }
     out
 }

@@ -4,7 +4,6 @@
 
 use std::sync::LazyLock;
 
-use super::elements::{Setting, TextRun};
 use crate::numerics::cells;
 use crate::words::printable::signs;
 
@@ -16,6 +15,35 @@ const PRIME: &str = "\u{2032}";
 static SYMBOLS: LazyLock<Vec<[&str; 3]>> =
     LazyLock::new(|| include_str!("../../assets/symbols.txt").lines().filter_map(cells).collect());
 
+/// A part of a text whose letters are set alike.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextRun {
+    pub text: String,
+    pub setting: Setting,
+}
+
+/// How letters are set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    Upright,
+    Italic,
+    Subscript,
+    Superscript,
+}
+
+impl Setting {
+    /// Size of the letters, and how far they stand below the base line, in a text of this size. No letter is smaller
+    /// than 6 where those beside it are not.
+    pub fn of(self, size: f64) -> (f64, f64) {
+        let smaller = (0.72 * size).max(size.min(6.0));
+        match self {
+            Setting::Upright | Setting::Italic => (size, 0.0),
+            Setting::Subscript => (smaller, 0.2 * size),
+            Setting::Superscript => (smaller, -0.36 * size),
+        }
+    }
+}
+
 /// A text as runs of letters that are set alike.
 pub fn runs(text: &str) -> Vec<TextRun> {
     let text = signs(text);
@@ -23,10 +51,12 @@ pub fn runs(text: &str) -> Vec<TextRun> {
     while composer.done < text.len() {
         let (before, rest) = text.split_at(composer.done);
         composer.done += match rest.as_bytes()[0] {
-            b'0'..=b'9' => composer.number(rest),
-            b'a'..=b'z' | b'A'..=b'Z' => composer.word(before, rest),
+            b'e' | b'^' if before.ends_with(is_digit) && whole(&rest[1..]) > 0 => {
+                composer.plain(if rest.starts_with('e') { "\u{b7}10" } else { "" });
+                1 + composer.raised(&rest[1..])
+            }
+            b'a'..=b'z' | b'A'..=b'Z' => composer.word(rest),
             b'-' => composer.plain(if is_minus(before, rest) { MINUS } else { "-" }).min(1),
-            b'^' if whole(&rest[1..]) > 0 => 1 + composer.raised(&rest[1..]),
             _ => composer.plain(&rest[..rest.chars().next().map_or(1, char::len_utf8)]),
         };
     }
@@ -61,26 +91,10 @@ impl Composer {
         length
     }
 
-    /// A number; its exponent is a power of ten.
-    fn number(&mut self, text: &str) -> usize {
-        let length = leading(text, |char| char.is_ascii_digit() || char == '.');
-        let (number, rest) = text.split_at(length);
-        let Some(exponent) = rest.strip_prefix('e').filter(|rest| whole(rest) > 0) else {
-            return self.plain(number);
-        };
-        let factor = if number == "1" {
-            String::new()
-        } else {
-            format!("{number}\u{b7}")
-        };
-        self.plain(&format!("{factor}10"));
-        length + 1 + self.raised(exponent)
-    }
-
-    fn word(&mut self, before: &str, text: &str) -> usize {
+    fn word(&mut self, text: &str) -> usize {
         let length = leading(text, |char| char.is_ascii_alphanumeric() || char == '_');
         let (word, rest) = text.split_at(length);
-        let Some((letter, subscript)) = symbol(before, word) else { return self.plain(word) };
+        let Some((letter, subscript)) = symbol(word) else { return self.plain(word) };
         self.add(letter, Setting::Italic);
         let prime = rest.starts_with('\'');
         if prime {
@@ -93,29 +107,28 @@ impl Composer {
     }
 }
 
-/// The symbol that a word is behind such a text, and its subscript.
-fn symbol(before: &str, word: &str) -> Option<(&'static str, String)> {
-    let measured =
-        before.trim_end().ends_with(|char: char| char.is_ascii_digit() || "[/".contains(char));
-    SYMBOLS.iter().find_map(|[written, letter, when]| {
+/// The symbol that a word is, and its subscript. What stands alone as a word may be a symbol only with one.
+fn symbol(word: &str) -> Option<(&'static str, String)> {
+    SYMBOLS.iter().find_map(|[written, letter, alone]| {
         let subscript = word.strip_prefix(written)?;
-        let applies = match *when {
-            "with a subscript" => !subscript.is_empty(),
-            "not behind a number" => !measured || !subscript.is_empty(),
-            _ => true,
+        let ends = match subscript {
+            "" => *alone == "alone",
+            "c" => true,
+            _ => !subscript.starts_with(char::is_alphabetic),
         };
-        let ends = ["", "c"].contains(&subscript) || !subscript.starts_with(char::is_alphabetic);
-        let subscript = subscript.trim_start_matches('_');
-        (applies && ends).then(|| (*letter, subscript.replace('_', ",")))
+        ends.then(|| (*letter, subscript.trim_start_matches('_').replace('_', ",")))
     })
 }
 
 /// Whether the hyphen that a text begins with is a minus: before a number or a symbol, but not within a word or a date.
 fn is_minus(before: &str, text: &str) -> bool {
-    let is_digit = |char: char| char.is_ascii_digit();
     let begins = before.is_empty() || before.ends_with([' ', '(', '[', '=', ',', '/']);
     let differs = text[1..].starts_with(is_digit) && !before.ends_with(is_digit);
     !text.starts_with("--") && !before.ends_with('-') && (begins || differs)
+}
+
+fn is_digit(char: char) -> bool {
+    char.is_ascii_digit()
 }
 
 /// How many letters at the beginning of a text are such; they are of one byte.
@@ -126,6 +139,6 @@ fn leading(text: &str, is_such: impl Fn(char) -> bool) -> usize {
 /// Length of the whole number, with its sign, at the beginning of a text; 0 if there is none.
 fn whole(text: &str) -> usize {
     let sign = usize::from(text.starts_with(['-', '+']));
-    let digits = leading(&text[sign..], |char| char.is_ascii_digit());
+    let digits = leading(&text[sign..], is_digit);
     if digits == 0 { 0 } else { sign + digits }
 }

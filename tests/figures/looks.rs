@@ -175,8 +175,8 @@ fn the_map_of_a_scan_has_its_cells_and_its_scale_in_every_form() {
     let fills: Vec<u32> = picture
         .descendants()
         .filter(|node| {
-            let cells = |parent: roxmltree::Node| parent.attribute("shape-rendering").is_some();
-            node.parent_element().is_some_and(cells) && !node.has_attribute("fill-opacity")
+            // A cell has a hair of its own colour around it.
+            node.attribute("fill").is_some_and(|fill| node.attribute("stroke") == Some(fill))
         })
         .map(|node| brightness(node.attribute("fill").unwrap()))
         .collect();

@@ -28,6 +28,9 @@ pub const LESSONS: [(&str, &str); 6] = [
 
 /// Saves the session.
 pub fn write(session: &mut Session, path: &str, replace: bool) -> Done {
+    if ends_in(Path::new(path), &FIGURES) {
+        return figure(session, path, None, replace);
+    }
     let content = Content::Text(save::text(session)?);
     session.effect(Effect::Write { path: path.into(), content, replace })
 }
@@ -46,10 +49,18 @@ pub fn ask(session: &mut Session, path: &str, purpose: Purpose) -> Done {
 /// Said where there is no interrupted session.
 const NONE_INTERRUPTED: &str = "no session was interrupted";
 
+/// The endings of figures. What else is written by name is a session.
+const FIGURES: [&str; 5] = ["pdf", "svg", "png", "csv", "json"];
+
+fn ends_in(path: &Path, endings: &[&str]) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    endings.iter().any(|known| known.eq_ignore_ascii_case(ending))
+}
+
 /// Writes a figure of one plot, or of all.
 pub fn figure(session: &mut Session, path: &str, plot: Option<usize>, replace: bool) -> Done {
     let content = ComputedContent::Figure { plot };
-    make(session, path, ("a figure", &["svg", "png", "csv", "json"]), content, replace)
+    make(session, path, ("a figure", &FIGURES), content, replace)
 }
 
 /// Writes what is on show as a page, and beside it how the session came there.
@@ -72,8 +83,7 @@ fn make(
     replace: bool,
 ) -> Done {
     let path = PathBuf::from(path);
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    if !endings.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
+    if !ends_in(&path, endings) {
         let (path, endings) = (path.display().to_string(), endings.join(", ."));
         return Err(format!("{kind} ends in .{endings}, not {path:?}"));
     }

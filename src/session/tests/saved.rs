@@ -120,10 +120,14 @@ fn lines_write_open_and_play_files_without_touching_any() {
     other.give(Msg::Written(stopped.clone()));
     assert_eq!(other.notice(), stopped.text);
     other.press("<esc>");
-    other.press(":figure<space>a.pdf<enter> <esc>");
+    other.press(":figure<space>a.eps<enter> <esc>");
     assert_eq!(other.effects.last(), Some(&Effect::StopWriting), "and no other file");
     other.press("<A-f><enter>");
     assert_eq!(other.effects.last(), Some(&figure("supercritical-2.svg", Some(1), false)));
+    other.give(Msg::Written(stopped.clone()));
+    // A file that ends as a figure is one.
+    other.press(":write<space>b.pdf<enter>");
+    assert_eq!(other.effects.last(), Some(&figure("b.pdf", None, false)));
     other.give(Msg::Written(stopped.clone()));
     other.press("W <A-f> <backspace*3>png<enter>");
     assert_eq!(other.effects.last(), Some(&figure("supercritical-3.png", Some(2), false)));
