@@ -3,7 +3,7 @@
 use tiny_skia_path::{Path, PathBuilder, Transform};
 use ttf_parser::OutlineBuilder;
 
-use super::elements::{TextLine, single};
+use super::elements::{Shape, TextLine, single};
 use super::letters::{FACES, placed};
 
 impl TextLine {
@@ -17,8 +17,13 @@ impl TextLine {
         }
     }
 
-    /// The outlines of its letters on the page.
-    pub fn outline(&self) -> Option<Path> {
+    /// The line around its letters, and the letters.
+    pub fn shapes(&self) -> [Shape; 2] {
+        let letters = Shape { path: self.outline(), pen: None, tint: None };
+        [Shape { pen: self.edge, ..letters.clone() }, letters.solid(self.color)]
+    }
+
+    fn outline(&self) -> Option<Path> {
         let [sx, ky, kx, sy, tx, ty] = self.turned();
         let turned = Transform::from_row(sx, ky, kx, sy, tx, ty);
         let mut outline = PathBuilder::new();

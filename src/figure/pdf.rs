@@ -62,7 +62,9 @@ fn draw(surface: &mut Surface, elements: &[Element], fonts: &[Font; 2]) {
 }
 
 fn outline(surface: &mut Surface, shape: &Shape) {
-    let Some(path) = path(shape) else { return };
+    let Some(path) = path(shape).filter(|_| shape.pen.is_some() || shape.tint.is_some()) else {
+        return;
+    };
     surface.set_fill(shape.tint.map(filled));
     surface.set_stroke(shape.pen.map(stroked));
     surface.draw_path(&path);
@@ -70,9 +72,7 @@ fn outline(surface: &mut Surface, shape: &Shape) {
 
 /// The line around a text is no text, so that whoever searches finds it once.
 fn text(surface: &mut Surface, line: &TextLine, fonts: &[Font; 2]) {
-    if let Some(pen) = line.edge {
-        outline(surface, &Shape { path: line.outline(), pen: Some(pen), tint: None });
-    }
+    outline(surface, &line.shapes()[0]);
     let [sx, ky, kx, sy, tx, ty] = line.turned();
     surface.push_transform(&Transform::from_row(sx, ky, kx, sy, tx, ty));
     surface.set_fill(Some(filled(Tint { color: line.color, opacity: 1.0 })));

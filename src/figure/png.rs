@@ -61,12 +61,8 @@ impl Painter {
             match element {
                 Element::Shape(shape) => self.shape(shape, FillRule::EvenOdd),
                 Element::Text(line) => {
-                    let tint = Some(Tint { color: line.color, opacity: 1.0 });
-                    let letters = Shape { path: line.outline(), pen: None, tint };
-                    self.shape(
-                        &Shape { pen: line.edge, tint: None, ..letters.clone() },
-                        FillRule::Winding,
-                    );
+                    let [edge, letters] = line.shapes();
+                    self.shape(&edge, FillRule::Winding);
                     self.shape(&letters, FillRule::Winding);
                 }
                 Element::Clipped(corner, size, inside) => {

@@ -46,78 +46,59 @@ impl Setting {
 
 /// A text as runs of letters that are set alike.
 pub fn runs(text: &str) -> Vec<TextRun> {
-    let text = signs(text);
-    let mut composer = Composer::default();
-    while composer.done < text.len() {
-        let (before, rest) = text.split_at(composer.done);
-        composer.done += match rest.as_bytes()[0] {
+    let (text, mut runs, mut done) = (signs(text), Vec::new(), 0);
+    while done < text.len() {
+        let (before, rest) = text.split_at(done);
+        done += match rest.as_bytes()[0] {
             b'e' | b'^' if before.ends_with(is_digit) && whole(&rest[1..]) > 0 => {
-                composer.plain(if rest.starts_with('e') { "\u{b7}10" } else { "" });
-                1 + composer.raised(&rest[1..])
+                let power = &rest[1..=whole(&rest[1..])];
+                add(
+                    &mut runs,
+                    Setting::Upright,
+                    if rest.starts_with('e') { "\u{b7}10" } else { "" },
+                );
+                add(&mut runs, Setting::Superscript, &power.replace('-', MINUS));
+                1 + power.len()
             }
-            b'a'..=b'z' | b'A'..=b'Z' => composer.word(rest),
-            b'-' => composer.plain(if is_minus(before, rest) { MINUS } else { "-" }).min(1),
-            _ => composer.plain(&rest[..rest.chars().next().map_or(1, char::len_utf8)]),
+            b'a'..=b'z' | b'A'..=b'Z' => word(&mut runs, rest),
+            b'-' if is_minus(before, rest) => {
+                add(&mut runs, Setting::Upright, MINUS);
+                1
+            }
+            _ => {
+                let length = rest.chars().next().map_or(1, char::len_utf8);
+                add(&mut runs, Setting::Upright, &rest[..length]);
+                length
+            }
         };
     }
-    composer.runs
+    runs
 }
 
-/// Sets a text. Each of its functions sets what a text begins with, and says how long that is.
-#[derive(Default)]
-struct Composer {
-    runs: Vec<TextRun>,
-    /// How much of the text is set.
-    done: usize,
-}
-
-impl Composer {
-    fn add(&mut self, text: &str, setting: Setting) {
-        match self.runs.last_mut().filter(|last| last.setting == setting) {
-            Some(last) => last.text += text,
-            None => self.runs.push(TextRun { text: text.to_owned(), setting }),
-        }
-    }
-
-    fn plain(&mut self, text: &str) -> usize {
-        self.add(text, Setting::Upright);
-        text.len()
-    }
-
-    /// A whole number as a power.
-    fn raised(&mut self, text: &str) -> usize {
-        let length = whole(text);
-        self.add(&text[..length].replace('-', MINUS), Setting::Superscript);
-        length
-    }
-
-    fn word(&mut self, text: &str) -> usize {
-        let length = leading(text, |char| char.is_ascii_alphanumeric() || char == '_');
-        let (word, rest) = text.split_at(length);
-        let Some((letter, subscript)) = symbol(word) else { return self.plain(word) };
-        self.add(letter, Setting::Italic);
-        let prime = rest.starts_with('\'');
-        if prime {
-            self.plain(PRIME);
-        }
-        if !subscript.is_empty() {
-            self.add(&subscript, Setting::Subscript);
-        }
-        length + usize::from(prime)
+fn add(runs: &mut Vec<TextRun>, setting: Setting, text: &str) {
+    match runs.last_mut().filter(|last| last.setting == setting) {
+        Some(last) => last.text += text,
+        None => runs.push(TextRun { text: text.to_owned(), setting }),
     }
 }
 
-/// The symbol that a word is, and its subscript. What stands alone as a word may be a symbol only with one.
-fn symbol(word: &str) -> Option<(&'static str, String)> {
-    SYMBOLS.iter().find_map(|[written, letter, alone]| {
-        let subscript = word.strip_prefix(written)?;
-        let ends = match subscript {
-            "" => *alone == "alone",
-            "c" => true,
-            _ => !subscript.starts_with(char::is_alphabetic),
-        };
-        ends.then(|| (*letter, subscript.trim_start_matches('_').replace('_', ",")))
-    })
+/// Sets the word that a text begins with, and the prime behind it if it is a symbol, and says how long that is.
+fn word(runs: &mut Vec<TextRun>, text: &str) -> usize {
+    let length = leading(text, |char| char.is_ascii_alphanumeric() || char == '_');
+    let (word, rest) = text.split_at(length);
+    let Some([_, letter, subscript]) = SYMBOLS.iter().find(|[written, ..]| *written == word) else {
+        add(runs, Setting::Upright, word);
+        return length;
+    };
+    add(runs, Setting::Italic, letter);
+    let prime = rest.starts_with('\'');
+    if prime {
+        add(runs, Setting::Upright, PRIME);
+    }
+    if *subscript != "-" {
+        add(runs, Setting::Subscript, subscript);
+    }
+    length + usize::from(prime)
 }
 
 /// Whether the hyphen that a text begins with is a minus: before a number or a symbol, but not within a word or a date.

@@ -105,7 +105,7 @@ fn files_say_what_they_show_and_how_they_are_made_again_but_not_when() {
     let document = Document::of(&figure);
     assert_eq!(document.entry("Title"), Some(format!("({})", figure.title).as_str()));
     assert_eq!(document.entry("Keywords"), Some("(hopfscope figure plain --set r=0.1)"));
-    assert!(document.entry("Subject").unwrap().contains("D = -0.1"));
+    assert!(document.plain.contains("D = -0.1, D2 = 0.0"));
     assert!(document.entry("Creator").unwrap().starts_with("(hopfscope 0."));
     for absent in ["Author", "CreationDate", "ModDate"] {
         assert_eq!(document.entry(absent), None);
