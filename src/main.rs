@@ -1,12 +1,10 @@
 //! The program `hopfscope`: parse, run one command, turn an error into an exit code.
 
 use std::process::ExitCode;
-use std::sync::atomic::Ordering;
-
-use hopfscope::runtime::standard::CLOSED;
 
 /// Runs before the runtime of the language, which replaces a closed standard output by /dev/null: an answer would
 /// then be lost with exit code 0.
+#[cfg(unix)]
 #[expect(unsafe_code, reason = "only a pointer in this section is called before the runtime")]
 #[cfg_attr(target_vendor = "apple", unsafe(link_section = "__DATA,__mod_init_func"))]
 #[cfg_attr(not(target_vendor = "apple"), unsafe(link_section = ".init_array"))]
@@ -14,7 +12,7 @@ use hopfscope::runtime::standard::CLOSED;
 static BEFORE_MAIN: extern "C" fn() = {
     extern "C" fn look() {
         let closed = rustix::io::fcntl_getfd(rustix::stdio::stdout()).is_err();
-        CLOSED.store(closed, Ordering::Relaxed);
+        hopfscope::runtime::standard::CLOSED.store(closed, std::sync::atomic::Ordering::Relaxed);
     }
     look
 };

@@ -39,8 +39,6 @@ use std::sync::Arc;
 
 use clap::{ArgMatches, Args, Command};
 use explore::ExploreCommand;
-use signal_hook::consts::SIGXFSZ;
-use signal_hook::flag;
 
 pub use call::{Call, answer, scan};
 pub use machine::CommandCase;
@@ -153,7 +151,8 @@ fn settings_last(mut words: Vec<OsString>) -> Vec<OsString> {
 /// Parses the command line of this process, runs one command and returns its exit code.
 pub fn main() -> u8 {
     // At the limit of its size the write of a file fails; it does not end the program.
-    drop(flag::register(SIGXFSZ, Arc::default()));
+    #[cfg(unix)]
+    drop(signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default()));
     let words = settings_last(words());
     let result = match program().try_get_matches_from(words) {
         Ok(given) => run(&given),

@@ -105,7 +105,7 @@ pub fn sourced(answer: Answer, format: Format) -> String {
 
 /// Number of columns of the terminal to which the output goes; `None` if it goes elsewhere.
 pub fn columns() -> Option<usize> {
-    rustix::termios::tcgetwinsize(rustix::stdio::stdout()).map(|size| size.ws_col.into()).ok()
+    crate::terminal::system::size().map(|size| size.width.into())
 }
 
 /// What the option `--certify` does.

@@ -4,11 +4,10 @@ use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicI32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use clap::{Args, FromArgMatches, ValueEnum};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use signal_hook::iterator::Signals;
+use signal_hook::flag;
 
 use super::conditions::ConditionOptions;
 use super::output::holds_something;
@@ -19,8 +18,9 @@ use super::{Failure, Result, SourceOptions, print, read, signed};
 use crate::flow::Limits;
 use crate::report::scan::ScanPart;
 use crate::report::{Format, arrays};
+use crate::runtime::failure::exit_code;
 use crate::runtime::scanning::rows;
-use crate::runtime::signals::exit_code;
+use crate::runtime::signals::STOPPING;
 use crate::runtime::{ScanFile, bounded, provenance_file, tell};
 use crate::scan::{MEASURES, Measure, PointList, Scan, Sweep};
 use crate::words::joined;
@@ -137,7 +137,8 @@ impl ScanCommand {
             String::new()
         };
         let tally = format!("{} of {left} rows{lost}", left - file.left());
-        let (signal, path) = (stop.load(Ordering::Relaxed), self.output.as_ref());
+        let path = self.output.as_ref();
+        let stopped = u8::try_from(stop.load(Ordering::Relaxed)).unwrap_or(u8::MAX);
         match broken {
             // A closed pipe is not an error: its reader has seen enough.
             Some(error) if path.is_none() && error.kind() == io::ErrorKind::BrokenPipe => {}
@@ -146,11 +147,11 @@ impl ScanCommand {
                 let to = path.unwrap_or_else(|| "standard output".to_owned());
                 return Err(Failure::unanswered(to, format!("{error}; {tally}")));
             }
-            None if signal != 0 && file.left() > 0 => {
+            None if stopped != 0 && file.left() > 0 => {
                 let kept = path.is_some_and(|path| arrays::form_of(path).is_none());
                 let again = if kept { "; --resume continues" } else { "" };
                 tell(format!("stopped: {tally}{again}"));
-                return Err(Failure::Said(exit_code(signal)));
+                return Err(Failure::Said(stopped));
             }
             None if given_up > 0 => tell(format!("note: {tally}; the last column says why")),
             None => {}
@@ -237,19 +238,15 @@ impl ScanCommand {
     }
 }
 
-/// The signal that asked the process to stop, 0 if none has; a second signal ends it at once.
-fn stop_signal() -> Result<Arc<AtomicI32>> {
-    let came = Arc::new(AtomicI32::new(0));
-    let told = Arc::clone(&came);
-    let signals = Signals::new([SIGINT, SIGTERM, SIGHUP]);
-    let mut signals =
-        signals.map_err(|why| Failure::unanswered("cannot listen for signals", why))?;
-    std::thread::spawn(move || {
-        for signal in signals.forever() {
-            if told.swap(signal, Ordering::Relaxed) != 0 {
-                std::process::exit(exit_code(signal).into());
-            }
-        }
-    });
-    Ok(came)
+/// The exit code of the signal that asked the process to stop, 0 if none has; a second signal ends it at once.
+fn stop_signal() -> Result<Arc<AtomicUsize>> {
+    let (code, came) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicBool::new(false)));
+    for signal in STOPPING {
+        let ends = exit_code(signal);
+        flag::register_conditional_shutdown(signal, ends.into(), Arc::clone(&came))
+            .and_then(|_| flag::register(signal, Arc::clone(&came)))
+            .and_then(|_| flag::register_usize(signal, Arc::clone(&code), ends.into()))
+            .map_err(|why| Failure::unanswered("cannot listen for signals", why))?;
+    }
+    Ok(code)
 }

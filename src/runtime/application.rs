@@ -5,7 +5,6 @@ use std::path::Path;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
-use rustix::io::Errno;
 
 use super::Work;
 use crate::scene::Request;
@@ -128,8 +127,9 @@ pub enum LoopEnd {
 impl From<io::Error> for LoopEnd {
     /// If the terminal is gone, writing to it fails before the signal arrives.
     fn from(error: io::Error) -> Self {
-        let is_gone = error.raw_os_error() == Some(Errno::IO.raw_os_error());
-        if is_gone {
+        /// `EIO` of every Unix; of Windows the number of a console that is not admitted any more.
+        const GONE: i32 = 5;
+        if error.raw_os_error() == Some(GONE) {
             LoopEnd::Closed
         } else {
             LoopEnd::Broken(error.to_string())

@@ -2,13 +2,9 @@
 
 use std::fs::OpenOptions;
 use std::io::{self, ErrorKind, IsTerminal, Read};
-use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
 use std::path::Path;
 
-use rustix::fs::OFlags;
-
-use super::Failure;
-use super::new_file::block;
+use super::{Failure, system};
 
 /// Longest file that is read, in bytes.
 const LONGEST: u64 = 64 << 20;
@@ -20,15 +16,13 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 }
 
 fn read(path: &Path) -> io::Result<Vec<u8>> {
-    let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
-    let flags = i32::try_from(flags.bits()).unwrap_or(0);
-    let mut file = OpenOptions::new().read(true).custom_flags(flags).open(path)?;
+    let mut file = system::at_once(OpenOptions::new().read(true)).open(path)?;
     let kind = file.metadata()?;
     if file.is_terminal() {
         return Err(io::Error::other("a terminal, not a file"));
     }
     let mut held = Vec::new();
-    if kind.file_type().is_fifo() {
+    if system::is_pipe(&kind) {
         // A pipe without a writer is at its end; one whose writer is not ready yet would block.
         let mut first = [0; 1 << 12];
         match file.read(&mut first) {
@@ -38,7 +32,7 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
             Err(why) => return Err(why),
         }
     }
-    block(&file)?;
+    system::block(&file)?;
     if kind.len() <= LONGEST {
         (&file).take(LONGEST + 1 - held.len() as u64).read_to_end(&mut held)?;
     }

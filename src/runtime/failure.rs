@@ -88,3 +88,8 @@ impl Failure {
         code
     }
 }
+
+/// The exit code of a program that was ended by a signal.
+pub fn exit_code(signal: i32) -> u8 {
+    u8::try_from(128 + signal).unwrap_or(u8::MAX)
+}

@@ -6,14 +6,9 @@
 //! hangs up (crossterm#793).
 
 use std::io;
-use std::os::fd::AsFd;
 use std::thread;
-use std::time::Duration;
 
 use crossbeam_channel::Sender;
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rustix::io::{Errno, retry_on_intr};
-use termina::Parser;
 use termina::escape::csi::{Csi, Cursor};
 use termina::escape::osc::{ColorOrQuery, DynamicColorNumber, Osc};
 use termina::event::{
@@ -25,12 +20,12 @@ use super::panics::caught;
 use super::{Event, LoopEnd};
 use crate::session::{Code, Gesture, Key, Msg};
 
+#[cfg_attr(windows, path = "windows/keyboard.rs")]
+mod keyboard;
+#[cfg(unix)]
 mod sequences;
 
-use sequences::{Divider, Sequence};
-
-/// Bytes per read.
-const BUFFER: usize = 4096;
+use keyboard::{Keyboard, read};
 
 /// Starts the thread that reads the terminal at standard input until it is gone. Fails if the system provides
 /// no thread.
@@ -43,61 +38,21 @@ pub fn start(events: Sender<Event>) -> io::Result<()> {
 
 /// Sends what is read, and the end of the input however that comes: a program that cannot be quit by a key must
 /// not continue.
-fn listen(terminal: &impl AsFd, events: &Sender<Event>) {
-    let read = caught(|| read(terminal, |event| drop(events.send(event))));
+fn listen(terminal: &impl Keyboard, events: &Sender<Event>) {
+    let send = |parsed| understood(parsed).into_iter().for_each(|it| drop(events.send(it)));
+    let read = caught(|| read(terminal, send));
     drop(events.send(Event::End(read.map_or_else(LoopEnd::Broken, |()| LoopEnd::Closed))));
-}
-
-/// Reads until the input ends.
-fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
-    let mut divider = Divider::default();
-    let mut buffer = [0; BUFFER];
-    let mut send = |sequence: Sequence| event(sequence).into_iter().for_each(&mut send);
-    loop {
-        if divider.patience().is_some_and(|time| !more(terminal, Some(time))) {
-            divider.pause(&mut send);
-        }
-        match rustix::io::read(terminal, &mut buffer) {
-            Ok(0) => return,
-            Ok(count) => divider.take(&buffer[..count], &mut send),
-            // Another process made the terminal non-blocking.
-            Err(Errno::AGAIN) if more(terminal, None) => {}
-            Err(Errno::INTR) => {}
-            Err(_) => return,
-        }
-    }
-}
-
-/// Whether there is something to read within this time; `None` waits forever.
-fn more(terminal: &impl AsFd, time: Option<Duration>) -> bool {
-    let time = time.and_then(|time| Timespec::try_from(time).ok());
-    let mut waiting = [PollFd::new(terminal, PollFlags::IN)];
-    retry_on_intr(|| poll(&mut waiting, time.as_ref())).is_ok_and(|ready| ready > 0)
-}
-
-/// The event for a sequence; none for what is not understood or was not asked for.
-fn event(sequence: Sequence) -> Option<Event> {
-    match sequence {
-        Sequence::Whole(bytes) => {
-            let mut parser = Parser::default();
-            parser.parse(&bytes, false);
-            parser.pop().and_then(understood)
-        }
-        Sequence::Alt(byte) => {
-            let key = Key { alt: true, ..Key::plain(Code::Char(byte.into())) };
-            Some(Event::Session(Msg::Key(key)))
-        }
-        Sequence::Paste(bytes) => {
-            let text = String::from_utf8_lossy(&bytes);
-            let lines = text.replace("\r\n", "\n").replace('\r', "\n");
-            Some(Event::Session(Msg::Paste(lines)))
-        }
-    }
 }
 
 /// The event for a parsed sequence; none for releases of keys and for anything that was not asked for.
 fn understood(parsed: termina::Event) -> Option<Event> {
     match parsed {
+        termina::Event::Paste(text) => {
+            let lines = text.replace("\r\n", "\n").replace('\r', "\n");
+            Some(Event::Session(Msg::Paste(lines)))
+        }
+        // Elsewhere than on Windows a signal tells this.
+        termina::Event::WindowResized(_) => Some(Event::Resized),
         termina::Event::Key(pressed) => key(pressed).map(|key| Event::Session(Msg::Key(key))),
         termina::Event::Mouse(MouseEvent { kind, column, row, .. }) => {
             let gesture = match kind {

@@ -9,12 +9,13 @@ use std::sync::Arc;
 
 use crossbeam_channel::unbounded;
 use ratatui::layout::Size;
-use signal_hook::consts::SIGHUP;
 
-use super::signals::{self, exit_code};
-use super::{Application, Compute, Files, LoopEnd, Options, Pump, Readers, input, panics, tell};
+use super::failure::exit_code;
+use super::{
+    Application, Compute, Files, LoopEnd, Options, Pump, Readers, input, panics, signals, tell,
+};
 use crate::session::Notice;
-use crate::terminal::{Guard, Screen};
+use crate::terminal::{Guard, Screen, system};
 
 /// Runs an application in the terminal at standard input and output; [`crate::terminal::Environment::admit`]
 /// says whether there is one. Returns the exit code: 0 if the user quit, 128 + n after signal n.
@@ -53,7 +54,7 @@ pub fn launch(
     match end {
         LoopEnd::Ended { signal } => Ok(exit_code(signal)),
         // The signal that a process receives when its terminal goes away.
-        LoopEnd::Closed => Ok(exit_code(SIGHUP)),
+        LoopEnd::Closed => Ok(exit_code(signals::SIGHUP)),
         LoopEnd::Broken(why) => Err(io::Error::other(why)),
         _ => Ok(0),
     }
@@ -112,6 +113,5 @@ fn conduct<M: Application>(
 
 /// The size of the terminal at standard output; zero if it reports none.
 fn terminal_size() -> Size {
-    rustix::termios::tcgetwinsize(rustix::stdio::stdout())
-        .map_or(Size::default(), |size| Size { width: size.ws_col, height: size.ws_row })
+    system::size().unwrap_or_default()
 }

@@ -22,8 +22,11 @@ pub mod record;
 pub mod scan_file;
 pub mod scan_part;
 pub mod scanning;
+#[cfg_attr(windows, path = "windows/signals.rs")]
 pub mod signals;
 pub mod standard;
+#[cfg_attr(windows, path = "windows/system.rs")]
+mod system;
 pub mod wav;
 pub mod workers;
 

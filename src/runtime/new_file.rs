@@ -2,12 +2,10 @@
 //! the file is at any moment complete, as it was or as it is to be, also on a full disk.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, ErrorKind, Read, Write};
-use std::os::unix::fs::{FileTypeExt, MetadataExt, OpenOptionsExt, PermissionsExt, fchown};
+use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::Failure;
-use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
+use super::{Failure, system};
 use tempfile::TempPath;
 
 /// Maximum number of symbolic links that are followed one after the other, as in the system.
@@ -55,17 +53,12 @@ impl NewFile {
             // The folder alone does not decide: a file that may not be written is not replaced either.
             OpenOptions::new().write(true).open(&path)?;
         }
-        let mode = if old.is_none() && readers == Readers::Usual {
-            0o666
-        } else {
-            0o600
-        };
-        let (file, beside) = temporary(&path, mode)?;
+        let is_usual = old.is_none() && readers == Readers::Usual;
+        let (file, beside) = temporary(&path, if is_usual { 0o666 } else { 0o600 })?;
         let this = NewFile { path, beside: Some(beside), file };
         if let Some(old) = old {
-            // Only the superuser can give a file away; otherwise it becomes the user's.
-            drop(fchown(&this.file, Some(old.uid()), Some(old.gid())));
-            this.file.set_permissions(PermissionsExt::from_mode(old.mode() & 0o7777))?;
+            system::give(&this.file, &old);
+            this.file.set_permissions(old.permissions())?;
         }
         Ok(this)
     }
@@ -108,12 +101,17 @@ pub fn write(
     written.map_err(|error| Failure::not_replaced(path, &error, keep))
 }
 
+/// Writes into a file that is open, from an offset in bytes on.
+pub(super) fn write_at(mut file: &File, content: &[u8], at: u64) -> io::Result<()> {
+    file.seek(SeekFrom::Start(at))?;
+    file.write_all(content)
+}
+
 /// Opens a device or a pipe for writing, without waiting for a reader of the pipe.
 pub(super) fn device(path: &Path) -> io::Result<File> {
-    let nonblocking = i32::try_from(OFlags::NONBLOCK.bits()).unwrap_or(0);
-    let file = OpenOptions::new().append(true).custom_flags(nonblocking).open(path);
+    let file = system::at_once(OpenOptions::new().append(true)).open(path);
     let file = file.map_err(|why| {
-        let is_pipe = fs::metadata(path).is_ok_and(|file| file.file_type().is_fifo());
+        let is_pipe = fs::metadata(path).is_ok_and(|file| system::is_pipe(&file));
         let unread = || io::Error::new(why.kind(), "nobody reads from this pipe");
         if is_pipe && why.kind() != ErrorKind::PermissionDenied {
             unread()
@@ -121,13 +119,8 @@ pub(super) fn device(path: &Path) -> io::Result<File> {
             why
         }
     })?;
-    block(&file)?;
+    system::block(&file)?;
     Ok(file)
-}
-
-/// Makes a file wait in reads and writes.
-pub(super) fn block(file: &File) -> io::Result<()> {
-    Ok(fcntl_setfl(file, fcntl_getfl(file)? - OFlags::NONBLOCK)?)
 }
 
 /// The path at the end of symbolic links, whether there is a file or not.
@@ -164,8 +157,9 @@ fn temporary(path: &Path, mode: u32) -> io::Result<(File, TempPath)> {
     if path.file_name().is_none() {
         return Err(ErrorKind::IsADirectory.into());
     }
-    let create =
-        |path: &Path| OpenOptions::new().write(true).create_new(true).mode(mode).open(path);
+    let create = |path: &Path| {
+        system::with_mode(OpenOptions::new().write(true).create_new(true), mode).open(path)
+    };
     let mut names = tempfile::Builder::new();
     names.prefix(".hopfscope.").suffix(".new");
     Ok(names.make_in(folder(path), create)?.into_parts())
@@ -190,7 +184,7 @@ fn is_free(path: &Path, beside: &Path) -> io::Result<bool> {
 
 #[cfg(test)]
 mod tests {
-    use std::os::unix::fs::symlink;
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 
     use super::*;
 

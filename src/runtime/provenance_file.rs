@@ -6,9 +6,9 @@
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io;
-use std::os::unix::fs::{FileExt, MetadataExt};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::time::UNIX_EPOCH;
 
 use sha2::{Digest, Sha256};
 use time::OffsetDateTime;
@@ -79,7 +79,7 @@ impl RunningChecksum {
     /// Counts a row that has been written. Fails if its checksum cannot be.
     pub fn count(&mut self, row: &[u8]) -> io::Result<()> {
         self.checksum = self.checksum.and(row);
-        self.file.write_all_at(String::from(self.checksum).as_bytes(), self.at)
+        new_file::write_at(&self.file, String::from(self.checksum).as_bytes(), self.at)
     }
 }
 
@@ -101,9 +101,10 @@ pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
 /// The file that held these bytes when it was read.
 pub fn source(path: &Path, bytes: &[u8]) -> SourceFile {
     let regular = fs::metadata(path).ok().filter(fs::Metadata::is_file);
+    let changed = regular.and_then(|file| file.modified().ok()?.duration_since(UNIX_EPOCH).ok());
     SourceFile {
         name: path.display().to_string(),
-        changed: regular.map(|file| date(file.mtime())),
+        changed: changed.map(|since| date(since.as_secs().cast_signed())),
         sha256: sha256(bytes),
     }
 }

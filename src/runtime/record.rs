@@ -2,7 +2,6 @@
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
-use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
 use super::effects::at_home;
@@ -63,7 +62,7 @@ impl RecordingFile {
         }
         let text = recorder.text();
         let same = text.bytes().zip(self.text.bytes()).take_while(|(new, old)| new == old).count();
-        let written = self.file.write_all_at(&text.as_bytes()[same..], same as u64);
+        let written = new_file::write_at(&self.file, &text.as_bytes()[same..], same as u64);
         let written = written.and_then(|()| self.file.set_len(text.len() as u64));
         self.text = text;
         written.map_err(|why| format!("no longer recorded: {}: {why}", self.path.display()))

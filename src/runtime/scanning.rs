@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::unbounded;
 use rayon::ThreadPoolBuilder;
 
-use super::Tell;
 use super::panics::caught;
+use super::{Tell, system};
 use crate::flow::{Limits, Reason, Result};
 use crate::question::Rows;
 use crate::scan::{Scan, ScanRow};
@@ -40,10 +40,7 @@ pub fn rows(
     let pool = ThreadPoolBuilder::new()
         .num_threads(jobs)
         .thread_name(|index| format!("scan {index}"))
-        // If that fails, the rows are the same, but other programs are slowed down more.
-        .start_handler(move |_| {
-            let _ = rustix::process::nice(niceness);
-        })
+        .start_handler(move |_| system::give_way(niceness))
         .build()
         .map_err(io::Error::other)?;
     let stopped = AtomicBool::new(false);

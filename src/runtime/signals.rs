@@ -10,10 +10,12 @@ use std::time::Duration;
 
 use crossbeam_channel::Sender;
 use rustix::process::{Signal, getpgrp, getsid, kill_current_process_group};
-use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
+pub use signal_hook::consts::SIGHUP;
+use signal_hook::consts::{SIGCONT, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
 
+use super::failure::exit_code;
 use super::{Event, LoopEnd};
 use crate::terminal::Guard;
 
@@ -22,6 +24,9 @@ const GRACE: Duration = Duration::from_secs(2);
 
 /// Signals that end the program.
 const ENDING: [i32; 4] = [SIGTERM, SIGHUP, SIGINT, SIGQUIT];
+
+/// Signals after which a scan ends in order.
+pub const STOPPING: [i32; 3] = [SIGINT, SIGTERM, SIGHUP];
 
 /// Starts the thread that waits for signals. Fails if the system provides no thread, or refuses a handler.
 pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
@@ -54,11 +59,6 @@ pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
 fn end_at_once(guard: &Guard, signal: i32) -> ! {
     guard.leave_at_once();
     std::process::exit(exit_code(signal).into());
-}
-
-/// The exit code of a program that was ended by a signal.
-pub fn exit_code(signal: i32) -> u8 {
-    u8::try_from(128 + signal).unwrap_or(u8::MAX)
 }
 
 /// Whether a shell with job control can continue the process after a stop.

@@ -1,11 +1,10 @@
 //! Standard output and standard error.
 
 use std::fmt::Display;
-use std::fs::File;
 use std::io::{self, Write};
-use std::os::fd::AsFd;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::terminal::system;
 use crate::words::printable;
 
 /// Whether standard output was closed when the process began. The runtime of the language has put /dev/null in
@@ -20,9 +19,7 @@ pub fn print(text: &str) -> io::Result<()> {
     if CLOSED.load(Ordering::Relaxed) {
         return Err(io::Error::other("it is closed"));
     }
-    // Not by `io::Stdout`, which takes one that is not open for writing for success.
-    File::from(io::stdout().as_fd().try_clone_to_owned()?)
-        .write_all(printable::lines(text).as_bytes())
+    system::print(printable::lines(text).as_bytes())
 }
 
 /// Tells the user a line, in printable characters. If that fails, nobody can be told: the exit code has to say it.

@@ -6,13 +6,10 @@
 
 use std::fs::File;
 use std::io::{self, Write};
-use std::os::fd::AsFd;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
-
 use super::screen::{END, PLAIN};
+use super::system::{self, RawMode};
 
 /// The sequences that turn a mode on and off.
 pub struct ScreenMode {
@@ -49,7 +46,7 @@ fn leaving(mouse: bool) -> String {
 /// Whether the terminal is taken, and whether mouse reports are wanted.
 #[derive(Default)]
 struct GuardState {
-    taken: bool,
+    taken: Option<RawMode>,
     mouse: bool,
 }
 
@@ -64,19 +61,17 @@ pub struct Guard {
 impl Guard {
     /// A guard for the terminal at standard output, not yet taken. Fails if standard output is closed.
     pub fn new() -> io::Result<Guard> {
-        let out = File::from(io::stdout().as_fd().try_clone_to_owned()?);
-        Ok(Guard { state: Arc::default(), out: Arc::new(out) })
+        Ok(Guard { state: Arc::default(), out: Arc::new(system::output()?) })
     }
 
     /// Takes the terminal: raw mode, then [`MODES`]. Does nothing if it is taken already. Fails if the terminal
     /// cannot be switched to raw mode or written to; the terminal is then as before.
     pub fn enter(&self) -> io::Result<()> {
         let mut state = self.state();
-        if state.taken {
+        if state.taken.is_some() {
             return Ok(());
         }
-        enable_raw_mode()?;
-        state.taken = true;
+        state.taken = Some(system::raw_mode()?);
         let written = self.write(&entering(state.mouse));
         drop(state);
         written.inspect_err(|_| self.leave())
@@ -86,7 +81,7 @@ impl Guard {
     /// terminal cannot be written to.
     pub fn mouse(&self, on: bool) -> io::Result<()> {
         let mut state = self.state();
-        if state.taken && state.mouse != on {
+        if state.taken.is_some() && state.mouse != on {
             self.write(if on { MOUSE.on } else { MOUSE.off })?;
         }
         state.mouse = on;
@@ -107,9 +102,7 @@ impl Guard {
     /// its modes, but raw mode ends.
     pub fn leave_at_once(&self) {
         self.restore(|sequence| {
-            let mut ready = [PollFd::new(&*self.out, PollFlags::OUT)];
-            let at_once = Timespec { tv_sec: 0, tv_nsec: 0 };
-            if poll(&mut ready, Some(&at_once)).is_ok_and(|ready| ready > 0) {
+            if system::is_ready(&self.out) {
                 drop(self.write(sequence));
             }
         });
@@ -117,9 +110,9 @@ impl Guard {
 
     fn restore(&self, write: impl FnOnce(&str)) {
         let mut state = self.state();
-        if std::mem::take(&mut state.taken) {
+        if let Some(raw) = state.taken.take() {
             write(&leaving(state.mouse));
-            drop(disable_raw_mode());
+            drop(raw);
         }
     }
 

@@ -5,7 +5,8 @@
 //! - [`screen`]: converts changed cells to bytes, each frame in one write; with `strokes`, the cheapest order
 //!   and cursor moves, and [`pen`], the shortest change of colours;
 //! - [`cast`]: frames as a file that plays;
-//! - [`pacing`]: when the next frame may be sent.
+//! - [`pacing`]: when the next frame may be sent;
+//! - [`system`]: what each system does with a terminal.
 
 pub mod capabilities;
 pub mod cast;
@@ -14,6 +15,8 @@ pub mod pacing;
 pub mod pen;
 pub mod screen;
 mod strokes;
+#[cfg_attr(windows, path = "windows/system.rs")]
+pub mod system;
 
 pub use capabilities::Environment;
 pub use cast::Cast;

@@ -2,10 +2,13 @@
 
 use std::io::Write;
 use std::os::unix::net::UnixStream;
+use std::time::Duration;
 
 use crossbeam_channel::{Receiver, unbounded};
 use proptest::prelude::*;
 
+use super::keyboard::parsed;
+use super::sequences::Divider;
 use super::*;
 
 /// A terminal into which the tests type, and the events that arrive.
@@ -190,7 +193,8 @@ fn with_pauses(pieces: &[&[u8]]) -> Vec<String> {
     let mut divider = Divider::default();
     let mut heard = Vec::new();
     for piece in pieces {
-        let mut send = |sequence| heard.extend(event(sequence).iter().map(name));
+        let mut send =
+            |sequence| heard.extend(parsed(sequence).and_then(understood).iter().map(name));
         divider.take(piece, &mut send);
         divider.pause(&mut send);
     }
