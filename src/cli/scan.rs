@@ -137,8 +137,7 @@ impl ScanCommand {
             String::new()
         };
         let tally = format!("{} of {left} rows{lost}", left - file.left());
-        let path = self.output.as_ref();
-        let stopped = u8::try_from(stop.load(Ordering::Relaxed)).unwrap_or(u8::MAX);
+        let (stopped, path) = (stop.load(Ordering::Relaxed), self.output.as_ref());
         match broken {
             // A closed pipe is not an error: its reader has seen enough.
             Some(error) if path.is_none() && error.kind() == io::ErrorKind::BrokenPipe => {}
@@ -151,7 +150,7 @@ impl ScanCommand {
                 let kept = path.is_some_and(|path| arrays::form_of(path).is_none());
                 let again = if kept { "; --resume continues" } else { "" };
                 tell(format!("stopped: {tally}{again}"));
-                return Err(Failure::Said(stopped));
+                return Err(Failure::Said(u8::try_from(stopped).unwrap_or(u8::MAX)));
             }
             None if given_up > 0 => tell(format!("note: {tally}; the last column says why")),
             None => {}

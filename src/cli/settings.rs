@@ -92,7 +92,8 @@ const INTERRUPTED: &str = "interrupted-";
 fn base(name: &str, below_home: &str) -> Option<PathBuf> {
     let set = |name| std::env::var_os(name).filter(|it| !it.is_empty()).map(PathBuf::from);
     let named = set(name).filter(|path| path.is_absolute());
-    named.or_else(|| Some(set("HOME")?.join(below_home)))
+    let home = || set("HOME").or_else(|| set("USERPROFILE"));
+    named.or_else(|| Some(home()?.join(below_home)))
 }
 
 /// The user's own settings file, whether it exists or not; `None` if there is no directory for it.

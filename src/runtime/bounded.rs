@@ -1,7 +1,6 @@
 //! Files that are read up to a maximum length, because a device or a pipe could be endless.
 
-use std::fs::OpenOptions;
-use std::io::{self, ErrorKind, IsTerminal, Read};
+use std::io::{self, IsTerminal, Read};
 use std::path::Path;
 
 use super::{Failure, system};
@@ -16,23 +15,11 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 }
 
 fn read(path: &Path) -> io::Result<Vec<u8>> {
-    let mut file = system::at_once(OpenOptions::new().read(true)).open(path)?;
+    let (file, mut held) = system::open(path)?;
     let kind = file.metadata()?;
     if file.is_terminal() {
         return Err(io::Error::other("a terminal, not a file"));
     }
-    let mut held = Vec::new();
-    if system::is_pipe(&kind) {
-        // A pipe without a writer is at its end; one whose writer is not ready yet would block.
-        let mut first = [0; 1 << 12];
-        match file.read(&mut first) {
-            Ok(0) => return Err(io::Error::other("nothing is written to this pipe")),
-            Ok(length) => held.extend_from_slice(&first[..length]),
-            Err(why) if why.kind() == ErrorKind::WouldBlock => {}
-            Err(why) => return Err(why),
-        }
-    }
-    system::block(&file)?;
     if kind.len() <= LONGEST {
         (&file).take(LONGEST + 1 - held.len() as u64).read_to_end(&mut held)?;
     }

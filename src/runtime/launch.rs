@@ -8,7 +8,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crossbeam_channel::unbounded;
-use ratatui::layout::Size;
 
 use super::failure::exit_code;
 use super::{
@@ -16,6 +15,9 @@ use super::{
 };
 use crate::session::Notice;
 use crate::terminal::{Guard, Screen, system};
+
+/// The signal that a process receives when its terminal goes away, by its number on every system that has it.
+const SIGHUP: i32 = 1;
 
 /// Runs an application in the terminal at standard input and output; [`crate::terminal::Environment::admit`]
 /// says whether there is one. Returns the exit code: 0 if the user quit, 128 + n after signal n.
@@ -30,12 +32,14 @@ pub fn launch(
     let guard = Guard::new()?;
     panics::install(guard.clone(), std::thread::current().id());
     let (send, events) = unbounded();
+    #[cfg(unix)]
     signals::start(send.clone(), guard.clone())?;
     guard.mouse(options.mouse)?;
     guard.enter()?;
     input::start(send.clone())?;
-    let screen = Screen::new(Arc::clone(&guard.out), terminal_size());
-    let mut pump = Pump::new(application, screen, answer, (send, events), options, terminal_size);
+    let size = || system::size().unwrap_or_default();
+    let screen = Screen::new(Arc::clone(&guard.out), size());
+    let mut pump = Pump::new(application, screen, answer, (send, events), options, size);
     pump.repaint()?;
     // A panic has already been reported and the terminal given back; the panic still ends the program.
     let conducted = catch_unwind(AssertUnwindSafe(|| conduct(&mut pump, &guard)));
@@ -53,8 +57,7 @@ pub fn launch(
     }
     match end {
         LoopEnd::Ended { signal } => Ok(exit_code(signal)),
-        // The signal that a process receives when its terminal goes away.
-        LoopEnd::Closed => Ok(exit_code(signals::SIGHUP)),
+        LoopEnd::Closed => Ok(exit_code(SIGHUP)),
         LoopEnd::Broken(why) => Err(io::Error::other(why)),
         _ => Ok(0),
     }
@@ -86,6 +89,7 @@ fn conduct<M: Application>(
                 let text = "not stopped: there is no shell that could make it go on".to_owned();
                 pump.tell(Notice { error: true, text })?;
             }
+            #[cfg(unix)]
             end @ (LoopEnd::Suspend | LoopEnd::Suspended) => {
                 pump.hold();
                 pump.await_terminal();
@@ -109,9 +113,4 @@ fn conduct<M: Application>(
             end => return Err(end),
         }
     }
-}
-
-/// The size of the terminal at standard output; zero if it reports none.
-fn terminal_size() -> Size {
-    system::size().unwrap_or_default()
 }

@@ -47,7 +47,7 @@ impl NewFile {
             Err(why) => return Err(why),
         };
         if !is_regular(&path) {
-            return Ok(NewFile { file: device(&path)?, path, beside: None });
+            return Ok(NewFile { file: system::device(&path)?, path, beside: None });
         }
         if old.is_some() {
             // The folder alone does not decide: a file that may not be written is not replaced either.
@@ -105,22 +105,6 @@ pub fn write(
 pub(super) fn write_at(mut file: &File, content: &[u8], at: u64) -> io::Result<()> {
     file.seek(SeekFrom::Start(at))?;
     file.write_all(content)
-}
-
-/// Opens a device or a pipe for writing, without waiting for a reader of the pipe.
-pub(super) fn device(path: &Path) -> io::Result<File> {
-    let file = system::at_once(OpenOptions::new().append(true)).open(path);
-    let file = file.map_err(|why| {
-        let is_pipe = fs::metadata(path).is_ok_and(|file| system::is_pipe(&file));
-        let unread = || io::Error::new(why.kind(), "nobody reads from this pipe");
-        if is_pipe && why.kind() != ErrorKind::PermissionDenied {
-            unread()
-        } else {
-            why
-        }
-    })?;
-    system::block(&file)?;
-    Ok(file)
 }
 
 /// The path at the end of symbolic links, whether there is a file or not.

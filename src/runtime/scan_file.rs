@@ -16,7 +16,7 @@ use super::failure::{Failure, Result};
 use super::journal::Journal;
 use super::new_file;
 use super::provenance_file::{self, RunningChecksum};
-use super::{FileRow, NewFile, Readers, RowReader, standard};
+use super::{FileRow, NewFile, Readers, RowReader, standard, system};
 use crate::flow::Limits;
 use crate::report::scan::ScanPart;
 use crate::report::{Format, arrays};
@@ -71,7 +71,7 @@ impl ScanFile {
         let heading = part.heading();
         let unwritten = Failure::unwritten(path);
         if !new_file::is_regular(path) {
-            let mut file = new_file::device(path).map_err(unwritten)?;
+            let mut file = system::device(path).map_err(unwritten)?;
             file.write_all(heading.as_bytes()).map_err(unwritten)?;
             return Ok(ScanFile { file: Some(file), ..ScanFile::standard(part) });
         }

@@ -9,9 +9,9 @@ use std::thread;
 use std::time::Duration;
 
 use crossbeam_channel::Sender;
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::{Signal, getpgrp, getsid, kill_current_process_group};
-pub use signal_hook::consts::SIGHUP;
-use signal_hook::consts::{SIGCONT, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
+use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
 
@@ -57,7 +57,11 @@ pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
 
 /// Ends the program without waiting for anything, not even the terminal.
 fn end_at_once(guard: &Guard, signal: i32) -> ! {
-    guard.leave_at_once();
+    guard.leave_at_once(|out| {
+        let mut ready = [PollFd::new(out, PollFlags::OUT)];
+        let at_once = Timespec { tv_sec: 0, tv_nsec: 0 };
+        poll(&mut ready, Some(&at_once)).is_ok_and(|ready| ready > 0)
+    });
     std::process::exit(exit_code(signal).into());
 }
 

@@ -1,26 +1,54 @@
 //! What the system does with files and priorities. `windows/system.rs` is the same for Windows.
 
-use std::fs::{File, Metadata, OpenOptions};
-use std::io;
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, ErrorKind, Read};
 use std::os::unix::fs::{FileTypeExt, MetadataExt, OpenOptionsExt, fchown};
+use std::path::Path;
 
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
 
-/// Opens a file, a pipe without waiting for its other end, or a device; a terminal does not become that of the
-/// process. [`block`] makes reads and writes wait again.
-pub fn at_once(options: &mut OpenOptions) -> &mut OpenOptions {
+/// Opens a file to read it, and reads the beginning if it is a pipe. Fails if nothing writes to the pipe.
+pub fn open(path: &Path) -> io::Result<(File, Vec<u8>)> {
+    let mut file = at_once(OpenOptions::new().read(true)).open(path)?;
+    let mut held = Vec::new();
+    if file.metadata()?.file_type().is_fifo() {
+        // A pipe without a writer is at its end; one whose writer is not ready yet would block.
+        let mut first = [0; 1 << 12];
+        match file.read(&mut first) {
+            Ok(0) => return Err(io::Error::other("nothing is written to this pipe")),
+            Ok(length) => held.extend_from_slice(&first[..length]),
+            Err(why) if why.kind() == ErrorKind::WouldBlock => {}
+            Err(why) => return Err(why),
+        }
+    }
+    block(&file)?;
+    Ok((file, held))
+}
+
+/// Opens a device or a pipe for writing, without waiting for a reader of the pipe.
+pub fn device(path: &Path) -> io::Result<File> {
+    let file = at_once(OpenOptions::new().append(true)).open(path).map_err(|why| {
+        let is_pipe = fs::metadata(path).is_ok_and(|file| file.file_type().is_fifo());
+        let unread = || io::Error::new(why.kind(), "nobody reads from this pipe");
+        if is_pipe && why.kind() != ErrorKind::PermissionDenied {
+            unread()
+        } else {
+            why
+        }
+    })?;
+    block(&file)?;
+    Ok(file)
+}
+
+/// Opening does not wait for the other end of a pipe, and no terminal becomes that of the process.
+fn at_once(options: &mut OpenOptions) -> &mut OpenOptions {
     let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
     options.custom_flags(i32::try_from(flags.bits()).unwrap_or(0))
 }
 
 /// Makes a file wait in reads and writes.
-pub fn block(file: &File) -> io::Result<()> {
+fn block(file: &File) -> io::Result<()> {
     Ok(fcntl_setfl(file, fcntl_getfl(file)? - OFlags::NONBLOCK)?)
-}
-
-/// Whether it is a pipe with a name.
-pub fn is_pipe(file: &Metadata) -> bool {
-    file.file_type().is_fifo()
 }
 
 /// Gives a file that is created this mode, but for what the user's umask takes away.

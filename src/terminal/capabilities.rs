@@ -10,9 +10,9 @@ use crate::session::{Colors, DisplaySettings, Glyphs, Theme};
 pub struct Environment {
     /// Type of the terminal; empty if unknown.
     term: String,
-    /// The default glyphs: braille where the locale or tmux says UTF-8, else ASCII.
+    /// The default glyphs: braille where the locale, tmux or Windows Terminal says UTF-8, else ASCII.
     ///
-    /// tmux counts because it draws UTF-8 itself, whatever locale a login over SSH left behind. The Linux
+    /// The latter count because they draw UTF-8 themselves, whatever locale a login over SSH left behind. The Linux
     /// console supports UTF-8, but its fonts have no braille: it gets blocks.
     pub glyphs: Glyphs,
     /// The default colours: none where the user or the terminal wants none, else 16.
@@ -48,11 +48,12 @@ impl Environment {
         // The first overrides the others.
         let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(&value);
         let plain = |locale: String| locale.to_ascii_lowercase().replace('-', "");
-        let unicode = locale.is_some_and(|locale| plain(locale).contains("utf8"));
+        let draws = ["TMUX", "WT_SESSION"].into_iter().any(|name| value(name).is_some());
+        let unicode = draws || locale.is_some_and(|locale| plain(locale).contains("utf8"));
         let monochrome = MONOCHROME.iter().any(|name| term.starts_with(name));
         let colourless = monochrome || value("NO_COLOR").is_some();
         Environment {
-            glyphs: match (unicode || value("TMUX").is_some(), term == "linux") {
+            glyphs: match (unicode, term == "linux") {
                 (true, false) => Glyphs::Braille,
                 (true, true) => Glyphs::Block,
                 (false, _) => Glyphs::Ascii,

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::screen::{END, PLAIN};
-use super::system::{self, RawMode};
+use super::system;
 
 /// The sequences that turn a mode on and off.
 pub struct ScreenMode {
@@ -46,7 +46,8 @@ fn leaving(mouse: bool) -> String {
 /// Whether the terminal is taken, and whether mouse reports are wanted.
 #[derive(Default)]
 struct GuardState {
-    taken: Option<RawMode>,
+    /// What ends raw mode; `None` if the terminal is not taken.
+    taken: Option<Box<dyn FnOnce() + Send>>,
     mouse: bool,
 }
 
@@ -71,7 +72,7 @@ impl Guard {
         if state.taken.is_some() {
             return Ok(());
         }
-        state.taken = Some(system::raw_mode()?);
+        state.taken = Some(Box::new(system::raw_mode()?));
         let written = self.write(&entering(state.mouse));
         drop(state);
         written.inspect_err(|_| self.leave())
@@ -100,9 +101,9 @@ impl Guard {
 
     /// Gives the terminal back without ever waiting for it: if the terminal accepts no more output, it keeps
     /// its modes, but raw mode ends.
-    pub fn leave_at_once(&self) {
+    pub fn leave_at_once(&self, accepts: impl FnOnce(&File) -> bool) {
         self.restore(|sequence| {
-            if system::is_ready(&self.out) {
+            if accepts(&self.out) {
                 drop(self.write(sequence));
             }
         });
@@ -110,9 +111,9 @@ impl Guard {
 
     fn restore(&self, write: impl FnOnce(&str)) {
         let mut state = self.state();
-        if let Some(raw) = state.taken.take() {
+        if let Some(end) = state.taken.take() {
             write(&leaving(state.mouse));
-            drop(raw);
+            end();
         }
     }
 

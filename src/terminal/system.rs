@@ -7,20 +7,11 @@ use std::os::fd::AsFd;
 
 use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
 use ratatui::layout::Size;
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
-/// Raw mode, until it is dropped: keys arrive one by one, and nothing is echoed.
-pub struct RawMode;
-
-/// Fails if there is no terminal.
-pub fn raw_mode() -> io::Result<RawMode> {
-    enable_raw_mode().map(|()| RawMode)
-}
-
-impl Drop for RawMode {
-    fn drop(&mut self) {
-        drop(disable_raw_mode());
-    }
+/// Begins raw mode, in which keys arrive one by one and nothing is echoed; what it returns ends that. Fails if there is
+/// no terminal.
+pub fn raw_mode() -> io::Result<impl FnOnce() + Send> {
+    enable_raw_mode().map(|()| || drop(disable_raw_mode()))
 }
 
 /// Standard output as a file. Fails if it is closed.
@@ -31,13 +22,6 @@ pub fn output() -> io::Result<File> {
 /// Writes to standard output. Not by `io::Stdout`, which takes one that is not open for writing for success.
 pub fn print(bytes: &[u8]) -> io::Result<()> {
     output()?.write_all(bytes)
-}
-
-/// Whether a write to it would not wait.
-pub fn is_ready(out: &File) -> bool {
-    let mut ready = [PollFd::new(out, PollFlags::OUT)];
-    let at_once = Timespec { tv_sec: 0, tv_nsec: 0 };
-    poll(&mut ready, Some(&at_once)).is_ok_and(|ready| ready > 0)
 }
 
 /// The size of the terminal at standard output, zero if it reports none; `None` if the output goes elsewhere.

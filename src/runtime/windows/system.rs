@@ -2,17 +2,14 @@
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io;
+use std::path::Path;
 
-pub fn at_once(options: &mut OpenOptions) -> &mut OpenOptions {
-    options
+pub fn open(path: &Path) -> io::Result<(File, Vec<u8>)> {
+    Ok((File::open(path)?, Vec::new()))
 }
 
-pub fn block(_: &File) -> io::Result<()> {
-    Ok(())
-}
-
-pub fn is_pipe(_: &Metadata) -> bool {
-    false
+pub fn device(path: &Path) -> io::Result<File> {
+    OpenOptions::new().append(true).open(path)
 }
 
 pub fn with_mode(options: &mut OpenOptions, _: u32) -> &mut OpenOptions {

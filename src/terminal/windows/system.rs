@@ -7,12 +7,10 @@ use std::os::windows::io::AsHandle;
 use ratatui::layout::Size;
 use termina::{PlatformTerminal, Terminal};
 
-pub type RawMode = PlatformTerminal;
-
-/// Fails if there is no console.
-pub fn raw_mode() -> io::Result<RawMode> {
+/// Begins raw mode, UTF-8 and control sequences; what it returns ends that. Fails if there is no console.
+pub fn raw_mode() -> io::Result<impl FnOnce() + Send> {
     let mut console = PlatformTerminal::new()?;
-    console.enter_raw_mode().map(|()| console)
+    console.enter_raw_mode().map(|()| || drop(console))
 }
 
 /// Standard output as a file. Fails if it is closed.
@@ -23,10 +21,6 @@ pub fn output() -> io::Result<File> {
 /// Writes to standard output, which translates for a console outside raw mode.
 pub fn print(bytes: &[u8]) -> io::Result<()> {
     io::stdout().write_all(bytes)
-}
-
-pub fn is_ready(_: &File) -> bool {
-    true
 }
 
 pub fn size() -> Option<Size> {
