@@ -35,7 +35,7 @@
 //!   `Session::wants() -> Vec<Request>`. What has not changed is not asked again; a hidden layer asks
 //!   nothing. One table of commands feeds keys, footer and help.
 //! - [`words`] has the words for numbers and answers. [`picture`] decides what stands in a plot: curves, marks and
-//!   texts with their roles. [`view`] draws it in cells of the terminal, [`figure`] as SVG, PNG and data;
+//!   texts with their roles. [`view`] draws it in cells of the terminal, [`figure`] as PDF, SVG, PNG and data;
 //!   [`report`] writes answers as tables, CSV, JSON and pages. None of the three knows another.
 //! - [`terminal`], [`runtime`] and [`cli`] have the side effects: the screen, the threads, the files. The
 //!   pump drains messages, gives the workers what the session wants, and draws when something changed;

@@ -4,6 +4,7 @@ use strum::IntoStaticStr;
 use tiny_skia_path::{Path, PathBuilder};
 
 use super::symbols::{TextRun, runs};
+use crate::numerics::truncated;
 
 /// A place on a page, in its unit: to the right and down from the upper left corner. Also a width and a height.
 pub type Spot = (f64, f64);
@@ -87,6 +88,15 @@ pub struct Tint {
 impl Pen {
     pub const fn solid(width: f64, color: Color) -> Self {
         Pen { width, color, dash: &[] }
+    }
+}
+
+impl Tint {
+    /// The same as it looks on white paper, where nothing is seen through it.
+    pub fn on_white(self) -> Self {
+        let mixed = |part: u8| truncated(255.5 - self.opacity * (255.0 - f64::from(part)));
+        let color = self.color.map(|part| u8::try_from(mixed(part)).unwrap_or(u8::MAX));
+        Tint { color, opacity: 1.0 }
     }
 }
 

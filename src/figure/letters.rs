@@ -18,6 +18,7 @@ pub static FACES: LazyLock<[Face<'static>; 2]> =
 
 /// A run in its place.
 #[derive(Clone, Debug)]
+#[cfg_attr(not(feature = "print"), expect(dead_code, reason = "only widths are measured"))]
 pub struct PlacedRun<'a> {
     pub text: &'a str,
     /// Its font: the place in [`FONTS`].

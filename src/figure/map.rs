@@ -44,12 +44,11 @@ fn tint(strength: f64) -> Tint {
     Tint { color, opacity: 1.0 }
 }
 
-/// A cell with a hair of its colour around it: between two smooth edges the paper would show. The colour is that on white,
-/// as one through which one sees would be darker along these hairs.
-fn covered(cell: Shape, Tint { color, opacity }: Tint) -> Shape {
-    let on_white = |part: u8| truncated(255.5 - opacity * (255.0 - f64::from(part)));
-    let color = color.map(|part| u8::try_from(on_white(part)).unwrap_or(u8::MAX));
-    cell.solid(color).drawn(Pen::solid(0.3, color))
+/// A cell with a hair of its colour around it: between two smooth edges the paper would show.
+fn covered(cell: Shape, tint: Tint) -> Shape {
+    // A colour through which one sees would be darker along these hairs.
+    let tint = tint.on_white();
+    cell.filled(tint).drawn(Pen::solid(0.3, tint.color))
 }
 
 /// The borders of cells around these places: in the middle between neighbours, and as far beyond the ends.

@@ -121,7 +121,7 @@ fn panel(session: &Session, plot: usize) -> Panel {
     if session.has_equal_units(plot) {
         picture.window = picture.window.with_equal_units(paper::PLOT.0, paper::PLOT.1);
     }
-    let nothing = session.nothing(plot).filter(|_| !picture.draws());
+    let nothing = session.nothing(plot).filter(|_| picture.map.is_none() && !picture.draws());
     let nothing = nothing.map(|text| session.keymap.fill(&text, Key::said));
     Panel { nothing, ..Panel::of(&picture) }
 }

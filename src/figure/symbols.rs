@@ -105,7 +105,7 @@ fn word(runs: &mut Vec<TextRun>, text: &str) -> usize {
 fn is_minus(before: &str, text: &str) -> bool {
     let begins = before.is_empty() || before.ends_with([' ', '(', '[', '=', ',', '/']);
     let differs = text[1..].starts_with(is_digit) && !before.ends_with(is_digit);
-    !text.starts_with("--") && !before.ends_with('-') && (begins || differs)
+    !text.starts_with("--") && !before.ends_with(['-', '+']) && (begins || differs)
 }
 
 fn is_digit(char: char) -> bool {

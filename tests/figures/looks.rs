@@ -160,6 +160,7 @@ fn the_map_of_a_scan_has_its_cells_and_its_scale_in_every_form() {
         csv.lines().nth(8).unwrap()
     );
 
+    assert_eq!(drawn.panels[0].nothing, None, "a map is something to see");
     let svg = text(&drawn, FigureForm::Svg);
     let picture = Document::parse(&svg).unwrap();
     let texts: Vec<String> = picture.descendants().map(|node| said(&node)).collect();
