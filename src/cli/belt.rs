@@ -93,7 +93,7 @@ impl BeltCommand {
             // The plots of a mass on a belt in the explorer; none of a mode.
             let mut pictures = Vec::new();
             if let Some(scene) = case.scene()? {
-                let (mut session, plots) = completed(scene)?;
+                let (mut session, plots) = completed(scene, &[])?;
                 pictures = panels(&figure(&mut session, &plots, &Limits::PATIENT));
             }
             let provenance = provenance_file::of_process();

@@ -6,15 +6,14 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::output::columns;
-use super::sheet::SheetOptions;
-use super::{Failure, Result, SourceOptions, input, print, write};
-use crate::figure::{FigureForm, file};
+use super::{Failure, Result, SourceOptions, input, print, window, write};
+use crate::figure::{FigureForm, facts, file};
 use crate::flow::Limits;
 use crate::question::Fineness;
 use crate::runtime::print::{complete, figure};
 use crate::runtime::provenance_file;
-use crate::scene::Scene;
 use crate::scene::machine::NO_BELT;
+use crate::scene::{Scene, Sheet};
 use crate::session::{Playback, Session, Size};
 use crate::view::{self, Look, screen};
 use crate::words::joined;
@@ -34,8 +33,11 @@ pub struct FigureCommand {
     #[arg(long, value_enum, default_value_t = FigureForm::Text,
           conflicts_with = "output")]
     format: FigureForm,
+    /// Part to show of all panels or, repeated, of each, in the units of its axes
+    #[arg(long, value_name = "XMIN:XMAX,YMIN:YMAX")]
+    window: Vec<String>,
     #[command(flatten)]
-    sheet: SheetOptions,
+    sheet: Sheet,
 }
 
 /// Size of a panel drawn with characters; a narrower terminal reduces the width.
@@ -47,10 +49,11 @@ const NARROWEST: u16 = 40;
 impl FigureCommand {
     pub fn run(&self) -> Result<()> {
         let mut scene = self.scene()?;
-        self.sheet.apply(Arc::make_mut(&mut scene))?;
-        let mut session = printed(scene);
-        self.sheet.look(&mut session)?;
-        let plots = complete_for_print(&mut session)?;
+        let Scene { sheet, plots, .. } = Arc::make_mut(&mut scene);
+        *sheet = self.sheet.clone().over(std::mem::take(sheet));
+        let drawn = sheet.plots(plots.len())?;
+        *plots = drawn.into_iter().map(|plot| plots[plot]).collect();
+        let (mut session, plots) = completed(scene, &self.window)?;
         let (path, form) = self.output.clone().unzip();
         let form = form.unwrap_or(self.format);
         if form == FigureForm::Text {
@@ -60,7 +63,12 @@ impl FigureCommand {
         let drawn = drawn.from(provenance_file::of_process());
         let content = file(&drawn, form).map_err(Failure::Unanswered)?;
         match path {
-            Some(path) => write(&path, &content, self.force),
+            Some(path) => {
+                if drawn.sheet.caption && form.is_picture() {
+                    write(&path.with_extension("txt"), facts(&drawn).as_bytes(), self.force)?;
+                }
+                write(&path, &content, self.force)
+            }
             None => print(&String::from_utf8_lossy(&content)),
         }
     }
@@ -81,27 +89,17 @@ impl FigureCommand {
     }
 }
 
-/// A session of a scene with everything on show computed for print, and its plots.
-pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>)> {
-    let mut session = printed(scene);
-    let plots = complete_for_print(&mut session)?;
-    Ok((session, plots))
-}
-
-/// A session of a scene, for print.
-fn printed(scene: Arc<Scene>) -> Session {
+/// A session of a scene with everything on show in these windows, or its own, computed for print, and its plots.
+pub fn completed(scene: Arc<Scene>, windows: &[String]) -> Result<(Session, Vec<usize>)> {
     let width = columns().and_then(|width| u16::try_from(width).ok());
     let width = width.unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
     let mut session = Session::new(scene, Size { width, height: PANEL.1 });
     // On paper nothing is played: the whole motion is drawn.
     session.playback = Playback::default();
-    session
-}
-
-/// Computes everything on show; the plots.
-fn complete_for_print(session: &mut Session) -> Result<Vec<usize>> {
-    complete(session, Fineness::PRINT, &Limits::PATIENT)?;
-    Ok((0..session.plots.len()).collect())
+    window::look(&mut session, windows)?;
+    complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
+    let plots = (0..session.plots.len()).collect();
+    Ok((session, plots))
 }
 
 /// Every plot, one above the other.

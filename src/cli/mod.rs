@@ -27,12 +27,12 @@ mod progress;
 mod replay;
 mod scan;
 mod settings;
-mod sheet;
 mod shell;
 mod sound;
 mod source;
 mod study;
 mod times;
+mod window;
 
 use std::ffi::OsString;
 use std::sync::Arc;

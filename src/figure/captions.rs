@@ -2,47 +2,50 @@
 //! curve.
 
 use super::elements::{Anchor, Element, Pen, Spot, TextLine, WHITE};
-use super::letters;
-use super::paper::{Frame, ink};
-use super::symbols::runs;
+use super::paper::{Frame, LINE, NAMES};
 use super::{Outline, Panel};
 use crate::numerics::{hypot, real};
 use crate::picture::{Caption, Dash, along};
 
-/// Size of letters and height of a line, in pixels.
-const LETTERS: f64 = 10.5;
-const LINE: f64 = 12.0;
-
 /// Room between a text and its point.
 const GAP: f64 = 6.0;
+
+/// Harm of covering another text, a mark, a curve, a line that is there to be read against, and its own curve.
+const COVERED: [f64; 5] = [1000.0, 12.0, 30.0, 1.0, 9.0];
 
 /// Curves are examined at this spacing in pixels.
 const SPACING: f64 = 3.0;
 
-/// The box of a text, in pixels; y points down.
+/// The box of a text; y points down.
 #[derive(Clone, Copy, Debug)]
 struct Rectangle {
     left: f64,
     top: f64,
     width: f64,
+    height: f64,
 }
 
 impl Rectangle {
     fn overlaps(&self, other: &Rectangle) -> bool {
-        let beside = self.left > other.left + other.width || other.left > self.left + self.width;
-        !beside && (self.top - other.top).abs() < LINE
+        let gap = 0.5 * GAP;
+        let beside =
+            self.left > other.left + other.width + gap || other.left > self.left + self.width + gap;
+        let apart = self.top >= other.top + other.height || other.top >= self.top + self.height;
+        !beside && !apart
     }
 
     /// How far a spot is from the box; 0 inside.
     fn distance(&self, (x, y): Spot) -> f64 {
         let aside = (self.left - x).max(x - self.left - self.width).max(0.0);
-        hypot(aside, (self.top - y).max(y - self.top - LINE).max(0.0))
+        hypot(aside, (self.top - y).max(y - self.top - self.height).max(0.0))
     }
 }
 
-/// What a text should not cover, on paper.
-struct Surroundings {
+/// What a text should not cover, in pixels of `plain` whatever the paper.
+pub struct Surroundings {
     frame: Frame,
+    /// What a pixel of `plain` is on paper.
+    scale: f64,
     curves: Vec<Vec<Spot>>,
     /// Lines to be read against.
     guides: Vec<Vec<Spot>>,
@@ -67,7 +70,8 @@ fn apart(one: Spot, other: Spot) -> f64 {
 }
 
 impl Surroundings {
-    fn of(panel: &Panel, frame: Frame) -> Self {
+    pub fn of(panel: &Panel, frame: Frame) -> Self {
+        let (scale, frame) = (frame.paper.scale, frame.in_pixels());
         // A bar may run through its own name. Asymptotes and the line of the present value are there to be read
         // against.
         let thin = panel.curves.iter().filter(|curve| curve.style != Some(Dash::Thick));
@@ -77,6 +81,7 @@ impl Surroundings {
         let guides = panel.guides.iter().map(|guide| followed(guide, frame));
         Surroundings {
             frame,
+            scale,
             taken: Vec::new(),
             curves: curves.into_iter().map(spots).collect(),
             guides: guides.chain(sparse.into_iter().map(spots)).collect(),
@@ -84,27 +89,51 @@ impl Surroundings {
         }
     }
 
+    /// The upper left corner of a place on paper where something of this size covers no curve and no mark, if there is one;
+    /// it is taken then.
+    pub fn room(&mut self, (width, height): Spot) -> Option<Spot> {
+        /// Places along each side.
+        const PLACES: u32 = 12;
+        let Frame { left, top, paper, .. } = self.frame;
+        let (width, height) = (width / self.scale, height / self.scale);
+        let free = (paper.plot.0 - width - 2.0 * GAP, paper.plot.1 - height - 2.0 * GAP);
+        let mut places = (0..PLACES * PLACES).map(|number| {
+            let [across, down] = [number % PLACES, number / PLACES]
+                .map(|place| f64::from(place) / f64::from(PLACES - 1));
+            let (left, top) = (left + GAP + across * free.0, top + GAP + down * free.1);
+            Rectangle { left, top, width, height }
+        });
+        let is_free = |place: &Rectangle| {
+            let mut spots = self.curves.iter().chain([&self.marks]).flatten();
+            spots.all(|spot| place.distance(*spot) >= 0.5 * GAP)
+        };
+        let found = places.find(is_free).filter(|_| free.0 >= 0.0 && free.1 >= 0.0)?;
+        self.taken.push(found);
+        Some((self.scale * found.left, self.scale * found.top))
+    }
+
     /// How bad a place is for a text that belongs to a spot; 0 is perfect.
     fn harm(&self, place: &Rectangle, spot: Spot) -> f64 {
-        /// Harm of covering another text, a mark, a curve, a line that is there to be read against.
-        const COVERED: [f64; 4] = [1000.0, 12.0, 30.0, 1.0];
         /// Harm of standing nearer to another curve than to its own, within this many pixels.
-        const MISTAKEN: (f64, f64) = (8.0, 16.0);
+        const MISTAKEN: (f64, f64) = (24.0, 40.0);
         let nearest = |spots: &[Spot]| {
             spots.iter().map(|spot| place.distance(*spot)).fold(f64::INFINITY, f64::min)
         };
-        let lines = |of: &[Vec<Spot>]| of.iter().filter(|spots| nearest(spots) < 1.0).count();
+        // Its own curves pass through the spot, and it may stand on them.
+        let touches = |other: &Spot| apart(*other, spot) < 2.0 * SPACING;
+        let own = place.distance(spot);
+        let (covers, upon) = (|spots: &&Vec<Spot>| nearest(spots) < 1.0, own == 0.0);
+        let (under, lines): (Vec<_>, Vec<_>) =
+            self.curves.iter().filter(covers).partition(|spots| upon && spots.iter().any(touches));
         let covered = [
             self.taken.iter().filter(|other| place.overlaps(other)).count(),
             self.marks.iter().filter(|mark| place.distance(**mark) < 3.0).count(),
-            lines(&self.curves),
-            lines(&self.guides),
+            lines.len(),
+            self.guides.iter().filter(covers).count(),
+            under.len(),
         ];
         let covered: f64 =
             covered.into_iter().zip(COVERED).map(|(count, harm)| real(count) * harm).sum();
-        // Its own curves pass through the spot.
-        let touches = |other: &Spot| apart(*other, spot) < 2.0 * SPACING;
-        let own = place.distance(spot);
         let others = self.curves.iter().filter(|spots| !spots.iter().any(touches));
         let mistaken = others.map(|spots| nearest(spots)).any(|it| it < own.min(MISTAKEN.1));
         covered + if mistaken { MISTAKEN.0 } else { 0.0 }
@@ -117,7 +146,7 @@ impl Surroundings {
         /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
         /// it, what names a point stands there.
         const FAR: (f64, f64) = (0.3, 1.0);
-        let width = letters::width(&runs(text), LETTERS);
+        let width = self.frame.paper.width(text, NAMES);
         let inside = |Rectangle { left, top, .. }: &Rectangle| {
             let corners = [(*left, *top), (left + width, top + LINE)];
             corners.into_iter().all(|corner| self.frame.holds(corner, 2.0))
@@ -126,7 +155,14 @@ impl Surroundings {
         let mut best: Option<(f64, &str, Rectangle)> = None;
         let spots = std::iter::once(&caption.at).chain(&caption.or_at);
         for (later, spot) in spots.map(|at| self.frame.spot(*at)).enumerate() {
-            let places = around(spot, width).enumerate();
+            let upon = Rectangle {
+                left: spot.0 - 0.5 * width,
+                top: spot.1 - 0.5 * LINE,
+                width,
+                height: LINE,
+            };
+            let upon = Some(upon).filter(|_| !caption.or_at.is_empty());
+            let places = around(spot, width).chain(upon).enumerate();
             for (farther, place) in places.filter(|(_, place)| inside(place)) {
                 let harm = LESS_GOOD.0 * real(later) + LESS_GOOD.1 * real(farther);
                 let is_least = |harm| best.is_none_or(|(least, ..)| harm < least);
@@ -152,7 +188,12 @@ fn around((x, y): Spot, width: f64) -> impl Iterator<Item = Rectangle> {
         let over = row.abs() > 1.0;
         let beside = [x + GAP, x - GAP - width];
         let middle = over.then_some(x - 0.5 * width);
-        beside.into_iter().chain(middle).map(move |left| Rectangle { left, top, width })
+        beside.into_iter().chain(middle).map(move |left| Rectangle {
+            left,
+            top,
+            width,
+            height: LINE,
+        })
     })
 }
 
@@ -161,24 +202,24 @@ type Placed<'a> = (&'a Caption, &'a str, Rectangle);
 
 /// The places of all texts of a panel, those that need none left out. What would cover a curve is written
 /// in its short form, where that covers less.
-fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
+fn places<'a>(panel: &'a Panel, surroundings: &mut Surroundings) -> Vec<Placed<'a>> {
     /// Harm from which on the short form is tried: that of a covered curve.
     const MUCH: f64 = 30.0;
-    let mut surroundings = Surroundings::of(panel, frame);
     let mut placed: Vec<Placed<'a>> = Vec::new();
     // What names a point has few places to go to and comes first.
     let (points, curves): (Vec<_>, Vec<_>) =
         panel.captions.iter().partition(|caption| caption.or_at.is_empty());
     for caption in points.into_iter().chain(curves) {
         let said = |other: &&Placed| (other.0.at, &other.0.long) == (caption.at, &caption.long);
-        if !frame.window.contains(caption.at) || placed.iter().find(said).is_some() {
+        if !surroundings.frame.window.contains(caption.at) || placed.iter().find(said).is_some() {
             continue;
         }
         let find = |text: &'a str| surroundings.best(caption, text);
         let long = find(&caption.long);
         let short = long.filter(|(harm, ..)| *harm >= MUCH).and_then(|_| find(&caption.short));
         let found = [long, short].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((_, text, place)) = found {
+        // A text on another one says nothing.
+        if let Some((_, text, place)) = found.filter(|(harm, ..)| *harm < COVERED[0]) {
             surroundings.taken.push(place);
             placed.push((caption, text, place));
         }
@@ -186,12 +227,13 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
     placed
 }
 
-pub fn write(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
-    for (Caption { role, .. }, text, Rectangle { left, top, .. }) in places(panel, frame) {
-        let at = (left, top + LINE - 2.5);
-        let line = TextLine::new(at, Anchor::Start, LETTERS, text);
-        out.push(
-            TextLine { color: ink(*role).1, edge: Some(Pen::solid(2.5, WHITE)), ..line }.into(),
-        );
+/// Writes the texts of a panel, where its surroundings have room.
+pub fn write(out: &mut Vec<Element>, panel: &Panel, frame: Frame, mut surroundings: Surroundings) {
+    let scale = frame.paper.scale;
+    for (Caption { role, .. }, text, place) in places(panel, &mut surroundings) {
+        let at = (scale * place.left, scale * (place.top + LINE - 2.5));
+        let line = TextLine::new(at, Anchor::Start, scale * NAMES, text);
+        let edge = Some(Pen::solid(3.0 * scale, WHITE));
+        out.push(TextLine { color: frame.paper.color(*role), edge, ..line }.into());
     }
 }

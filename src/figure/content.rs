@@ -109,6 +109,9 @@ pub struct Outline {
     /// What it is, whichever variant it belongs to.
     #[serde(skip)]
     pub kind: String,
+    /// Whether its name stands beside it, or anybody recognizes it.
+    #[serde(skip)]
+    pub captioned: bool,
 }
 
 /// Areas in a document, which have an edge in place of points.
@@ -238,6 +241,7 @@ fn outline(picture: &Picture, line: &LineStyle, style: Option<Dash>, points: &[P
         parameters: held(picture, line),
         points: pairs(points),
         kind: line.name.to_string(),
+        captioned: line.brief.as_deref() == Some(""),
     }
 }
 

@@ -62,8 +62,20 @@ fn rows<'a>(panel: u32, shown: &'a Panel) -> Vec<PointRow<'a>> {
     rows
 }
 
-/// What a figure was computed with, a line each.
+/// What a figure was computed with, and what its panels show, a line each.
 pub fn remarks(figure: &Figure) -> Vec<String> {
+    let mut remarks = computed(figure);
+    remarks.extend(figure.panels.iter().enumerate().map(|(number, panel)| said(number, panel)));
+    remarks.iter().map(|remark| printable::line(remark).into_owned()).collect()
+}
+
+/// What the panel with this number, from 0, shows.
+pub fn said(number: usize, Panel { title, x, y, .. }: &Panel) -> String {
+    format!("panel {}: {title}, {} over {}", number + 1, y.name, x.name)
+}
+
+/// What a figure was computed with, a line each.
+pub fn computed(figure: &Figure) -> Vec<String> {
     let p = &figure.parameters;
     let start = &figure.initial;
     let mut remarks = vec![
@@ -76,9 +88,5 @@ pub fn remarks(figure: &Figure) -> Vec<String> {
     if let Some(provenance) = &figure.provenance {
         remarks.push(format!("{}: {}", provenance.build(), provenance.command));
     }
-    for (number, panel) in (1..).zip(&figure.panels) {
-        let Panel { title, x, y, .. } = panel;
-        remarks.push(format!("panel {number}: {title}, {} over {}", y.name, x.name));
-    }
-    remarks.iter().map(|remark| printable::line(remark).into_owned()).collect()
+    remarks
 }

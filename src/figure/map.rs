@@ -1,7 +1,7 @@
 //! A map and its scale on paper: cells of one hue, the stronger the more dangerous.
 
 use super::elements::{Anchor, Element, Pen, Shape, Spot, TextLine, Tint};
-use super::paper::{Frame, PLOT, shading};
+use super::paper::{Frame, Paper};
 use crate::numerics::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
 use crate::scene::Point;
@@ -13,8 +13,9 @@ pub const SCALE: f64 = 54.0;
 /// Steps of the scale.
 const STEPS: usize = 32;
 
-/// Red, green and blue of the weakest and of the strongest step.
+/// Red, green and blue of the weakest and of the strongest step, in colour and in shades of grey.
 const ENDS: [[f64; 3]; 2] = [[253.0, 246.0, 233.0], [122.0, 59.0, 0.0]];
+const GREYS: [[f64; 3]; 2] = [[247.0; 3], [64.0; 3]];
 
 /// What a word on a map stands for, as far as its colour goes.
 pub fn role(word: &str) -> Role {
@@ -27,18 +28,18 @@ pub fn role(word: &str) -> Role {
 }
 
 /// How a cell is filled; nothing where it has a number and there is no scale.
-fn paint(cell: MapCell, scale: Option<Danger>) -> Option<Tint> {
+fn paint(cell: MapCell, scale: Option<Danger>, paper: &Paper) -> Option<Tint> {
     match (cell, scale) {
-        (MapCell::Number(value), scale) => scale.map(|it| tint(it.strength(it.part(value)))),
-        (MapCell::Word(word), _) => Some(shading(role(word))),
+        (MapCell::Number(value), scale) => scale.map(|it| tint(it.strength(it.part(value)), paper)),
+        (MapCell::Word(word), _) => Some(paper.shading(role(word))),
     }
 }
 
 /// The colour of a strength from 0 to 1: one of the steps.
-fn tint(strength: f64) -> Tint {
+fn tint(strength: f64, paper: &Paper) -> Tint {
     let step = truncated(strength * real(STEPS)).min(STEPS - 1);
     let part = real(step) / real(STEPS - 1);
-    let [weak, strong] = ENDS;
+    let [weak, strong] = if paper.grey { GREYS } else { ENDS };
     let mixed = |index: usize| truncated(weak[index] + part * (strong[index] - weak[index]));
     let color = [0, 1, 2].map(|index| u8::try_from(mixed(index)).unwrap_or(u8::MAX));
     Tint { color, opacity: 1.0 }
@@ -68,14 +69,14 @@ pub fn cells(map: &ScanMap, frame: Frame) -> Vec<Element> {
     let mut shapes = Vec::new();
     for (column, cells) in across.windows(2).zip(&map.values) {
         let mut row = 0;
-        for same in cells.chunk_by(|one, other| paint(*one, map.scale) == paint(*other, map.scale))
-        {
+        let paint = |cell: &MapCell| paint(*cell, map.scale, &frame.paper);
+        for same in cells.chunk_by(|one, other| paint(one) == paint(other)) {
             let (low, high) = (upward[row], upward[row + same.len()]);
             row += same.len();
             let (left, bottom) = frame.spot(Point { x: column[0], y: low });
             let (right, top) = frame.spot(Point { x: column[1], y: high });
             let cell = Shape::rectangle((left, top), (right - left, bottom - top));
-            shapes.extend(paint(same[0], map.scale).map(|tint| covered(cell, tint).into()));
+            shapes.extend(paint(&same[0]).map(|tint| covered(cell, tint).into()));
         }
     }
     shapes
@@ -83,28 +84,31 @@ pub fn cells(map: &ScanMap, frame: Frame) -> Vec<Element> {
 
 /// Draws the scale at a place, if the map has numbers: what is measured, the colours, and the numbers that they
 /// stand for.
-pub fn scale(out: &mut Vec<Element>, map: &ScanMap, (x, y): Spot) {
-    let Some(scale) = map.scale else { return };
-    let (width, top) = (PLOT.0, y + 20.0);
-    let name = TextLine::new((x + width / 2.0, y + 14.0), Anchor::Middle, 11.0, &map.name);
+pub fn scale(out: &mut Vec<Element>, map: &ScanMap, (x, y): Spot, paper: &Paper) {
+    let Some(danger) = map.scale else { return };
+    let (width, scale) = (paper.plot.0, paper.scale);
+    let top = y + 20.0 * scale;
+    let at = (x + width / 2.0, y + 14.0 * scale);
+    let name = TextLine::new(at, Anchor::Middle, 11.0 * scale, &map.name);
     let step = |step: usize| {
         let [from, to] = [step, step + 1].map(|edge| x + width * real(edge) / real(STEPS));
-        let part = (real(step) + 0.5) / real(STEPS);
-        let cell = Shape::rectangle((from, top), (to - from, 10.0));
-        covered(cell, tint(scale.strength(part))).into()
+        let strength = danger.strength((real(step) + 0.5) / real(STEPS));
+        let cell = Shape::rectangle((from, top), (to - from, 10.0 * scale));
+        covered(cell, tint(strength, paper)).into()
     };
     out.push(name.into());
     out.extend((0..STEPS).map(step));
-    let [lowest, highest] = scale.ends();
+    let [lowest, highest] = danger.ends();
     let ends =
         [(0.0, Anchor::Start, lowest), (0.5, Anchor::Middle, ""), (1.0, Anchor::End, highest)];
     for (part, anchor, end) in ends {
-        let value = significant(scale.at(part), 4);
+        let value = significant(danger.at(part), 4);
         let words = if end.is_empty() {
             value
         } else {
             format!("{value} ({end})")
         };
-        out.push(TextLine::new((x + part * width, top + 22.0), anchor, 10.0, &words).into());
+        let at = (x + part * width, top + 22.0 * scale);
+        out.push(TextLine::new(at, anchor, 10.0 * scale, &words).into());
     }
 }

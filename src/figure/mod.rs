@@ -6,16 +6,21 @@
 //! libraries for Rust round coordinates to whole pixels and have no dashed curves.
 
 mod areas;
+mod axes;
 mod captions;
 mod content;
 mod data;
 mod elements;
+mod facts;
+mod inks;
+mod legend;
 mod letters;
 mod lines;
 mod map;
 #[cfg(feature = "print")]
 mod outlines;
 mod page;
+mod panel;
 mod paper;
 #[cfg(feature = "print")]
 mod pdf;
@@ -25,6 +30,7 @@ mod svg;
 mod symbols;
 
 pub use content::{Axis, Figure, MarkedPoint, Outline, Panel};
+pub use facts::facts;
 pub use lines::FAINT;
 pub use symbols::{Setting, runs};
 
@@ -68,6 +74,11 @@ pub enum FigureForm {
 }
 
 impl FigureForm {
+    /// Whether it is looked at, not read by programs.
+    pub fn is_picture(self) -> bool {
+        !matches!(self, FigureForm::Json | FigureForm::Csv)
+    }
+
     /// The form that the ending of a file asks for. Fails with one line with the endings that there are.
     pub fn of_file(path: &Path) -> Result<FigureForm, String> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
@@ -100,6 +111,7 @@ pub fn panels(figure: &Figure) -> Vec<String> {
     let alone = |panel: &Panel| Figure {
         title: panel.title.clone(),
         panels: vec![panel.clone()],
+        sheet: Sheet::default(),
         ..figure.clone()
     };
     let written = |(number, panel): (usize, &Panel)| {

@@ -137,6 +137,18 @@ impl Mark {
     pub fn name(self) -> &'static str {
         self.into()
     }
+
+    /// What it looks like on paper.
+    pub fn shape(self) -> &'static str {
+        match self {
+            Mark::Rest => "square",
+            Mark::Head | Mark::Stable => "filled circle",
+            Mark::Start | Mark::Turn | Mark::Unstable => "open circle",
+            Mark::Outlier => "cross",
+            Mark::Saturated => "diamond",
+            Mark::Aside => "dot",
+        }
+    }
 }
 
 /// How the end of a motion is marked, where it has one.

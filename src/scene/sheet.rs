@@ -1,35 +1,44 @@
 //! How a figure is printed: its size, and the style of the journal that it is for.
 
+use std::num::NonZeroU16;
 use std::str::FromStr;
 
-use clap::ValueEnum;
+use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
 
-use crate::model::quantity;
+use crate::model::{LENGTH, measured, quantity};
 
-/// How a figure is printed. What a scene or a study leaves out is as the style has it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// How a figure is printed, in files and as options. What is left out is as the style has it.
+#[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[command(next_help_heading = "On paper")]
 pub struct Sheet {
-    /// The width of the whole figure; `None`: a column of the style, or in `plain` as large as its panels are.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Width of the figure, for which it is laid out: 84mm, 129mm, 174mm, 3.5in, ..
+    #[arg(long)]
     pub width: Option<PaperWidth>,
-    pub style: JournalStyle,
-    /// How panels are lettered, if not as the style has it.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Journal that it is for
+    #[arg(long, value_enum)]
+    pub style: Option<JournalStyle>,
+    /// How panels are lettered
+    #[arg(long, value_enum)]
     pub letters: Option<PanelLetters>,
-    /// What stands above the figure; `None`: its own title in `plain`, and nothing in a journal.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Title above the figure
+    #[arg(long, value_name = "TEXT")]
     pub title: Option<String>,
-    pub legend: LegendPlace,
-    /// Whether shades of grey, dashes and marks take the place of colours.
+    /// Where lines are explained
+    #[arg(long, value_enum)]
+    pub legend: Option<LegendPlace>,
+    /// Shades of grey, dashes and marks in place of colours
+    #[arg(long)]
     pub grey: bool,
-    /// Dots of an inch of a `.png`, if not as the style has it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub dpi: Option<Dpi>,
-    /// The plots to draw by their numbers from 1, in this order; empty for all of them.
+    /// Dots of an inch of a .png
+    #[arg(long, value_name = "N")]
+    pub dpi: Option<NonZeroU16>,
+    /// Panels to draw, in this order, such as 1,3
+    #[arg(long, value_delimiter = ',', value_name = "NUMBERS")]
     pub panels: Vec<usize>,
-    /// Whether the facts for the caption stand in a text file beside a picture.
+    /// Also writes the facts for the caption, as .txt beside a picture
+    #[arg(long, requires = "output")]
     pub caption: bool,
 }
 
@@ -40,7 +49,7 @@ pub enum JournalStyle {
     /// For screens: large, with titles.
     #[default]
     Plain,
-    /// Journals of Springer: bold letters at the panels, no titles, colours that also differ in grey print.
+    /// Journals of Springer: bold letters above the panels, no titles, colours that also differ in grey print.
     Springer,
     /// Journals of the IEEE: (a), (b), .. below the panels, no titles.
     Ieee,
@@ -52,7 +61,7 @@ pub enum PanelLetters {
     /// A bold letter at the upper left corner.
     #[serde(rename = "a")]
     #[value(name = "a")]
-    Bold,
+    Above,
     /// A letter in parentheses below.
     #[serde(rename = "(a)")]
     #[value(name = "(a)")]
@@ -68,15 +77,10 @@ pub enum LegendPlace {
     /// Below all panels.
     #[default]
     Below,
-    /// Within the panel in which a line is first seen, where it covers least.
+    /// Within the panel in which a line is first seen, where that has room; else below.
     Inside,
     None,
 }
-
-/// Dots of an inch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "u32", into = "u32")]
-pub struct Dpi(u32);
 
 /// A width on paper, such as `84 mm`, in millimetres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,29 +93,59 @@ impl Sheet {
         *self == Sheet::default()
     }
 
-    /// The width in points; `None` where a figure is as large as its panels are.
-    pub fn points(&self) -> Option<f64> {
-        /// A column of a journal of each style, in millimetres.
-        const COLUMNS: [(JournalStyle, f64); 2] =
-            [(JournalStyle::Springer, 84.0), (JournalStyle::Ieee, 88.9)];
-        let usual = COLUMNS.iter().find(|(style, _)| *style == self.style);
-        let width = self.width.map(|PaperWidth(width)| width).or(usual.map(|(_, width)| *width));
-        width.map(|width| width * 72.0 / 25.4)
+    /// The same, with what it leaves out as the other one has it.
+    pub fn over(self, other: Sheet) -> Sheet {
+        Sheet {
+            width: self.width.or(other.width),
+            style: self.style.or(other.style),
+            letters: self.letters.or(other.letters),
+            title: self.title.or(other.title),
+            legend: self.legend.or(other.legend),
+            grey: self.grey || other.grey,
+            dpi: self.dpi.or(other.dpi),
+            panels: if self.panels.is_empty() {
+                other.panels
+            } else {
+                self.panels
+            },
+            caption: self.caption || other.caption,
+        }
     }
 
-    /// The letters at the panels. In `plain` their titles tell them apart.
-    pub fn letters(&self) -> PanelLetters {
-        self.letters.unwrap_or(match self.style {
-            JournalStyle::Plain => PanelLetters::None,
-            JournalStyle::Springer => PanelLetters::Bold,
-            JournalStyle::Ieee => PanelLetters::Below,
+    /// The style, which is that of screens where none is said.
+    pub fn style(&self) -> JournalStyle {
+        self.style.unwrap_or_default()
+    }
+
+    /// The width in points; `None` where a figure is as large as its panels are.
+    pub fn points(&self) -> Option<f64> {
+        // Without a width, that of a column.
+        let width = match (&self.width, self.style()) {
+            (Some(PaperWidth(width)), _) => *width,
+            (None, JournalStyle::Springer) => 84.0,
+            (None, JournalStyle::Ieee) => 88.9,
+            (None, JournalStyle::Plain) => return None,
+        };
+        Some(width * 72.0 / 25.4)
+    }
+
+    /// The letters at so many panels. A single one needs none, and in `plain` titles tell them apart.
+    pub fn letters(&self, panels: usize) -> PanelLetters {
+        self.letters.unwrap_or(match self.style() {
+            JournalStyle::Springer if panels > 1 => PanelLetters::Above,
+            JournalStyle::Ieee if panels > 1 => PanelLetters::Below,
+            _ => PanelLetters::None,
         })
     }
 
     /// Dots of an inch of a `.png`: journals want 600 where lines and areas meet.
     pub fn dpi(&self) -> f64 {
-        let usual = if self.style == JournalStyle::Plain { 288 } else { 600 };
-        f64::from(self.dpi.map_or(usual, |Dpi(dpi)| dpi))
+        let usual = if self.style() == JournalStyle::Plain {
+            288
+        } else {
+            600
+        };
+        f64::from(self.dpi.map_or(usual, NonZeroU16::get))
     }
 
     /// The indices of the plots that are drawn, of so many. Fails with one line if there is no such plot.
@@ -127,49 +161,21 @@ impl Sheet {
     }
 }
 
-impl TryFrom<u32> for Dpi {
-    type Error = String;
-
-    fn try_from(dpi: u32) -> Result<Self, String> {
-        let refused = || format!("{dpi} dots of an inch are outside the range 36 .. 2400");
-        (36..=2400).contains(&dpi).then_some(Dpi(dpi)).ok_or_else(refused)
-    }
-}
-
-impl From<Dpi> for u32 {
-    fn from(Dpi(dpi): Dpi) -> u32 {
-        dpi
-    }
-}
-
-impl FromStr for Dpi {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let dpi: u32 = text.parse().map_err(|_| "expected a whole number, such as 600")?;
-        dpi.try_into()
-    }
-}
-
 impl FromStr for PaperWidth {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        /// The narrowest and the widest figure, in millimetres.
-        const RANGE: [f64; 2] = [30.0, 420.0];
-        let refused = |why| format!("{why}; expected a width such as 84mm, 8.4cm, 3.5in or 240pt");
-        let points = text.trim_end().strip_suffix("pt").map(str::trim_end);
-        let width = match points {
+        const ALLOWED: &str = "expected 30 .. 420 mm, such as 84mm, 8.4cm, 3.5in or 240pt";
+        let millimetres = match text.trim_end().strip_suffix("pt") {
             Some(points) => quantity(points, "").map(|points| points * 25.4 / 72.0),
-            None if text.ends_with(|last: char| last.is_ascii_digit() || last == '.') => {
-                Err(format!("{text:?} has no unit"))
-            }
-            None => quantity(text, "m").map(|width| width * 1e3),
+            None => measured(text).and_then(|read| match read.dimension {
+                Some(LENGTH) => Ok(read.value * 1e3),
+                _ => Err(format!("{text:?} has no unit of length")),
+            }),
         };
-        let width = width.map_err(refused)?;
-        let [least, most] = RANGE;
-        let outside = || refused(format!("{text:?} is outside the range {least} .. {most} mm"));
-        (least..=most).contains(&width).then_some(PaperWidth(width)).ok_or_else(outside)
+        let millimetres = millimetres.map_err(|why| format!("{why}; {ALLOWED}"))?;
+        let fits = (30.0..=420.0).contains(&millimetres);
+        fits.then_some(PaperWidth(millimetres)).ok_or_else(|| format!("{text:?}: {ALLOWED}"))
     }
 }
 
@@ -200,11 +206,11 @@ mod tests {
             assert!((width(text).unwrap() - millimetres).abs() < 1e-9, "{text}");
         }
         for (text, words) in [
-            ("84", "\"84\" has no unit"),
-            ("84m", "outside the range 30 .. 420 mm"),
-            ("84 s", "wrong unit"),
+            ("84", "\"84\" has no unit of length"),
+            ("84m", "\"84m\": expected 30 .. 420 mm"),
+            ("84 s", "no unit of length"),
             ("wide", "\"wide\" is not a number"),
-            ("-84mm", "outside"),
+            ("-84mm", "\"-84mm\": "),
             ("NaN mm", "not a"),
             ("84 mm pt", "has a unit"),
             ("", "not a number"),
@@ -232,10 +238,10 @@ mod tests {
 
     #[test]
     fn styles_bring_the_width_of_a_column_and_their_letters() {
-        let of = |style| Sheet { style, ..Sheet::default() };
+        let of = |style| Sheet { style: Some(style), ..Sheet::default() };
         let springer = of(JournalStyle::Springer);
         assert!((springer.points().unwrap() - 238.110).abs() < 1e-3, "84 mm of 72 points an inch");
-        assert_eq!(of(JournalStyle::Ieee).letters(), PanelLetters::Below);
+        assert_eq!(of(JournalStyle::Ieee).letters(2), PanelLetters::Below);
         assert_eq!(Sheet::default().points(), None);
     }
 }

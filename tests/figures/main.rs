@@ -2,6 +2,7 @@
 
 mod looks;
 mod numbers;
+mod paper;
 mod printed;
 #[path = "../program/mod.rs"]
 mod program;

@@ -69,8 +69,8 @@ fn once(numbers: &[f64]) -> Vec<f64> {
 fn a_document_has_its_size_its_fonts_as_subsets_and_the_letters_and_lines_of_its_page() {
     let figure = printed("fig17");
     let document = Document::of(&figure);
-    // Two by two panels of 460 x 374 pixels below a title, two lines of legend; a pixel is 0.75 points.
-    let height = 34.0 + 2.0 * 374.0 + 2.0 * 18.0 + 12.0;
+    // Two by two panels of 460 x 374 pixels below a title, a line of legend; a pixel is 0.75 points.
+    let height = 34.0 + 2.0 * 374.0 + 18.0 + 12.0;
     let size = format!("[0 0 {} {}]", 0.75 * 2.0 * 460.0, 0.75 * height);
     assert_eq!(document.entry("MediaBox"), Some(size.as_str()));
     let fonts = document.plain.match_indices("/BaseFont /").map(|(at, found)| {
@@ -131,7 +131,7 @@ fn a_picture_of_dots_is_as_large_as_it_says_at_any_number_of_dots_to_the_inch() 
     let number = |bytes: &[u8]| f64::from(u32::from_be_bytes(bytes.try_into().unwrap()));
     let mut figure = printed("fig08");
     for dots in [150_u32, 288, 600] {
-        figure.sheet.dpi = Some(dots.try_into().unwrap());
+        figure.sheet.dpi = Some(u16::try_from(dots).unwrap().try_into().unwrap());
         let file = file(&figure, FigureForm::Png).unwrap();
         let (head, size) = (chunk(&file, b"IHDR"), chunk(&file, b"pHYs"));
         // 1 stands for metres.
