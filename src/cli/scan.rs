@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use clap::{Args, FromArgMatches, ValueEnum};
-use signal_hook::flag;
+use signal_hook::{consts, flag};
 
 use super::conditions::ConditionOptions;
 use super::output::holds_something;
@@ -20,7 +20,6 @@ use crate::report::scan::ScanPart;
 use crate::report::{Format, arrays};
 use crate::runtime::failure::exit_code;
 use crate::runtime::scanning::rows;
-use crate::runtime::signals::STOPPING;
 use crate::runtime::{ScanFile, bounded, provenance_file, tell};
 use crate::scan::{MEASURES, Measure, PointList, Scan, Sweep};
 use crate::words::joined;
@@ -240,7 +239,13 @@ impl ScanCommand {
 /// The exit code of the signal that asked the process to stop, 0 if none has; a second signal ends it at once.
 fn stop_signal() -> Result<Arc<AtomicUsize>> {
     let (code, came) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicBool::new(false)));
-    for signal in STOPPING {
+    let signals = [
+        consts::SIGINT,
+        consts::SIGTERM,
+        #[cfg(unix)]
+        consts::SIGHUP,
+    ];
+    for signal in signals {
         let ends = exit_code(signal);
         flag::register_conditional_shutdown(signal, ends.into(), Arc::clone(&came))
             .and_then(|_| flag::register(signal, Arc::clone(&came)))

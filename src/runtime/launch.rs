@@ -10,9 +10,7 @@ use std::sync::Arc;
 use crossbeam_channel::unbounded;
 
 use super::failure::exit_code;
-use super::{
-    Application, Compute, Files, LoopEnd, Options, Pump, Readers, input, panics, signals, tell,
-};
+use super::{Application, Compute, Files, LoopEnd, Options, Pump, Readers, input, panics, tell};
 use crate::session::Notice;
 use crate::terminal::{Guard, Screen, system};
 
@@ -33,7 +31,7 @@ pub fn launch(
     panics::install(guard.clone(), std::thread::current().id());
     let (send, events) = unbounded();
     #[cfg(unix)]
-    signals::start(send.clone(), guard.clone())?;
+    super::signals::start(send.clone(), guard.clone())?;
     guard.mouse(options.mouse)?;
     guard.enter()?;
     input::start(send.clone())?;
@@ -85,23 +83,24 @@ fn conduct<M: Application>(
     let mut expected = false;
     loop {
         match pump.run() {
-            LoopEnd::Suspend | LoopEnd::Suspended if !signals::can_be_continued() => {
-                let text = "not stopped: there is no shell that could make it go on".to_owned();
-                pump.tell(Notice { error: true, text })?;
-            }
             #[cfg(unix)]
-            end @ (LoopEnd::Suspend | LoopEnd::Suspended) => {
+            end @ (LoopEnd::Suspend | LoopEnd::Suspended) if super::signals::can_be_continued() => {
                 pump.hold();
                 pump.await_terminal();
                 guard.leave();
                 if end == LoopEnd::Suspend {
-                    signals::suspend_job()?;
+                    super::signals::suspend_job()?;
                     continue;
                 }
-                signals::stop()?;
+                // Stops this process; returns when it continues.
+                signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)?;
                 expected = true;
                 guard.enter()?;
                 pump.repaint()?;
+            }
+            LoopEnd::Suspend | LoopEnd::Suspended => {
+                let text = "not stopped: there is no shell that could make it go on".to_owned();
+                pump.tell(Notice { error: true, text })?;
             }
             LoopEnd::Mouse(on) => guard.mouse(on)?,
             LoopEnd::Continued if std::mem::take(&mut expected) => {}

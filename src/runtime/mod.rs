@@ -22,7 +22,7 @@ pub mod record;
 pub mod scan_file;
 pub mod scan_part;
 pub mod scanning;
-#[cfg_attr(windows, path = "windows/signals.rs")]
+#[cfg(unix)]
 pub mod signals;
 pub mod standard;
 #[cfg_attr(windows, path = "windows/system.rs")]

@@ -2,7 +2,7 @@
 //! the file is at any moment complete, as it was or as it is to be, also on a full disk.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::{Failure, system};
@@ -141,29 +141,20 @@ fn temporary(path: &Path, mode: u32) -> io::Result<(File, TempPath)> {
     if path.file_name().is_none() {
         return Err(ErrorKind::IsADirectory.into());
     }
-    let create = |path: &Path| {
-        system::with_mode(OpenOptions::new().write(true).create_new(true), mode).open(path)
-    };
     let mut names = tempfile::Builder::new();
     names.prefix(".hopfscope.").suffix(".new");
-    Ok(names.make_in(folder(path), create)?.into_parts())
+    Ok(names.make_in(folder(path), |path| system::create(path, mode))?.into_parts())
 }
 
 /// Whether nothing is lost when the new content takes this path: the file is missing, empty, or holds the same.
-/// No more of it is read than there is new content.
 fn is_free(path: &Path, beside: &Path) -> io::Result<bool> {
-    let old = match fs::metadata(path) {
-        Ok(old) if old.len() > 0 => old,
-        Ok(_) => return Ok(true),
-        Err(why) if why.kind() == ErrorKind::NotFound => return Ok(true),
-        Err(why) => return Err(why),
-    };
-    if old.len() != fs::metadata(beside)?.len() {
-        return Ok(false);
+    match fs::metadata(path) {
+        Ok(old) if old.len() == 0 => Ok(true),
+        Ok(old) if old.len() != fs::metadata(beside)?.len() => Ok(false),
+        Ok(_) => Ok(fs::read(path)? == fs::read(beside)?),
+        Err(why) if why.kind() == ErrorKind::NotFound => Ok(true),
+        Err(why) => Err(why),
     }
-    let old = BufReader::new(File::open(path)?.take(old.len())).bytes();
-    let mut pairs = old.zip(BufReader::new(File::open(beside)?).bytes());
-    pairs.try_fold(true, |same, (old, new)| Ok(same && old? == new?))
 }
 
 #[cfg(test)]

@@ -13,7 +13,6 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::{Signal, getpgrp, getsid, kill_current_process_group};
 use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
 use signal_hook::iterator::Signals;
-use signal_hook::low_level::emulate_default_handler;
 
 use super::failure::exit_code;
 use super::{Event, LoopEnd};
@@ -24,9 +23,6 @@ const GRACE: Duration = Duration::from_secs(2);
 
 /// Signals that end the program.
 const ENDING: [i32; 4] = [SIGTERM, SIGHUP, SIGINT, SIGQUIT];
-
-/// Signals after which a scan ends in order.
-pub const STOPPING: [i32; 3] = [SIGINT, SIGTERM, SIGHUP];
 
 /// Starts the thread that waits for signals. Fails if the system provides no thread, or refuses a handler.
 pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
@@ -77,9 +73,4 @@ pub fn can_be_continued() -> bool {
 /// which the shell waits. This process gets [`LoopEnd::Suspended`]. Fails if the system refuses.
 pub fn suspend_job() -> io::Result<()> {
     Ok(kill_current_process_group(Signal::TSTP)?)
-}
-
-/// Stops this process; returns when it continues. Fails if the system refuses.
-pub fn stop() -> io::Result<()> {
-    emulate_default_handler(SIGTSTP)
 }

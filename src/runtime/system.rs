@@ -21,23 +21,19 @@ pub fn open(path: &Path) -> io::Result<(File, Vec<u8>)> {
             Err(why) => return Err(why),
         }
     }
-    block(&file)?;
-    Ok((file, held))
+    Ok((block(file)?, held))
 }
 
 /// Opens a device or a pipe for writing, without waiting for a reader of the pipe.
 pub fn device(path: &Path) -> io::Result<File> {
-    let file = at_once(OpenOptions::new().append(true)).open(path).map_err(|why| {
-        let is_pipe = fs::metadata(path).is_ok_and(|file| file.file_type().is_fifo());
-        let unread = || io::Error::new(why.kind(), "nobody reads from this pipe");
-        if is_pipe && why.kind() != ErrorKind::PermissionDenied {
-            unread()
-        } else {
-            why
+    let file = at_once(OpenOptions::new().append(true)).open(path);
+    let is_pipe = || fs::metadata(path).is_ok_and(|file| file.file_type().is_fifo());
+    block(file.map_err(|why| match why.kind() {
+        kind if kind != ErrorKind::PermissionDenied && is_pipe() => {
+            io::Error::new(kind, "nobody reads from this pipe")
         }
-    })?;
-    block(&file)?;
-    Ok(file)
+        _ => why,
+    })?)
 }
 
 /// Opening does not wait for the other end of a pipe, and no terminal becomes that of the process.
@@ -47,13 +43,14 @@ fn at_once(options: &mut OpenOptions) -> &mut OpenOptions {
 }
 
 /// Makes a file wait in reads and writes.
-fn block(file: &File) -> io::Result<()> {
-    Ok(fcntl_setfl(file, fcntl_getfl(file)? - OFlags::NONBLOCK)?)
+fn block(file: File) -> io::Result<File> {
+    fcntl_setfl(&file, fcntl_getfl(&file)? - OFlags::NONBLOCK)?;
+    Ok(file)
 }
 
-/// Gives a file that is created this mode, but for what the user's umask takes away.
-pub fn with_mode(options: &mut OpenOptions, mode: u32) -> &mut OpenOptions {
-    options.mode(mode)
+/// Creates a file with this mode, but for what the user's umask takes away. Fails if there is one.
+pub fn create(path: &Path, mode: u32) -> io::Result<File> {
+    OpenOptions::new().write(true).create_new(true).mode(mode).open(path)
 }
 
 /// Gives a file the owner of the one that it replaces, which only the superuser can; otherwise it becomes the user's.
