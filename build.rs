@@ -21,11 +21,12 @@ fn main() {
     }
 }
 
-/// The commit, with `-dirty` appended if the sources differ from it; `None` without git, or in an unpacked package.
+/// The commit, with `-dirty` appended if the sources differ from it. Without git, what the clone itself or the package says,
+/// with `-unchecked` appended; `None` in neither.
 fn revision() -> Option<String> {
     // A package may lie unpacked in the repository of something else.
-    if !git(&["rev-parse", "--show-prefix"])?.is_empty() {
-        return None;
+    if git(&["rev-parse", "--show-prefix"]).is_none_or(|prefix| !prefix.is_empty()) {
+        return noted().map(|commit| format!("{}-unchecked", &commit[..12]));
     }
     let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
     if git(&[&["status", "--porcelain", "--"], &SOURCES[..]].concat())?.is_empty() {
@@ -39,9 +40,28 @@ fn revision() -> Option<String> {
     Some(commit + "-dirty")
 }
 
+/// The commit that is noted in the files of a clone or of a package.
+fn noted() -> Option<String> {
+    let read = |path: &str| std::fs::read_to_string(path).ok();
+    let hex = |text: &str| -> Option<String> {
+        let found = text.split(|char: char| !char.is_ascii_hexdigit()).find(|it| it.len() == 40);
+        found.map(str::to_owned)
+    };
+    if let Some(package) = read(".cargo_vcs_info.json") {
+        return hex(&package);
+    }
+    let head = read(".git/HEAD")?;
+    let Some(name) = head.trim().strip_prefix("ref: ") else { return hex(&head) };
+    let packed =
+        || read(".git/packed-refs")?.lines().find(|line| line.ends_with(name)).and_then(hex);
+    read(&format!(".git/{name}")).and_then(|text| hex(&text)).or_else(packed)
+}
+
 /// What git prints; `None` if it is missing or fails. It takes no lock that a command of the user may want.
 fn git(arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git").arg("--no-optional-locks").args(arguments).output().ok()?;
+    // A clone of another user, as in a container, is read all the same.
+    let settings = ["--no-optional-locks", "-c", "safe.directory=*"];
+    let output = Command::new("git").args(settings).args(arguments).output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     output.status.success().then(|| text.trim().to_owned())
 }

@@ -179,8 +179,11 @@ pub fn go(
         session.interrupted = memory.interrupted().into_iter().map(kept).collect();
         welcome(&mut session, memory);
     }
-    let files =
-        Files { copies: memory.as_ref().map(|memory| memory.copies.clone()), may_play_write };
+    let files = Files {
+        copies: memory.as_ref().map(|memory| memory.copies.clone()),
+        may_play_write,
+        ..Files::default()
+    };
     let mouse = session.display.mouse;
     let (keep, last) = memory.map(|memory| (memory.keep, memory.last)).unzip();
     let replay = (!play.is_empty()).then(|| Script::of(play.to_vec()));

@@ -31,6 +31,7 @@ mod shell;
 mod sound;
 mod source;
 mod study;
+mod study_file;
 mod times;
 mod window;
 

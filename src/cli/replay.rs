@@ -38,6 +38,9 @@ pub struct ReplayCommand {
     /// Lets the file write files, as its commands ask for
     #[arg(long)]
     allow_write: bool,
+    /// Writes the files that its commands ask for in this directory, and none outside of it
+    #[arg(long, value_name = "DIR", conflicts_with = "allow_write")]
+    write: Option<PathBuf>,
     #[command(flatten)]
     start: StartOptions,
     #[command(flatten)]
@@ -62,7 +65,11 @@ impl ReplayCommand {
         session.display = self.looks.wishes(&Config::default());
         let is_light = session.display.theme == Theme::Light;
         let paper = if is_light { Paper::LIGHT } else { Paper::DARK };
-        let files = Files { may_play_write: self.allow_write, ..Files::default() };
+        if let Some(folder) = &self.write {
+            std::fs::create_dir_all(folder).map_err(Failure::unwritten(folder))?;
+        }
+        let may_play_write = self.allow_write || self.write.is_some();
+        let files = Files { may_play_write, folder: self.write.clone(), ..Files::default() };
         let cast = self.cast.as_ref().map(|_| Cast::default());
         // The last step stands for the command that plays the file.
         let mut steps = opening(&session).map_err(Failure::Unanswered)?;

@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -22,7 +22,8 @@ use crate::runtime::failure::exit_code;
 use crate::runtime::scanning::rows;
 use crate::runtime::{ScanFile, bounded, provenance_file, tell};
 use crate::scan::{MEASURES, Measure, PointList, Scan, Sweep};
-use crate::words::joined;
+use crate::scene::SceneScan;
+use crate::words::{joined, usage};
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
 #[derive(Args)]
@@ -94,8 +95,34 @@ impl ScanCommand {
     /// The scan of a command line without the program name; `None` if this version cannot parse it.
     pub fn of_line(arguments: &[String]) -> Option<Self> {
         arguments.first().filter(|command| *command == "scan")?;
+        Self::of_words(arguments).ok()
+    }
+
+    /// The scan of a command and its options. Fails if one of these is wrong.
+    fn of_words(words: &[String]) -> Result<Self> {
         let parser = signed(Self::augment_args(clap::Command::new("scan")));
-        Self::from_arg_matches(&parser.try_get_matches_from(arguments).ok()?).ok()
+        let given = parser.try_get_matches_from(words);
+        let read = given.and_then(|given| Self::from_arg_matches(&given));
+        read.map_err(|error| usage::line(&error).into())
+    }
+
+    /// The scan of a scene as a command that writes a file, and goes on with it unless that may be replaced. Fails if
+    /// something is wrong with it.
+    pub fn of_scene(
+        scan: &SceneScan,
+        source: &SourceOptions,
+        path: &Path,
+        force: bool,
+    ) -> Result<Self> {
+        let mut words = vec!["scan".to_owned(), format!("--output={}", path.display())];
+        words.push(if force { "--force" } else { "--resume" }.to_owned());
+        words.extend(scan.over.iter().map(|over| format!("--over={over}")));
+        words.push(format!("--measure={}", scan.measure.join(",")));
+        words.extend(scan.options.iter().map(|(name, value)| format!("--{name}={value}")));
+        let command = Self::of_words(&words)?;
+        let command = ScanCommand { source: source.clone(), ..command };
+        command.asked()?;
+        Ok(command)
     }
 
     /// Computes and writes rows until all are done or a signal stops it.

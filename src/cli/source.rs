@@ -1,5 +1,6 @@
 //! What a command is about: the motion of a scene, with its method and what sets its accuracy, or a machine.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use clap::Args;
@@ -7,7 +8,7 @@ use clap::Args;
 use super::input::{self, MACHINE, Numbers, OSCILLATOR};
 use super::study::{self, file_of, scene_named};
 use super::{CommandCase, Output, Result, read, second};
-use crate::flow::{METHODS, Method, Problem};
+use crate::flow::{METHODS, Method};
 use crate::model::{Knob, ParameterBox, TolerancedNumber};
 use crate::runtime::tell;
 use crate::scene::machine::library;
@@ -24,7 +25,7 @@ pub struct QuestionOptions {
 }
 
 /// What a command is about: the motion of a scene, or a machine.
-#[derive(Args)]
+#[derive(Clone, Args)]
 pub struct SourceOptions {
     /// Scene that sets what the options leave open, by its name or file, or the name of a built-in machine (see
     /// hopfscope belt)
@@ -84,6 +85,11 @@ impl SourceOptions {
         self.start.scene(self.named.as_deref())
     }
 
+    /// The file of the scene, if it is one of the user.
+    pub fn file(&self) -> Option<&Path> {
+        self.named.as_deref().or(self.start.scene.as_deref()).and_then(file_of)
+    }
+
     /// The parameters, each as the interval in which it was given.
     pub fn known(&self) -> Result<ParameterBox> {
         self.start.known(self.named.as_deref())
@@ -119,7 +125,7 @@ impl SourceOptions {
 }
 
 /// Which motion is meant.
-#[derive(Args)]
+#[derive(Clone, Args)]
 pub struct StartOptions {
     /// Scene that sets what the other options leave open: its name or file
     #[arg(long = "scene", value_name = "NAME")]
@@ -157,12 +163,7 @@ fn methods_help() -> String {
 impl StartOptions {
     /// The scene with this name, or of the option, with the values set on the command line.
     pub fn scene(&self, named: Option<&str>) -> Result<Arc<Scene>> {
-        let scene = self.found(named)?;
-        let name = named.or(self.scene.as_deref());
-        if scene.machine.is_some() && name.and_then(file_of).is_some() {
-            return self.applied_to_machine(scene);
-        }
-        self.applied(scene)
+        self.applied(self.found(named)?)
     }
 
     /// Whether anything is chosen.
@@ -191,29 +192,11 @@ impl StartOptions {
                 terms.insert(symbol);
             }
         }
-        self.compute(problem);
-        Ok(scene)
-    }
-
-    /// The same of a scene of the user that is about a machine, of which the numbers are then.
-    fn applied_to_machine(&self, mut scene: Arc<Scene>) -> Result<Arc<Scene>> {
-        let changed = Arc::make_mut(&mut scene);
-        for (knob, value) in self.assigned(&MACHINE)? {
-            if !value.ends.is_point() {
-                return Err(format!("{knob}: this command takes a number, not an interval").into());
-            }
-            changed.set_in_machine(knob, value.middle.value)?;
-        }
-        self.compute(&mut changed.problem);
-        Ok(scene)
-    }
-
-    /// Chooses the method and its accuracy.
-    fn compute(&self, problem: &mut Problem) {
         problem.method = self.method.unwrap_or(problem.method);
         problem.tolerance = self.tol.unwrap_or(problem.tolerance);
         problem.step = self.step.unwrap_or(problem.step);
         problem.epsilon = self.epsilon.unwrap_or(problem.epsilon);
+        Ok(scene)
     }
 
     /// The parameters, each as the interval in which it was given.

@@ -1,10 +1,11 @@
-//! Scenes of the user: files that stand where the name of a scene does.
+//! Scenes of the user, studies: files that stand where the name of a scene does.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use super::{CommandCase, Failure, Result};
 use crate::fit::decoded;
+use crate::flow::Subject;
 use crate::runtime::bounded;
 use crate::scene::file::study;
 use crate::scene::{Layer, Scene, find};
@@ -32,16 +33,11 @@ pub fn scene_named(name: &str) -> Result<Arc<Scene>> {
     Ok(Arc::new(scene))
 }
 
-/// The machine of a scene as a question is put to it: by the whole model, whatever is drawn, from where its motion starts.
+/// The machine of a scene as a question is put to it: by the whole model, whatever is drawn.
 pub fn machine(mut scene: Arc<Scene>) -> Option<CommandCase> {
-    let running = scene.running()?;
-    let as_opened = scene.problem == running.problem();
-    let mut described = running.machine.described();
-    if !as_opened {
-        Arc::make_mut(&mut scene).layers.insert(Layer::Whole);
-        let drawn = Session::new(scene, Size::default()).subject();
-        (described.subject.source.body, described.subject.motion) =
-            (drawn.source.body, drawn.motion);
-    }
+    let mut described = scene.machine.as_ref()?.machine.described();
+    Arc::make_mut(&mut scene).layers.insert(Layer::Whole);
+    let drawn = Session::new(scene, Size::default()).subject();
+    described.subject = Subject { tolerances: described.subject.tolerances, ..drawn };
     Some(CommandCase { described, sources: Vec::new() })
 }

@@ -1,6 +1,6 @@
 //! Effects on the file system and the clipboard.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use crossterm::Command;
 use crossterm::clipboard::CopyToClipboard;
@@ -15,6 +15,8 @@ pub struct Files {
     pub copies: Option<PathBuf>,
     /// Whether a keystroke file that is played may write files.
     pub may_play_write: bool,
+    /// The only folder in which it then may, if there is one.
+    pub folder: Option<PathBuf>,
 }
 
 impl Files {
@@ -39,6 +41,20 @@ impl Files {
         let Some(path) = &self.copies else { return Ok(sent) };
         let told = |line| format!("{sent}; {line}");
         Files::write(path, text, true, Readers::Owner).map(told).map_err(told)
+    }
+
+    /// Where a file of this name is written, also when a keystroke file asks for it. Fails with one line if that lies outside
+    /// of the folder to which all are written.
+    pub fn place(&self, path: &Path) -> Result<PathBuf, String> {
+        let Some(folder) = &self.folder else { return Ok(path.to_owned()) };
+        if !path.components().all(|part| matches!(part, Component::Normal(_))) {
+            return Err(format!(
+                "{} not written: it is not in {}",
+                path.display(),
+                folder.display()
+            ));
+        }
+        Ok(folder.join(path))
     }
 
     /// Whether a file may be written. Fails with one line if it exists and is not to be replaced, or is not a

@@ -12,8 +12,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
 use super::{
-    Application, Options, Pump, ReplayResult, Tell, Work, launch, print, provenance_file, scanning,
-    wav,
+    Application, Files, Options, Pump, ReplayResult, Tell, Work, launch, print, provenance_file,
+    scanning, wav,
 };
 use crate::figure::{self, Figure, FigureForm, panels};
 use crate::fit::NoEstimate;
@@ -23,9 +23,11 @@ use crate::report::shown::shown;
 use crate::scan::Sound;
 use crate::scene::{Finding, Request, plain};
 use crate::session::replay::{Recorder, parse};
-use crate::session::{ComputedContent, Effect, Msg, Session, update};
+use crate::session::{ComputedContent, Effect, Msg, Playback, Session, save, update};
 use crate::terminal::{Cast, Environment, Screen};
 use crate::view::{self, Look, verdict};
+use crate::words::joined;
+use crate::words::provenance::Provenance;
 
 /// A session and its appearance in the present terminal.
 pub struct Explorer {
@@ -34,12 +36,11 @@ pub struct Explorer {
     look: Look,
 }
 
-/// A session computed once more for print, and the figure of one of its plots or of all on show.
-fn drawn(mut session: Session, plot: Option<usize>, limits: &Limits) -> (Session, Figure) {
+/// A session computed once more for print, and the figure of these plots.
+fn drawn(mut session: Session, plots: &[usize], limits: &Limits) -> (Session, Figure) {
     let limits = limits.up_to(print::MOST);
     print::refine(&mut session, &limits);
-    let plots = plot.map_or_else(|| session.on_show().collect(), |plot| vec![plot]);
-    let drawn = print::figure(&mut session, &plots, &limits);
+    let drawn = print::figure(&mut session, plots, &limits);
     (session, drawn.from(provenance_file::of_process()))
 }
 
@@ -58,12 +59,33 @@ impl Explorer {
             empty.display = session.display;
             let options = Options { replay, cast: Some(Cast::default()), ..Options::default() };
             let cast = play(empty, environment, options, limits).cast;
-            let (session, figure) = drawn(session, None, limits);
+            let plots: Vec<_> = session.on_show().collect();
+            let (session, figure) = drawn(session, &plots, limits);
             let (answer, provenance) =
                 (shown(&session, outcome, &beside), provenance_file::of_process());
             let page = answer.page("Shown by hopfscope", &panels(&figure), &provenance, &[]);
             let cast = cast.map(Cast::end).unwrap_or_default();
             Ok(vec![(path, page.into_bytes()), (beside, cast.into_bytes())])
+        }))
+    }
+
+    /// A figure that names the command that draws it again; before it the session that this command opens, unless it is there.
+    fn figure(&self, path: PathBuf, plot: Option<usize>) -> Result<Work, String> {
+        let form = FigureForm::of_file(&path)?;
+        let mut session = self.session.clone();
+        session.playback = Playback::default();
+        let plots = plot.map_or_else(|| session.on_show().collect(), |plot| vec![plot]);
+        let (text, beside) = (save::text(&session)?, path.with_extension("toml"));
+        let panels = joined(plots.iter().map(|plot| plot + 1), ",");
+        let (from, to) = (beside.display().to_string(), path.display().to_string());
+        let words = ["figure", "--open", &from, "--panels", &panels, "--output", &to];
+        let provenance = Provenance::of(&words.map(str::to_owned));
+        let is_there = Files::read(&beside).as_ref() == Ok(&text);
+        let mut files = Vec::from_iter((!is_there).then(|| (beside, text.into_bytes())));
+        Ok(Box::new(move |limits: &Limits| {
+            let drawn = drawn(session, &plots, limits).1.from(provenance);
+            files.push((path, figure::file(&drawn, form)?));
+            Ok(files)
         }))
     }
 
@@ -98,13 +120,7 @@ impl Application for Explorer {
                     Ok(vec![(path, wav::wav(&sound, limits)?.content)])
                 }))
             }
-            ComputedContent::Figure { plot } => {
-                let form = FigureForm::of_file(&path)?;
-                Ok(Box::new(move |limits: &Limits| {
-                    let (_, drawn) = drawn(session, plot, limits);
-                    Ok(vec![(path, figure::file(&drawn, form)?)])
-                }))
-            }
+            ComputedContent::Figure { plot } => self.figure(path, plot),
         }
     }
 

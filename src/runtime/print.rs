@@ -4,9 +4,21 @@ use super::Failure;
 use crate::figure::{FAINT, Figure};
 use crate::flow::{Limits, Result};
 use crate::numerics::{real, truncated};
+use crate::picture;
 use crate::question::{Fineness, answer_for};
 use crate::scene::{Request, Topic};
+use crate::session::read::windows::fitted;
 use crate::session::{Msg, Session, update};
+
+/// Whether a fitted window would show a line of a plot that its own does not.
+pub fn unseen(session: &Session, plot: usize) -> bool {
+    let Some(window) = fitted(session, plot) else { return false };
+    let mut wide = session.clone();
+    wide.plots[plot].window = window;
+    let own = session.plots[plot].window;
+    let mut lines = picture::of(&wide, plot).items.into_iter();
+    lines.any(|line| line.seen(window).is_some() && line.seen(own).is_none())
+}
 
 /// Computes everything on show as finely as print needs. Fails with the topic of the request that has no answer, and
 /// the reason.

@@ -267,6 +267,8 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Writes a file, and tells the session what became of it.
     fn write(&mut self, path: &Path, content: Content, replace: bool) -> Step {
+        let place = self.options.files.place(path);
+        let path = place.as_deref().unwrap_or(path);
         let done = match content {
             Content::Computed(content) => return self.make(path, content, replace),
             Content::Record { forget } => self.write_record(path, forget, replace),

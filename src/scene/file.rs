@@ -12,7 +12,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::examine::{examine, place};
-use super::machine::{Machine, ScaledMachine, Setting, file};
+use super::machine::{Machine, ScaledMachine, file};
 use super::mistake::{Complaint, FileMistake, Result, built_in};
 use super::placed::Placed;
 use super::plot_setup::{Arrangement, Axes};
@@ -26,6 +26,11 @@ use crate::question::record::{RecordOptions, apart};
 
 /// Reads a file that a scene names, by that name, or says in one line why it cannot be read.
 pub type Fetch<'a> = dyn FnMut(&str) -> Result<String, String> + 'a;
+
+/// What is drawn where a scene says nothing else: of a machine, of a record, and of an oscillator.
+const MACHINE: &str = include_str!("../../assets/templates/machine.toml");
+const RECORD: &str = include_str!("../../assets/templates/record.toml");
+const PLAIN: &str = include_str!("../../assets/scenes/plain.toml");
 
 /// What a scene may leave out; a saved session, which holds a scene too, leaves out nothing.
 #[derive(Default, Serialize)]
@@ -83,25 +88,30 @@ fn scene(mut read: Spanned<DeTable>, fetch: &mut Fetch) -> Result<Scene> {
     }
     let machine = given.remove("machine").map(|value| machine(value, fetch)).transpose()?;
     let record = given.remove("record").map(|value| record(&value, fetch)).transpose()?;
-    let running = running(machine.as_deref(), given)?;
-    let is_absent = |name: &&str| !given.contains_key(*name);
-    let absent: Vec<_> =
-        ["look", "press", "terms", "layers", "plots"].into_iter().filter(is_absent).collect();
-    let no_plots = || Spanned::new(0..0, DeValue::Array(toml::de::DeArray::default()));
-    if absent.contains(&"plots") {
-        given.insert(Spanned::new(0..0, "plots".into()), no_plots());
+    let template = match (&machine, &record) {
+        (Some(_), _) => MACHINE,
+        (None, Some(_)) => RECORD,
+        (None, None) => PLAIN,
+    };
+    for (name, value) in DeTable::parse(template)?.into_inner() {
+        if ["terms", "layers", "plots"].contains(&&**name.get_ref()) {
+            given.entry(name).or_insert(value);
+        }
     }
-    let usual = UsualScene { problem: running.unwrap_or_default(), ..UsualScene::default() };
+    let usual = UsualScene {
+        problem: machine.as_ref().map(|it| it.problem()).unwrap_or_default(),
+        ..UsualScene::default()
+    };
     let usual = toml::to_string(&usual as &dyn erased_serde::Serialize);
     let usual = usual.expect("it is made of tables");
     let mut own = Placed::from(read);
     complete(own.0.get_mut(), Placed::from(DeTable::parse(&usual)?).0.get_ref());
     let mut scene: Scene = own.read()?;
+    if let Some(scaled) = machine.as_ref().filter(|_| scene.terms.is_empty()) {
+        scene.terms = scaled.terms();
+    }
     scene.machine = machine;
     scene.recording = record.or(scene.recording);
-    if !absent.is_empty() {
-        scene.fill(&absent);
-    }
     Ok(scene)
 }
 
@@ -123,17 +133,6 @@ fn complete<'a>(own: &mut DeValue<'a>, usual: &DeValue<'a>) {
         }
         _ => {}
     }
-}
-
-/// The motion of a machine with the numbers that a scene sets in it.
-fn running(machine: Option<&ScaledMachine>, given: &DeTable) -> Result<Option<Problem>> {
-    let Some(set) = given.get("set") else { return Ok(machine.map(ScaledMachine::problem)) };
-    let refused = |message: String| Complaint { at: set.span(), message };
-    let own =
-        machine.ok_or_else(|| refused("the numbers of a machine; there is none".to_owned()))?;
-    let setting: Setting = Placed(set.clone()).read()?;
-    let running = setting.on(&own.machine).map_err(refused)?;
-    Ok(Some(own.brought_to(&running, own.problem())))
 }
 
 /// A machine of the program by its name, one of a file beside the scene, or one in full.
@@ -168,36 +167,6 @@ fn record(value: &Spanned<DeValue>, fetch: &mut Fetch) -> Result<Recording> {
     opened.map(Recording::from).map_err(|message| Complaint { at: value.span(), message })
 }
 
-impl Scene {
-    /// Puts what a file leaves out: what is drawn of a machine or a record that is opened by itself, or of the plain
-    /// oscillator.
-    fn fill(&mut self, absent: &[&str]) {
-        let usual = match (&self.machine, &self.recording) {
-            (Some(scaled), _) => scaled.as_ref().clone().scene(),
-            (None, Some(recording)) => recording.clone().scene(),
-            (None, None) => template(include_str!("../../assets/scenes/plain.toml")),
-        };
-        for name in absent {
-            match *name {
-                "look" => self.watch.clone_from(&usual.watch),
-                "press" => self.press.clone_from(&usual.press),
-                "layers" => self.layers.clone_from(&usual.layers),
-                "plots" => self.plots.clone_from(&usual.plots),
-                _ => self.terms.extend(usual.terms.iter().copied().chain(self.varied())),
-            }
-        }
-    }
-
-    /// The parameters that are not zero, or vary.
-    fn varied(&self) -> Vec<Knob> {
-        let held = self.families.iter().flatten().flat_map(|variant| variant.held.keys());
-        let axes = self.plots.iter().flat_map(|plot| [plot.axes.abscissa, plot.axes.against]);
-        let varied: BTreeSet<Knob> = held.copied().chain(axes).collect();
-        let needs = |knob: &Knob| varied.contains(knob) || self.problem.get(*knob) != 0.0;
-        Knob::PARAMETERS.into_iter().filter(needs).collect()
-    }
-}
-
 /// A scene of a file of the program, to be completed.
 fn template(text: &str) -> Scene {
     built_in(&[("template", text)], parse).remove(0)
@@ -213,7 +182,7 @@ impl ScaledMachine {
             terms: self.terms(),
             problem: self.problem(),
             machine: Some(Box::new(self)),
-            ..template(include_str!("../../assets/templates/machine.toml"))
+            ..template(MACHINE)
         }
     }
 }
@@ -222,7 +191,7 @@ impl Recording {
     /// A scene of the record: decrements, time series, phase plane and the distribution of the margin, with the
     /// motion that the fit will find.
     pub fn scene(self) -> Scene {
-        let mut scene = template(include_str!("../../assets/templates/record.toml"));
+        let mut scene = template(RECORD);
         let (shown, seen) = match self.record.signal {
             Signal::Displacement => (Layer::Position, "Dots are what was measured,"),
             Signal::Velocity => (Layer::Velocity, "Dots are the velocities measured,"),
@@ -329,9 +298,7 @@ plots = [
                 "11:14",
                 "there are 0 families",
             ),
-            ("title", "set = { v0 = 1 }\ntitle", "1:7", "there is none"),
             ("title", "hopfscope = 1\ntitle", "1:13", "--open FILE"),
-            ("title", "outputs = [\"../a.svg\"]\ntitle", "1:12", "from this folder"),
             ("title", "machine = \"x.toml\"\ntitle", "1:11", "stands alone"),
             ("title", "record = \"x.csv mass=2 m\"\ntitle", "1:10", "m = 2 m has the wrong unit"),
             ("title", "machine = \"groan 1 m\"\ntitle", "1:11", "\"1 m\" is no speed of its belt"),

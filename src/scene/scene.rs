@@ -58,16 +58,13 @@ pub struct Scene {
     /// The machine that the numbers describe, if any.
     #[serde(default, deserialize_with = "named_or_whole", skip_serializing_if = "Option::is_none")]
     pub machine: Option<Box<ScaledMachine>>,
-    /// The numbers of that machine that are not those of its file.
-    #[serde(rename = "set", default, skip_serializing_if = "Option::is_none")]
-    pub setting: Option<Setting>,
     /// The record to which the oscillator is fitted, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<Recording>,
     /// Starts of the motions that are shown beside the first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<State>,
-    /// Scans; a plot that shows a scan shows the first of them.
+    /// The scans of a study.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scans: Vec<SceneScan>,
     /// The files that `hopfscope figure` makes of it, named from its own folder.
@@ -82,19 +79,11 @@ pub struct SceneScan {
     pub over: Vec<String>,
     /// The names of measures.
     pub measure: Vec<String>,
-    /// The file of its rows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub output: Option<String>,
+    /// The file of its rows, named as those of the scene.
+    pub output: String,
     /// Further options of the command.
     #[serde(flatten)]
     pub options: BTreeMap<String, String>,
-}
-
-impl SceneScan {
-    /// The scan as it is typed in the explorer.
-    pub fn line(&self) -> String {
-        format!("{} {}", self.over.join(" "), self.measure.join(","))
-    }
 }
 
 /// A machine in full, or the name of a built-in one and, where that is not its own, the speed of its belt in m/s, as in
@@ -144,34 +133,6 @@ impl Scene {
     /// All names by which the scene can be opened.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         std::iter::once(self.name.as_str()).chain(self.also.as_deref())
-    }
-
-    /// The machine with the numbers that are set.
-    pub fn running(&self) -> Option<Box<ScaledMachine>> {
-        let own = self.machine.as_ref()?;
-        let set = self.setting.as_ref().and_then(|setting| setting.on(&own.machine).ok());
-        Some(set.map_or_else(|| own.clone(), Box::new))
-    }
-
-    /// Sets a number of the machine, or of its motion, in SI units. Fails with one line if that is none of it.
-    pub fn set_in_machine(&mut self, knob: Knob, value: f64) -> Result<(), String> {
-        let (Some(own), Some(before)) = (&self.machine, self.running()) else {
-            return Err(format!("{knob}: there is no machine"));
-        };
-        let units = &before.reduced.units;
-        match knob {
-            Knob::X => self.problem.initial.q = value / units.displacement,
-            Knob::V => self.problem.initial.v = value / units.velocity,
-            Knob::Duration => self.problem.until = value / units.time,
-            _ => {
-                let usual = || Setting::of_speed(before.machine.belt.belt_speed);
-                let setting = self.setting.clone().unwrap_or_else(usual).with(knob, value);
-                let after = setting.on(&own.machine)?;
-                self.problem = before.brought_to(&after, self.problem);
-                self.setting = Some(setting);
-            }
-        }
-        Ok(())
     }
 
     /// Whether a parameter belongs to this scene; initial values always do.

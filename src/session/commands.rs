@@ -177,6 +177,8 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     (":goto", Line(completion::marks, |s, rest| compare::go_to_mark(s, values::letter(rest)?))),
     (":write", Line(nothing, |s, rest| files::write(s, rest, false))),
     (":write!", Line(nothing, |s, rest| files::write(s, rest, true))),
+    (":study", Line(nothing, |s, rest| files::study(s, rest, false))),
+    (":study!", Line(nothing, |s, rest| files::study(s, rest, true))),
     (":open", Line(nothing, |s, rest| files::ask(s, rest, Purpose::Open))),
     (":fit", Line(nothing, files::fit)),
     (":figure", Line(nothing, |s, rest| files::figure(s, rest, None, false))),

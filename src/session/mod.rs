@@ -7,7 +7,7 @@
 //! - [`state`] is plain data, with [`state::session::Session`] on top;
 //! - [`read`] answers questions about the state and changes nothing;
 //! - [`act`] changes the state, one family of commands per file, and runs commands and typed lines in `act/run.rs`;
-//! - [`save`] converts a session to text and back;
+//! - [`save`] converts a session to text and back, [`study`] to a scene file of which figures are made;
 //! - `commands` is the table of everything that can be run by name, with the functions that do it, and [`config`]
 //!   applies a settings file to the keys;
 //! - `update` takes a message in.
@@ -21,6 +21,7 @@ pub mod read;
 pub mod replay;
 pub mod save;
 pub mod state;
+pub mod study;
 #[cfg(test)]
 pub(crate) mod tests;
 pub mod update;

@@ -117,6 +117,9 @@ impl<M: Application, W: Write> Pump<M, W> {
                 let path = path.display();
                 Some(format!("{path} not written: a keystroke file writes only with --allow-write"))
             }
+            Effect::Write { path, content, .. } if !matches!(content, Content::Record { .. }) => {
+                self.options.files.place(path).err()
+            }
             _ if !self.unattended => None,
             Effect::Write { content: Content::Record { .. }, .. } => {
                 Some("a replay records nothing".to_owned())

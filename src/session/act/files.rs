@@ -10,6 +10,7 @@ use crate::scene::{Machine, Recording, ScaledMachine};
 use crate::session::act::{history, lists, prompt};
 use crate::session::{
     ComputedContent, Content, Done, Effect, ListKind, Overlay, Purpose, Session, replay, save,
+    study,
 };
 use crate::words::one_of;
 
@@ -32,6 +33,15 @@ pub fn write(session: &mut Session, path: &str, replace: bool) -> Done {
         return figure(session, path, None, replace);
     }
     let content = Content::Text(save::text(session)?);
+    session.effect(Effect::Write { path: path.into(), content, replace })
+}
+
+/// Writes what is on show as a study.
+pub fn study(session: &mut Session, path: &str, replace: bool) -> Done {
+    if !path.ends_with(".toml") {
+        return Err(format!("a study ends in .toml, not {path:?}"));
+    }
+    let content = Content::Text(study::text(session)?);
     session.effect(Effect::Write { path: path.into(), content, replace })
 }
 

@@ -182,7 +182,7 @@ impl Session {
             problem,
             others,
             setting,
-            scaled: scene.running(),
+            scaled: scene.machine.clone(),
             doubt,
             steps: StepSizes::of_scene(&scene),
             plots: scene.plots.iter().map(Plot::opened).collect(),

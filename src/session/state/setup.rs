@@ -37,9 +37,8 @@ impl Setup {
     /// The setup with which a scene opens.
     pub fn of_scene(scene: &Scene) -> Self {
         let alone = Setup { others: scene.beside.clone(), ..Setup::alone(scene.problem) };
-        let Some(scaled) = &scene.running() else { return alone };
-        let own = || Setting::of_speed(scaled.machine.belt.belt_speed);
-        let setting = Some(scene.setting.clone().unwrap_or_else(own));
+        let Some(scaled) = &scene.machine else { return alone };
+        let setting = Some(Setting::of_speed(scaled.machine.belt.belt_speed));
         Setup { setting, doubt: Uncertainty::of_machine(scaled), ..alone }
     }
 
