@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -22,7 +22,7 @@ use crate::runtime::failure::exit_code;
 use crate::runtime::scanning::rows;
 use crate::runtime::{ScanFile, bounded, provenance_file, tell};
 use crate::scan::{MEASURES, Measure, PointList, Scan, Sweep};
-use crate::scene::SceneScan;
+use crate::scene::{ScanOption, ScanOptions};
 use crate::words::{joined, usage};
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
@@ -55,7 +55,7 @@ pub struct ScanCommand {
     format: Option<Format>,
     /// Writes the rows to FILE instead of standard output
     #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    pub output: Option<PathBuf>,
     /// Continues an earlier scan to the same FILE
     #[arg(long, requires = "output")]
     resume: bool,
@@ -106,21 +106,18 @@ impl ScanCommand {
         read.map_err(|error| usage::line(&error).into())
     }
 
-    /// The scan of a scene as a command that writes a file, and goes on with it unless that may be replaced. Fails if
-    /// something is wrong with it.
-    pub fn of_scene(
-        scan: &SceneScan,
-        source: &SourceOptions,
-        path: &Path,
-        force: bool,
-    ) -> Result<Self> {
-        let mut words = vec!["scan".to_owned(), format!("--output={}", path.display())];
+    /// A scan of a scene, which goes on with its file unless that may be replaced. Fails if an option is wrong.
+    pub fn of_scene(options: &ScanOptions, source: &SourceOptions, force: bool) -> Result<Self> {
+        let mut words = vec!["scan".to_owned()];
+        for (name, option) in options {
+            let values = match option {
+                ScanOption::One(value) => std::slice::from_ref(value),
+                ScanOption::Several(values) => values,
+            };
+            words.extend(values.iter().map(|value| format!("--{name}={value}")));
+        }
         words.push(if force { "--force" } else { "--resume" }.to_owned());
-        words.extend(scan.over.iter().map(|over| format!("--over={over}")));
-        words.push(format!("--measure={}", scan.measure.join(",")));
-        words.extend(scan.options.iter().map(|(name, value)| format!("--{name}={value}")));
-        let command = Self::of_words(&words)?;
-        let command = ScanCommand { source: source.clone(), ..command };
+        let command = ScanCommand { source: source.clone(), ..Self::of_words(&words)? };
         command.asked()?;
         Ok(command)
     }

@@ -25,40 +25,43 @@ pub struct StudyFiles {
 impl StudyFiles {
     /// Fails if a name leads out of the folder or has no ending of a figure, or a scan is wrong.
     pub fn of(scene: &Scene, source: &SourceOptions, folder: &Path, force: bool) -> Result<Self> {
-        let place = |name: &String| {
-            let mut parts = Path::new(name).components();
-            if name.is_empty() || !parts.all(|part| matches!(part, Component::Normal(_))) {
-                let line =
-                    format!("{name:?}: files of a study are named from its folder, without ..");
-                return Err(Failure::from(line));
-            }
+        let mut files = StudyFiles::default();
+        let mut data = Vec::new();
+        let mut place = |name: &Path| {
+            let inside = name.components().all(|part| matches!(part, Component::Normal(_)));
             let path = folder.join(name);
-            let parent = path.parent().unwrap_or(folder);
+            let Some(parent) = path.parent().filter(|_| inside) else {
+                let why = "files of a study are named from its folder, without ..";
+                return Err(Failure::file(name, why));
+            };
             fs::create_dir_all(parent).map_err(Failure::unwritten(parent))?;
+            if ["csv", "json", "npz"]
+                .iter()
+                .any(|ending| path.extension().is_some_and(|it| it == *ending))
+            {
+                data.push(format!("'{}'", name.display()));
+            }
             Ok(path)
         };
-        let output = |name: &String| {
-            let path = place(name)?;
-            if path.extension().is_some_and(|ending| ending == "ipynb") {
-                return Ok((path, None));
-            }
+        for name in &scene.outputs {
+            let path = place(Path::new(name))?;
             let form = FigureForm::of_file(&path);
-            let form = form.map_err(|why| format!("{name:?}: {why}, or a notebook in .ipynb"))?;
-            Ok((path, Some(form)))
-        };
-        let scan = |scan| ScanCommand::of_scene(scan, source, &place(&scan.output)?, force);
-        let tables = scene.scans.iter().map(|scan| &scan.output);
-        let data =
-            scene.outputs.iter().chain(tables).filter(|name| {
-                [".csv", ".json", ".npz"].iter().any(|ending| name.ends_with(ending))
-            });
-        Ok(StudyFiles {
-            outputs: scene.outputs.iter().map(output).collect::<Result<_>>()?,
-            notebook: NOTEBOOK.replace(
-                "{files}",
-                &joined(data.map(|name| format!("{name:?}")), ", ").replace('"', "'"),
-            ),
-            scans: scene.scans.iter().map(scan).collect::<Result<_>>()?,
-        })
+            let is_notebook = path.extension().is_some_and(|ending| ending == "ipynb");
+            let refused = |why| format!("{name:?}: {why}, or a notebook in .ipynb");
+            let form = if is_notebook {
+                None
+            } else {
+                Some(form.map_err(refused)?)
+            };
+            files.outputs.push((path, form));
+        }
+        for options in &scene.scans {
+            let mut scan = ScanCommand::of_scene(options, source, force)?;
+            let output = scan.output.as_ref().ok_or("a scan of a study names its output")?;
+            scan.output = Some(place(output)?);
+            files.scans.push(scan);
+        }
+        files.notebook = NOTEBOOK.replace("{files}", &joined(data, ", "));
+        Ok(files)
     }
 }

@@ -54,7 +54,7 @@ pub fn examine(scene: &Scene) -> Result<(), (String, String)> {
             }
         }
     }
-    for (knob, _) in scene.steps.iter().filter(|(_, step)| !(0.0 < **step && step.is_finite())) {
+    if let Some((knob, _)) = scene.steps.iter().find(|(_, step)| step.is_nan() || **step <= 0.0) {
         return Err((format!("steps.{knob}"), "a step is a number above 0".to_owned()));
     }
     let count = scene.plots.len();
@@ -82,10 +82,10 @@ fn wrong(scene: &Scene, plot: &PlotSetup) -> Option<(&'static str, &'static str)
         Needs::Oscillator => true,
         Needs::Machine => scene.machine.is_some(),
         Needs::Record => scene.recording.is_some(),
-        Needs::Scan => !scene.scans.is_empty(),
+        Needs::Scan => false,
     };
     let wrong = [
-        (!is_there, "view", "there is no machine, record or scan that this view needs"),
+        (!is_there, "view", "this view needs a machine or a record; scans are not drawn of a file"),
         (
             plot.family.is_some_and(|it| it >= scene.families.len()),
             "family",

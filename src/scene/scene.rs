@@ -66,24 +66,20 @@ pub struct Scene {
     pub beside: Vec<State>,
     /// The scans of a study.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub scans: Vec<SceneScan>,
+    pub scans: Vec<ScanOptions>,
     /// The files that `hopfscope figure` makes of it, named from its own folder.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outputs: Vec<String>,
 }
 
-/// A scan of a scene, in the words of the command `scan`.
+/// The options of a scan by their names, as the command `scan` takes them: one value or several.
+pub type ScanOptions = BTreeMap<String, ScanOption>;
+
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SceneScan {
-    /// `NAME=FROM:TO:COUNT` of one or more numbers.
-    pub over: Vec<String>,
-    /// The names of measures.
-    pub measure: Vec<String>,
-    /// The file of its rows, named as those of the scene.
-    pub output: String,
-    /// Further options of the command.
-    #[serde(flatten)]
-    pub options: BTreeMap<String, String>,
+#[serde(untagged, expecting = "expected a text or a list of texts")]
+pub enum ScanOption {
+    One(String),
+    Several(Vec<String>),
 }
 
 /// A machine in full, or the name of a built-in one and, where that is not its own, the speed of its belt in m/s, as in

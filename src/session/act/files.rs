@@ -38,7 +38,7 @@ pub fn write(session: &mut Session, path: &str, replace: bool) -> Done {
 
 /// Writes what is on show as a study.
 pub fn study(session: &mut Session, path: &str, replace: bool) -> Done {
-    if !path.ends_with(".toml") {
+    if Path::new(path).extension().is_none_or(|ending| ending != "toml") {
         return Err(format!("a study ends in .toml, not {path:?}"));
     }
     let content = Content::Text(study::text(session)?);
