@@ -35,12 +35,7 @@ impl StudyFiles {
                 return Err(Failure::file(name, why));
             };
             fs::create_dir_all(parent).map_err(Failure::unwritten(parent))?;
-            if ["csv", "json", "npz"]
-                .iter()
-                .any(|ending| path.extension().is_some_and(|it| it == *ending))
-            {
-                data.push(format!("'{}'", name.display()));
-            }
+            data.push(format!("'{}'", name.display()));
             Ok(path)
         };
         for name in &scene.outputs {

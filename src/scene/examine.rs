@@ -61,22 +61,17 @@ pub fn examine(scene: &Scene) -> Result<(), (String, String)> {
     if !(1..=MOST_PLOTS).contains(&count) {
         return Err(("plots".into(), format!("{count} plots; there can be 1 to {MOST_PLOTS}")));
     }
-    let plots = scene.plots.iter().enumerate();
-    let mut wrong = plots.filter_map(|(index, plot)| Some((index, wrong(scene, plot)?)));
-    match wrong.next() {
-        Some((index, (part, why))) => Err((format!("plots.{index}.{part}"), why.to_owned())),
-        None => sheet(scene),
+    for (index, plot) in scene.plots.iter().enumerate() {
+        if let Some((part, why)) = wrong(scene, plot) {
+            return Err((format!("plots.{index}.{part}"), why.to_owned()));
+        }
     }
-}
-
-/// Fails if there is no such panel.
-fn sheet(scene: &Scene) -> Result<(), (String, String)> {
-    let drawn = scene.sheet.plots(scene.plots.len());
-    drawn.map(drop).map_err(|why| ("sheet.panels".to_owned(), why))
+    scene.sheet.plots(count).map(drop).map_err(|why| ("sheet.panels".into(), why))
 }
 
 /// What is wrong with a plot, and where.
 fn wrong(scene: &Scene, plot: &PlotSetup) -> Option<(&'static str, &'static str)> {
+    const AXIS: &str = "an axis is D, D2, D3 or r";
     let Axes { abscissa, against, ordinate, unit, .. } = plot.axes;
     let is_there = match plot.view.spec().needs {
         Needs::Oscillator => true,
@@ -84,25 +79,16 @@ fn wrong(scene: &Scene, plot: &PlotSetup) -> Option<(&'static str, &'static str)
         Needs::Record => scene.recording.is_some(),
         Needs::Scan => false,
     };
-    let wrong = [
-        (!is_there, "view", "this view needs a machine or a record; scans are not drawn of a file"),
-        (
-            plot.family.is_some_and(|it| it >= scene.families.len()),
-            "family",
-            "no such family; the first is 0",
-        ),
-        (!abscissa.is_parameter(), "axes.abscissa", "an axis is D, D2, D3 or r"),
-        (!against.is_parameter(), "axes.against", "an axis is D, D2, D3 or r"),
-        (
-            plot.view == View::Regimes && abscissa == against,
-            "axes.against",
-            "both axes are the same",
-        ),
-        (
-            unit == Unit::Friction && ordinate.spec().ratio.is_none(),
-            "axes.unit",
-            "only lengths are measured in r",
-        ),
+    let is_known = plot.family.is_none_or(|family| family < scene.families.len());
+    let is_twice = plot.view == View::Regimes && abscissa == against;
+    let is_length = unit == Unit::One || ordinate.spec().ratio.is_some();
+    let rules = [
+        (is_there, "view", "this view needs a machine or a record; scans are not drawn of a file"),
+        (is_known, "family", "there is no such family; the first is 0"),
+        (abscissa.is_parameter(), "axes.abscissa", AXIS),
+        (against.is_parameter(), "axes.against", AXIS),
+        (!is_twice, "axes.against", "both axes are the same"),
+        (is_length, "axes.unit", "only lengths are measured in r"),
     ];
-    wrong.into_iter().find(|(wrong, ..)| *wrong).map(|(_, part, why)| (part, why))
+    rules.into_iter().find(|(holds, ..)| !holds).map(|(_, part, why)| (part, why))
 }

@@ -6,6 +6,7 @@ mod paper;
 mod printed;
 #[path = "../program/mod.rs"]
 mod program;
+mod studies;
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
