@@ -109,7 +109,7 @@ fn sample(out: &mut Vec<Element>, entry: &LegendEntry, (x, y): Spot, paper: &Pap
         }
         LegendSample::Shade | LegendSample::Spot | LegendSample::Arrow => {
             Shape::rectangle((x, y - 5.0 * scale), (long, 10.0 * scale))
-                .filled(paper.shading(*role))
+                .filled(paper.shading(*role).on_white())
         }
     };
     out.push(shape.into());

@@ -21,8 +21,12 @@ pub fn draw(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
     }
     // Parts of the same area are one path: between two paths a hair of paper would show.
     let alike = |one: &Outline, other: &Outline| (&one.name, one.role) == (&other.name, other.role);
-    for same in panel.areas.chunk_by(alike) {
-        inside.push(shade(same, frame).into());
+    let areas: Vec<&[Outline]> = panel.areas.chunk_by(alike).collect();
+    for same in &areas {
+        let tint = paper.shading(same[0].role);
+        // Journals, and what turns PDF into EPS, would rather have no colour through which one sees.
+        let alone = areas.len() == 1 && panel.map.is_none();
+        inside.push(shade(same, frame).filled(if alone { tint.on_white() } else { tint }).into());
     }
     inside.extend(panel.arrows.iter().filter_map(|(at, way)| arrow(*at, *way, frame)));
     for guide in &panel.guides {
@@ -76,7 +80,7 @@ fn shade(areas: &[Outline], frame: Frame) -> Shape {
         lead(&mut path, corners(&spots));
         path.close();
     }
-    Shape::along(path).filled(frame.paper.shading(areas[0].role))
+    Shape::along(path)
 }
 
 /// An arrow about a point of the world, which points a way in the world.
