@@ -1,7 +1,7 @@
 //! Places texts beside their points, where they cover nothing and cannot be mistaken for the name of another
 //! curve.
 
-use super::elements::{Anchor, Element, Pen, Spot, TextLine, WHITE};
+use super::elements::{Anchor, Element, PlotPen, Spot, TextLine, WHITE};
 use super::paper::{Frame, LINE, NAMES};
 use super::{Outline, Panel};
 use crate::numerics::{hypot, real};
@@ -233,7 +233,7 @@ pub fn write(out: &mut Vec<Element>, panel: &Panel, frame: Frame, mut surroundin
     for (Caption { role, .. }, text, place) in places(panel, &mut surroundings) {
         let at = (scale * place.left, scale * (place.top + LINE - 2.5));
         let line = TextLine::new(at, Anchor::Start, scale * NAMES, text);
-        let edge = Some(Pen::solid(3.0 * scale, WHITE));
+        let edge = Some(PlotPen::solid(3.0 * scale, WHITE));
         out.push(TextLine { color: frame.paper.color(*role), edge, ..line }.into());
     }
 }

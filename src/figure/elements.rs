@@ -9,6 +9,9 @@ use crate::numerics::truncated;
 /// A place on a page, in its unit: to the right and down from the upper left corner. Also a width and a height.
 pub type Spot = (f64, f64);
 
+/// Size of the plot of a panel of `plain`, in pixels of 1/96 inch. All plots have its shape.
+pub const PLOT: Spot = (380.0, 300.0);
+
 /// Red, green and blue.
 pub type Color = [u8; 3];
 
@@ -65,13 +68,13 @@ impl From<TextLine> for Element {
 pub struct Shape {
     /// `None` if it leads nowhere.
     pub path: Option<Path>,
-    pub pen: Option<Pen>,
+    pub pen: Option<PlotPen>,
     pub tint: Option<Tint>,
 }
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pen {
+pub struct PlotPen {
     pub width: f64,
     pub color: Color,
     /// Lengths of dashes and gaps in turn; none for a solid line.
@@ -85,9 +88,9 @@ pub struct Tint {
     pub opacity: f64,
 }
 
-impl Pen {
+impl PlotPen {
     pub const fn solid(width: f64, color: Color) -> Self {
-        Pen { width, color, dash: &[] }
+        PlotPen { width, color, dash: &[] }
     }
 }
 
@@ -148,7 +151,7 @@ impl Shape {
     }
 
     /// The same, drawn.
-    pub fn drawn(self, pen: Pen) -> Self {
+    pub fn drawn(self, pen: PlotPen) -> Self {
         Shape { pen: Some(pen), ..self }
     }
 
@@ -182,7 +185,7 @@ pub struct TextLine {
     pub size: f64,
     pub color: Color,
     /// A line around its letters, below them: in white, where it stands on lines; in its own colour, to be bold.
-    pub edge: Option<Pen>,
+    pub edge: Option<PlotPen>,
     /// Whether it is read upwards.
     pub upward: bool,
     pub runs: Vec<TextRun>,

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::elements::{BLACK, Color, PageUnit, Pen, Tint};
+use super::elements::{BLACK, Color, PageUnit, PlotPen, Tint};
 use super::paper::Paper;
 use crate::numerics::{cells, named};
 use crate::picture::{Dash, Role};
@@ -76,7 +76,7 @@ impl Paper {
     }
 
     /// How a line of a role is drawn.
-    pub fn pen(&self, role: Role, dash: Dash) -> Pen {
+    pub fn pen(&self, role: Role, dash: Dash) -> PlotPen {
         let (ink, [in_pixels, in_points]) = (ink(role), dashes(dash));
         let [pixels, points] = if dash == Dash::Thick {
             [3.0, 1.2]
@@ -85,21 +85,21 @@ impl Paper {
         };
         let color = self.color(role);
         if self.unit == PageUnit::Point {
-            Pen { width: self.points(points), color, dash: in_points }
+            PlotPen { width: self.points(points), color, dash: in_points }
         } else {
-            Pen { width: pixels, color, dash: in_pixels }
+            PlotPen { width: pixels, color, dash: in_pixels }
         }
     }
 
     /// A line that has no role, of this width in `plain`.
-    pub fn line(&self, width: f64, color: Color) -> Pen {
+    pub fn line(&self, width: f64, color: Color) -> PlotPen {
         let width = match width {
             width if self.unit == PageUnit::Pixel => width,
             ..0.8 => self.points(0.25),
             ..1.2 => 0.5,
             _ => 0.8,
         };
-        Pen::solid(width, color)
+        PlotPen::solid(width, color)
     }
 
     /// A width that the journal prints: Springer asks for 0.3 pt at least.

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use ttf_parser::{Face, GlyphId};
 
 use super::elements::{Anchor, Spot};
-use super::symbols::{Setting, TextRun};
+use super::symbols::{LetterStyle, TextRun};
 
 /// Upright and slanted letters.
 pub const FONTS: [&[u8]; 2] = [
@@ -35,7 +35,7 @@ pub struct PlacedRun<'a> {
 pub fn placed(runs: &[TextRun], size: f64, anchor: Anchor) -> (Vec<PlacedRun<'_>>, f64) {
     let (mut placed, mut width) = (Vec::new(), 0.0);
     for TextRun { text, setting } in runs {
-        let font = usize::from(*setting == Setting::Italic);
+        let font = usize::from(*setting == LetterStyle::Italic);
         let face = &FACES[font];
         let letter = |char: char| {
             let glyph = face.glyph_index(char).unwrap_or_default();

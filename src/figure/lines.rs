@@ -4,8 +4,7 @@
 //! Between neighbours of a smooth curve the chord misses it by an eighth of the second difference. What
 //! turns by more than [`CORNER`] at a point is a corner that is meant.
 
-use super::elements::Spot;
-use super::paper::PLOT;
+use super::elements::{PLOT, Spot};
 use crate::numerics::{atan2, hypot};
 use crate::scene::{Point, Span, Window};
 

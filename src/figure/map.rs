@@ -1,6 +1,6 @@
 //! A map and its scale on paper: cells of one hue, the stronger the more dangerous.
 
-use super::elements::{Anchor, Element, Pen, Shape, Spot, TextLine, Tint};
+use super::elements::{Anchor, Element, PlotPen, Shape, Spot, TextLine, Tint};
 use super::paper::{Frame, Paper};
 use crate::numerics::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
@@ -49,7 +49,7 @@ fn tint(strength: f64, paper: &Paper) -> Tint {
 fn covered(cell: Shape, tint: Tint) -> Shape {
     // A colour through which one sees would be darker along these hairs.
     let tint = tint.on_white();
-    cell.filled(tint).drawn(Pen::solid(0.3, tint.color))
+    cell.filled(tint).drawn(PlotPen::solid(0.3, tint.color))
 }
 
 /// The borders of cells around these places: in the middle between neighbours, and as far beyond the ends.

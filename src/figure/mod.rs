@@ -32,7 +32,7 @@ mod symbols;
 pub use content::{Axis, Figure, MarkedPoint, Outline, Panel};
 pub use facts::facts;
 pub use lines::FAINT;
-pub use symbols::{Setting, runs};
+pub use symbols::{LetterStyle, runs};
 
 use std::path::Path;
 
@@ -131,7 +131,7 @@ const UNITS: &str =
 fn panel(session: &Session, plot: usize) -> Panel {
     let mut picture = picture::of(session, plot);
     if session.has_equal_units(plot) {
-        picture.window = picture.window.with_equal_units(paper::PLOT.0, paper::PLOT.1);
+        picture.window = picture.window.with_equal_units(elements::PLOT.0, elements::PLOT.1);
     }
     let nothing = session.nothing(plot).filter(|_| picture.map.is_none() && !picture.draws());
     let nothing = nothing.map(|text| session.keymap.fill(&text, Key::said));

@@ -1,9 +1,9 @@
 //! A figure as a page: its panels beside and above each other, the legend and the scales of maps below.
 
 use super::captions::{self, Surroundings};
-use super::elements::{Anchor, BLACK, Element, Page, Pen, TextLine};
+use super::elements::{Anchor, BLACK, Element, Page, PlotPen, TextLine};
 use super::paper::{Frame, LETTERS, Paper, TITLES};
-use super::symbols::{Setting, TextRun};
+use super::symbols::{LetterStyle, TextRun};
 use super::{Figure, legend, map, panel::draw};
 use crate::numerics::real;
 use crate::scene::{JournalStyle, LegendPlace, PanelLetters};
@@ -72,8 +72,8 @@ fn letter(out: &mut Vec<Element>, number: usize, frame: Frame, place: PanelLette
             (at, Anchor::Middle, format!("({letter})"))
         }
     };
-    let runs = vec![TextRun { text, setting: Setting::Upright }];
-    let bold = Some(Pen::solid(0.4 * scale, BLACK)).filter(|_| place == PanelLetters::Above);
+    let runs = vec![TextRun { text, setting: LetterStyle::Upright }];
+    let bold = Some(PlotPen::solid(0.4 * scale, BLACK)).filter(|_| place == PanelLetters::Above);
     let line = TextLine::new(at, anchor, LETTERS * scale, "");
     out.push(TextLine { runs, edge: bold, ..line }.into());
 }

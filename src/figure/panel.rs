@@ -4,7 +4,7 @@ use tiny_skia_path::PathBuilder;
 
 use super::areas::loops;
 use super::axes::axes;
-use super::elements::{Color, Element, Pen, Shape, Spot, WHITE, lead};
+use super::elements::{Color, Element, PlotPen, Shape, Spot, WHITE, lead};
 use super::lines::corners;
 use super::paper::{Frame, Paper};
 use super::{MarkedPoint, Outline, Panel, map};
@@ -44,7 +44,7 @@ pub fn draw(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
 /// A polyline, run by run between points that are not finite, if any of it is seen. What lies far outside of the plot is
 /// moved to where its lines still run where they ran, and left out where they cannot be seen; of the rest, as many points
 /// are kept as can be told apart.
-fn polyline(points: &[[f64; 2]], pen: Pen, frame: Frame) -> Option<Element> {
+fn polyline(points: &[[f64; 2]], pen: PlotPen, frame: Frame) -> Option<Element> {
     let drawn = |index: usize| {
         let around = &points[index.saturating_sub(1)..points.len().min(index + 2)];
         let seen = around.iter().any(|point| near(*point, frame));

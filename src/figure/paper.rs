@@ -2,15 +2,12 @@
 //!
 //! A page of a journal is laid out for its width: letters keep their size, and the plots take what is left.
 
-use super::elements::{PageUnit, Spot};
+use super::elements::{PLOT, PageUnit, Spot};
 use super::symbols::runs;
 use super::{Figure, Panel, letters};
 use crate::numerics::{real, truncated};
 use crate::picture::{Tick, Ticks};
 use crate::scene::{JournalStyle, PanelLetters, Point, Window};
-
-/// Size of the plot of a panel of `plain`, in pixels of 1/96 inch. All plots have its shape.
-pub const PLOT: Spot = (380.0, 300.0);
 
 /// Size of letters at axes, in plots, in titles, and in the legend, and the height of a line in a plot; like all lengths
 /// that are told in pixels, a page has them [`Paper::scale`] times as large.

@@ -14,7 +14,7 @@ use tiny_skia_path::PathSegment;
 
 use super::Figure;
 use super::data::remarks;
-use super::elements::{Element, Page, Pen, Shape, TextLine, Tint, single};
+use super::elements::{Element, Page, PlotPen, Shape, TextLine, Tint, single};
 use super::letters::{FONTS, placed};
 
 /// Writes a page of a figure. Fails with one line if it cannot be one of a document.
@@ -112,7 +112,7 @@ fn filled(Tint { color: [red, green, blue], opacity }: Tint) -> Fill {
     Fill { paint: rgb::Color::new(red, green, blue).into(), opacity, rule: FillRule::EvenOdd }
 }
 
-fn stroked(Pen { width, color, dash }: Pen) -> Stroke {
+fn stroked(PlotPen { width, color, dash }: PlotPen) -> Stroke {
     let array: Vec<f32> = dash.iter().map(|length| single(*length)).collect();
     let dash = (!array.is_empty()).then_some(StrokeDash { array, offset: 0.0 });
     let paint = filled(Tint { color, opacity: 1.0 }).paint;

@@ -5,7 +5,7 @@ use tiny_skia::{FillRule, LineJoin, Mask, Paint, Pixmap, Stroke, StrokeDash, Tra
 
 use super::Figure;
 use super::data::remarks;
-use super::elements::{Element, Page, Pen, Shape, Tint, single};
+use super::elements::{Element, Page, PlotPen, Shape, Tint, single};
 use crate::numerics::truncated;
 
 /// Paints a page with as many dots to the inch as its sheet says. Fails with one line if these are too many.
@@ -84,7 +84,7 @@ impl Painter {
         if let Some(tint) = tint {
             self.canvas.fill_path(path, &paint(*tint), rule, self.scale, mask);
         }
-        if let Some(Pen { width, color, dash }) = *pen {
+        if let Some(PlotPen { width, color, dash }) = *pen {
             let dash = StrokeDash::new(dash.iter().map(|length| single(*length)).collect(), 0.0);
             let (width, line_join) = (single(width), LineJoin::Round);
             let stroke = Stroke { width, line_join, dash, ..Stroke::default() };

@@ -6,8 +6,8 @@ use tiny_skia_path::{PathSegment, Point};
 
 use super::Figure;
 use super::data::remarks;
-use super::elements::{Color, Element, Page, Pen, Shape, TextLine, Tint};
-use super::symbols::Setting;
+use super::elements::{Color, Element, Page, PlotPen, Shape, TextLine, Tint};
+use super::symbols::LetterStyle;
 use crate::words::printable::xml;
 
 /// Writes a page of a figure. Several pages can stand in one document if the names of their parts differ, which begin with
@@ -84,7 +84,7 @@ fn filled(Tint { color, opacity }: Tint) -> String {
     format!(" fill=\"{}\"{}", hex(color), opacity.unwrap_or_default())
 }
 
-fn stroked(Pen { width, color, dash }: Pen) -> String {
+fn stroked(PlotPen { width, color, dash }: PlotPen) -> String {
     let dash: Vec<String> = dash.iter().map(|length| short(*length)).collect();
     let dashes = format!(" stroke-dasharray=\"{}\"", dash.join(" "));
     let dashes = if dash.is_empty() { "" } else { &dashes };
@@ -114,7 +114,7 @@ fn spans(line: &TextLine) -> String {
     let (mut out, mut below) = (String::new(), 0.0);
     for run in &line.runs {
         let ((size, down), text) = (run.setting.of(line.size), xml(&run.text));
-        let style = if run.setting == Setting::Italic {
+        let style = if run.setting == LetterStyle::Italic {
             "italic"
         } else {
             "normal"
@@ -123,7 +123,7 @@ fn spans(line: &TextLine) -> String {
         let span = format!(
             "<tspan font-style=\"{style}\" font-size=\"{size}\" dy=\"{dy}\">{text}</tspan>"
         );
-        let plain = run.setting == Setting::Upright && dy == "0";
+        let plain = run.setting == LetterStyle::Upright && dy == "0";
         out += if plain { &text } else { &span };
         below = down;
     }

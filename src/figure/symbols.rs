@@ -19,27 +19,27 @@ static SYMBOLS: LazyLock<Vec<[&str; 3]>> =
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextRun {
     pub text: String,
-    pub setting: Setting,
+    pub setting: LetterStyle,
 }
 
 /// How letters are set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Setting {
+pub enum LetterStyle {
     Upright,
     Italic,
     Subscript,
     Superscript,
 }
 
-impl Setting {
+impl LetterStyle {
     /// Size of the letters, and how far they stand below the base line, in a text of this size. No letter is smaller
     /// than 6 where those beside it are not.
     pub fn of(self, size: f64) -> (f64, f64) {
         let smaller = (0.72 * size).max(size.min(6.0));
         match self {
-            Setting::Upright | Setting::Italic => (size, 0.0),
-            Setting::Subscript => (smaller, 0.2 * size),
-            Setting::Superscript => (smaller, -0.36 * size),
+            LetterStyle::Upright | LetterStyle::Italic => (size, 0.0),
+            LetterStyle::Subscript => (smaller, 0.2 * size),
+            LetterStyle::Superscript => (smaller, -0.36 * size),
         }
     }
 }
@@ -54,20 +54,20 @@ pub fn runs(text: &str) -> Vec<TextRun> {
                 let power = &rest[1..=whole(&rest[1..])];
                 add(
                     &mut runs,
-                    Setting::Upright,
+                    LetterStyle::Upright,
                     if rest.starts_with('e') { "\u{b7}10" } else { "" },
                 );
-                add(&mut runs, Setting::Superscript, &power.replace('-', MINUS));
+                add(&mut runs, LetterStyle::Superscript, &power.replace('-', MINUS));
                 1 + power.len()
             }
             b'a'..=b'z' | b'A'..=b'Z' => word(&mut runs, rest),
             b'-' if is_minus(before, rest) => {
-                add(&mut runs, Setting::Upright, MINUS);
+                add(&mut runs, LetterStyle::Upright, MINUS);
                 1
             }
             _ => {
                 let length = rest.chars().next().map_or(1, char::len_utf8);
-                add(&mut runs, Setting::Upright, &rest[..length]);
+                add(&mut runs, LetterStyle::Upright, &rest[..length]);
                 length
             }
         };
@@ -75,7 +75,7 @@ pub fn runs(text: &str) -> Vec<TextRun> {
     runs
 }
 
-fn add(runs: &mut Vec<TextRun>, setting: Setting, text: &str) {
+fn add(runs: &mut Vec<TextRun>, setting: LetterStyle, text: &str) {
     match runs.last_mut().filter(|last| last.setting == setting) {
         Some(last) => last.text += text,
         None => runs.push(TextRun { text: text.to_owned(), setting }),
@@ -87,16 +87,16 @@ fn word(runs: &mut Vec<TextRun>, text: &str) -> usize {
     let length = leading(text, |char| char.is_ascii_alphanumeric() || char == '_');
     let (word, rest) = text.split_at(length);
     let Some([_, letter, subscript]) = SYMBOLS.iter().find(|[written, ..]| *written == word) else {
-        add(runs, Setting::Upright, word);
+        add(runs, LetterStyle::Upright, word);
         return length;
     };
-    add(runs, Setting::Italic, letter);
+    add(runs, LetterStyle::Italic, letter);
     let prime = rest.starts_with('\'');
     if prime {
-        add(runs, Setting::Upright, PRIME);
+        add(runs, LetterStyle::Upright, PRIME);
     }
     if *subscript != "-" {
-        add(runs, Setting::Subscript, subscript);
+        add(runs, LetterStyle::Subscript, subscript);
     }
     length + usize::from(prime)
 }
