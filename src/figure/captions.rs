@@ -145,7 +145,7 @@ impl Surroundings {
         const LESS_GOOD: (f64, f64) = (0.05, 0.1);
         /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
         /// it, what names a point stands there.
-        const FAR: (f64, f64) = (0.3, 1.0);
+        const FAR: (f64, f64) = (0.5, 1.0);
         let width = self.frame.paper.width(text, NAMES);
         let inside = |Rectangle { left, top, .. }: &Rectangle| {
             let corners = [(*left, *top), (left + width, top + LINE)];

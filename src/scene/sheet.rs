@@ -1,9 +1,8 @@
 //! How a figure is printed: its size, and the style of the journal that it is for.
 
-use std::num::NonZeroU16;
 use std::str::FromStr;
 
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, value_parser};
 use serde::{Deserialize, Serialize};
 
 use crate::model::{LENGTH, measured, quantity};
@@ -32,8 +31,8 @@ pub struct Sheet {
     #[arg(long)]
     pub grey: bool,
     /// Dots of an inch of a .png
-    #[arg(long, value_name = "N")]
-    pub dpi: Option<NonZeroU16>,
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(36..=2400))]
+    pub dpi: Option<u16>,
     /// Panels to draw, in this order, such as 1,3
     #[arg(long, value_delimiter = ',', value_name = "NUMBERS")]
     pub panels: Vec<usize>,
@@ -145,7 +144,7 @@ impl Sheet {
         } else {
             600
         };
-        f64::from(self.dpi.map_or(usual, NonZeroU16::get))
+        f64::from(self.dpi.unwrap_or(usual))
     }
 
     /// The indices of the plots that are drawn, of so many. Fails with one line if there is no such plot.
@@ -231,7 +230,7 @@ mod tests {
         assert_eq!(sheet.plots(3), Ok(vec![2, 0]));
         let refused = sheet.plots(2).unwrap_err();
         assert_eq!(refused, "there is no panel 3; panels are numbered from 1 to 2");
-        for text in ["width = 84", "dpi = 0", "legend = \"left\"", "size = 3", "panels = [-1]"] {
+        for text in ["width = 84", "dpi = -1", "legend = \"left\"", "size = 3", "panels = [-1]"] {
             assert!(toml::from_str::<Sheet>(text).is_err(), "{text}");
         }
     }

@@ -161,7 +161,7 @@ fn a_picture_of_dots_is_as_large_as_it_says_at_any_number_of_dots_to_the_inch() 
     let number = |bytes: &[u8]| f64::from(u32::from_be_bytes(bytes.try_into().unwrap()));
     let mut figure = printed("fig08");
     for dots in [150_u32, 288, 600] {
-        figure.sheet.dpi = Some(u16::try_from(dots).unwrap().try_into().unwrap());
+        figure.sheet.dpi = Some(u16::try_from(dots).unwrap());
         let file = file(&figure, FigureForm::Png).unwrap();
         let (head, size) = (chunk(&file, b"IHDR"), chunk(&file, b"pHYs"));
         // 1 stands for metres.
