@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use hopfscope::figure::facts;
+use hopfscope::numerics::elementary::ln;
 use hopfscope::scene::{JournalStyle, LegendPlace, Sheet};
 use ttf_parser::Face;
 
@@ -44,7 +45,7 @@ fn written(picture: &Document) -> Vec<Written> {
         let size = number(&node, "font-size").unwrap();
         let runs: Vec<(String, f64)> = node
             .descendants()
-            .filter(|part| part.is_text())
+            .filter(roxmltree::Node::is_text)
             .map(|part| {
                 let own = part.parent().and_then(|parent| number(&parent, "font-size"));
                 (part.text().unwrap().to_owned(), own.unwrap_or(size))
@@ -132,7 +133,7 @@ fn lightness(color: &str) -> f64 {
         if part <= 0.04045 {
             part / 12.92
         } else {
-            ((part + 0.055) / 1.055).powf(2.4)
+            exp(2.4 * ln((part + 0.055) / 1.055))
         }
     };
     let luminance = 0.2126 * linear(16) + 0.7152 * linear(8) + 0.0722 * linear(0);
