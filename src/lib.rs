@@ -25,8 +25,8 @@
 //!   decreases, orders all cycles, and what a start ends as is read off the next turning point ([`portrait::return_map`]).
 //! - [`branch`] follows cycles along a number by continuation; folds are roots of their own ([`branch::extended`],
 //!   [`mod@branch::fold`]), and boundaries of regimes are curves over two numbers ([`mod@branch::chart`]).
-//! - [`scan`] measures at many points; [`accuracy`] holds methods against each other and against references, to the
-//!   extremes; [`paper`] puts the paper's own equations and sentences to the test.
+//! - [`scan`] measures at many points, and follows level curves over two numbers; [`accuracy`] holds methods against each
+//!   other and against references, to the extremes; [`paper`] puts the paper's own equations and sentences to the test.
 //! - [`fit`] turns a recorded motion into estimates of all these numbers, with their errors, and the margin
 //!   that they leave.
 //! - [`question`] has the questions that the screen asks, and their answers: a [`question::Request`] names exactly the

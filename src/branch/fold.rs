@@ -160,17 +160,12 @@ pub fn border(
 
 /// Why there is neither a fold nor an escape point, where none failed; [`Regime::of`](super::Regime::of) says the same.
 fn no_border(parameters: &Parameters) -> &'static str {
-    let Parameters { d2, d3, r, .. } = *parameters;
-    if r == 0.0 {
-        "r = 0: the Hopf bifurcation at D = 0 is the only border"
-    } else if d3 < 0.0 {
-        "D3 < 0: an unstable cycle borders the basin at every D above -1"
-    } else if d3 > 0.0 {
-        "no fold was found"
-    } else if d2 == 0.0 {
-        "D2 = D3 = 0: an unstable cycle at every D from -1 to 0, which grows beyond all bounds at 0"
-    } else {
-        "D3 = 0: D_c lies below -1, and a separatrix borders the basin at every D above"
+    match *parameters {
+        Parameters { r: 0.0, .. } => "r = 0: the only border is the Hopf bifurcation at D = 0",
+        Parameters { d3, .. } if d3 < 0.0 => "D3 < 0: an unstable cycle borders the basin",
+        Parameters { d3, .. } if d3 > 0.0 => "no fold was found",
+        Parameters { d2: 0.0, .. } => "D2 = D3 = 0: the unstable cycle is infinite at D = 0",
+        _ => "D3 = 0: D_c lies below -1",
     }
 }
 

@@ -3,10 +3,15 @@
 use clap::Args;
 
 use super::conditions::ConditionOptions;
-use super::input::within;
 use super::{QuestionOptions, Result, read};
 use crate::report::level::level;
 use crate::scan::{LevelTarget, Scan};
+
+/// Points of each range on which curves are sought.
+const LATTICE: usize = 24;
+
+/// Largest distance between a curve and the chords of its points, as a part of the ranges.
+const CHORD: f64 = 1e-3;
 
 /// Follows the curves over two numbers along which a column of scan has a value
 #[derive(Args)]
@@ -17,22 +22,14 @@ pub struct LevelCommand {
     /// A number and its range, with log: before FROM for one of equal ratios; twice, the first one to the right
     #[arg(long, value_name = "NAME=FROM:TO", required = true)]
     over: Vec<String>,
-    /// Points of each range on which curves are sought, 2 .. 1000: a closed curve between them is missed
-    #[arg(long, value_name = "N", default_value_t = 24,
-          value_parser = clap::value_parser!(u16).range(2..=1000))]
-    lattice: u16,
-    /// Largest distance between a curve and the chords of its points, as a part of the ranges, 1e-6 .. 0.1
-    #[arg(long, value_name = "PART", default_value_t = 1e-3,
-          value_parser = |text: &str| within(text, "of the ranges", 1e-6..=0.1))]
-    chord: f64,
     #[command(flatten)]
     conditions: ConditionOptions,
 }
 
 impl LevelCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
-        let (numbers, lattice) = (asked.source.numbers(), self.lattice.into());
-        let over = |text: &String| read("--over", text, |text| numbers.range(text, lattice));
+        let numbers = asked.source.numbers();
+        let over = |text: &String| read("--over", text, |text| numbers.range(text, LATTICE));
         let over = self.over.iter().map(over).collect::<Result<Vec<_>>>()?;
         if over.len() != 2 {
             return Err("a level curve goes over two numbers: --over twice".to_owned().into());
@@ -41,7 +38,7 @@ impl LevelCommand {
         let (base, conditions) = self.conditions.of(&asked.source, &measures)?;
         let scan = Scan::new(base, over, measures, conditions)?;
         let limits = asked.output.limits();
-        let follow = || scan.curves(self.of, self.chord, &limits);
+        let follow = || scan.curves(self.of, CHORD, &limits);
         let timed = asked.output.timed("the curves could not be followed", follow)?;
         let about = asked.source.case()?.about();
         asked.output.print(level(about, &scan, self.of, &timed))

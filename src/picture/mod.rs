@@ -15,6 +15,7 @@ mod energy_rate;
 pub mod fit;
 pub mod items;
 pub mod legend;
+mod levels;
 pub mod map;
 mod phase_plane;
 mod regimes;
@@ -90,7 +91,10 @@ fn alone(session: &Session, index: usize, room: Room) -> Picture<'_> {
         View::Trade => trade::draw(&mut picture, session, index),
         View::EnergyRate => energy_rate::draw(&mut picture, session),
         View::Eigenvalues => eigenvalues::draw(&mut picture, session, index),
-        View::Scan => scan::draw(&mut picture, session),
+        View::Scan => {
+            scan::draw(&mut picture, session);
+            levels::draw(&mut picture, session, index);
+        }
         View::BeltDiagram => belt_diagram::draw(&mut picture, session, index),
         View::Belt => belt::draw(&mut picture, session, index, room),
         View::Damping => picture = fitted(fit::damping).unwrap_or(picture),

@@ -52,6 +52,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         path(picture, session, abscissa, against);
     }
     picture.mark(Mark::Head, here, Role::Current);
+    super::levels::draw(picture, session, index);
 }
 
 /// A level line from one side of the window to the other: a curve of two points in files.

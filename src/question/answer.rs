@@ -15,7 +15,7 @@ use crate::paper::{ClaimResult, examine_all};
 use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Drawing, Margin, Portrait, ReturnMap, Share, bands, picture_reach};
 use crate::proof::{ParameterBox, Proof, prove};
-use crate::scan::ScanRow;
+use crate::scan::{Levels, ScanRow};
 
 /// The answer of the worker.
 #[derive(Clone, Debug, PartialEq, EnumTryAs)]
@@ -36,6 +36,7 @@ pub enum Finding {
     Balance(HarmonicBalance),
     ReturnMap(ReturnMap),
     Regimes(Chart),
+    Level(Levels),
     MachineBranch(MachineBranch),
     Trade(Box<Trade>),
     Scan(Rows),
@@ -57,6 +58,7 @@ impl Finding {
             Finding::Balance(found) => found.cost,
             Finding::ReturnMap(found) => found.cost,
             Finding::Regimes(found) => found.cost,
+            Finding::Level(found) => found.cost,
             Finding::MachineBranch(found) => found.cost,
             Finding::Trade(found) => found.cost(),
             Finding::Scan(found) => found.cost(),
@@ -214,6 +216,15 @@ pub fn answer_for(request: &Request, fineness: Fineness, limits: &Limits) -> Res
         }
         Request::Regimes { parameters, plane, rough } => {
             Finding::Regimes(chart(parameters, *plane, fineness.resolution(*rough), limits)?)
+        }
+        Request::Level { scan, target } => {
+            // Chords on the screen are as long as curves allow that are not bent within a dot.
+            let chord = if fineness == Fineness::SCREEN {
+                2e-3
+            } else {
+                4e-4 / f64::from(fineness.0)
+            };
+            Finding::Level(scan.curves(*target, chord, limits)?)
         }
         Request::MachineBranch { belt, varied, range, rough } => {
             Finding::MachineBranch(along_number(belt, *varied, *range, *rough, limits)?)

@@ -12,7 +12,7 @@ use crate::fit::MarginQuestion;
 use crate::flow::{DRAFT, Method, Problem};
 use crate::model::{Belt, Knob, Parameters, Source, Tolerances};
 use crate::portrait::RandomKick;
-use crate::scan::Scan;
+use crate::scan::{LevelTarget, Scan};
 
 /// Every topic, the most urgent first.
 pub const TOPICS: &[Topic] = Topic::VARIANTS;
@@ -125,6 +125,13 @@ pub enum Request {
         /// Whether a draft of few lines is enough.
         rough: bool,
     },
+    /// The curves over two numbers along which a column of a scan has a value.
+    Level {
+        /// Over both numbers, which are 0 in it where they vary in a chart.
+        scan: Arc<Scan>,
+        /// The column and its value.
+        target: LevelTarget,
+    },
     /// The cycles of a machine over one of its numbers.
     #[strum_discriminants(strum(serialize = "speeds"))]
     MachineBranch {
@@ -163,7 +170,7 @@ impl Request {
 
     /// Whether it may take so long that it must not keep others waiting.
     pub fn is_long(&self) -> bool {
-        matches!(self.topic(), Topic::Scan | Topic::Proof | Topic::Fit)
+        matches!(self.topic(), Topic::Scan | Topic::Level | Topic::Proof | Topic::Fit)
     }
 
     /// A rougher version of this request that is answered quickly and first; `None` where this one is rough
@@ -203,6 +210,11 @@ impl Request {
     fn compares(&self, wanted: &Request) -> bool {
         match (self, wanted) {
             (Request::Refit { fit, .. }, Request::Refit { fit: wanted, .. }) => fit == wanted,
+            (Request::Level { target, .. }, Request::Level { target: wanted, .. })
+                if target != wanted =>
+            {
+                false
+            }
             // A proof at other parameters proves nothing at these.
             (Request::Proof { .. }, _) => false,
             _ => self.topic() == wanted.topic() && self.varied() == wanted.varied(),
@@ -216,6 +228,7 @@ impl Request {
                 [Some(*varied), None]
             }
             Request::Regimes { plane, .. } => [plane.right, plane.up].map(Some),
+            Request::Level { scan, .. } => [0, 1].map(|it| Some(scan.over().get(it)?.symbol)),
             _ => [None; 2],
         }
     }
@@ -251,7 +264,10 @@ impl Request {
             }
             Request::Refit { held, .. } => held.map(Option::unwrap_or_default).to_vec(),
             Request::MachineBranch { range, .. } => vec![range.0, range.1],
-            Request::Fit { .. } | Request::Scan { .. } | Request::Claims => Vec::new(),
+            Request::Fit { .. }
+            | Request::Scan { .. }
+            | Request::Level { .. }
+            | Request::Claims => Vec::new(),
         }
     }
 }

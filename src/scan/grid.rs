@@ -89,6 +89,15 @@ impl Scan {
         Ok(self)
     }
 
+    /// The same scan of one measure, through so many values of each number.
+    ///
+    /// # Errors
+    /// What [`Scan::new`] refuses, in one line.
+    pub fn measuring(&self, measure: Measure, count: usize) -> Result<Self, String> {
+        let over = self.over.iter().map(|sweep| Sweep { count, ..*sweep }).collect();
+        Scan::new(self.base.clone(), over, vec![measure], self.conditions.clone())
+    }
+
     /// The numbers that are scanned over; the last one varies fastest.
     pub fn over(&self) -> &[Sweep] {
         &self.over

@@ -16,6 +16,7 @@ use super::views::Layer;
 use crate::flow::Problem;
 use crate::model::{Knob, State};
 use crate::question::Recording;
+use crate::scan::LevelTarget;
 
 /// The setup that shows one phenomenon.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -44,6 +45,9 @@ pub struct Scene {
     /// Families of variants that plots show in place of the present values, each variant drawn over the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub families: Vec<Vec<Variant>>,
+    /// The level curves in charts and in scans over two numbers, such as `impulse=0.2`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub levels: Vec<LevelTarget>,
     /// Whether the motion is played from the beginning.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub plays: bool,

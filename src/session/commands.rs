@@ -170,6 +170,7 @@ const ACTIONS: &[(&str, CommandAction)] = &[
     (":window", Line(completion::window, values::window)),
     (":axes", Line(completion::axes, values::axes)),
     (":scan", Line(completion::scan, scan::scan)),
+    (":level", Line(nothing, values::level)),
     (":save-scan", Line(nothing, scan::save)),
     (":harmonics", Line(nothing, values::harmonics)),
     (":kicks", Line(nothing, values::kicks)),

@@ -166,24 +166,28 @@ const DIGITS: [usize; 5] = [10, 8, 6, 5, 4];
 /// What is held, in a line of at most `width` columns if that is possible; `None` where nothing is.
 pub fn held_point(session: &Session, look: &Look, width: u16) -> Option<String> {
     let held = session.held?;
-    let name = session.plots[session.plot].axes.abscissa.spec().name;
+    let numbers = session.numbers_over(session.plot);
+    let names: Vec<&str> = numbers.iter().map(|knob| knob.spec().name).collect();
     let shown = session.shown(session.plot);
     // The present values stand in the parameter pane.
     let other = shown.get(held.variant).filter(|shown| !shown.present);
     let label = other.map_or("", |shown| shown.variant.label.as_str());
-    let line = |digits: &usize| point(name, label, &held, *digits, &look.symbols().dot);
+    let line = |digits: &usize| point(&names, label, &held, *digits, &look.symbols().dot);
     // The status line begins with a blank and a symbol.
     Some(pane::fitting(DIGITS.iter().map(line), usize::from(width).saturating_sub(4)))
 }
 
-fn point(name: &str, label: &str, held: &BranchStop, digits: usize, dot: &str) -> String {
-    let mut parts = vec![format!("{name} {}", significant(held.value, digits))];
+fn point(names: &[&str], label: &str, held: &BranchStop, digits: usize, dot: &str) -> String {
+    let values = std::iter::once(held.value).chain(held.up);
+    let number = |(name, value): (&&str, f64)| format!("{name} {}", significant(value, digits));
+    let mut parts: Vec<String> = names.iter().zip(values).map(number).collect();
     // The values that the variant holds, where the diagram shows several.
     parts.extend(Some(label.to_owned()).filter(|label| !label.is_empty()));
     if let Some(kind) = held.special {
         parts.insert(0, kind.name(held.cycle.as_ref()).to_owned());
     }
     match &held.cycle {
+        None if held.up.is_some() => {}
         None => parts.push("the cycle is infinite".to_owned()),
         Some(cycle) => {
             // Neither at a fold nor where the cycle vanishes.

@@ -1,5 +1,6 @@
 //! `hopfscope scan`: rows, files that survive a kill, parts that make up the whole.
 
+mod level;
 mod merge;
 #[path = "../program/mod.rs"]
 mod program;

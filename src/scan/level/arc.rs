@@ -19,7 +19,7 @@ const WIDEST: f64 = 2.5;
 
 /// An arc around a point of a curve; outside of the ranges, their edge stands for it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Arc {
+pub(super) struct LevelArc {
     pub from: Place,
     /// Angle at which the curve is expected.
     pub heading: f64,
@@ -30,7 +30,7 @@ pub(super) struct Arc {
 
 /// A point of a curve.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Crossing {
+pub(super) struct LevelPoint {
     pub place: Place,
     /// By how much the column jumps there; 0 where it goes through the value.
     pub step: f64,
@@ -38,7 +38,7 @@ pub(super) struct Crossing {
     pub end: Option<LevelEnd>,
 }
 
-impl Arc {
+impl LevelArc {
     /// The point so far along the heading, and so far across, to the left; and the same within the ranges.
     fn point(&self, along: f64, across: f64) -> [Place; 2] {
         let (sin, cos) = sin_cos(self.heading);
@@ -91,7 +91,7 @@ impl Meter<'_> {
 
     /// What stands for a column without a number on an arc: as long as there are numbers at the end of one side, what would be
     /// at the other side, farther away. Not a number where neither end has one, or both have.
-    fn missing(&mut self, arc: &Arc) -> Result<f64> {
+    fn missing(&mut self, arc: &LevelArc) -> Result<f64> {
         let [left, right] = [WIDEST, -WIDEST].map(|turn| arc.at(turn)[1]);
         Ok(match (self.excess(left)?, self.excess(right)?) {
             (Err(_), Ok(_)) => f64::INFINITY,
@@ -101,7 +101,7 @@ impl Meter<'_> {
     }
 
     /// Where the curve crosses an arc, or why it does not.
-    pub fn crossing(&mut self, arc: &Arc) -> Result<Result<Crossing, LevelEnd>> {
+    pub fn crossing(&mut self, arc: &LevelArc) -> Result<Result<LevelPoint, LevelEnd>> {
         /// Angle within which the curve is sought first.
         const STRIDE: f64 = 0.02;
         let (mut missing, mut why) = (None, LevelEnd::Unknown);
@@ -135,12 +135,12 @@ impl Meter<'_> {
         }
         let step = if through { 0.0 } else { (best.1 - other.1).abs() };
         let [point, place] = arc.at(best.0);
-        Ok(Ok(Crossing { place, step, end: (point != place).then_some(LevelEnd::Edge) }))
+        Ok(Ok(LevelPoint { place, step, end: (point != place).then_some(LevelEnd::Edge) }))
     }
 
     /// Where a curve that goes on along an arc's heading ends on the border of what has numbers; `None` unless that border is
     /// near on one side, and the column goes through the value along it.
-    pub fn end(&mut self, arc: &Arc) -> Result<Option<Place>> {
+    pub fn end(&mut self, arc: &LevelArc) -> Result<Option<Place>> {
         /// Error of the end along the curve, as a part of the ranges: rounding blurs the column near a fold.
         const ALONG: f64 = 3e-10;
         let missing = self.missing(arc)?;
@@ -159,7 +159,12 @@ impl Meter<'_> {
     }
 
     /// The column at the border of what has numbers, by its limit there, on a line across the heading; and where that is.
-    fn at_border(&mut self, arc: &Arc, along: f64, towards: f64) -> Result<Option<(f64, Place)>> {
+    fn at_border(
+        &mut self,
+        arc: &LevelArc,
+        along: f64,
+        towards: f64,
+    ) -> Result<Option<(f64, Place)>> {
         /// The square root of the distance from the border at which the column is read: its extrapolation has errors of the
         /// order of the cube, and of the rounding of the border over this.
         const ROOT: f64 = 1e-4;

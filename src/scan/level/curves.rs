@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use rayon::prelude::*;
 
-use super::arc::{Arc, ERROR, Excess, Meter, Place};
+use super::arc::{ERROR, Excess, LevelArc, Meter, Place};
 use super::target::{LevelCurve, LevelEnd, LevelTarget, Levels};
 use super::trail::{FIRST, Trail, passes, polar};
 use crate::flow::{Cost, Limits, Reason, Result};
@@ -66,7 +66,7 @@ impl Meter<'_> {
     }
 
     /// Where a curve crosses an edge of the lattice, with larger numbers to its left.
-    fn seed(&mut self, from: Node, to: Node) -> Result<Option<Arc>> {
+    fn seed(&mut self, from: Node, to: Node) -> Result<Option<LevelArc>> {
         let ((from, Ok(one)), (to, Ok(other))) = (from, to) else { return Ok(None) };
         if (one > 0.0) == (other > 0.0) {
             return Ok(None);
@@ -81,16 +81,16 @@ impl Meter<'_> {
         } else {
             polar(to, from).1
         };
-        let arc = Arc { from: at(part), heading: larger - FRAC_PI_2, reach: FIRST, side: 1.0 };
+        let arc = LevelArc { from: at(part), heading: larger - FRAC_PI_2, reach: FIRST, side: 1.0 };
         Ok(excess.is_finite().then_some(arc))
     }
 
     /// The curve through a seed, both ways, with its places.
-    fn curve(&mut self, seed: Arc) -> Result<(Vec<Place>, LevelCurve)> {
+    fn curve(&mut self, seed: LevelArc) -> Result<(Vec<Place>, LevelCurve)> {
         let Trail { mut places, end, mut step } = self.trail(seed)?;
         let mut ends = None;
         if let Some(last) = end {
-            let back = Arc { heading: seed.heading + PI, side: -1.0, ..seed };
+            let back = LevelArc { heading: seed.heading + PI, side: -1.0, ..seed };
             let back = self.trail(back)?;
             ends = Some([back.end.unwrap_or(LevelEnd::Unknown), last]);
             step = step.max(back.step);

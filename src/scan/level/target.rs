@@ -2,15 +2,16 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::flow::Cost;
 use crate::numerics::shortest;
 use crate::scan::{MEASURES, Measure};
 
 /// A column of a scan, and the value that it has along the curves that are sought.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(into = "String")]
 pub struct LevelTarget {
     /// The measure that fills the column.
     pub measure: Measure,
@@ -32,10 +33,12 @@ impl LevelTarget {
         let (name, value) = (name.trim(), value.ok_or_else(form)?);
         let columns =
             || MEASURES.iter().flat_map(|row| row.columns.iter().map(move |it| (row, *it)));
-        let found = columns().find(|(_, column)| *column == name);
+        // These are words.
+        let numbers = columns().filter(|(_, name)| !["outcome", "border", "proved"].contains(name));
+        let found = numbers.clone().find(|(_, column)| *column == name);
         let found = found.map(|(row, column)| LevelTarget { measure: row.measure, column, value });
         found.ok_or_else(|| {
-            let all: Vec<_> = columns().map(|(_, column)| column).collect();
+            let all: Vec<_> = numbers.map(|(_, column)| column).collect();
             format!("there is no column {name:?}; there are {}", all.join(", "))
         })
     }
@@ -47,11 +50,9 @@ impl fmt::Display for LevelTarget {
     }
 }
 
-impl TryFrom<String> for LevelTarget {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        LevelTarget::read(&text)
+impl<'de> Deserialize<'de> for LevelTarget {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        LevelTarget::read(&String::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }
 

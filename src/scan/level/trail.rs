@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::arc::{Arc, Meter, Place};
+use super::arc::{LevelArc, Meter, Place};
 use super::target::LevelEnd;
 use crate::flow::Result;
 use crate::numerics::{atan2, hypot, sin_cos};
@@ -44,7 +44,7 @@ fn turned(angle: f64) -> f64 {
 
 /// Whether the curve from one place to the next goes through the beginning of an arc, in about its heading. The distance of
 /// that from the chord is then less than a fifth of the chord, which no curve reaches that bends as little as these do.
-pub(super) fn passes(from: Place, to: Place, arc: &Arc) -> bool {
+pub(super) fn passes(from: Place, to: Place, arc: &LevelArc) -> bool {
     let ((length, angle), (distance, other)) = (polar(from, to), polar(from, arc.from));
     let (sin, cos) = sin_cos(other - angle);
     let is_beside = (distance * sin).abs() <= 0.2 * length;
@@ -54,19 +54,19 @@ pub(super) fn passes(from: Place, to: Place, arc: &Arc) -> bool {
 
 impl Meter<'_> {
     /// Follows a curve from the beginning of an arc, where it sets out in about its heading.
-    pub fn trail(&mut self, begin: Arc) -> Result<Trail> {
+    pub fn trail(&mut self, begin: LevelArc) -> Result<Trail> {
         let mut trail = Trail { places: vec![begin.from], end: None, step: 0.0 };
         // The last step: where it ends, its angle, its length, and how much the curve bends there.
         let (mut last, mut length, mut bent) = (begin, 0.0, 0.0);
         while trail.places.len() < MOST {
             let heading = last.heading + 0.5 * bent * (length + last.reach);
-            let arc = Arc { heading, ..last };
+            let arc = LevelArc { heading, ..last };
             let found = match self.crossing(&arc)? {
                 Ok(found) => found,
                 Err(end) => {
                     let place = if arc.reach < NEAR { self.end(&arc)? } else { None };
                     if place.is_some() || arc.reach < LEAST {
-                        return Ok(trail.ended(end, place, self.chord));
+                        return Ok(trail.ended(end, place));
                     }
                     last.reach *= 0.5;
                     continue;
@@ -74,7 +74,7 @@ impl Meter<'_> {
             };
             if found.end.is_some() {
                 trail.step = trail.step.max(found.step);
-                return Ok(trail.ended(LevelEnd::Edge, Some(found.place), 0.0));
+                return Ok(trail.ended(LevelEnd::Edge, Some(found.place)));
             }
             let (gone, angle) = polar(last.from, found.place);
             // The angle at which a curve sets out is not known.
@@ -102,22 +102,16 @@ impl Meter<'_> {
                 arc.reach
             };
             let reach = grown.min(LONGEST);
-            (last, length) = (Arc { from: found.place, heading: angle, reach, ..last }, gone);
+            (last, length) = (LevelArc { from: found.place, heading: angle, reach, ..last }, gone);
         }
-        Ok(trail.ended(LevelEnd::Unknown, None, 0.0))
+        Ok(trail.ended(LevelEnd::Unknown, None))
     }
 }
 
 impl Trail {
-    /// The same with its end; points within `chord` of it, where steps became short, are left out.
-    fn ended(mut self, end: LevelEnd, place: Option<Place>, chord: f64) -> Self {
-        let last = place.unwrap_or(self.places[self.places.len() - 1]);
-        while self.places.len() > 1
-            && self.places.last().is_some_and(|it| polar(*it, last).0 <= chord)
-        {
-            self.places.pop();
-        }
-        self.places.push(last);
+    /// The same with its end, and the last place if it is known.
+    fn ended(mut self, end: LevelEnd, place: Option<Place>) -> Self {
+        self.places.extend(place);
         self.places.dedup();
         Trail { end: Some(end), ..self }
     }

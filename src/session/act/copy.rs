@@ -66,8 +66,10 @@ fn point(session: &Session) -> Vec<NamedNumber> {
     };
     let Axes { abscissa, against, ordinate, machine, .. } = plot.axes;
     if let Some(held) = session.held {
-        let height = held.cycle.map(|cycle| named("q_max", cycle.q_max));
-        return std::iter::once(named(abscissa.spec().name, held.value)).chain(height).collect();
+        let numbers = session.numbers_over(session.plot).into_iter();
+        let values = std::iter::once(held.value).chain(held.up);
+        let values = numbers.zip(values).map(|(knob, value)| named(knob.spec().name, value));
+        return values.chain(held.cycle.map(|cycle| named("q_max", cycle.q_max))).collect();
     }
     if let (View::Scan, Some(scanned)) = (plot.view, &session.scanned) {
         let column = scanned.scan.measured().get(scanned.column).copied();

@@ -66,6 +66,7 @@ pub fn snapshot(session: &Session) -> Snapshot {
         setup: session.setup(),
         steps: session.steps,
         layers: session.layers.clone(),
+        levels: session.levels.clone(),
         arrangement: session.arrangement,
     }
 }
@@ -120,6 +121,7 @@ pub fn restore(session: &mut Session, snapshot: Snapshot, plots: Vec<Plot>) {
     session.set_setup(snapshot.setup);
     session.steps = snapshot.steps;
     session.layers = snapshot.layers;
+    session.levels = snapshot.levels;
     set_up(session, snapshot.arrangement, plots);
     session.playback = Playback { pace: session.playback.pace, ..Playback::default() };
     session.kicking = false;

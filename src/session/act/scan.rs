@@ -168,9 +168,14 @@ pub fn take(session: &mut Session) -> Done {
     let scanned = scanned(session)?;
     let sweeps = scanned.scan.over().iter().zip(scanned.scan.place(scanned.at));
     let taken: Vec<_> = sweeps.map(|(sweep, it)| (sweep.symbol, sweep.value(it))).collect();
+    take_values(session, &taken)
+}
+
+/// Sets these numbers, as one change.
+pub fn take_values(session: &mut Session, taken: &[(Knob, f64)]) -> Done {
     let mut setup = session.setup();
     // A number of the machine leads back onto its path: what was changed by hand is set there before.
-    for (knob, value) in session.changed_by_hand().iter().chain(&taken) {
+    for (knob, value) in session.changed_by_hand().iter().chain(taken) {
         setup = session.with(&setup, *knob, *value)?;
     }
     put(session, setup);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::model::{Knob, unknown};
 use crate::numerics::named;
 use crate::portrait::RandomKick;
+use crate::scan::LevelTarget;
 use crate::scan::MEASURES;
 use crate::scene::{
     Axes, LAYERS, Layer, ORDINATES, ScaledMachine, Span, VIEWS, View, Window, find, machine,
@@ -176,6 +177,23 @@ pub fn kicks(session: &mut Session, rest: &str) -> Done {
         "in q and v"
     };
     session.inform(format!("{} kicks {kicks}, {of}", kicks.law.name()));
+    Ok(())
+}
+
+/// Draws the level curves of a column, or removes them.
+pub fn level(session: &mut Session, rest: &str) -> Done {
+    let target = LevelTarget::read(rest)?;
+    let before = session.levels.len();
+    session.levels.retain(|known| *known != target);
+    if session.levels.len() < before {
+        session.inform(format!("no level curve {target}"));
+        return Ok(());
+    }
+    let draws = |plot: &usize| [View::Regimes, View::Scan].contains(&session.plots[*plot].view);
+    let plot = session.on_show().find(draws).unwrap_or(session.plot);
+    session.level_request(target, plot)?;
+    session.levels.push(target);
+    session.inform(format!("level curve {target}; the same line removes it"));
     Ok(())
 }
 

@@ -2,12 +2,13 @@
 
 use crate::model::State;
 use crate::numerics::{hypot, shortest};
-use crate::scene::{Axes, Layer, Topic};
+use crate::scene::{Axes, Layer, Point, Topic, View};
 use crate::session::act::parameters::change;
+use crate::session::act::scan;
 use crate::session::read::walk::BranchPath;
 use crate::session::{BranchStop, Done, Pane, Plot, Session};
 
-/// Begins a walk on the branch: at the cursor of the diagram if there is one, otherwise at the present value.
+/// Begins a walk on a branch, a boundary or a level curve: at the cursor if there is one, otherwise at the present value.
 pub fn take_hold(session: &mut Session) -> Done {
     let stop = first(session).map_err(|why| session.with_keys(why))?;
     session.held = Some(stop);
@@ -16,32 +17,42 @@ pub fn take_hold(session: &mut Session) -> Done {
 
 fn first(session: &Session) -> Result<BranchStop, &'static str> {
     let index = session.plot;
-    if !session.shows_in(Layer::Branch, index) {
+    let Plot { view, axes: Axes { abscissa, .. }, window, cursor, .. } = &session.plots[index];
+    let is_diagram = *view == View::Diagram;
+    if is_diagram && !session.shows_in(Layer::Branch, index) {
         return Err("the branch is not shown: {layers} lists the layers");
     }
-    let branches = session.branches(index);
-    if branches.is_empty() || !session.is_fresh(Topic::Branch, index) {
+    let way = session.path(index);
+    if is_diagram && (way.is_empty() || !session.is_fresh(Topic::Branch, index)) {
         return Err("the branch is not known: its computation gave up");
     }
-    let way = BranchPath::along(&branches);
-    let Plot { axes: Axes { abscissa, .. }, window, cursor, .. } = &session.plots[index];
-    let found = if let Some(cursor) = cursor {
+    let values = session.numbers_over(index).into_iter().map(|knob| session.value(knob));
+    let present = <[f64; 2]>::try_from(values.collect::<Vec<_>>());
+    let present = present.ok().map(|values| session.on_axes(index, values));
+    let found = if let Some(at) = cursor.or(present) {
         way.nearest(|stop| {
             let of = session.height(index, stop.variant);
             let height = stop.cycle.map_or(window.y.to(), |cycle| of.of(stop.value, &cycle));
-            let across = window.x.fraction(stop.value) - window.x.fraction(cursor.x);
-            hypot(across, window.y.fraction(height) - window.y.fraction(cursor.y))
+            let flat = Point { x: stop.value, y: height };
+            let place = stop.up.map_or(flat, |up| session.on_axes(index, [stop.value, up]));
+            let across = window.x.fraction(place.x) - window.x.fraction(at.x);
+            hypot(across, window.y.fraction(place.y) - window.y.fraction(at.y))
         })
     } else {
         // The branch of the present motion, if the plot shows that, too.
         let shown = session.shown(index);
         let present = shown.iter().position(|shown| shown.problem == session.problem);
-        let own = branches.into_iter().filter(|(variant, _)| Some(*variant) == present);
+        let own = session.branches(index).into_iter();
+        let own = own.filter(|(variant, _)| Some(*variant) == present);
         let own = BranchPath::along(&own.collect::<Vec<_>>());
         let value = session.value(*abscissa);
         own.start(value).or_else(|| way.start(value))
     };
-    found.ok_or("there is no cycle in this diagram to take hold of")
+    found.ok_or(if is_diagram {
+        "there is no cycle in this diagram to take hold of"
+    } else {
+        "no boundary and no level curve to take hold of: {prompt}level impulse=0.2 draws one"
+    })
 }
 
 /// Moves `count` points along the held piece of the branch.
@@ -63,7 +74,7 @@ fn moved(
     choose: impl Fn(&BranchPath, &BranchStop) -> Option<BranchStop>,
 ) -> bool {
     let Some(held) = session.held else { return false };
-    let found = choose(&BranchPath::along(&session.branches(session.plot)), &held).unwrap_or(held);
+    let found = choose(&session.path(session.plot), &held).unwrap_or(held);
     session.held = Some(found);
     found != held
 }
@@ -72,6 +83,10 @@ fn moved(
 /// branch of a variant, this also sets the values that the variant holds.
 pub fn take(session: &mut Session) -> Done {
     let Some(held) = session.held else { return Ok(()) };
+    if let Some(up) = held.up {
+        let taken = session.numbers_over(session.plot).into_iter().zip([held.value, up]);
+        return scan::take_values(session, &taken.collect::<Vec<_>>());
+    }
     let abscissa = session.plots[session.plot].axes.abscissa;
     let value = abscissa.check(held.value)?;
     let shown = session.shown(session.plot);
@@ -94,13 +109,12 @@ pub fn take(session: &mut Session) -> Done {
 pub fn keep_hold(session: &mut Session) {
     let Some(held) = session.held else { return };
     let index = session.plot;
-    let on_show = session.focus == Pane::Plot(index) && session.shows_in(Layer::Branch, index);
-    let branches = session.branches(index);
-    session.held = if !on_show {
+    let way = session.path(index);
+    session.held = if session.focus != Pane::Plot(index) || way.is_empty() {
         None
-    } else if session.is_fresh(Topic::Branch, index) {
-        BranchPath::along(&branches).again(&held)
+    } else if session.is_path_fresh(index) {
+        way.again(&held)
     } else {
-        Some(held).filter(|_| branches.iter().any(|(_, branch)| !branch.pieces.is_empty()))
+        Some(held)
     };
 }

@@ -10,6 +10,7 @@ pub mod forces;
 pub mod help;
 pub mod kick;
 pub mod ledger;
+pub mod levels;
 pub(crate) mod lists;
 pub mod machine;
 pub mod motion;

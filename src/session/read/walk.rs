@@ -5,8 +5,8 @@
 
 use crate::branch::{Branch, SpecialKind};
 use crate::numerics::{by_number, hypot, ln};
-use crate::scene::Span;
-use crate::session::BranchStop;
+use crate::scene::{Layer, Span, Topic, View};
+use crate::session::{BranchStop, Session};
 
 /// The connected pieces of branches, each a list of stops.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +14,27 @@ pub struct BranchPath {
     pieces: Vec<Vec<BranchStop>>,
     /// Width of the range of all values, the unit of distances.
     extent: f64,
+    /// The same of the values upwards, on curves over two numbers.
+    rise: f64,
+}
+
+impl Session {
+    /// The path that a walk in a plot follows; empty where nothing is shown to walk along.
+    pub fn path(&self, plot: usize) -> BranchPath {
+        match self.plots[plot].view {
+            View::Diagram if self.shows_in(Layer::Branch, plot) => {
+                BranchPath::along(&self.branches(plot))
+            }
+            View::Regimes | View::Scan => BranchPath::over_two(self.curves_over_two(plot)),
+            _ => BranchPath::default(),
+        }
+    }
+
+    /// Whether that path is up to date.
+    pub fn is_path_fresh(&self, plot: usize) -> bool {
+        let topics = [Topic::Branch, Topic::Regimes, Topic::Level];
+        topics.into_iter().all(|topic| self.is_fresh(topic, plot))
+    }
 }
 
 /// The position of a stop: index of its piece, and its index in the piece.
@@ -25,7 +46,8 @@ impl BranchPath {
     pub fn along(branches: &[(usize, &Branch)]) -> Self {
         let points = branches.iter().flat_map(|(_, branch)| branch.pieces.iter().flatten());
         let values = Span::covering(points.map(|point| point.value));
-        let mut way = BranchPath { pieces: Vec::new(), extent: values.map_or(1.0, Span::width) };
+        let (pieces, extent) = (Vec::new(), values.map_or(1.0, Span::width));
+        let mut way = BranchPath { pieces, extent, rise: 1.0 };
         for (variant, branch) in branches {
             for piece in branch.pieces.iter().filter(|piece| !piece.is_empty()) {
                 let mut stops: Vec<BranchStop> =
@@ -40,6 +62,22 @@ impl BranchPath {
             }
         }
         way
+    }
+
+    /// The way along curves over two numbers, in their order.
+    pub fn over_two(curves: Vec<Vec<[f64; 2]>>) -> Self {
+        let width = |axis: usize| {
+            let all = Span::covering(curves.iter().flatten().map(|point| point[axis]));
+            all.map_or(1.0, Span::width)
+        };
+        let (extent, rise) = (width(0), width(1));
+        let stops = |curve: Vec<[f64; 2]>| curve.into_iter().map(BranchStop::over).collect();
+        BranchPath { pieces: curves.into_iter().map(stops).collect(), extent, rise }
+    }
+
+    /// Whether there is nothing to walk along.
+    pub fn is_empty(&self) -> bool {
+        self.pieces.iter().all(Vec::is_empty)
     }
 
     /// Inserts a special point where the detour over it is shortest.
@@ -73,9 +111,10 @@ impl BranchPath {
         }
         let size =
             |stop: &BranchStop| stop.cycle.map(|cycle| ln(cycle.q_max.max(f64::MIN_POSITIVE)));
-        let values = (one.value - other.value) / self.extent;
+        let rises = one.up.zip(other.up).map_or(0.0, |(one, other)| (one - other) / self.rise);
+        let values = hypot((one.value - other.value) / self.extent, rises);
         let sizes = size(one).zip(size(other));
-        sizes.map_or(values.abs(), |(one, other)| hypot(values, one - other))
+        sizes.map_or(values, |(one, other)| hypot(values, one - other))
     }
 
     /// All stops with their positions.

@@ -89,7 +89,8 @@ impl Session {
         let shown = |layer: &&Layer| self.shows_in(**layer, plot);
         let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
         let zones = self.tells_certain(plot).then_some(Topic::Zones);
-        let mut needed: BTreeSet<Topic> = needed.chain(zones).collect();
+        let levels = (!self.levels.is_empty()).then_some(Topic::Level);
+        let mut needed: BTreeSet<Topic> = needed.chain(zones).chain(levels).collect();
         // What becomes of a motion by the whole model, and of a kick that is tried, is told by its cycles.
         let told = needed.contains(&Topic::Trajectory) && (self.draws_whole() || self.kicking);
         needed.extend(told.then_some(Topic::Cycles));
@@ -98,6 +99,9 @@ impl Session {
 
     /// The questions on this topic for each problem that a plot shows; none where there is nothing to ask.
     pub fn requests(&self, topic: Topic, plot: usize) -> Vec<Option<Request>> {
+        if topic == Topic::Level {
+            return self.levels.iter().map(|it| self.level_request(*it, plot).ok()).collect();
+        }
         let problems = match self.variants(plot).filter(|_| topic.is_of_variants()) {
             Some(variants) => variants.iter().map(|variant| variant.of(self.problem)).collect(),
             None if topic == Topic::Trajectory => self.problems(),
@@ -137,6 +141,7 @@ impl Session {
                 Request::Trajectory { problem, machine }
             }
             Topic::Scan => return self.scan_request(),
+            Topic::Level => return self.level_request(*self.levels.first()?, plot).ok(),
             Topic::Cycles => {
                 // The error of the expansion is stated beside it.
                 let machine = self.machine().map(Arc::new);
@@ -201,7 +206,7 @@ impl Session {
 }
 
 /// The part of a span within the range of a number, by its ends.
-fn within(knob: Knob, span: Span) -> Option<(f64, f64)> {
+pub fn within(knob: Knob, span: Span) -> Option<(f64, f64)> {
     span.allowed(knob).map(|span| span.ends().into())
 }
 

@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use strum::IntoStaticStr;
 
 use crate::flow::Problem;
+use crate::scan::LevelTarget;
 use crate::scene::{Arrangement, Layer, MOST_PLOTS, PlotSetup, Scene, find};
 use crate::session::{Done, Setup, StepSizes};
 
@@ -85,6 +86,8 @@ pub struct Snapshot {
     pub setup: Setup,
     pub steps: StepSizes,
     pub layers: BTreeSet<Layer>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub levels: Vec<LevelTarget>,
     /// How the plots share the screen.
     pub arrangement: Arrangement,
 }

@@ -14,6 +14,7 @@ use crate::branch::{BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Problem};
 use crate::model::{Belt, Knob, State};
 use crate::portrait::{Cycle, RandomKick};
+use crate::scan::LevelTarget;
 use crate::scene::{
     Arrangement, Axes, Layer, PlotSetup, Point, Request, ScaledMachine, Scene, Setting, Topic,
     View, Window,
@@ -122,6 +123,8 @@ pub struct Session {
     /// Random kicks in the layer `kicks`.
     pub kicks: RandomKick,
     pub layers: BTreeSet<Layer>,
+    /// The level curves in charts and in scans over two numbers.
+    pub levels: Vec<LevelTarget>,
     /// The overlay, which gets the keys.
     pub overlay: Option<Overlay>,
     /// The scene that is selected in the list of scenes, beside it.
@@ -189,6 +192,7 @@ impl Session {
             arrangement: scene.arrangement,
             harmonics: HARMONICS,
             layers: scene.layers.clone(),
+            levels: scene.levels.clone(),
             playback: Playback::of_scene(&scene),
             size,
             scene,
@@ -338,13 +342,15 @@ pub struct WaitingPress {
     pub request: Request,
 }
 
-/// A point of a branch where a walk can stop.
+/// A point of a branch, or of a curve over two numbers, where a walk can stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BranchStop {
     /// Index of the variant whose branch this is, if a diagram shows several.
     pub variant: usize,
-    /// Value of the branch's parameter.
+    /// Value of the branch's parameter, or of the number to the right.
     pub value: f64,
+    /// Value of the number upwards, on a curve over two.
+    pub up: Option<f64>,
     /// The cycle there; `None` where its amplitude is infinite.
     pub cycle: Option<Cycle>,
     /// The kind of special point, if it is one.
@@ -353,12 +359,19 @@ pub struct BranchStop {
 
 impl BranchStop {
     pub fn on(variant: usize, point: &BranchPoint) -> Self {
-        BranchStop { variant, value: point.value, cycle: Some(point.cycle), special: None }
+        let (value, cycle) = (point.value, Some(point.cycle));
+        BranchStop { variant, value, up: None, cycle, special: None }
     }
 
     /// A special point of the branch of a variant.
     pub fn at(variant: usize, point: &Special) -> Self {
-        BranchStop { variant, value: point.value, cycle: point.cycle, special: Some(point.kind) }
+        let (value, cycle, special) = (point.value, point.cycle, Some(point.kind));
+        BranchStop { variant, value, up: None, cycle, special }
+    }
+
+    /// A point of a curve over two numbers.
+    pub fn over([value, up]: [f64; 2]) -> Self {
+        BranchStop { variant: 0, value, up: Some(up), cycle: None, special: None }
     }
 }
 

@@ -39,6 +39,7 @@ use crate::numerics::{Twofold, ln};
 use crate::portrait::{Cycle, Drawing, Margin, Portrait, ReturnMap, Share};
 use crate::proof::{ParameterBox, Proof};
 use crate::question::{CertainZones, Extent, Rows};
+use crate::scan::{LevelCurve, LevelEnd, Levels};
 use crate::scene::{Finding, Fit, Request, Scene, Topic, find};
 
 /// A session whose questions are answered as soon as they are asked.
@@ -307,6 +308,15 @@ pub fn by_hand(request: &Request) -> Finding {
         }
         Request::Regimes { plane, .. } => {
             Finding::Regimes(Chart { plane: *plane, lines: Vec::new(), cost })
+        }
+        // From one corner of the ranges to the opposite one.
+        Request::Level { scan, .. } => {
+            let [first, last] =
+                [0.0, 1.0].map(|part| [0, 1].map(|axis| scan.over()[axis].at(part)));
+            let middle = [0, 1].map(|axis| f64::midpoint(first[axis], last[axis]));
+            let (points, ends) = (vec![first, middle, last], Some([LevelEnd::Edge; 2]));
+            let curves = vec![LevelCurve { points, ends, step: 0.0 }];
+            Finding::Level(Levels { curves, seen: None, cost })
         }
         Request::Scan { scan, from } => {
             Finding::Scan(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })

@@ -1,8 +1,8 @@
 //! Walking along the made-up branch: unstable at 1.1, a fold at 1.5, stable at 3.1.
 
 use super::Trial;
-use crate::model::State;
-use crate::scene::View;
+use crate::model::{Parameters, State};
+use crate::scene::{Topic, View};
 use crate::session::{BranchStop, Context};
 
 fn held(trial: &Trial) -> BranchStop {
@@ -96,4 +96,42 @@ fn another_scene_takes_the_hold_away() {
     let mut trial = Trial::alone("supercritical");
     // Undo opens the previous scene.
     trial.goes(&[("s/basin<enter> <tab><tab>w<home>", "held 2"), ("u", "held none")]);
+}
+
+#[test]
+fn a_level_curve_is_drawn_by_a_line_walked_and_removed_by_the_same_line() {
+    let mut trial = Trial::open("regimes");
+    let asked = trial.press("<run \"level impulse=0.3\">");
+    assert_eq!(asked, [Topic::Level]);
+    assert_eq!(trial.session.levels.len(), 1);
+    trial.press("<tab>w<home>");
+    let corner = held(&trial);
+    let window = trial.session.plots[0].window;
+    assert_eq!((corner.value, corner.up), (window.x.from(), Some(window.y.from())));
+    let before = trial.session.problem;
+    trial.press("<end><enter>");
+    let Parameters { d, d3, .. } = trial.session.problem.parameters;
+    assert_eq!((d, Some(d3)), (held(&trial).value, held(&trial).up));
+    assert!(held(&trial).value > corner.value);
+    trial.press("u");
+    assert_eq!(trial.session.problem, before);
+    assert_eq!(trial.press("<esc><run \"level impulse=0.3\">"), []);
+    assert_eq!(trial.session.levels, []);
+}
+
+#[test]
+fn level_curves_need_a_column_and_a_plot_over_two_numbers() {
+    let mut trial = Trial::open("regimes");
+    for (line, words) in [
+        ("level impuls=1", "there is no column \"impuls\""),
+        ("level impulse", "expected COLUMN=VALUE"),
+        ("level D_F=1", "fold does not depend on D"),
+    ] {
+        trial.press(&format!("<run \"{line}\">"));
+        assert!(trial.notice().contains(words), "{}", trial.notice());
+    }
+    let mut trial = Trial::open("plain");
+    trial.press("<run \"level impulse=0.3\">");
+    assert!(trial.notice().contains("in a chart of regimes"), "{}", trial.notice());
+    assert_eq!(trial.session.levels, []);
 }
