@@ -2,7 +2,7 @@
 
 use super::target::{LevelEnd, LevelTarget};
 use crate::flow::{Cost, Limits, Result};
-use crate::numerics::{PlaceTolerance, TO_ROUNDING, illinois, sin_cos, try_bisect};
+use crate::numerics::{PlaceTolerance, illinois, sin_cos, try_bisect};
 use crate::scan::Scan;
 
 /// A place within both ranges, each from 0 to 1.
@@ -151,11 +151,17 @@ impl Meter<'_> {
         let (from, to) = (self.at_border(arc, 0.0, towards)?, self.at_border(arc, reach, towards)?);
         let ends = from.zip(to).map(|(from, to)| [(0.0, from.0), (reach, to.0)]);
         let Some(ends) = ends.filter(|[from, to]| from.1 * to.1 <= 0.0) else { return Ok(None) };
-        let small = ALONG * (ends[1].1 - ends[0].1).abs() / reach;
-        let [best, _] = illinois(ends, small, PlaceTolerance::Absolute(ALONG), |along| {
-            Ok(self.at_border(arc, along, towards)?.map_or(f64::NAN, |(limit, _)| limit))
-        })?;
-        Ok(self.at_border(arc, best.0, towards)?.map(|(_, place)| place))
+        // Secants: near its end a curve is short, and the column along the border nearly straight.
+        let ([mut before, mut last], mut end) = (ends, None);
+        for _ in 0..5 {
+            let along = last.0 - last.1 * (last.0 - before.0) / (last.1 - before.1);
+            let Some((limit, place)) = self.at_border(arc, along, towards)? else { break };
+            (before, last, end) = (last, (along, limit), Some(place));
+            if (last.0 - before.0).abs() < ALONG {
+                break;
+            }
+        }
+        Ok(end)
     }
 
     /// The column at the border of what has numbers, by its limit there, on a line across the heading; and where that is.
@@ -168,12 +174,14 @@ impl Meter<'_> {
         /// The square root of the distance from the border at which the column is read: its extrapolation has errors of the
         /// order of the cube, and of the rounding of the border over this.
         const ROOT: f64 = 1e-4;
+        /// From a thousandth of the ranges to rounding.
+        const HALVINGS: u32 = 42;
         let at = |across: f64| arc.point(along, towards * across)[1];
         let mut lacks = |across: f64| Ok(self.excess(at(across))?.is_err());
         if lacks(-arc.reach)? || !lacks(arc.reach)? {
             return Ok(None);
         }
-        let (inside, _) = try_bisect(-arc.reach, arc.reach, TO_ROUNDING, lacks)?;
+        let (inside, _) = try_bisect(-arc.reach, arc.reach, HALVINGS, lacks)?;
         let mut beside = |times: f64| self.excess(at(inside - times * ROOT * times * ROOT));
         let (Ok(one), Ok(two), Ok(three)) = (beside(1.0)?, beside(2.0)?, beside(3.0)?) else {
             return Ok(None);
