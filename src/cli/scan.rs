@@ -28,7 +28,6 @@ use crate::words::{joined, usage};
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
 #[derive(Args)]
 #[command(name = "scan")]
-#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct ScanCommand {
     #[command(flatten)]
     pub source: SourceOptions,
