@@ -6,6 +6,23 @@
 //! does it survive?". This library answers it in rings; each uses only rings further in, and a test
 //! (`tests/architecture.rs`) keeps it so.
 //!
+//! ```
+//! use hopfscope::flow::Limits;
+//! use hopfscope::model::Parameters;
+//! use hopfscope::portrait::Portrait;
+//!
+//! let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+//! let portrait = Portrait::of_oscillator(&parameters, 0.0, &Limits::PATIENT)?;
+//! let [inner, outer] = &portrait.cycles[..] else { panic!("two cycles") };
+//! assert!(!inner.stable && outer.stable);
+//! // Kicks up to the inner cycle are survived.
+//! assert_eq!(portrait.margin.displacement, Some(inner.q_max));
+//! # Ok::<(), hopfscope::flow::Reason>(())
+//! ```
+//!
+//! The folder `examples` has more: margins that hold for certain, branches and scans, machines. The package in `python/`
+//! asks the same questions in Python.
+//!
 //! - [`model`] has the numbers: the [`model::Parameters`] of the paper, a machine or a vibration mode, and the
 //!   [`model::Model`] that they yield; the smooth field of one half plane in a frame in which both look alike, the sticking
 //!   set, energy. [`model::Knob`] is the one table of every number that can be set. [`closed_form`] is what follows in
@@ -73,7 +90,7 @@ pub mod paper;
 pub mod portrait;
 #[warn(clippy::missing_errors_doc)]
 pub mod proof;
-#[doc(hidden)]
+#[warn(clippy::missing_errors_doc)]
 pub mod scan;
 
 #[cfg(feature = "explorer")]

@@ -16,8 +16,8 @@ pub mod regime;
 pub(crate) mod special;
 
 pub(crate) use self::{
-    along::*, chart::*, continuation::*, escape::*, extended::*, fold::*, fold_graph::*,
-    machine::*, regime::*, special::*,
+    chart::*, continuation::*, escape::*, extended::*, fold::*, fold_graph::*, machine::*,
+    regime::*, special::*,
 };
-pub use along::{Branch, BranchPoint};
+pub use along::{Branch, BranchPoint, Points, branch};
 pub use special::{Jump, JumpEnd, Special, SpecialKind};

@@ -1,46 +1,17 @@
 //! Questions of a caller in this process, such as the Python package: asked in the words of the command line, answered as
 //! documents, and interrupted when the caller says so.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use clap::{ArgMatches, Args, Command};
 
 use super::fit::FitCommand;
 use super::scan::ScanCommand;
-use super::{CommandCase, Failure, Result, commands, parsed, signed};
-use crate::flow::Limits;
+use super::{Call, CommandCase, Failure, Result, SourceOptions, commands, parsed, signed};
 use crate::report::Answer;
 use crate::scan::Scan;
 use crate::words::provenance::Provenance;
 use crate::words::usage;
-
-/// What a caller brings along, and what it gets.
-pub struct Call {
-    /// The machine that it asks about, in place of one that the words name.
-    pub case: Option<CommandCase>,
-    interrupted: Box<dyn Fn() -> bool + Send + Sync>,
-    answer: Mutex<Option<Answer>>,
-}
-
-impl Call {
-    /// A call about a machine, or about what the words say; it ends when `interrupted` says so.
-    pub fn new(
-        case: Option<CommandCase>,
-        interrupted: impl Fn() -> bool + Send + Sync + 'static,
-    ) -> Self {
-        Call { case, interrupted: Box::new(interrupted), answer: Mutex::default() }
-    }
-
-    /// What a question may cost.
-    pub(super) fn limits(&self) -> Limits<'_> {
-        Limits { interrupted: &*self.interrupted, ..Limits::PATIENT }
-    }
-
-    /// Takes what would be printed.
-    pub(super) fn take(&self, answer: Answer) {
-        *self.answer.lock().unwrap_or_else(PoisonError::into_inner) = Some(answer);
-    }
-}
 
 /// The options that follow a command's name.
 fn given(words: &[String], options: fn(Command) -> Command) -> Result<ArgMatches> {
@@ -48,26 +19,31 @@ fn given(words: &[String], options: fn(Command) -> Command) -> Result<ArgMatches
     parser.try_get_matches_from(words).map_err(|error| usage::line(&error).into())
 }
 
-/// The answer to a question, a command and its options, with its provenance; and what the program would say about an
+/// The answer to a question, a command and its options, about a machine if one is given, with its provenance; and what the program would say about an
 /// answer that is incomplete, or that rests on a condition which fails.
 ///
 /// # Errors
 /// The line of the program, if there is no answer.
-pub fn answer(words: &[String], call: Call) -> Result<(Answer, Option<Failure>)> {
-    let call = Arc::new(call);
+pub fn answer(
+    words: &[String],
+    case: Option<CommandCase>,
+    interrupted: impl Fn() -> bool + Send + Sync + 'static,
+) -> Result<(Answer, Option<Failure>)> {
+    let call = Arc::new(Call::new(interrupted));
     let name = words.first().map_or("", String::as_str);
+    let asked = [words, &["--format", "json"].map(str::to_owned)].concat();
     let run = || {
         if name == "fit" {
-            let mut fit: FitCommand = parsed(&given(words, FitCommand::augment_args)?)?;
+            let mut fit: FitCommand = parsed(&given(&asked, FitCommand::augment_args)?)?;
             fit.output.call = Some(Arc::clone(&call));
             return fit.run();
         }
         let row = commands().into_iter().find(|row| row.name == name);
         let row = row.ok_or_else(|| format!("{name:?} is not a command"))?;
-        (row.run)(&given(words, row.options)?, Some(&call))
+        (row.run)(&given(&asked, row.options)?, Some((&call, case)))
     };
     let trouble = run().err();
-    match (call.answer.lock().unwrap_or_else(PoisonError::into_inner).take(), trouble) {
+    match (call.replace(None), trouble) {
         (Some(answer), trouble) => Ok((answer.from(&Provenance::of(words)), trouble)),
         (None, Some(trouble)) => Err(trouble),
         (None, None) => Err(format!("{name} gives no document").into()),
@@ -82,4 +58,15 @@ pub fn scan(words: &[String], case: Option<CommandCase>) -> Result<(Scan, Option
     let mut command: ScanCommand = parsed(&given(words, ScanCommand::augment_args)?)?;
     command.source.case = case;
     Ok((command.asked()?.scan, command.jobs.map(usize::from)))
+}
+
+/// The machine that words name, or that a text describes in place of a file, with the numbers that they set.
+///
+/// # Errors
+/// The line of the program, if there is none.
+pub fn machine(words: &[String], text: Option<&str>) -> Result<CommandCase> {
+    let words = [&["machine".to_owned()], words].concat();
+    let mut options: SourceOptions = parsed(&given(&words, SourceOptions::augment_args)?)?;
+    options.case = text.map(|text| CommandCase::written(&words[2], text)).transpose()?;
+    options.machine()?.ok_or("which machine?")?.checked()
 }

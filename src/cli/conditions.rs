@@ -6,7 +6,7 @@ use super::input::{self, WINDOW};
 use super::{Result, SourceOptions, given, half_widths, number};
 use crate::flow::Subject;
 use crate::model::Knob;
-use crate::scan::{Conditions, Measure};
+use crate::scan::{Conditions, Measure, Origin};
 
 /// What measures depend on beside the numbers that vary.
 #[derive(Args)]
@@ -52,7 +52,11 @@ impl ConditionOptions {
         let disturbance = number("--disturbance", disturbance, numbers.disturbance)?;
         let wanted = given("--design", self.design.as_ref(), numbers.margin)?;
         let conditions = Conditions {
-            elongation: self.elongation,
+            origin: if self.elongation {
+                Origin::Relaxed
+            } else {
+                Origin::Steady
+            },
             kicks: kicks.unwrap_or_default(),
             wanted,
             ..window.unwrap_or(WINDOW).into()

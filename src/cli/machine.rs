@@ -69,6 +69,13 @@ impl CommandCase {
         Ok(CommandCase { described, sources })
     }
 
+    /// The case that a text describes, which names no other files.
+    pub fn written(name: &str, text: &str) -> Result<Self> {
+        let none = |_: &str| Err("a text has no files beside it".to_owned());
+        let described = parse(name, name, text, none).map_err(|error| error.to_string())?;
+        Ok(CommandCase { described, sources: Vec::new() })
+    }
+
     /// What an answer is about.
     pub fn about(&self) -> About {
         let Description { name, title, subject, .. } = &self.described;

@@ -8,6 +8,7 @@ mod basin;
 mod belt;
 mod branch;
 mod call;
+mod caller;
 mod conditions;
 mod cycles;
 mod explore;
@@ -41,10 +42,11 @@ use std::sync::Arc;
 use clap::{ArgMatches, Args, Command};
 use explore::ExploreCommand;
 
-pub use call::{Call, answer, scan};
+pub use call::{answer, machine, scan};
 pub use machine::CommandCase;
 
 pub(super) use crate::runtime::failure::{Failure, Result};
+pub(super) use caller::Call;
 pub(super) use input::{given, half_widths, number, read, signed};
 pub(super) use machine::{second, troubled};
 pub(super) use output::{CERTIFY, Output, in_turn, print, timed, write};
@@ -54,7 +56,10 @@ use crate::runtime::provenance_file::words;
 use crate::words::usage;
 
 /// Runs a command with the options that were given, for a caller in this process if there is one.
-type Run = Box<dyn Fn(&ArgMatches, Option<&Arc<Call>>) -> Result<()>>;
+type Run = Box<dyn FnOnce(&ArgMatches, Option<Caller<'_>>) -> Result<()>>;
+
+/// A caller, and the machine that it asks about in place of what the options name.
+type Caller<'a> = (&'a Arc<Call>, Option<CommandCase>);
 
 /// A command that needs no terminal.
 struct Subcommand {
@@ -65,7 +70,7 @@ struct Subcommand {
 }
 
 fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<()>) -> Subcommand {
-    let run = move |given: &ArgMatches, _: Option<&Arc<Call>>| run(&parsed(given)?);
+    let run = move |given: &ArgMatches, _: Option<Caller>| run(&parsed(given)?);
     Subcommand { name, options: C::augment_args, run: Box::new(run) }
 }
 
@@ -75,10 +80,12 @@ fn question<C: Args + 'static>(
     run: fn(&C, &QuestionOptions) -> Result<()>,
 ) -> Subcommand {
     let options = |command| C::augment_args(QuestionOptions::augment_args(command));
-    let run = move |given: &ArgMatches, call: Option<&Arc<Call>>| {
+    let run = move |given: &ArgMatches, caller: Option<Caller>| {
         let mut asked: QuestionOptions = parsed(given)?;
-        asked.source.case = call.and_then(|call| call.case.clone());
-        asked.output.call = call.cloned();
+        if let Some((call, case)) = caller {
+            asked.output.call = Some(Arc::clone(call));
+            asked.source.case = case;
+        }
         run(&parsed(given)?, &asked)
     };
     Subcommand { name, options, run: Box::new(run) }

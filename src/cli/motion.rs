@@ -55,7 +55,7 @@ impl<'a> AskedMotion<'a> {
     /// Where the motion is at these times; a time at which that is not known keeps its row, and a note says so.
     fn at_times(&self, times: &[f64]) -> Vec<MomentRow> {
         let (model, detail) = (self.model.as_ref(), Detail::default());
-        let (found, samples) = self.problem.at_times(model, times, detail, &Limits::PATIENT);
+        let (found, samples) = self.problem.at_times(model, times, detail, &self.limits);
         let rows: Vec<_> = times.iter().copied().zip(samples).collect();
         let unknown = rows.iter().filter(|(_, sample)| sample.is_none()).count();
         if unknown > 0 {

@@ -70,7 +70,7 @@ impl Output {
     /// file.
     pub fn print(&self, answer: Answer) -> Result<()> {
         if let Some(call) = &self.call {
-            call.take(answer);
+            call.replace(Some(answer));
             return Ok(());
         }
         let content = sourced(answer, self.format());

@@ -31,12 +31,10 @@ pub mod closing;
 pub mod design;
 #[doc(hidden)]
 pub mod guarantee;
-#[doc(hidden)]
 pub mod kicks;
 pub(crate) mod on_belt;
 #[doc(hidden)]
 pub mod proved;
-#[doc(hidden)]
 pub mod return_map;
 
 mod border;
@@ -51,7 +49,7 @@ pub use basin::in_time::orbit;
 pub use basin::stability::Share;
 pub use basin::{Counts, StartWindow};
 pub use border::Edge;
-pub use closing::return_map::{Return, ReturnMap};
+pub use closing::return_map::{Return, ReturnMap, return_map};
 pub use cycle::{Cycle, CycleErrors, Ride};
 pub use portrait::Portrait;
 

@@ -4,7 +4,7 @@
 //! not depend on each other: any of them can be computed anywhere, at any time, and is the same to the
 //! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
-use super::{Conditions, Measure, OF_THE_PAPER, PointList, ScanRow, Sweep, Value, measure};
+use super::{Conditions, Measure, OF_THE_PAPER, Origin, PointList, ScanRow, Sweep, Value, measure};
 use crate::flow::{Cost, Limits, Problem, Result, Subject};
 use crate::model::{FrictionLaw, Interval, Knob, State};
 use crate::portrait::{RandomKick, StartWindow};
@@ -25,8 +25,10 @@ pub struct Scan {
 }
 
 impl Scan {
-    /// A scan that makes sense: each sweep moves something that is measured. Fails with one line that says what is
-    /// wrong and what is allowed.
+    /// A scan that makes sense: each sweep moves something that is measured.
+    ///
+    /// # Errors
+    /// One line that says what is wrong and what is allowed.
     pub fn new(
         base: impl Into<Subject>,
         over: Vec<Sweep>,
@@ -159,12 +161,17 @@ impl Scan {
         self.subject(index).paper()
     }
 
-    /// Measures point number `index`. Fails with [`Reason::Interrupted`](crate::model::Reason::Interrupted), and no other.
+    /// Measures point number `index`.
+    ///
+    /// # Errors
+    /// [`Reason::Interrupted`](crate::model::Reason::Interrupted), and no other.
     pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow> {
         measure(&self.subject(index), &self.measures, &self.conditions, limits)
     }
 
-    /// Measures between the points, where the numbers that are scanned over have these values. Fails with
+    /// Measures between the points, where the numbers that are scanned over have these values.
+    ///
+    /// # Errors
     /// [`Reason::Interrupted`](crate::model::Reason::Interrupted), and no other.
     pub fn row_at(&self, values: [f64; 2], limits: &Limits) -> Result<ScanRow> {
         let values = self.over.iter().map(|sweep| sweep.symbol).zip(values);
@@ -193,11 +200,11 @@ impl Scan {
     /// With it every row says for itself what it is: rows of different scans can stand in one file.
     pub fn inputs(&self, index: usize) -> Vec<(String, Value)> {
         let mut inputs = self.inputs_of(&self.subject(index));
-        let Conditions { window, elongation, kicks, wanted } = self.conditions;
+        let Conditions { window, origin, kicks, wanted } = self.conditions;
         if self.measures.iter().any(|measure| measure.is_over_window()) {
             let StartWindow { q, v } = window;
             inputs.extend(named([("q_from", q.0), ("q_to", q.1), ("v_from", v.0), ("v_to", v.1)]));
-            if elongation {
+            if origin == Origin::Relaxed {
                 inputs.push(("q_of".to_owned(), Value::Word("elongation")));
             }
         }

@@ -36,7 +36,10 @@ pub const COUNTS: std::ops::RangeInclusive<usize> = 2..=1_000_000;
 const FORM: &str = "expected NAME=FROM:TO:COUNT, such as D=-0.95:0:400, or NAME=log:FROM:TO:COUNT";
 
 impl Sweep {
-    /// A sweep that makes sense. Fails with one line that says what is wrong and what is allowed.
+    /// A sweep that makes sense.
+    ///
+    /// # Errors
+    /// One line that says what is wrong and what is allowed.
     pub fn new(
         symbol: Knob,
         (from, to): (f64, f64),
@@ -61,13 +64,19 @@ impl Sweep {
         Ok(Sweep { symbol, from, to, count, spacing })
     }
 
-    /// Reads `NAME=FROM:TO:COUNT` or `NAME=log:FROM:TO:COUNT`, with a number of these groups; both ends with a unit or
-    /// none. Fails with one line that says what is wrong and what is allowed.
+    /// Reads `NAME=FROM:TO:COUNT` or `NAME=log:FROM:TO:COUNT`, with a number of these groups; both ends with a unit
+    /// or none.
+    ///
+    /// # Errors
+    /// One line that says what is wrong and what is allowed.
     pub fn read(text: &str, groups: &[Group]) -> Result<Self, String> {
         Sweep::read_as(FORM, text, groups)
     }
 
     /// The same of what was given in another form, which a refusal names.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
     pub fn read_as(form: &str, text: &str, groups: &[Group]) -> Result<Self, String> {
         let (name, range) = text.split_once('=').ok_or(form)?;
         let symbol = Knob::named(name.trim(), groups)?;
@@ -138,8 +147,10 @@ impl fmt::Display for Sweep {
     }
 }
 
-/// Both ends of a range of a number, with a unit each or none; `range` is the text that they were read from. Fails with one
-/// line that says what is wrong.
+/// Both ends of a range of a number, with a unit each or none; `range` is the text that they were read from.
+///
+/// # Errors
+/// One line that says what is wrong.
 pub fn ends(knob: Knob, range: &str, [from, to]: [&str; 2]) -> Result<(f64, f64), String> {
     let ends = (knob.parse(from)?, knob.parse(to)?);
     let has_unit = |text: &str| measured(text).is_ok_and(|read| read.dimension.is_some());

@@ -10,7 +10,6 @@ pub mod capture;
 pub mod cycle;
 pub mod in_time;
 pub(crate) mod orbit;
-#[doc(hidden)]
 pub mod stability;
 
 pub(crate) use self::{arc::*, cycle::*, orbit::*, stability::*};

@@ -6,7 +6,7 @@
 
 pub(crate) mod repeated;
 
-pub(crate) use self::repeated::*;
+pub use self::repeated::{Survival, repeated};
 
 use std::f64::consts::{PI, SQRT_2};
 use std::fmt;
@@ -31,6 +31,7 @@ pub enum Distribution {
 /// As far as kicks may reach: basins are still known well there.
 const FARTHEST: f64 = 1e8;
 
+/// Random kicks: a displacement and a velocity, independent of each other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct RandomKick {
@@ -50,8 +51,11 @@ impl Default for RandomKick {
 }
 
 impl RandomKick {
-    /// Reads `q=0+-0.1,v=0+-0.05`, with `uniform:` before it for a law that is not normal; displacements and velocities
-    /// in these units, or with their own. Fails with one line that says what is wrong and what is allowed.
+    /// Reads `q=0+-0.1,v=0+-0.05`, with `uniform:` before it for a law that is not normal; displacements and
+    /// velocities in these units, or with their own.
+    ///
+    /// # Errors
+    /// One line that says what is wrong and what is allowed.
     pub fn read(text: &str, units: [&str; 2]) -> Result<Self, String> {
         const FORM: &str = "kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0";
         let form = || format!("{text:?}: expected {FORM}");
@@ -78,7 +82,10 @@ impl RandomKick {
         kicks.checked()
     }
 
-    /// These kicks, if they are numbers and not too far away. Fails with one line that says what is allowed.
+    /// These kicks, if they are numbers and not too far away.
+    ///
+    /// # Errors
+    /// One line that says what is allowed.
     pub fn checked(self) -> Result<Self, String> {
         let (mean, spread) = self.v;
         if self.reach() <= FARTHEST && mean.is_finite() && spread.is_finite() {
@@ -101,8 +108,11 @@ impl RandomKick {
         self.q.0.abs() + self.law.reach() * self.q.1
     }
 
-    /// The fraction of the kicks from the steady position that is lost. Fails with [`Reason::NotApplicable`] where the
-    /// basin is not known, or if its border cannot be traced as far as [`RandomKick::reach`].
+    /// The fraction of the kicks from the steady position that is lost.
+    ///
+    /// # Errors
+    /// [`Reason::NotApplicable`] where the basin is not known, or if its border cannot be traced as far as
+    /// [`RandomKick::reach`].
     pub fn lost(&self, portrait: &Portrait) -> Result<Share> {
         const NEEDS: Reason = Reason::NotApplicable {
             needs: "a basin of rest that is known, and no family of periodic motions",

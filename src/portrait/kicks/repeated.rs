@@ -28,6 +28,7 @@ pub struct Survival {
     pub error: f64,
     /// Density of the places of rest after many kicks, in cells of equal width from -r to r.
     pub density: Vec<f64>,
+    /// What it cost.
     pub cost: Cost,
 }
 
@@ -43,8 +44,11 @@ const COLUMNS: f64 = 600.0;
 /// Kicks beyond this many spreads are too rare to matter for where kicks end.
 const FAR: f64 = 5.0;
 
-/// Follows kicks until one is lost. Fails with the [`Reason`] why a motion could not be followed, with
-/// [`Reason::NotApplicable`] where the basin is not known, or without friction.
+/// Follows kicks until one is lost.
+///
+/// # Errors
+/// The [`Reason`] why a motion could not be followed, with [`Reason::NotApplicable`] where the basin is not known, or
+/// without friction.
 pub fn repeated(portrait: &Portrait, kicks: &RandomKick, limits: &Limits) -> Result<Survival> {
     // Kicks start from all that the guide holds.
     let portrait = &*portrait.followed_to(kicks.reach() + portrait.model.guide_static)?;

@@ -78,8 +78,11 @@ impl Portrait {
 }
 
 impl Flow<'_> {
-    /// The next right turning point after the one at `x`, outside of what the guide holds; `None` if the mass comes to
-    /// rest before. Fails with [`Reason`] if the motion does not turn.
+    /// The next right turning point after the one at `x`, outside of what the guide holds; `None` if the mass comes
+    /// to rest before.
+    ///
+    /// # Errors
+    /// [`Reason`] if the motion does not turn.
     pub fn returned(&mut self, x: f64) -> Result<Option<Image>> {
         let mut divergence = 0.0;
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
@@ -142,7 +145,10 @@ impl Flow<'_> {
 
     /// The inverse map at the right turning point `x`, for motions that always slip below the belt's speed:
     /// [`Image::x`] is the turning point before. It contracts where the map itself expands. `None` if no such motion
-    /// leads to `x`. Fails with [`Reason`] where the friction law ends or the steps run out.
+    /// leads to `x`.
+    ///
+    /// # Errors
+    /// [`Reason`] where the friction law ends or the steps run out.
     pub fn preimage(&mut self, x: f64) -> Result<Option<Image>> {
         let mut divergence = 0.0;
         let mut add = |series: &PhaseSeries| divergence += series.divergence();
@@ -161,8 +167,10 @@ impl Flow<'_> {
 
     // The special motions at the belt's line: those that touch it, are released by it, or overtake it.
 
-    /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`Reason`] if the
-    /// friction law ends before they are reached.
+    /// The landmarks; `None` without a belt, or without a law for small slips.
+    ///
+    /// # Errors
+    /// [`Reason`] if the friction law ends before they are reached.
     pub fn landmarks(&mut self) -> Result<Option<Landmarks>> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };

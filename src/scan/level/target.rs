@@ -88,8 +88,10 @@ pub struct LevelCurve {
 /// The curves along which a column has a value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Levels {
+    /// The curves.
     pub curves: Vec<LevelCurve>,
     /// The smallest and the largest number of the column on the lattice on which curves were sought; `None` without one.
     pub seen: Option<[f64; 2]>,
+    /// What they cost.
     pub cost: Cost,
 }

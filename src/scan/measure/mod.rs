@@ -10,7 +10,7 @@ mod settling;
 mod table;
 
 pub use row::{ScanRow, measure};
-pub use table::{Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, Value};
+pub use table::{Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, Origin, Value};
 
 #[cfg(test)]
 mod tests;

@@ -15,6 +15,7 @@ pub struct ScanRow {
     pub values: Vec<Value>,
     /// What could not be computed, and why.
     pub reason: Option<String>,
+    /// What it cost.
     pub cost: Cost,
 }
 
@@ -40,7 +41,10 @@ pub(super) struct Cells<'a> {
 }
 
 /// Fills the columns of these measures at a point, in their order. What could not be computed is [`Value::Nothing`],
-/// and [`ScanRow::reason`] says why. Fails with [`Reason::Interrupted`](crate::model::Reason::Interrupted), and no other.
+/// and [`ScanRow::reason`] says why.
+///
+/// # Errors
+/// [`Reason::Interrupted`](crate::model::Reason::Interrupted), and no other.
 pub fn measure(
     subject: &Subject,
     measures: &[Measure],

@@ -136,7 +136,10 @@ impl Measure {
         }
     }
 
-    /// The measure with this name. Fails with one line that says which there are.
+    /// The measure with this name.
+    ///
+    /// # Errors
+    /// One line that says which there are.
     pub fn named(name: &str) -> Result<Self, String> {
         MEASURES.iter().find(|row| row.name == name).map(|row| row.measure).ok_or_else(|| {
             let names: Vec<_> = MEASURES.iter().map(|row| row.name).collect();
@@ -187,6 +190,16 @@ impl Value {
 
 // What some measures depend on beside the subject.
 
+/// From where the displacements of a window count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Origin {
+    /// From the steady position.
+    #[default]
+    Steady,
+    /// From the relaxed spring of a machine.
+    Relaxed,
+}
+
 /// The window of starts, the kicks, and the margin that is wanted.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conditions {
@@ -194,8 +207,8 @@ pub struct Conditions {
     pub window: StartWindow,
     /// Kicks of which a fraction is lost.
     pub kicks: RandomKick,
-    /// Whether the window of a machine counts displacements from the relaxed spring.
-    pub elongation: bool,
+    /// From where the window of a machine counts displacements.
+    pub origin: Origin,
     /// The margin for which the friction is sought.
     pub wanted: Option<(Kick, f64)>,
 }
@@ -209,7 +222,10 @@ impl From<StartWindow> for Conditions {
 impl Conditions {
     /// The window of a machine, from its steady position.
     pub fn about(&self, model: &Model) -> StartWindow {
-        let steady = if self.elongation { model.pull } else { 0.0 };
+        let steady = match self.origin {
+            Origin::Steady => 0.0,
+            Origin::Relaxed => model.pull,
+        };
         let StartWindow { q: (from, to), v } = self.window;
         StartWindow { q: (from - steady, to - steady), v }
     }
