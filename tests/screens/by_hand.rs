@@ -118,6 +118,10 @@ pub fn by_hand(request: &Request) -> Finding {
         Request::Branch { parameter, .. } => Finding::Branch(folded(*parameter)),
         Request::ReturnMap { parameters, .. } => Finding::ReturnMap(halving(*parameters)),
         Request::Regimes { plane, .. } => Finding::Regimes(parted(*plane)),
+        // No screen asks for level curves.
+        Request::Level { scan, target } => {
+            Finding::Level(scan.curves(*target, 1e-2, &Limits::PATIENT).unwrap())
+        }
         Request::Trade(_) => Finding::Trade(compared()),
         // Of the cycles made up above.
         Request::Proof { parameters } => {
