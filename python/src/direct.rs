@@ -70,7 +70,7 @@ pub fn margin(py: Python<'_>, parameters: &Parameters, disturbance: f64) -> PyRe
     let seconds = started.elapsed().as_secs_f64();
     Ok(Found::new(move || {
         let mut cost = nominal.cost;
-        let regime = (nominal.margin, nominal.margin_regime());
+        let regime = (nominal.margin, nominal.border);
         let certain = certain.map(|(worst, margin)| {
             cost += worst.cost;
             margin

@@ -1,16 +1,16 @@
 //! `hopfscope basin`: where starts end, the curves that belong to it, and all of it as arrays.
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use rayon::prelude::*;
 
 use super::input::{self, WINDOW};
+use super::output::keep;
 use super::{CERTIFY, Failure, QuestionOptions, Result, given};
-use crate::flow::Limits;
-use crate::model::State;
+use crate::flow::{Flow, Limits};
 use crate::portrait::closing::return_map::return_map;
-use crate::portrait::{Counts, Margin, Portrait, StartWindow, proved_kicks};
-use crate::report::arrays::Array;
-use crate::report::margin::basin;
-use crate::report::{About, Answer};
+use crate::portrait::{Margin, Portrait, Return, StartWindow, evenly, proved_kicks};
+use crate::report::margin::{NamedCurve, basin};
+use crate::runtime::arrays::{Array, packed};
 
 /// Shows where the starts in a window end, and how large a kick is survived
 #[derive(Args)]
@@ -24,93 +24,90 @@ pub struct BasinCommand {
     /// Number of starts, evenly spaced, including both ends of the window
     #[arg(long, value_name = "WxH", default_value = "320x384", value_parser = input::grid)]
     grid: (usize, usize),
-    /// Adds a curve: the border of the basin, or the return map over the displacements of the window
-    #[arg(long, value_enum)]
-    curve: Option<Curve>,
+    /// Adds curves: the border of the basin, and the return map over the displacements of the window
+    #[arg(long)]
+    curves: bool,
 }
 
-/// A curve that belongs to a basin.
-#[derive(Clone, Copy, ValueEnum)]
-enum Curve {
-    Border,
-    ReturnMap,
-}
-
-/// Points on each integration step of a border.
-const POINTS: u16 = 16;
-
-/// Points on each side of a return map.
-const TURNS: u16 = 401;
-
-/// Most labels in an archive.
-const MOST_LABELS: usize = 400_000_000;
-
-/// The border of a basin; empty where there is none.
-fn border(found: &Portrait) -> Vec<State> {
-    let edge = found.edge().map(|edge| edge.curve(POINTS)).unwrap_or_default();
-    edge.into_iter().map(|at| State { v: at.v * found.model.omega_0, ..at }).collect()
-}
-
-impl Curve {
-    /// An answer with the curve.
-    fn told(
-        self,
-        answer: Answer,
-        about: &About,
-        found: &Portrait,
-        window: &StartWindow,
-    ) -> Result<Answer> {
-        if let Curve::Border = self {
-            return Ok(answer.bordered(about, &border(found)));
-        }
-        let parameters = found.model.parameters().filter(|_| !about.is_machine());
-        let sides = match parameters {
-            None => vec![found.returns(window.q, TURNS.into())],
-            Some(parameters) => {
-                let map = return_map(&parameters, window.q, TURNS, &Limits::PATIENT);
-                let map = map.map_err(|why| Failure::unanswered("no return map", why))?;
-                map.sides.into_iter().rev().collect()
-            }
-        };
-        Ok(answer.returned(about, &sides))
-    }
-}
-
-/// The labels of starts with their axes, the border of the basin, and the margin.
-fn arrays(
+/// The border of the basin, and the return map, for each side where it is that of the oscillator of the paper.
+fn curves(
     found: &Portrait,
-    window: &StartWindow,
-    grid: (usize, usize),
+    on_paper: bool,
+    q: (f64, f64),
     limits: &Limits,
-) -> Result<Vec<Array>> {
-    let ([q, v], border) = (window.axes(grid), border(found));
-    if q.len() * v.len() > MOST_LABELS {
-        return Err(
-            format!("an archive has at most {MOST_LABELS} labels; --grid sets how many").into()
-        );
+) -> Result<Vec<NamedCurve>> {
+    /// Points on each integration step of a border, and on each side of a map.
+    const POINTS: u16 = 16;
+    const TURNS: u16 = 401;
+    let rate = found.model.omega_0;
+    let border = found.edge().map(|edge| edge.curve(POINTS)).unwrap_or_default();
+    let mut all = vec![("border", border.iter().map(|at| [at.q, at.v * rate]).collect())];
+    if let Some(parameters) = found.model.parameters().filter(|_| on_paper) {
+        let map = return_map(&parameters, q, TURNS, limits);
+        let map = map.map_err(|why| Failure::unanswered("no return map", why))?;
+        let turn = |turn: &Return| [turn.from, turn.to.unwrap_or(f64::NAN)];
+        let sides = map.sides.map(|side| side.iter().map(turn).collect());
+        all.extend(["return_map_left", "return_map_right"].into_iter().zip(sides));
+    } else {
+        let starts = evenly((q.0.max(found.model.guide_static), q.1), TURNS.into());
+        let next = |x| [x, Flow::new(&found.model).next_right(x).unwrap_or(f64::NAN)];
+        all.push(("return_map_right", starts.map(next).collect()));
     }
-    let labels = found.labels(window, grid, limits);
-    let labels =
-        labels.map_err(|why| Failure::unanswered("the starts could not be labelled", why))?;
-    let points = border.iter().flat_map(|at| [at.q, at.v]).collect();
-    let Margin { displacement, impulse, from_rest } = found.margin;
-    let sizes = [displacement, impulse, from_rest.displacement, from_rest.impulse];
-    Ok(vec![
-        Array::bytes("labels", &[v.len(), q.len()], labels),
-        Array::words("legend", Counts::LABELS),
-        Array::numbers("q", &[q.len()], q),
-        Array::numbers("v", &[v.len()], v),
-        Array::numbers("border", &[border.len(), 2], points),
-        Array::numbers("margin", &[4], sizes.map(|size| size.unwrap_or(f64::NAN)).to_vec()),
-        Array::words(
-            "margin_of",
-            ["displacement", "impulse", "from_rest_displacement", "from_rest_impulse"],
-        ),
-        Array::words("regime", [found.margin_regime().word()]),
-    ])
+    Ok(all)
 }
+
+/// Most labels of starts in an archive.
+const MOST_LABELS: usize = 10_000_000;
+
+/// What starts are counted as, by label.
+const LABELS: [&str; 4] = ["captured", "cycle", "escaped", "undecided"];
 
 impl BasinCommand {
+    /// The label of each start, a row for each velocity; each is counted by itself.
+    fn labels(&self, found: &Portrait, [q, v]: [&[f64]; 2]) -> Result<Vec<usize>> {
+        if q.len() * v.len() > MOST_LABELS {
+            return Err(format!("--grid: an archive has at most {MOST_LABELS} labels").into());
+        }
+        let label = |(q, v): (f64, f64)| {
+            let start = StartWindow { q: (q, q), v: (v, v) };
+            let counts = found.count(&start, (1, 1), &Limits::PATIENT).unwrap_or_default();
+            let counts = [counts.captured, counts.cycle, counts.escaped];
+            counts.iter().position(|count| *count == 1).unwrap_or(counts.len())
+        };
+        let starts = v.iter().flat_map(|v| q.iter().map(|q| (*q, *v)));
+        Ok(starts.collect::<Vec<_>>().into_par_iter().map(label).collect())
+    }
+
+    /// The labels with their axes, the margin, and the curves.
+    fn arrays(
+        &self,
+        found: &Portrait,
+        window: &StartWindow,
+        curves: &[NamedCurve],
+    ) -> Result<Vec<Array>> {
+        let digits = |number: f64| format!("{number:?}");
+        let (width, height) = self.grid;
+        let q: Vec<_> = evenly(window.q, width).collect();
+        let v: Vec<_> = evenly(window.v, height).collect();
+        let Margin { displacement, impulse, from_rest } = found.margin;
+        let sizes = [displacement, impulse, from_rest.displacement, from_rest.impulse];
+        let sizes = sizes.map(|size| size.map(digits).unwrap_or_default());
+        let labels = self.labels(found, [&q, &v])?;
+        let mut all = vec![
+            Array::new("labels", &[height, width], labels),
+            Array::new("legend", &[LABELS.len()], LABELS),
+            Array::new("q", &[width], q.into_iter().map(digits)),
+            Array::new("v", &[height], v.into_iter().map(digits)),
+            Array::new("margin", &[4], sizes),
+            Array::new("regime", &[1], [found.margin.regime(found.border)]),
+        ];
+        let curve = |(name, points): &NamedCurve| {
+            Array::new(name, &[points.len(), 2], points.iter().flatten().copied().map(digits))
+        };
+        all.extend(curves.iter().map(curve));
+        Ok(all)
+    }
+
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let numbers = asked.source.numbers();
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
@@ -126,9 +123,9 @@ impl BasinCommand {
         };
         let window = window.unwrap_or_else(usual);
         let limits = asked.output.limits();
-        let written = asked.output.archive(|| arrays(&found, &window, self.grid, &limits))?;
-        if written.is_some() {
-            return Ok(());
+        let curves = || curves(&found, !about.is_machine(), window.q, &limits);
+        if let Some(path) = asked.output.archive() {
+            return keep(path, &packed(path, &self.arrays(&found, &window, &curves()?)?)?);
         }
         let count = || found.count(&window, self.grid, &limits);
         let (counts, seconds) = asked.output.timed("the starts could not be counted", count)?;
@@ -137,7 +134,7 @@ impl BasinCommand {
         let certified = parameters.map(|parameters| proved_kicks(&parameters, &found));
         let seconds = before + seconds;
         let answer = basin(&about, &found, (&window, counts), certified.as_ref(), seconds);
-        let Some(curve) = self.curve else { return asked.output.print(answer) };
-        asked.output.print(curve.told(answer, &about, &found, &window)?)
+        let drawn = if self.curves { curves()? } else { Vec::new() };
+        asked.output.print(answer.curves(&drawn))
     }
 }

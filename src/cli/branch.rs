@@ -4,15 +4,14 @@
 use clap::Args;
 use rayon::prelude::*;
 
-use super::cycles::{ORBIT, followed as outlined, orbit_points};
-use super::input::MACHINE;
+use super::cycles::outlines;
+use super::input::{self, MACHINE};
 use super::{CERTIFY, CommandCase, Output, QuestionOptions, Result, given, read, timed};
 use crate::branch::{
     Boundary, BoundaryPoint, BranchPoint, MachineBranch, Points, PortraitPoint, border, branch,
 };
-use crate::flow::{Limits, Problem, Sample};
+use crate::flow::{Limits, Problem};
 use crate::model::{Belt, Knob, Source};
-use crate::portrait::orbit;
 use crate::proof::bifurcation::{enclose_escape, enclose_fold};
 use crate::proof::{ParameterBox, change_near, range};
 use crate::report::{BorderProof, branch as report};
@@ -27,7 +26,8 @@ pub struct BranchCommand {
     /// approximate for D, D2, D3 and r
     #[arg(long, value_name = "NAME=FROM:TO:COUNT")]
     over: String,
-    #[arg(long, value_name = "N", value_parser = orbit_points, help = ORBIT)]
+    /// Adds the orbit of each cycle: N points evenly spaced in time over one period, both ends included
+    #[arg(long, value_name = "N", value_parser = |text: &str| input::whole(text, 2..=1_000_000))]
     orbit: Option<usize>,
 }
 
@@ -42,34 +42,29 @@ fn followed(subject: &Source, over: &Sweep, limits: &Limits) -> Result<MachineBr
     MachineBranch::along(subject, over.symbol, range, values, limits)
 }
 
-/// The orbits of all cycles of a machine along a number; a value without an answer has none.
-fn machine_orbits(found: &MachineBranch, count: usize) -> Vec<(f64, Option<Vec<Sample>>)> {
-    let orbits = found.points.iter().flat_map(|PortraitPoint { value, found }| match found {
-        Ok(found) => {
-            let orbit = |index| (*value, found.orbit(index, count));
-            (0..found.cycles.len()).map(orbit).collect()
-        }
-        Err(why) => vec![(*value, Err(*why))],
-    });
-    outlined(orbits)
-}
-
 impl BranchCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let (case, limits) = (asked.source.exact()?, asked.output.limits());
         let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
         let Sweep { symbol, count, .. } = over;
         let about = case.about().but(&[symbol]).told_as(asked.output.format());
-        let along = ("points", Some(symbol));
         let Some(problem) = case.described.subject.paper() else {
             let source = &case.described.subject.source;
             let (found, seconds) = timed(asked.output.repeat, || followed(source, &over, &limits));
             let found = found?;
             let answer = report::of_machine(&about, symbol, &found, seconds);
-            return asked.output.print(match self.orbit {
-                None => answer,
-                Some(count) => answer.orbits(&about, along, &machine_orbits(&found, count)),
+            // A value without an answer has a row, but no orbit.
+            let orbits = self.orbit.map(|count| {
+                let orbits = |PortraitPoint { value, found }: &PortraitPoint| match found {
+                    Err(_) => vec![(*value, None)],
+                    Ok(found) => {
+                        let motion = &case.described.subject.motion;
+                        outlines((*value, &found.cycles), motion, Some(&found.model), count)
+                    }
+                };
+                found.points.iter().flat_map(orbits).collect()
             });
+            return asked.output.print(answer.orbits("points", Some(symbol), orbits));
         };
         if !symbol.is_parameter() {
             let line = format!("cycles do not depend on {symbol}; allowed: D, D2, D3, r");
@@ -82,11 +77,14 @@ impl BranchCommand {
         let certified = self.certify.then(|| range(&ParameterBox::from(base), symbol, ends));
         let certified = certified.as_ref();
         let answer = report::branch(&about, &found, certified, tolerance, seconds);
-        let Some(count) = self.orbit else { return asked.output.print(answer) };
-        let orbits = found.pieces.iter().flatten().map(|BranchPoint { value, cycle }| {
-            (*value, orbit(&base.with(symbol, *value), cycle, count, &limits))
+        let orbits = self.orbit.map(|count| {
+            let orbit = |BranchPoint { value, cycle }: &BranchPoint| {
+                let at = Problem { parameters: base.with(symbol, *value), ..problem };
+                (*value, cycle.orbit(&at, None, count, &limits))
+            };
+            found.pieces.iter().flatten().map(orbit).collect()
         });
-        asked.output.print(answer.orbits(&about, along, &outlined(orbits)))
+        asked.output.print(answer.orbits("points", Some(symbol), orbits))
     }
 }
 

@@ -8,40 +8,27 @@ use super::{Failure, QuestionOptions, Result, input, print, timed, troubled, wri
 use crate::accuracy::{HarmonicBalance, compare, ladder};
 use crate::check::check;
 use crate::closed_form::MOST;
-use crate::flow::{Limits, Reason, Sample};
-use crate::model::Parameters;
-use crate::portrait::{Cycles, cycles, orbit, proved};
+use crate::flow::{Limits, Problem, Reason};
+use crate::model::{Model, Parameters};
+use crate::portrait::{Cycle, Cycles, cycles, proved};
 use crate::proof::certificate::{certificate, text};
 use crate::proof::{Proof, prove};
+use crate::report::cycles::Outline;
 use crate::report::{boxed, certificate_table, cycles as report};
-use crate::runtime::{bounded, provenance_file, tell};
+use crate::runtime::{bounded, provenance_file};
 
 /// The harmonic balance with ever more harmonics, if asked for.
 type Rungs = Option<Vec<HarmonicBalance>>;
 
-/// What the option `--orbit` does.
-pub const ORBIT: &str = "Adds the orbit of each cycle: N points evenly spaced in time over one period, both ends included";
-
-/// How many points an orbit has.
-pub fn orbit_points(text: &str) -> Result<usize, String> {
-    input::whole(text, 2..=1_000_000)
-}
-
-/// The orbits that could be followed, each at its value; a note says how many could not, and why.
-pub fn followed(
-    orbits: impl Iterator<Item = (f64, Result<Vec<Sample>, Reason>)>,
-) -> Vec<(f64, Option<Vec<Sample>>)> {
-    let (mut lost, mut why) = (0, None);
-    let mut found = Vec::new();
-    for (value, orbit) in orbits {
-        lost += usize::from(orbit.is_err());
-        why = why.or(orbit.as_ref().err().copied());
-        found.push((value, orbit.ok()));
-    }
-    if let Some(why) = why {
-        tell(format!("note: {lost} of {} cycles have no orbit: {why}", found.len()));
-    }
-    found
+/// The orbits of cycles at a value, as far as they close.
+pub fn outlines(
+    (value, cycles): (f64, &[Cycle]),
+    problem: &Problem,
+    model: Option<&Model>,
+    count: usize,
+) -> Vec<Outline> {
+    let orbit = |cycle: &Cycle| cycle.orbit(problem, model, count, &Limits::PATIENT);
+    cycles.iter().map(|cycle| (value, orbit(cycle))).collect()
 }
 
 /// Finds every limit cycle, proves that there are no others, and names the border of the basin
@@ -53,7 +40,8 @@ pub struct CyclesCommand {
     /// Writes the proof, step by step, for `hopfscope check`, and its provenance to FILE.provenance
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
-    #[arg(long, value_name = "N", value_parser = orbit_points, help = ORBIT)]
+    /// Adds the orbit of each cycle: N points evenly spaced in time over one period, both ends included
+    #[arg(long, value_name = "N", value_parser = |text: &str| input::whole(text, 2..=1_000_000))]
     orbit: Option<usize>,
     /// Replaces a file that holds something else
     #[arg(long, requires = "certificate")]
@@ -68,13 +56,12 @@ impl CyclesCommand {
             }
             // Fails where the friction law ends before all motions are known.
             let (found, seconds) = case.portrait(&asked.output, 0.0)?;
-            let mut answer = report::of_machine(&case.about(), &found, seconds);
-            if let Some(count) = self.orbit {
-                let orbits = 0..found.cycles.len();
-                let orbits = followed(orbits.map(|index| (0.0, found.orbit(index, count))));
-                answer = answer.orbits(&case.about(), ("cycles", None), &orbits);
-            }
-            asked.output.print(answer)?;
+            let answer = report::of_machine(&case.about(), &found, seconds);
+            let problem = case.described.subject.motion;
+            let orbits = self
+                .orbit
+                .map(|count| outlines((0.0, &found.cycles), &problem, Some(&found.model), count));
+            asked.output.print(answer.orbits("cycles", None, orbits))?;
             return found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop)));
         }
         let known = asked.source.known()?;
@@ -93,14 +80,9 @@ impl CyclesCommand {
             timed(asked.output.repeat, || self.find(&problem.parameters, &limits));
         let (found, proof, rungs) = found?;
         self.certify(&proof)?;
-        let mut answer = report::cycles(&found, Some(&proof), rungs.as_deref(), seconds);
-        if let Some(count) = self.orbit {
-            let each = found.cycles.iter();
-            let each = each.map(|it| (0.0, orbit(&problem.parameters, it, count, &limits)));
-            let about = asked.source.case()?.about();
-            answer = answer.orbits(&about, ("cycles", None), &followed(each));
-        }
-        asked.output.print(answer)
+        let answer = report::cycles(&found, Some(&proof), rungs.as_deref(), seconds);
+        let orbits = self.orbit.map(|count| outlines((0.0, &found.cycles), &problem, None, count));
+        asked.output.print(answer.orbits("cycles", None, orbits))
     }
 
     /// Writes the certificate, if asked for.

@@ -6,7 +6,7 @@ use super::{CommandCase, Output, QuestionOptions, Result, number, read, timed, t
 use crate::flow::Subject;
 use crate::model::Knob;
 use crate::portrait::guarantee::machine;
-use crate::portrait::{Margin, MarginRegime, Portrait, guaranteed, repeated};
+use crate::portrait::{Portrait, guaranteed, repeated};
 use crate::report::About;
 use crate::report::margin::{kicks, margins};
 
@@ -39,14 +39,10 @@ impl MarginCommand {
             cost += worst.cost;
             margin
         });
-        let answer = margins(&About::boxed(&known), read_as(&nominal), certain, bound);
+        let answer =
+            margins(&About::boxed(&known), (nominal.margin, nominal.border), certain, bound);
         asked.output.print(answer.cost(cost, seconds))
     }
-}
-
-/// A margin, and how it is to be read.
-fn read_as(found: &Portrait) -> (Margin, MarginRegime) {
-    (found.margin, found.margin_regime())
 }
 
 /// Answers about a machine; what is known exactly has its own margin for certain.
@@ -63,7 +59,7 @@ fn of_machine(case: &CommandCase, output: &Output) -> Result<()> {
     };
     let uncertain = source.of_belt().map(|belt| tolerances.intervals(belt));
     let about = case.about().within(&uncertain.unwrap_or_default());
-    let answer = margins(&about, read_as(&found), certain, tolerances.disturbance);
+    let answer = margins(&about, (found.margin, found.border), certain, tolerances.disturbance);
     output.print(answer.portrayed(&found, seconds))
 }
 

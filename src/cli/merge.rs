@@ -11,9 +11,8 @@ use super::part::Shard;
 use super::scan::ScanCommand;
 use super::{Failure, Result};
 use crate::flow::Limits;
-use crate::report::{Format, arrays};
-use crate::runtime::scan_file::ROWS_ONLY;
-use crate::runtime::{NewFile, PartFile, Readers, merge, provenance_file, tell};
+use crate::report::Format;
+use crate::runtime::{NewFile, PartFile, Readers, arrays, merge, provenance_file, tell};
 use crate::words::provenance::{Checksum, Provenance};
 
 /// Merges the parts of a scan, or lists the rows that are missing and how to compute them
@@ -48,7 +47,9 @@ impl MergeCommand {
         let recheck = self.check.then_some(&Limits::PATIENT);
         let mut output = None;
         if let Some(path) = &self.output {
-            no_arrays(path)?;
+            if arrays::form_of(path).is_some() {
+                return Err(Failure::file(path, "rows are merged as .csv, .json or .jsonl"));
+            }
             let file = NewFile::begin(path, Readers::Usual).map_err(Failure::unwritten(path))?;
             output = Some((BufWriter::new(file), path));
         }
@@ -118,16 +119,7 @@ fn part_of(path: PathBuf) -> Result<PartFile> {
         let why = "a table rounds its numbers; merge needs csv or json";
         return Err(Failure::file(&path, why));
     }
-    no_arrays(&path)?;
     Ok(PartFile { path, part, provenance, arguments })
-}
-
-/// Refuses a file of arrays.
-pub(super) fn no_arrays(path: &Path) -> Result<()> {
-    match arrays::form_of(path) {
-        Some(_) => Err(Failure::file(path, ROWS_ONLY)),
-        None => Ok(()),
-    }
 }
 
 /// Refuses a part of another scan or from another version.

@@ -24,6 +24,7 @@ mod motion;
 mod output;
 mod part;
 mod plan;
+mod points;
 mod progress;
 mod replay;
 mod scan;

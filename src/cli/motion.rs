@@ -54,16 +54,14 @@ impl<'a> AskedMotion<'a> {
 
     /// Where the motion is at these times; a time at which that is not known keeps its row, and a note says so.
     fn at_times(&self, times: &[f64]) -> Vec<MomentRow> {
-        let (model, detail) = (self.model.as_ref(), Detail::default());
-        let (found, samples) = self.problem.at_times(model, times, detail, &self.limits);
-        let rows: Vec<_> = times.iter().copied().zip(samples).collect();
-        let unknown = rows.iter().filter(|(_, sample)| sample.is_none()).count();
+        let model = self.model.as_ref();
+        let (found, samples) = self.problem.at_times(model, times, Detail::default(), &self.limits);
+        let unknown = samples.iter().filter(|sample| sample.is_none()).count();
         if unknown > 0 {
-            let (word, tau, all) = (found.outcome.word(), found.outcome.tau(), rows.len());
-            let without = format!("{unknown} of {all} times have no state");
-            tell(format!("note: {word} at tau = {tau:?}, so {without}"));
+            let (word, tau) = (found.outcome.word(), found.outcome.tau());
+            tell(format!("note: {word} at tau = {tau:?}, so {unknown} times have no state"));
         }
-        rows
+        times.iter().copied().zip(samples).collect()
     }
 }
 
@@ -92,8 +90,7 @@ impl TrajectoryCommand {
         }
         let times = self.times.asked(question.source.numbers().until, problem.until)?;
         if is_machine && times.is_some() && problem.method != Method::Taylor {
-            let line = "a step of this method is known at its end alone; at times a machine is followed by --method auto or taylor";
-            return Err(line.into());
+            return Err("at times a machine is followed by --method auto or taylor".into());
         }
         let samples = times.map(|times| asked.at_times(&times));
         let enclose = || {
@@ -101,13 +98,8 @@ impl TrajectoryCommand {
             enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
         };
         let certified = (self.certify && !is_machine).then(enclose);
-        question.output.print(motion::motion(
-            &asked.about,
-            &found,
-            certified.as_ref(),
-            samples.as_deref(),
-            seconds,
-        ))?;
+        let answer = motion::motion(&asked.about, &found, certified.as_ref(), seconds);
+        question.output.print(answer.sampled(samples.as_deref()))?;
         match found.outcome {
             Outcome::GaveUp { tau, reason } if !is_machine => {
                 let place = format!("gave up at tau = {tau:?} of {:?}", problem.until);

@@ -11,9 +11,8 @@ use clap::Args;
 use super::{Call, Failure, Result};
 use crate::flow::{Limits, Reason};
 use crate::numerics::{real, truncated};
-use crate::report::arrays::{self, Array, npz};
 use crate::report::{Answer, Format};
-use crate::runtime::{Readers, new_file, provenance_file, standard};
+use crate::runtime::{Readers, arrays, new_file, provenance_file, standard};
 use crate::words::printable;
 
 /// How an answer is printed.
@@ -78,14 +77,13 @@ impl Output {
         let content = printable::lines(&content);
         match self.format() {
             Format::Json => new_file::write(path, content.as_bytes(), Readers::Usual, KEEP),
-            _ => keep(path, &arrays::packed(path, &content)?),
+            _ => keep(path, &arrays::packed_rows(path, &content)?),
         }
     }
 
-    /// Writes arrays in place of an answer, if the file that is asked for holds such.
-    pub fn archive(&self, arrays: impl FnOnce() -> Result<Vec<Array>>) -> Result<Option<()>> {
-        let path = self.write.as_ref().filter(|path| arrays::form_of(path) == Some("npz"));
-        path.map(|path| keep(path, &npz(&arrays()?))).transpose()
+    /// The file, if it is an archive of numpy.
+    pub fn archive(&self) -> Option<&Path> {
+        self.write.as_deref().filter(|path| arrays::form_of(path) == Some("npz"))
     }
 }
 
@@ -93,7 +91,7 @@ impl Output {
 const KEEP: Option<&str> = Some("--write replaces nothing");
 
 /// Writes a new file, with its provenance beside it.
-fn keep(path: &Path, content: &[u8]) -> Result<()> {
+pub fn keep(path: &Path, content: &[u8]) -> Result<()> {
     new_file::write(path, content, Readers::Usual, KEEP)?;
     provenance_file::write(path, &provenance_file::of_process())
 }

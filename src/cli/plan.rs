@@ -5,7 +5,6 @@ use std::path::Path;
 
 use clap::{Args, ValueEnum};
 
-use super::merge::no_arrays;
 use super::output::without;
 use super::part::MOST;
 use super::{Result, input, print, write};
@@ -68,7 +67,6 @@ impl Plan {
     /// Prints or writes the recipe for the scan of this process, with `jobs` threads for each shard.
     pub fn run(&self, jobs: u16, output: Option<&Path>, force: bool) -> Result<()> {
         let (engine, shards) = self.plan.zip(self.shards).ok_or("--plan needs --shards")?;
-        output.map_or(Ok(()), no_arrays)?;
         let is_of_rows = |path: &&Path| {
             let ending = path.extension().and_then(OsStr::to_str);
             ending.is_some_and(|ending| ["csv", "json", "jsonl"].contains(&ending))

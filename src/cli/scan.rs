@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -13,15 +13,17 @@ use super::conditions::ConditionOptions;
 use super::output::holds_something;
 use super::part::RowChoice;
 use super::plan::Plan;
+use super::points::columns;
 use super::progress::{Outlet, StatusLine, message};
 use super::{Failure, Result, SourceOptions, print, read, signed};
 use crate::flow::Limits;
+use crate::report::Format;
 use crate::report::scan::ScanPart;
-use crate::report::{Format, arrays};
 use crate::runtime::failure::exit_code;
+use crate::runtime::scan_file::{pack, rows_of};
 use crate::runtime::scanning::rows;
-use crate::runtime::{ScanFile, bounded, provenance_file, tell};
-use crate::scan::{MEASURES, Measure, PointList, Scan, Sweep};
+use crate::runtime::{ScanFile, arrays, provenance_file, tell};
+use crate::scan::{MEASURES, Measure, Scan, Sweep};
 use crate::scene::{ScanOption, ScanOptions};
 use crate::words::{joined, usage};
 
@@ -169,15 +171,17 @@ impl ScanCommand {
                 return Err(Failure::unanswered(to, format!("{error}; {tally}")));
             }
             None if stopped != 0 && file.left() > 0 => {
-                let kept = path.is_some_and(|path| arrays::form_of(path).is_none());
-                let again = if kept { "; --resume continues" } else { "" };
+                let again = if path.is_some() { "; --resume continues" } else { "" };
                 tell(format!("stopped: {tally}{again}"));
                 return Err(Failure::Said(u8::try_from(stopped).unwrap_or(u8::MAX)));
             }
             None if given_up > 0 => tell(format!("note: {tally}; the last column says why")),
             None => {}
         }
-        if file.left() == 0 { file.end() } else { Ok(()) }
+        match self.archive() {
+            Some(path) if file.left() == 0 => pack(path, &provenance_file::of_process()),
+            _ => Ok(()),
+        }
     }
 
     /// The scan and the points to compute, after checking the options.
@@ -189,9 +193,8 @@ impl ScanCommand {
         }
         let groups = self.source.numbers().set;
         let scan = if let Some(path) = &self.list {
-            let list = PointList::read(&bounded::text(path)?, groups);
-            let list = list.map_err(|why| Failure::file(path, why))?;
-            Scan::of_list(base, list, measures, conditions)?
+            let scan = Scan::of_list(base, columns(path, groups)?, measures, conditions);
+            scan.map_err(|why| Failure::file(path, why))?
         } else {
             let over = self.over.iter();
             let over = over.map(|text| read("--over", text, |text| Sweep::read(text, groups)));
@@ -199,31 +202,26 @@ impl ScanCommand {
         };
         let points = self.part.points(scan.points())?;
         // By default only the first part has a heading, so that `cat` can join the parts.
-        let whole = self.output.as_deref().and_then(arrays::form_of).is_some();
-        let headed = points.start == 0 || self.header == HeaderWhen::Always || whole;
+        let always = self.header == HeaderWhen::Always || self.archive().is_some();
+        let headed = points.start == 0 || always;
         Ok(ScanPart { scan, form: self.form()?, points, headed })
     }
 
     /// Where the rows go, with those that are already there.
     fn opened(&self, part: ScanPart, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<ScanFile> {
-        let Some(path) = &self.output else {
+        let Some(path) = self.archive().map(rows_of).or_else(|| self.output.clone()) else {
             print(&part.heading())?;
             return Ok(ScanFile::standard(part));
         };
-        let name = path.display();
+        let (path, name) = (path.as_path(), path.display());
+        if let Some(whole) = self.archive().filter(|path| !self.force && holds_something(path)) {
+            return Err(format!("{} is not empty; --force starts over", whole.display()).into());
+        }
         if !self.resume && !self.force && holds_something(path) {
-            let again = if arrays::form_of(path).is_some() {
-                ""
-            } else {
-                "--resume continues it, "
-            };
-            let line = format!("{name} is not empty; {again}--force starts over");
+            let line = format!("{name} is not empty; --resume continues it, --force starts over");
             return Err(line.into());
         }
         let provenance = provenance_file::of_process();
-        if arrays::form_of(path).is_some() {
-            return ScanFile::archive(path, part, provenance);
-        }
         if !self.resume {
             return ScanFile::create(path, part, provenance);
         }
@@ -244,13 +242,19 @@ impl ScanCommand {
         Ok(file)
     }
 
+    /// The file of arrays, if such are to be written.
+    fn archive(&self) -> Option<&Path> {
+        self.output.as_deref().filter(|path| arrays::form_of(path).is_some())
+    }
+
     fn form(&self) -> Result<Format> {
         let of_file = || self.output.as_deref().map_or(Format::Csv, Format::of_file);
         let form = self.format.unwrap_or_else(of_file);
-        let arrays = self.output.as_deref().and_then(arrays::form_of);
-        if let (Some(name), true) = (arrays, self.resume || form != Format::Csv) {
-            let line = format!(".{name} is written at the end, whole, of csv rows");
-            return Err(format!("{line}: without --format, and --resume needs csv or json").into());
+        if let Some(path) = self.archive() {
+            arrays::packed_rows(path, "")?;
+            if form != Format::Csv || self.plan.is_wanted() {
+                return Err("arrays are made of the csv rows of one scan, without --plan".into());
+            }
         }
         if form == Format::Table && self.resume {
             return Err("--format table rounds its numbers; --resume needs csv or json".into());

@@ -16,7 +16,7 @@ pub struct TimeOptions {
     /// Evaluates the motion at times this far apart, from 0 on
     #[arg(long, value_name = "STEP", conflicts_with = "times")]
     sample: Option<String>,
-    /// Evaluates the motion at the times in FILE: one on a line, or the column tau of comma-separated values
+    /// Evaluates the motion at the times in FILE: the first cell of each line, below tau if a line has names
     #[arg(long, value_name = "FILE")]
     times: Option<PathBuf>,
 }
@@ -45,25 +45,18 @@ fn apart(step: f64, until: f64) -> Result<Vec<f64>> {
     Err(format!("--sample {step:?}: expected {least:?} or more, for at most {MOST} times").into())
 }
 
-/// The times in a file.
+/// The times in a file, which may have a line of names.
 fn within(path: &Path, knob: Knob, until: f64) -> Result<Vec<f64>> {
     let text = bounded::text(path)?;
-    let is_row = |(_, line): &(usize, &str)| !line.trim().is_empty() && !line.starts_with('#');
-    let mut rows = text.lines().enumerate().filter(is_row).peekable();
-    let place = |line: &str| line.split(',').position(|name| ["tau", "t"].contains(&name.trim()));
-    let named = rows.next_if(|(_, line)| place(line).is_some());
-    let column = named.and_then(|(_, line)| place(line)).unwrap_or(0);
-    let time = |(index, line): (usize, &str)| {
-        let cell = line.split(',').nth(column).unwrap_or_default().trim();
-        let outside = || format!("{cell} is outside of the motion, 0 .. {until:?}, see --until");
-        let inside = |time: &f64| (0.0..=until).contains(time);
-        let time = knob.parse(cell);
-        let time = time.and_then(|time| Some(time).filter(inside).ok_or_else(outside));
-        time.map_err(|why| Failure::file(path, format!("line {}: {why}", index + 1)))
+    let cells = text.lines().map(|line| line.split(',').next().unwrap_or_default().trim());
+    let is_time = |(cell, line): &(&str, usize)| {
+        !cell.is_empty() && !cell.starts_with('#') && (*line > 1 || !["tau", "t"].contains(cell))
     };
-    let times: Vec<f64> = rows.take(MOST + 1).map(time).collect::<Result<_>>()?;
-    if times.is_empty() || times.len() > MOST {
-        return Err(Failure::file(path, format!("expected 1 .. {MOST} times, a line each")));
-    }
-    Ok(times)
+    let time = |(cell, line): (&str, usize)| {
+        let outside = || format!("{cell} is outside of the motion, 0 .. {until:?}, see --until");
+        let inside = |time| Some(time).filter(|time| *time <= until).ok_or_else(outside);
+        let time = knob.parse(cell).and_then(inside);
+        time.map_err(|why| Failure::file(path, format!("line {line}: {why}")))
+    };
+    cells.zip(1..).filter(is_time).map(time).collect()
 }

@@ -4,54 +4,13 @@
 
 use super::machine::motion::follow_at;
 use super::trajectory::evaluated;
-use super::{Detail, Limits, Motion, MotionUnits, Outcome, Problem, Sample};
+use super::{Detail, Limits, Motion, MotionUnits, Problem, Sample};
 use crate::model::Model;
-
-/// The times at which a motion is evaluated, and where it was at those that it has passed.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Instants<'a> {
-    /// Those that are left, in ascending order.
-    left: &'a [f64],
-    passed: Vec<Sample>,
-}
-
-impl<'a> Instants<'a> {
-    /// None of these times, in ascending order, is passed yet.
-    pub fn new(left: &'a [f64]) -> Self {
-        Instants { left, passed: Vec::new() }
-    }
-
-    /// Passes those up to a time; `at` has displacement and velocity. What is beyond the largest numbers is left out.
-    pub fn pass(&mut self, until: f64, mut at: impl FnMut(f64) -> (f64, f64)) {
-        let (now, later) = self.left.split_at(self.left.partition_point(|tau| *tau <= until));
-        self.left = later;
-        for &tau in now {
-            let (q, v) = at(tau);
-            if q.is_finite() && v.is_finite() {
-                // Without negative zeros.
-                self.passed.push(Sample { tau, q: q + 0.0, v: v + 0.0 });
-            }
-        }
-    }
-
-    /// Replaces the points of a motion that ended so by all that are known of it, if it was to be evaluated: after its
-    /// capture it rests.
-    pub fn tell(mut self, outcome: Outcome, samples: &mut Vec<Sample>) {
-        if self.left.is_empty() && self.passed.is_empty() {
-            return;
-        }
-        if let Some(end) = outcome.state() {
-            let rests = matches!(outcome, Outcome::Captured { .. });
-            self.pass(if rests { f64::INFINITY } else { outcome.tau() }, |_| end);
-        }
-        *samples = self.passed;
-    }
-}
 
 impl Problem {
     /// The motion of the oscillator of the paper, or of a machine in SI units, and where it is at each of these times, in any
     /// order: at rest after its capture, and `None` before its start, after its end time, its escape or where it was given
-    /// up. Of a machine only Taylor series are evaluated. The points of the motion are those at these times.
+    /// up. Of a machine only Taylor series are evaluated.
     ///
     /// The error is that of the motion itself, to which evaluating it adds no more than another step would.
     ///
@@ -59,7 +18,7 @@ impl Problem {
     /// use hopfscope::flow::{Detail, Limits, Problem};
     /// use hopfscope::model::{Parameters, State};
     ///
-    /// // Without damping the first half swing is q = -r + (q0 + r) cos tau.
+    /// // Without damping the first half swing is q = r + (q0 - r) cos tau.
     /// let parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.1 };
     /// let problem = Problem::new(parameters, State { q: 1.0, v: 0.0 }, 60.0);
     /// let (_, samples) = problem.at_times(None, &[2.0, 50.0, 61.0], Detail::default(), &Limits::PATIENT);
@@ -74,16 +33,21 @@ impl Problem {
         detail: Detail,
         limits: &Limits,
     ) -> (Motion, Vec<Option<Sample>>) {
-        let within = |tau: &&f64| (0.0..=self.until).contains(*tau);
-        let mut sorted: Vec<f64> = times.iter().filter(within).copied().collect();
+        let mut sorted = times.to_vec();
+        sorted.retain(|tau| (0.0..=self.until).contains(tau));
         sorted.sort_by(f64::total_cmp);
+        let asked = (Detail { samples_per_step: 0, ..detail }, sorted.as_slice());
         let motion = match model {
-            Some(model) => follow_at(model, self, MotionUnits::physical(model), detail, &sorted),
-            None => evaluated(self, detail, &sorted, limits),
+            Some(model) => follow_at(model, self, MotionUnits::physical(model), asked),
+            None => evaluated(self, asked, limits),
         };
-        let known = &motion.samples;
-        let at = |tau: &f64| {
-            let place = known.binary_search_by(|sample| sample.tau.total_cmp(tau)).ok()?;
+        let at = |&tau: &f64| {
+            let ended = (motion.outcome.tau()..=self.until).contains(&tau);
+            if let Some((q, v)) = motion.outcome.state().filter(|_| ended) {
+                return Some(Sample { tau, q, v });
+            }
+            let known = &motion.samples;
+            let place = known.binary_search_by(|sample| sample.tau.total_cmp(&tau)).ok()?;
             Some(known[place])
         };
         let samples = times.iter().map(at).collect();

@@ -236,6 +236,13 @@ impl Sample {
     }
 }
 
+/// The first of ascending times, up to this one; they are taken off the others.
+pub(crate) fn due<'a>(times: &mut &'a [f64], until: f64) -> &'a [f64] {
+    let (now, later) = times.split_at(times.partition_point(|tau| *tau <= until));
+    *times = later;
+    now
+}
+
 /// A stretch of the motion of a machine in one phase, on the belt, or at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
@@ -293,7 +300,7 @@ pub struct Motion<N = f64> {
     /// The energy balance, if requested; of a machine only Taylor series count it.
     pub ledger: Option<Ledger>,
     /// Points for drawing, if requested; the first is the start. Of a machine there are always its start and its end. Of
-    /// one that is evaluated at given times, in their place those points.
+    /// one that is evaluated at given times, those are among them.
     pub samples: Vec<Sample>,
     /// Cost of the computation.
     pub cost: Cost,

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::at_times::Instants;
+use super::motion::due;
 pub use super::motion::{Cost, Crossing, Detail, Motion, Outcome, Problem, Sample};
 use super::swing::swing;
 use super::{
@@ -18,23 +18,19 @@ use crate::numerics::{Scalar, Sum, real, times_power};
 /// events, the place and time of every crossing carry the errors of the previous steps, each of relative size
 /// `tolerance`.
 pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Motion {
-    evaluated(problem, detail, &[], limits)
+    evaluated(problem, (detail, &[]), limits)
 }
 
-/// The same, evaluated at these times, in ascending order.
+/// The same with points at these times, in ascending order.
 pub(crate) fn evaluated(
     problem: &Problem,
-    detail: Detail,
-    times: &[f64],
+    (detail, times): (Detail, &[f64]),
     limits: &Limits,
 ) -> Motion {
     let Problem { parameters, tolerance, step, epsilon, .. } = *problem;
     let linear = parameters.is_piecewise_linear();
     let field = HalfPlane::new(&parameters, Side::Upper);
-    let run = |method| {
-        let instants = Instants::new(times);
-        MotionRun { instants, ..MotionRun::new(problem, method, detail, limits) }
-    };
+    let run = |method| MotionRun { times, ..MotionRun::new(problem, method, detail, limits) };
     let asked = run(problem.method);
     match problem.method {
         Method::Auto | Method::Exact if linear => run(Method::Exact).go(&mut ExactStepper::new()),
@@ -87,8 +83,8 @@ const MOST_CROSSINGS: usize = 2_000_000;
 pub struct MotionRun<'a, N = f64> {
     detail: Detail,
     limits: &'a Limits<'a>,
-    /// The times at which it is evaluated.
-    instants: Instants<'a>,
+    /// The times at which it is still to be evaluated.
+    times: &'a [f64],
     /// The results so far.
     found: Motion<N>,
     time: Sum<N>,
@@ -109,7 +105,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         MotionRun {
             detail,
             limits,
-            instants: Instants::default(),
+            times: &[],
             found,
             time: Sum::default(),
             works: Vector3::zeros(),
@@ -128,7 +124,6 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
         let Problem { parameters, initial, .. } = self.found.problem;
         let outcome =
             outcome.unwrap_or_else(|reason| Outcome::without_end(self.time.value(), reason));
-        self.instants.tell(outcome.map(Scalar::value), &mut self.found.samples);
         self.found.outcome = outcome;
         self.found.cost += cost;
         if self.detail.energy
@@ -174,10 +169,7 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
             let in_time = |stop: &ApproachToRest| arrives && N::from(stop.duration) < remaining;
             let q;
             if let Some(stop) = stop.filter(in_time) {
-                let (begun, StepPoint { x, v }) = (self.time.value().value(), last.rounded());
                 self.time.add(N::from(stop.duration));
-                let end = self.time.value().value();
-                self.instants.pass(end, |tau| (x, v * ((end - tau) / (end - begun)).min(1.0)));
                 self.path += stop.way();
                 q = last.x + sign * N::from(stop.way());
                 let (beyond, of) = stop.beyond((sign * last.x - N::from(r)).value());
@@ -220,28 +212,26 @@ impl<'a, N: Scalar> MotionRun<'a, N> {
     ) -> Result<(StepPoint<N>, bool)> {
         let (detail, time) = (self.detail, self.time);
         let (samples, sum) = (&mut self.found.samples, &mut self.works);
-        let instants = &mut self.instants;
+        let times = &mut self.times;
         let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
-            let place = |StepPoint { x, v }: StepPoint| {
-                let (x, v) = (times_power(x, unit), times_power(v, unit));
-                (side.displacement(x, shift), side.sign() * v)
-            };
-            let (begun, lasts) = (time.plus(N::from(at)).value(), step.duration.value());
-            instants.pass(begun + lasts, |tau| place(stepper.at((tau - begun).clamp(0.0, lasts))));
             let count = detail.samples_per_step * stepper.pieces();
-            for index in 1..=count {
-                let offset = step.duration.value() * (real(index) / real(count));
-                let at_end = index == count;
-                let StepPoint { x, v } = if at_end {
+            let (begun, lasts) = (time.plus(N::from(at)).value(), step.duration.value());
+            let even = (1..=count).map(|index| {
+                let offset = lasts * (real(index) / real(count));
+                (time.plus(N::from(at + offset)).value(), offset)
+            });
+            let asked = due(times, begun + lasts).iter().map(|tau| (*tau, tau - begun));
+            for (tau, offset) in even.chain(asked) {
+                let StepPoint { x, v } = if offset >= lasts {
                     step.end.rounded()
                 } else {
-                    stepper.at(offset)
+                    stepper.at(offset.max(0.0))
                 };
                 // Near the largest numbers, a position measured from the centre of its spiral may overflow, and so may
                 // the polynomial of a step between two finite points.
                 if x.is_finite() && v.is_finite() {
                     samples.push(Sample {
-                        tau: time.plus(N::from(at + offset)).value(),
+                        tau,
                         q: side.displacement(times_power(x, unit), shift),
                         v: side.sign() * times_power(v, unit),
                     });

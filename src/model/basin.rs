@@ -71,49 +71,6 @@ pub struct RestKicks<T> {
     pub impulse: T,
 }
 
-/// How a margin is to be read, and why it has no size where it has none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MarginRegime {
-    /// It is the smallest kick that is not survived.
-    Finite,
-    /// It has no size: every kick is survived.
-    EveryKickSurvived,
-    /// It is 0: rest repels, and no kick is survived.
-    NoRest,
-    /// Every kick within it is survived, and larger ones are not known; or nothing is known at all.
-    Unknown,
-}
-
-impl Serialize for MarginRegime {
-    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        out.serialize_str(self.word())
-    }
-}
-
-impl MarginRegime {
-    /// That of a margin within this border.
-    #[must_use]
-    pub fn of(border: Border, margin: &Margin) -> Self {
-        match border {
-            Border::Unknown(_) => MarginRegime::Unknown,
-            _ if *margin == Margin::ZERO => MarginRegime::NoRest,
-            _ if *margin == Margin::ENDLESS => MarginRegime::EveryKickSurvived,
-            _ => MarginRegime::Finite,
-        }
-    }
-
-    /// What files call it.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            MarginRegime::Finite => "finite",
-            MarginRegime::EveryKickSurvived => "every kick survived",
-            MarginRegime::NoRest => "no rest",
-            MarginRegime::Unknown => "unknown",
-        }
-    }
-}
-
 /// The sizes of the kicks; `None` where every kick is survived.
 pub type Margin = Kicks<Option<f64>>;
 
@@ -152,6 +109,9 @@ impl<T> Kicks<T> {
     }
 }
 
+/// The regime of a margin of which it is not known how large it is.
+pub const UNKNOWN: &str = "unknown";
+
 impl Margin {
     /// Every kick is survived.
     pub const ENDLESS: Margin = Margin::same(None);
@@ -162,6 +122,18 @@ impl Margin {
     const fn same(size: Option<f64>) -> Self {
         let from_rest = RestMargin { displacement: size, impulse: size };
         Margin { displacement: size, impulse: size, from_rest }
+    }
+
+    /// How a margin within this border is to be read: `finite`; `every kick survived`, where it has no size; `no rest`, where
+    /// it is 0 because rest repels; or `unknown`, where every kick within it is survived and larger ones are not known.
+    #[must_use]
+    pub fn regime(&self, border: Border) -> &'static str {
+        match border {
+            Border::Unknown(_) => UNKNOWN,
+            _ if *self == Margin::ZERO => "no rest",
+            _ if *self == Margin::ENDLESS => "every kick survived",
+            _ => "finite",
+        }
     }
 
     /// The margin with functions of its displacements and of its impulses in their place: in other units, or

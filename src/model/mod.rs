@@ -46,7 +46,7 @@ pub mod unit;
 pub(crate) use self::{
     belt::*, force::*, knob::*, model::*, parameters::*, reach::*, source::*, unit::*,
 };
-pub use basin::{Border, Kicks, Margin, MarginRegime, Reach, RestKicks, RestMargin};
+pub use basin::{Border, Kicks, Margin, Reach, RestKicks, RestMargin};
 pub use belt::Belt;
 pub use half_plane::{Field, HalfPlane, PlaneField, Side};
 pub use interval::{Interval, ParameterBox};

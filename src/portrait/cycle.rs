@@ -2,6 +2,9 @@
 
 use serde::Serialize;
 
+use super::evenly;
+use crate::flow::{Detail, Limits, Method, Problem, Sample};
+use crate::model::{Model, State};
 use crate::numerics::{exp_m1, ln};
 
 /// A limit cycle: of the paper's oscillator without units, of a machine in SI units.
@@ -87,6 +90,57 @@ impl Cycle {
     #[must_use]
     pub fn stick_duration(&self) -> f64 {
         self.ride.map_or(0.0, |ride| ride.duration)
+    }
+
+    /// Where it is at `count` evenly spaced times over one period, both ends included, from its right turning point on: the
+    /// last point is the first again. It is a cycle of the oscillator of this problem or, in SI units, of a model.
+    ///
+    /// Each half swing is followed from its own turning point. `None` where it repels so strongly that it does not close to
+    /// eleven digits all the same.
+    ///
+    /// ```
+    /// use hopfscope::flow::{Limits, Problem};
+    /// use hopfscope::model::{Parameters, State};
+    /// use hopfscope::portrait::cycles;
+    ///
+    /// let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+    /// let cycle = cycles(&parameters, &Limits::PATIENT)?.cycles[0];
+    /// let problem = Problem { parameters, ..Problem::default() };
+    /// let points = cycle.orbit(&problem, None, 101, &Limits::PATIENT).unwrap();
+    /// assert_eq!((points[0].q, points[100].tau), (cycle.q_max, cycle.period));
+    /// assert!((points[50].q - cycle.q_min).abs() < 1e-11);
+    /// # Ok::<(), hopfscope::flow::Reason>(())
+    /// ```
+    pub fn orbit(
+        &self,
+        problem: &Problem,
+        model: Option<&Model>,
+        count: usize,
+        limits: &Limits,
+    ) -> Option<Vec<Sample>> {
+        const CLOSES: f64 = 1e-11;
+        let times: Vec<f64> = evenly((0.0, self.period), count).collect();
+        let tolerance = model.map_or(1e-14, |model| model.tolerance);
+        let half = |q: f64, begun: f64| {
+            let (initial, until) = (State { q, v: 0.0 }, self.period);
+            let half = Problem { initial, until, method: Method::Auto, tolerance, ..*problem };
+            let times: Vec<f64> = times.iter().map(|tau| tau - begun).collect();
+            let (motion, samples) = half.at_times(model, &times, Detail::default(), limits);
+            Some((*motion.crossings.first()?, samples))
+        };
+        let (left, below) = half(self.q_max, 0.0)?;
+        let (right, above) = half(self.q_min, left.tau)?;
+        let apart = (left.q - self.q_min).abs().max((right.q - self.q_max).abs());
+        let point = |(&tau, (below, above)): (&f64, (Option<Sample>, Option<Sample>))| {
+            let sample = if tau <= left.tau { below } else { above };
+            Some(Sample { tau, ..sample? })
+        };
+        let points = times.iter().zip(below.into_iter().zip(above)).map(point).collect();
+        if apart <= CLOSES * (self.q_max - self.q_min) {
+            points
+        } else {
+            None
+        }
     }
 
     /// The same with lengths multiplied by one number, and times divided by another.

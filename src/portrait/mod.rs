@@ -45,7 +45,6 @@ mod without_belt;
 
 pub use basin::capture::bands;
 pub use basin::cycle::{Cycles, Drawing, cycles};
-pub use basin::in_time::orbit;
 pub use basin::stability::Share;
 pub use basin::{Counts, StartWindow};
 pub use border::Edge;
@@ -58,4 +57,4 @@ pub(crate) use self::{
     return_map::*, without_belt::*,
 };
 // They stand in the model so that the proofs, which share nothing with this ring, say the same words.
-pub use crate::model::{Border, Kicks, Margin, MarginRegime, Reach, RestMargin};
+pub use crate::model::{Border, Kicks, Margin, Reach, RestMargin};

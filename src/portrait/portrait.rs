@@ -9,8 +9,8 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use super::{
-    Border, Counts, Cycle, Edge, Kicks, Landmarks, Margin, MarginRegime, Orbit, Reach, Share,
-    StartWindow, evenly, part_within,
+    Border, Counts, Cycle, Edge, Kicks, Landmarks, Margin, Orbit, Reach, Share, StartWindow,
+    evenly, part_within,
 };
 use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Flow, Limits, Reason, Result};
@@ -99,12 +99,6 @@ impl Portrait {
     pub fn bordering_cycle(&self) -> Option<&Cycle> {
         let x = self.reach.filter(|_| self.border == Border::Cycle)?.displacement.0;
         self.cycles.iter().find(|cycle| cycle.q_max == x)
-    }
-
-    /// How its margin is to be read.
-    #[must_use]
-    pub fn margin_regime(&self) -> MarginRegime {
-        MarginRegime::of(self.border, &self.margin)
     }
 
     /// The margin if the mass, of this size, may rest up to a `farthest` place on either side, in m.
@@ -346,58 +340,26 @@ impl Portrait {
         (columns, rows): (usize, usize),
         limits: &Limits,
     ) -> Result<Counts> {
-        let count = |fates: &[Fate]| {
-            let mut counts = Counts::default();
-            fates.iter().for_each(|fate| counts.add(*fate));
-            counts
-        };
-        let columns = self.by_column(window, (columns, rows), limits, count)?;
-        Ok(columns.into_iter().fold(Counts::default(), Counts::and))
-    }
-
-    /// The labels of these starts, as [`Counts::LABELS`] counts them: a row for each velocity, in each of them the
-    /// displacements.
-    ///
-    /// # Errors
-    /// As for [`Self::count`].
-    pub fn labels(
-        &self,
-        window: &StartWindow,
-        (columns, rows): (usize, usize),
-        limits: &Limits,
-    ) -> Result<Vec<u8>> {
-        let label = |fates: &[Fate]| fates.iter().map(|it| Counts::label(*it)).collect::<Vec<_>>();
-        let found = self.by_column(window, (columns, rows), limits, label)?;
-        let row = |row: usize| found.iter().map(move |column| column[row]);
-        Ok((0..rows).flat_map(row).collect())
-    }
-
-    /// What is told of the fates at each displacement, in the order of the velocities.
-    fn by_column<T: Send>(
-        &self,
-        window: &StartWindow,
-        (columns, rows): (usize, usize),
-        limits: &Limits,
-        told: impl Fn(&[Fate]) -> T + Sync,
-    ) -> Result<Vec<T>> {
         let portrait = &*self.followed_to(window.reach())?;
         let velocities: Vec<f64> = evenly(window.v, rows).collect();
         let of_column = |x| {
             limits.go_on()?;
             let region = portrait.orders_starts().then(|| portrait.regions_at(x));
-            let fates = velocities.iter().map(|v| {
+            let mut counts = Counts::default();
+            for v in &velocities {
                 // Without friction the one point that rests counts as what is around it.
                 let rests = *v == 0.0 && self.model.guide > 0.0 && self.model.rests_at(x);
                 let fate = match &region {
                     Some(region) if !rests => Ok(portrait.fates[region(*v / self.model.omega_0)]),
                     _ => portrait.fate(x, *v),
                 };
-                fate.unwrap_or_else(Fate::Unknown)
-            });
-            Ok(told(&fates.collect::<Vec<_>>()))
+                counts.add(fate.unwrap_or_else(Fate::Unknown));
+            }
+            Ok(counts)
         };
         let displacements: Vec<f64> = evenly(window.q, columns).collect();
-        displacements.into_par_iter().map(of_column).collect()
+        let columns = displacements.into_par_iter().map(of_column);
+        columns.try_reduce(Counts::default, |one, other| Ok(one.and(other)))
     }
 
     /// The fraction of a window, in m and m/s, from which the mass comes to rest; `None` if motions from the window

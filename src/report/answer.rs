@@ -88,16 +88,16 @@ impl Answer {
         self.with_any(name, objects)
     }
 
-    /// Gives each object in a list of its document another field.
-    pub(super) fn extend_each<V: Serialize>(
-        &mut self,
+    /// With another field of each object in a list of its document.
+    pub(super) fn extended<V: Serialize>(
+        mut self,
         list: &str,
         name: &str,
         values: impl IntoIterator<Item = V>,
-    ) {
-        if self.makes(Format::Json) {
-            self.document.extend_each(list, name, values);
-        }
+    ) -> Self {
+        let objects = self.document.list(list).into_iter().flatten();
+        objects.zip(values).for_each(|(object, value)| object[name] = json::value(&value));
+        self
     }
 
     /// With the fields of a record in its document.

@@ -67,37 +67,30 @@ impl Answer {
     }
 }
 
-/// A point of an orbit: the number of its cycle, the value of what varies, if anything does, and where it is.
-type OrbitRow = (usize, f64, Sample);
+/// The value of what varies, if anything does, and the orbit of a cycle there, if it closes.
+pub type Outline = (f64, Option<Vec<Sample>>);
+
+/// A point of an orbit: the number of its cycle, what varies, and where it is.
+type OutlineRow = (usize, f64, Sample);
 
 impl Answer {
-    /// With the orbit of each cycle, or none where it could not be followed: a field of each object in the list `field` of its
-    /// document, and rows of files. Along a number each has its value.
-    pub fn orbits(
-        mut self,
-        about: &About,
-        (field, along): (&str, Option<Knob>),
-        found: &[(f64, Option<Vec<Sample>>)],
-    ) -> Self {
-        self.extend_each(field, "orbit", found.iter().map(|(_, orbit)| orbit));
-        let [time, length, speed] = ["s", "m", "m/s"].map(|unit| about.quantity(unit, 10));
-        let number = if along.is_some() { "point" } else { "cycle" };
-        let mut columns = Columns::default().word(number, |(number, ..): &OrbitRow| *number);
-        if let Some(along) = along {
-            let along = along.spec();
-            columns =
-                columns.number(along.name, about.quantity(along.unit, 10), |(_, value, _)| *value);
-        }
-        let columns = columns
-            .number("tau", time, |(.., at)| at.tau)
-            .number("q", length, |(.., at)| at.q)
-            .number("v", speed, |(.., at)| at.v);
-        let row = |(index, (value, orbit)): (usize, &(f64, Option<Vec<Sample>>))| {
-            let points = orbit.iter().flatten();
-            points.map(|at| (index + 1, *value, *at)).collect::<Vec<_>>()
-        };
-        let rows: Vec<_> = found.iter().enumerate().flat_map(row).collect();
-        self.rows(&columns, &rows)
+    /// With orbits, if they are asked for: a field of each object in this list of its document, and rows of their points, by
+    /// number in the list.
+    pub fn orbits(self, list: &str, along: Option<Knob>, found: Option<Vec<Outline>>) -> Self {
+        const NUMBER: Quantity = Quantity::pure(10);
+        let Some(found) = found else { return self };
+        let columns = Columns::default()
+            .word("cycle", |(number, ..): &OutlineRow| *number)
+            .and(along.map(|along| {
+                Columns::default().number(along.spec().name, NUMBER, |(_, value, _)| *value)
+            }))
+            .number("tau", NUMBER, |(.., at)| at.tau)
+            .number("q", NUMBER, |(.., at)| at.q)
+            .number("v", NUMBER, |(.., at)| at.v);
+        let rows = found.iter().zip(1..).flat_map(|((value, orbit), number)| {
+            orbit.iter().flatten().map(move |at| (number, *value, *at))
+        });
+        self.rows(&columns, rows).extended(list, "orbit", found.iter().map(|(_, orbit)| orbit))
     }
 }
 

@@ -39,17 +39,9 @@ impl Document {
         self
     }
 
-    /// Gives each object in a list of the document another field.
-    pub(super) fn extend_each<V: Serialize>(
-        &mut self,
-        list: &str,
-        name: &str,
-        values: impl IntoIterator<Item = V>,
-    ) {
-        let objects = self.0.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
-        for (object, value) in objects.zip(values) {
-            object[name] = self::value(&value);
-        }
+    /// What stands in a field that is a list.
+    pub(super) fn list(&mut self, name: &str) -> Option<&mut Vec<Value>> {
+        self.0.get_mut(name)?.as_array_mut()
     }
 
     /// The value at the end of these names, each a field of the one before; null if there is none.

@@ -1,10 +1,9 @@
 //! How large a kick is survived: margins, nominal and guaranteed, the basin over a window of starts, and random kicks.
 
 use super::{About, Answer, Columns, Document, Quantity, cycles, kick_columns};
-use crate::model::State;
+use crate::model::basin::UNKNOWN;
 use crate::portrait::{
-    Border, Counts, Margin, MarginRegime, NoGuarantee, Portrait, RandomKick, Return, StartWindow,
-    Survival,
+    Border, Counts, Margin, NoGuarantee, Portrait, RandomKick, StartWindow, Survival,
 };
 use crate::proof::ProvedKicks;
 use crate::words::significant;
@@ -40,14 +39,13 @@ pub(super) fn guaranteed(about: &About, margin: Margin, digits: usize) -> Margin
 /// nothing is guaranteed.
 pub fn margins(
     about: &About,
-    (nominal, regime): (Margin, MarginRegime),
+    (nominal, border): (Margin, Border),
     certain: Result<Margin, NoGuarantee>,
     disturbance: f64,
 ) -> Answer {
     let reason = certain.err().map(|why| why.to_string());
     let margin = certain.unwrap_or(Margin::ENDLESS);
-    let of = |margin| MarginRegime::of(Border::default(), margin);
-    let certainly = certain.as_ref().map_or(MarginRegime::Unknown, of);
+    let regime = certain.as_ref().map_or(UNKNOWN, |margin| margin.regime(Border::None));
     let rows = [("nominal", nominal), (GUARANTEED, margin)];
     let shown = certain.map(|margin| guaranteed(about, margin, 12));
     let shown = [rows[0]].into_iter().chain(shown);
@@ -62,8 +60,8 @@ pub fn margins(
     let bound = about.quantity("N", 12).text(disturbance);
     about
         .answer_to(&format!("; disturbance {bound}"))
-        .with("nominal", read_as(&nominal, regime))
-        .with(GUARANTEED, read_as(&margin, certainly).with("reason", reason))
+        .with("nominal", read_as(nominal.regime(border), &nominal))
+        .with(GUARANTEED, read_as(regime, &margin).with("reason", reason))
         .with("disturbance", disturbance)
         .with("parameters", known)
         .csv(&columns, rows)
@@ -72,29 +70,26 @@ pub fn margins(
 }
 
 /// A margin in a document, and how it is to be read.
-fn read_as(margin: &Margin, regime: MarginRegime) -> Document {
+fn read_as(regime: &str, margin: &Margin) -> Document {
     Document::default().and(margin).with("regime", regime)
 }
 
-impl Answer {
-    /// With the border of the basin as a polyline; a closed one ends with its first point.
-    pub fn bordered(self, about: &About, border: &[State]) -> Self {
-        let [length, speed] = [about.quantity("m", 10), about.quantity("m/s", 10)];
-        let columns =
-            Columns::default().number("q", length, |at: &State| at.q).number("v", speed, |at| at.v);
-        self.with_rows("border", &columns, border).rows(&columns, border)
-    }
+/// A curve with its name.
+pub type NamedCurve = (&'static str, Vec<[f64; 2]>);
 
-    /// With the return map as polylines, one for each side.
-    pub fn returned(self, about: &About, sides: &[Vec<Return>]) -> Self {
-        let length = about.quantity("m", 10);
+impl Answer {
+    /// With curves, if there are any: the points one below the other.
+    pub fn curves(self, curves: &[NamedCurve]) -> Self {
+        if curves.is_empty() {
+            return self;
+        }
+        const NUMBER: Quantity = Quantity::pure(10);
         let columns = Columns::default()
-            .word("side", |(side, _): &(&str, Return)| *side)
-            .number("from", length, |(_, it)| it.from)
-            .number("to", length, |(_, it)| it.to);
-        let named = ["right", "left"].into_iter().zip(sides);
-        let rows = named.flat_map(|(side, turns)| turns.iter().map(move |turn| (side, *turn)));
-        self.with_rows("return_map", &columns, rows.clone()).rows(&columns, rows)
+            .word("curve", |(name, _): &(&str, [f64; 2])| *name)
+            .number("x", NUMBER, |(_, [x, _])| *x)
+            .number("y", NUMBER, |(_, [_, y])| *y);
+        let rows = curves.iter().flat_map(|(name, points)| points.iter().map(|at| (*name, *at)));
+        self.with_rows("curves", &columns, rows.clone()).rows(&columns, rows)
     }
 }
 
@@ -139,7 +134,7 @@ pub fn basin(
         .lines(lines)
         .with("edge", found.border)
         .with("counts", counts)
-        .with("margin", read_as(&found.margin, found.margin_regime()))
+        .with("margin", read_as(found.margin.regime(found.border), &found.margin))
         .with("captured", captured)
         .with_any("area", on_paper.then_some(area))
         .with_any("lyapunov_share", on_paper.then_some(share))

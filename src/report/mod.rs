@@ -4,7 +4,6 @@
 //! its forms.
 
 pub mod answer;
-pub mod arrays;
 pub mod branch;
 pub mod claims;
 pub mod columns;
@@ -18,8 +17,6 @@ pub mod machine;
 pub mod margin;
 pub mod motion;
 pub mod page;
-#[cfg(feature = "parquet")]
-mod parquet;
 pub mod proof;
 pub mod scan;
 pub mod scenes;

@@ -27,7 +27,6 @@ pub fn motion(
     about: &About,
     motion: &Motion,
     certified: Option<&ProvedMotion>,
-    asked: Option<&[MomentRow]>,
     seconds: f64,
 ) -> Answer {
     let problem = &motion.problem;
@@ -70,7 +69,6 @@ pub fn motion(
         .with_any("certified", certified.map(followed))
         .rows(&columns.and(certified.map(|_| proved)), &points(motion, certified, machine))
         .table(works.table(energy.iter().flat_map(Document::numbers)))
-        .sampled(asked, [time, length, speed])
         .lines(how)
         .cost(motion.cost, seconds)
 }
@@ -80,12 +78,13 @@ pub type MomentRow = (f64, Option<Sample>);
 
 impl Answer {
     /// With a motion at times, if any are asked for: its rows in files, and more rows for reading.
-    fn sampled(self, asked: Option<&[MomentRow]>, [time, length, speed]: [Quantity; 3]) -> Self {
+    pub fn sampled(self, asked: Option<&[MomentRow]>) -> Self {
+        const NUMBER: Quantity = Quantity::pure(10);
         let Some(rows) = asked else { return self };
         let columns = Columns::default()
-            .number("tau", time, |(tau, _): &MomentRow| *tau)
-            .number("q", length, |(_, sample)| Some(sample.as_ref()?.q))
-            .number("v", speed, |(_, sample)| Some(sample.as_ref()?.v));
+            .number("tau", NUMBER, |(tau, _): &MomentRow| *tau)
+            .number("q", NUMBER, |(_, sample)| Some(sample.as_ref()?.q))
+            .number("v", NUMBER, |(_, sample)| Some(sample.as_ref()?.v));
         self.with_rows("samples", &columns, rows).rows(&columns, rows)
     }
 }

@@ -7,7 +7,6 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::{Format, lines};
-use crate::portrait::MarginRegime;
 use crate::scan::{Scan, ScanRow, Value};
 use crate::words::measurement;
 
@@ -89,26 +88,18 @@ impl ScanPart {
                 format!("{line}\"reason\":{}}}\n", serde_json::Value::from(reason))
             }
             Format::Table => {
-                let reason = reason.or_else(|| self.missing(row));
                 let reason = reason.map(|why| format!("  {why}")).unwrap_or_default();
                 (line + &reason).trim_end().to_owned() + "\n"
             }
         }
     }
 
-    /// Why a margin is not finite, for the table.
-    fn missing(&self, row: &ScanRow) -> Option<String> {
-        let Value::Word(word) = row.values.get(self.scan.measured().len())? else { return None };
-        (*word != MarginRegime::Finite.word()).then(|| (*word).to_owned())
-    }
-
     /// The measured columns; that which says how to read a margin is for programs.
     fn columns(&self) -> Vec<&'static str> {
-        if self.form == Format::Table {
-            self.scan.measured()
-        } else {
-            self.scan.columns()
-        }
+        let mut columns = self.scan.measured();
+        let margin = self.scan.measures().iter().any(|measure| measure.is_margin());
+        columns.extend(Some("regime").filter(|_| margin && self.form != Format::Table));
+        columns
     }
 
     /// The inputs at a point, of which the table shows those that vary.

@@ -6,6 +6,7 @@
 //! them to the session, passes the session's requests to the workers, and draws.
 
 pub mod application;
+pub mod arrays;
 pub mod bounded;
 pub mod effects;
 pub mod explorer;
@@ -15,6 +16,8 @@ mod journal;
 pub mod launch;
 pub mod new_file;
 pub mod panics;
+#[cfg(feature = "parquet")]
+mod parquet;
 pub mod print;
 pub mod provenance_file;
 pub mod pump;

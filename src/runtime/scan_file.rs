@@ -6,7 +6,7 @@
 //! line with what this scan would write, the rows with their checksum in the provenance, computes the first and
 //! the last row again, and cuts an incomplete line and a row that has no checksum yet.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -16,10 +16,10 @@ use super::failure::{Failure, Result};
 use super::journal::Journal;
 use super::new_file;
 use super::provenance_file::{self, RunningChecksum};
-use super::{FileRow, NewFile, Readers, RowReader, standard, system};
+use super::{FileRow, Readers, RowReader, arrays, standard, system};
 use crate::flow::Limits;
+use crate::report::Format;
 use crate::report::scan::ScanPart;
-use crate::report::{Format, arrays};
 use crate::scan::{Scan, ScanRow};
 use crate::words::provenance::{Checksum, Provenance};
 
@@ -32,8 +32,6 @@ pub struct ScanFile {
     journal: Journal,
     /// `None` for a device or a pipe, and for standard output.
     checksum: Option<RunningChecksum>,
-    /// The rows so far, where all are written together at the end.
-    archive: Option<Archive>,
     /// Number of rows of an earlier process that have no checksum and were not computed again.
     pub unchecked: usize,
 }
@@ -42,27 +40,7 @@ impl ScanFile {
     /// Standard output, on which the heading has been printed.
     pub fn standard(part: ScanPart) -> Self {
         let journal = Journal::new(None, &part);
-        ScanFile { part, file: None, journal, checksum: None, archive: None, unchecked: 0 }
-    }
-
-    /// A file of arrays, which is written when all rows are known. Fails if it cannot be.
-    pub fn archive(path: &Path, part: ScanPart, provenance: Provenance) -> Result<Self> {
-        arrays::packed(path, "")?;
-        let file = NewFile::begin(path, Readers::Usual).map_err(Failure::unwritten(path))?;
-        let archive = Archive { path: path.to_owned(), file, provenance, rows: BTreeMap::new() };
-        Ok(ScanFile { archive: Some(archive), ..ScanFile::standard(part) })
-    }
-
-    /// Ends a file of arrays. Fails if it cannot be written.
-    pub fn end(self) -> Result<()> {
-        let Some(Archive { path, mut file, provenance, rows }) = self.archive else {
-            return Ok(());
-        };
-        let lines = self.part.heading() + &rows.into_values().collect::<String>();
-        let content = arrays::packed(&path, &lines)?;
-        let written = file.write_all(&content).and_then(|()| file.end(true));
-        written.map_err(Failure::unwritten(&path))?;
-        provenance_file::write(&path, &provenance)
+        ScanFile { part, file: None, journal, checksum: None, unchecked: 0 }
     }
 
     /// A file with nothing but the heading, if there is to be one. Fails if it cannot be written, or another scan
@@ -85,7 +63,7 @@ impl ScanFile {
         let mut file = opened(path)?;
         file.seek(SeekFrom::End(0)).map_err(unwritten)?;
         let journal = Journal::new(Some(path), &part);
-        Ok(ScanFile { file: Some(file), journal, checksum, ..ScanFile::standard(part) })
+        Ok(ScanFile { part, file: Some(file), journal, checksum, unchecked: 0 })
     }
 
     /// The file with those rows of the part that it already holds; a new file if there is none. Fails if it holds
@@ -115,8 +93,7 @@ impl ScanFile {
         let part = ScanPart { points, ..part };
         let journal = Journal::resume(path, &part);
         let checksum = Some(RunningChecksum::begin(path, provenance, checksum)?);
-        let mut this =
-            ScanFile { file: Some(file), journal, checksum, unchecked, ..ScanFile::standard(part) };
+        let mut this = ScanFile { part, file: Some(file), journal, checksum, unchecked };
         this.catch_up().map_err(unwritten)?;
         Ok(this)
     }
@@ -141,11 +118,6 @@ impl ScanFile {
     /// the file or the journal cannot be written.
     pub fn add(&mut self, index: usize, row: &ScanRow) -> io::Result<()> {
         let line = self.part.line(index, row);
-        if let Some(archive) = &mut self.archive {
-            archive.rows.insert(index, line);
-            self.part.points.start += 1;
-            return Ok(());
-        }
         if index > self.part.points.start {
             return self.journal.note(index, line);
         }
@@ -174,12 +146,20 @@ impl ScanFile {
     }
 }
 
-/// Rows that are written together.
-struct Archive {
-    path: PathBuf,
-    file: NewFile,
-    provenance: Provenance,
-    rows: BTreeMap<usize, String>,
+/// The file of the rows of which a file of arrays is made when all are known.
+pub fn rows_of(path: &Path) -> PathBuf {
+    new_file::beside(path, ".csv")
+}
+
+/// Makes a file of arrays of all rows, which then go. Fails if one cannot be read or written.
+pub fn pack(path: &Path, provenance: &Provenance) -> Result<()> {
+    let rows = rows_of(path);
+    let text = fs::read_to_string(&rows).map_err(|error| Failure::file(&rows, error))?;
+    let content = arrays::packed_rows(path, &text)?;
+    new_file::write(path, &content, Readers::Usual, None)?;
+    provenance_file::write(path, provenance)?;
+    drop(fs::remove_file(provenance_file::beside(&rows)));
+    fs::remove_file(&rows).map_err(Failure::unwritten(&rows))
 }
 
 /// The valid beginning of a file, up to the last row of the `known` checksum: its length in bytes, and the checksum of
@@ -215,9 +195,6 @@ fn opened(path: &Path) -> Result<File> {
     }
 }
 
-/// Why no arrays are made of rows that are not all known, or stand in several files.
-pub const ROWS_ONLY: &str = "arrays are written by one scan, whole; here .csv, .json or .jsonl";
-
 /// Writes known rows to a file, in the form given by its extension; says so in one line, or fails with one.
 ///
 /// If the file holds the beginning of the same scan, it is continued; a file with any other content is left
@@ -225,7 +202,7 @@ pub const ROWS_ONLY: &str = "arrays are written by one scan, whole; here .csv, .
 pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String> {
     let path = &at_home(path);
     if arrays::form_of(path).is_some() {
-        return Err(ROWS_ONLY.to_owned());
+        return Err("rows are saved as .csv, .json or .jsonl".to_owned());
     }
     let is_new = !path.exists();
     let (form, points) = (Format::of_file(path), 0..scan.points());

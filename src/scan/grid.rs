@@ -4,7 +4,7 @@
 //! not depend on each other: any of them can be computed anywhere, at any time, and is the same to the
 //! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
-use super::{Conditions, Measure, OF_THE_PAPER, Origin, PointList, ScanRow, Sweep, Value, measure};
+use super::{Conditions, Measure, OF_THE_PAPER, Origin, ScanRow, Sweep, Value, measure};
 use crate::flow::{Cost, Limits, Problem, Result, Subject};
 use crate::model::{FrictionLaw, Interval, Knob, State};
 use crate::portrait::{RandomKick, StartWindow};
@@ -12,14 +12,17 @@ use crate::portrait::{RandomKick, StartWindow};
 /// Most points of a scan.
 pub const MOST_POINTS: usize = 1_000_000_000;
 
+/// A number and its values at all points of a list.
+pub type Column = (Knob, Vec<f64>);
+
 /// What is scanned, and what is measured at each point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
     /// What is scanned: the sweeps replace its numbers.
     base: Subject,
     over: Vec<Sweep>,
-    /// The points, where these are no grid.
-    list: Option<PointList>,
+    /// The columns of a list of points; none of a grid.
+    list: Vec<Column>,
     measures: Vec<Measure>,
     conditions: Conditions,
 }
@@ -36,7 +39,7 @@ impl Scan {
         conditions: impl Into<Conditions>,
     ) -> Result<Self, String> {
         let (base, conditions) = (base.into(), conditions.into());
-        Scan { base, over, list: None, measures, conditions }.checked()
+        Scan { base, over, list: Vec::new(), measures, conditions }.checked()
     }
 
     /// The same at the points of a list, in their order.
@@ -45,29 +48,29 @@ impl Scan {
     /// One line, as for [`Self::new`].
     pub fn of_list(
         base: impl Into<Subject>,
-        list: PointList,
+        list: Vec<Column>,
         measures: Vec<Measure>,
         conditions: impl Into<Conditions>,
     ) -> Result<Self, String> {
         let (base, conditions) = (base.into(), conditions.into());
-        Scan { base, over: Vec::new(), list: Some(list), measures, conditions }.checked()
+        Scan { base, over: Vec::new(), list, measures, conditions }.checked()
     }
 
     /// The scan, if it makes sense.
     fn checked(self) -> Result<Self, String> {
         let Scan { base, measures, conditions, .. } = &self;
-        let (varied, first) = (self.varied(), self.values(0));
-        if varied.is_empty() || measures.is_empty() {
+        if self.points() == 0 || self.list.len() + self.over.len() == 0 || measures.is_empty() {
             return Err("a scan goes over at least one parameter and measures something".to_owned());
         }
-        for (index, symbol) in varied.iter().enumerate() {
-            base.clone().set(*symbol, first[index].1)?;
-            if varied[..index].contains(symbol) {
+        let first = self.values(0);
+        for (index, (symbol, value)) in first.iter().enumerate() {
+            base.clone().set(*symbol, *value)?;
+            if first[..index].iter().any(|(other, _)| other == symbol) {
                 return Err(format!("{symbol} is scanned over twice"));
             }
             // A list may have columns that others of its measures need.
             let counts = |measure: &Measure| measure.depends_on(*symbol);
-            if self.list.is_none() && !measures.iter().any(counts) {
+            if self.list.is_empty() && !measures.iter().any(counts) {
                 let names: Vec<_> = measures.iter().map(|measure| measure.spec().name).collect();
                 return Err(format!("{} does not depend on {symbol}", names.join(", ")));
             }
@@ -118,7 +121,7 @@ impl Scan {
     /// How many points there are.
     pub fn points(&self) -> usize {
         let of_grid = || self.over.iter().map(|sweep| sweep.count).product();
-        self.list.as_ref().map_or_else(of_grid, |list| list.rows.len())
+        self.list.first().map_or_else(of_grid, |(_, values)| values.len())
     }
 
     /// Which value of each sweep point number `index` has.
@@ -134,11 +137,9 @@ impl Scan {
 
     /// The numbers that are set at point number `index`, and their values there.
     fn values(&self, index: usize) -> Vec<(Knob, f64)> {
-        if let Some(PointList { knobs, rows }) = &self.list {
-            return knobs.iter().copied().zip(rows[index].iter().copied()).collect();
-        }
+        let listed = self.list.iter().map(|(symbol, values)| (*symbol, values[index]));
         let swept = self.over.iter().zip(self.place(index));
-        swept.map(|(sweep, which)| (sweep.symbol, sweep.value(which))).collect()
+        listed.chain(swept.map(|(sweep, which)| (sweep.symbol, sweep.value(which)))).collect()
     }
 
     /// What is measured at point number `index`.
@@ -187,12 +188,6 @@ impl Scan {
     /// The columns that are measured, in their order.
     pub fn measured(&self) -> Vec<&'static str> {
         self.measures.iter().flat_map(|measure| &measure.spec().columns).copied().collect()
-    }
-
-    /// The same, and last, where a margin is measured, how it is to be read.
-    pub fn columns(&self) -> Vec<&'static str> {
-        let told = self.measures.iter().any(|measure| measure.is_margin());
-        self.measured().into_iter().chain(told.then_some("regime")).collect()
     }
 
     /// All that the row of point number `index` depends on, by name.

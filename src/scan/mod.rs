@@ -3,9 +3,8 @@
 
 pub mod grid;
 pub mod level;
-pub mod list;
 pub mod measure;
 pub mod sound;
 pub mod sweep;
 
-pub use self::{grid::*, level::*, list::PointList, measure::*, sound::Sound, sweep::*};
+pub use self::{grid::*, level::*, measure::*, sound::Sound, sweep::*};

@@ -292,12 +292,7 @@ plots = [
             ("until = 60", "until = -1", "7:17", "until = -1 is outside its range"),
             ("view = \"phase\"", "view = \"speeds\"", "10:12", "needs a machine"),
             ("abscissa = \"D\"", "abscissa = \"q0\"", "11:43", "an axis is D, D2, D3 or r"),
-            (
-                "{ view = \"diagram\"",
-                "{ family = 0, view = \"diagram\"",
-                "11:14",
-                "no such family",
-            ),
+            ("{ view = \"diagram\"", "{ family = 0, view = \"diagram\"", "11:14", "no such family"),
             ("title", "hopfscope = 1\ntitle", "1:13", "--open FILE"),
             ("title", "machine = \"x.toml\"\ntitle", "1:11", "stands alone"),
             ("title", "record = \"x.csv mass=2 m\"\ntitle", "1:10", "m = 2 m has the wrong unit"),

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use serde_json::Value;
+
 use crate::program::{json, number, run};
 use crate::{file, word};
 
@@ -92,7 +94,8 @@ fn the_labels_of_a_basin_are_its_counts_and_its_border_encloses_its_area() {
         assert_eq!(of("labels").kind, "|u1");
         assert_eq!(of("labels").shape, [of("v").shape[0], of("q").shape[0]]);
         let margins = of("margin").numbers();
-        for (name, size) in of("margin_of").words().iter().zip(&margins) {
+        let names = ["displacement", "impulse", "from_rest_displacement", "from_rest_impulse"];
+        for (name, size) in names.iter().zip(&margins) {
             let margin = &answer["margin"];
             let told = match name.strip_prefix("from_rest_") {
                 Some(kick) => &margin["from_rest"][kick],
@@ -134,29 +137,41 @@ fn a_label_is_where_its_start_ends() {
     }
 }
 
+/// The points of a curve in a document.
+fn curve<'a>(document: &'a Value, name: &'a str) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let rows = document["curves"].as_array().unwrap().iter();
+    // Without a next turning point there is none.
+    let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+    rows.filter(move |row| row["curve"] == name)
+        .map(move |row| [number(&row["x"]), number(&row["y"])])
+}
+
 #[test]
-fn curves_of_a_basin_stand_in_its_document_and_in_one_table() {
-    let base = "basin --set D=-0.3 --set D3=0.5 --set r=0.1 --grid 2x2 --curve";
-    let border = json(&format!("{base} border"));
-    let margin = number(&border["margin"]["displacement"]);
-    let points = border["border"].as_array().unwrap();
-    let farthest = points.iter().map(|at| number(&at["q"])).fold(0.0, f64::max);
+fn the_curves_of_a_basin_are_its_border_and_the_return_map() {
+    let line = "basin --set D=-0.3 --set D3=0.5 --set r=0.1 --grid 2x2 --curves";
+    let document = json(line);
+    let margin = number(&document["margin"]["displacement"]);
+    let farthest = curve(&document, "border").map(|[q, _]| q).fold(0.0, f64::max);
     assert!((farthest / margin - 1.0).abs() < 1e-9);
-    let map = json(&format!("{base} return-map"));
-    let map = map["return_map"].as_array().unwrap();
-    // A turning point within the margin comes nearer to rest, one beyond it goes away from there.
-    for turn in map {
-        let [from, to] = ["from", "to"].map(|name| number(&turn[name]).abs());
-        let is_beyond_both = from > 1.1583724547453;
-        assert!(is_beyond_both || (to > from) == (from > margin), "{turn}");
-    }
-    assert!(["left", "right"].iter().all(|side| map.iter().any(|turn| turn["side"] == *side)));
-    let machine = json("basin --machine clutch --grid 2x2 --curve return-map");
-    let margin = number(&machine["margin"]["displacement"]);
-    for turn in machine["return_map"].as_array().unwrap() {
-        let from = number(&turn["from"]);
-        if from < 0.99 * margin {
-            assert!(number(&turn["to"]) < from + 1e-15, "{turn}");
+    // A turning point within the margin comes nearer to rest, one beyond it goes away from there, up to the stable cycle.
+    for side in ["return_map_left", "return_map_right"] {
+        let turns: Vec<_> = curve(&document, side).collect();
+        assert!(turns.len() > 400);
+        for [from, to] in turns.into_iter().map(|turn| turn.map(f64::abs)) {
+            let is_beyond_both = from > 1.158_372_454_745_3;
+            let comes_nearer = is_beyond_both || from < margin;
+            assert!((to < from) == comes_nearer || from == 0.1, "{from} {to}");
         }
     }
+    let words: Vec<&str> = line.split(' ').chain(["--format", "csv"]).collect();
+    let rows = run(&words).out;
+    assert!(rows.starts_with("curve,x,y\nborder,"));
+    assert_eq!(rows.lines().count() - 1, {
+        let names = ["border", "return_map_left", "return_map_right"];
+        names.map(|name| curve(&document, name).count()).iter().sum::<usize>()
+    });
+    let machine = json("basin --machine clutch --grid 2x2 --curves");
+    let margin = number(&machine["margin"]["displacement"]);
+    let turns = curve(&machine, "return_map_right").filter(|[from, _]| *from < 0.99 * margin);
+    assert!(turns.into_iter().all(|[from, to]| to <= from));
 }

@@ -65,13 +65,13 @@ fn a_grid_and_the_list_of_its_points_have_the_same_rows() {
 fn lists_are_refused_by_line_and_column() {
     let (_folder, path) = file("sets.csv");
     for (text, expected) in [
-        ("D,x\n1,2\n", "line 1: no number \"x\"; there are D, D2, D3, r"),
-        ("D,r\n-0.1,0.1\n-0.2\n", "line 3: no value of r"),
-        ("D,r\n-0.1,0.1,3\n", "line 2: 3 values for 2 columns"),
+        ("D,x\n1,2\n", "no number \"x\"; there are D, D2, D3, r"),
+        ("D,r\n-0.1,0.1\n-0.2\n", "(line: 3, byte: 13): found record with 1 fields"),
+        ("D,r\n-0.1,0.1,3\n", "found record with 3 fields"),
         ("D,r\n1,-2\n", "line 2, column r: r = -2 is outside its range 0 .. 1e150"),
-        ("D,r\n", "no parameter set"),
-        ("", "expected a line of names"),
-        ("D,D\n1,1\n", "two columns D"),
+        ("D,r\n", "at least one"),
+        ("", "at least one"),
+        ("D,D\n1,1\n", "D is scanned over twice"),
     ] {
         fs::write(&path, text).unwrap();
         let words = ["scan", "--points", word(&path), "--measure", "margin"];
@@ -129,18 +129,33 @@ fn an_archive_has_the_columns_of_the_rows() {
 }
 
 #[test]
-fn arrays_are_written_whole_or_not_at_all() {
+fn arrays_are_written_whole_and_their_rows_resume() {
     let (folder, path) = file("rows.npz");
-    let words = ["scan", "--over", "D=-0.3:-0.1:2", "--measure", "margin", "--output", word(&path)];
-    run(&[&words[..], &["--resume"]].concat()).is_refused(&["at the end, whole"]);
-    run(&[&words[..], &["--format", "json"]].concat()).is_refused(&["csv rows"]);
+    let words = ["scan", "--over", "D=-0.3:-0.1:3", "--measure", "margin", "--output", word(&path)];
+    run(&[&words[..], &["--format", "json"]].concat()).is_refused(&["csv rows of one scan"]);
+    let plan = ["--plan", "parallel", "--shards", "2"];
+    run(&[&words[..], &plan].concat()).is_refused(&["csv rows of one scan"]);
     assert!(!path.exists());
     assert_eq!(run(&words).code, 0);
+    let whole = fs::read(&path).unwrap();
+    let names: Vec<_> =
+        fs::read_dir(folder.path()).unwrap().map(|it| it.unwrap().file_name()).collect();
+    assert_eq!(names.len(), 2, "the arrays and where they come from: {names:?}");
     run(&words).is_refused(&["not empty", "--force"]);
-    let merged = folder.path().join("all.csv");
-    run(&["merge", word(&path), "--output", word(&merged)]).is_refused(&["one scan, whole"]);
-    let plan = ["--plan", "parallel", "--shards", "2"];
-    run(&[&words[..], &plan].concat()).is_refused(&["one scan, whole"]);
+    // What a killed scan leaves.
+    fs::remove_file(&path).unwrap();
+    let rows = folder.path().join("rows.npz.csv");
+    let csv = [&words[..5], &["--output", word(&rows)]].concat();
+    assert_eq!(run(&csv).code, 0);
+    let two: String = fs::read_to_string(&rows).unwrap().split_inclusive('\n').take(2).collect();
+    fs::write(&rows, two).unwrap();
+    run(&words).is_refused(&["rows.npz.csv is not empty; --resume continues it"]);
+    assert_eq!(run(&[&words[..], &["--resume"]].concat()).code, 0);
+    assert_eq!(fs::read(&path).unwrap(), whole);
+    let merged = folder.path().join("all.npz");
+    let parts = run(&csv);
+    assert_eq!(parts.code, 0, "{}", parts.err);
+    run(&["merge", word(&rows), "--output", word(&merged)]).is_refused(&["all.npz", ".csv"]);
 }
 
 #[test]

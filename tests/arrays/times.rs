@@ -64,7 +64,9 @@ fn a_motion_at_a_time_is_where_one_that_ends_then_ends() {
             let until = Problem { until: *tau, ..problem };
             let end = until.followed(None, Detail::default(), &Limits::PATIENT).end();
             let Sample { q, v, .. } = sample.unwrap();
-            assert!((q - end.q).abs() < 1e-9 && (v - end.v).abs() < 1e-9, "{method} {tau}");
+            // Between its ends a step of the implicit method has a polynomial of lower order.
+            let error = if method == Method::Stiff { 1e-8 } else { 1e-9 };
+            assert!((q - end.q).abs() < error && (v - end.v).abs() < error, "{method} {tau}");
         }
     }
 }
@@ -85,7 +87,7 @@ fn times_may_stand_in_any_order_and_beyond_an_escape_there_is_no_state() {
 
 #[test]
 fn a_machine_sticks_and_slips_at_the_times_that_are_asked_for() {
-    let line = "trajectory --machine clutch --set x=8mm --until 0.2 --sample 1ms";
+    let line = "trajectory --machine clutch --set x=12mm --until 0.2 --sample 1ms";
     let answer = json(line);
     let samples = answer["samples"].as_array().unwrap();
     assert_eq!(samples.len(), 201);
@@ -101,7 +103,7 @@ fn a_machine_sticks_and_slips_at_the_times_that_are_asked_for() {
         let is_held = rides.iter().any(|ride| ride.contains(&tau));
         assert_eq!(number(&sample["v"]) == speed, is_held, "{sample}");
         if tau > 0.0 {
-            let until = format!("trajectory --machine clutch --set x=8mm --until {tau}");
+            let until = format!("trajectory --machine clutch --set x=12mm --until {tau}");
             let end = &json(&until)["outcome"];
             assert!((number(&end["q"]) - number(&sample["q"])).abs() < 1e-13, "{sample} {end}");
         }
@@ -111,7 +113,7 @@ fn a_machine_sticks_and_slips_at_the_times_that_are_asked_for() {
 #[test]
 fn the_times_of_a_file_keep_their_order_and_the_answer_has_one_table() {
     let (_folder, path) = file("times.csv");
-    fs::write(&path, "# measured\nn,tau\n1,4\n2,0.25\n\n3,4\n").unwrap();
+    fs::write(&path, "tau,q\n4,1\n# measured\n0.25,2\n\n4\n").unwrap();
     let words = ["trajectory", "--set", "D=0.1", "--times", word(&path), "--format", "csv"];
     let ran = run(&words);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
@@ -142,7 +144,6 @@ fn wrong_times_are_refused_by_their_line() {
     for (text, expected) in [
         ("0\n1\ntwo\n", "line 3: \"two\" is not a number"),
         ("tau\n1\n99\n", "line 3: 99 is outside of the motion, 0 .. 40.0, see --until"),
-        ("", "expected 1 .. 1000000 times"),
     ] {
         fs::write(&path, text).unwrap();
         run(&["trajectory", "--times", word(&path)]).is_refused(&["times.csv", expected]);

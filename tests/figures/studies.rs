@@ -144,8 +144,14 @@ fn mistakes_in_a_study_are_told_in_one_line() {
         ("outputs = [\"a.bmp\"]", "a figure ends in .pdf"),
         ("outputs = [\"../a.pdf\"]", "without .."),
         ("outputs = [\"/tmp/a.pdf\"]", "without .."),
-        ("[[scans]]\nover = \"D=0:1:5\"\nmeasure = \"margins\"\noutput = \"a.csv\"", "no measure \"margins\""),
-        ("[[scans]]\nover = \"D=0:1\"\nmeasure = \"margin\"\noutput = \"a.csv\"", "NAME=FROM:TO:COUNT"),
+        (
+            "[[scans]]\nover = \"D=0:1:5\"\nmeasure = \"margins\"\noutput = \"a.csv\"",
+            "no measure \"margins\"",
+        ),
+        (
+            "[[scans]]\nover = \"D=0:1\"\nmeasure = \"margin\"\noutput = \"a.csv\"",
+            "NAME=FROM:TO:COUNT",
+        ),
         ("[[scans]]\nover = \"D=0:1:5\"\nmeasure = \"margin\"", "names its output"),
         ("sheet.panels = [3]", "there is no panel 3"),
         ("plots = []", "0 plots; there can be 1 to 4"),

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::curve::ledger;
 use super::{Flow, MachineStep, ORDER, PhaseSeries, stepped};
-use crate::flow::at_times::Instants;
+use crate::flow::motion::due;
 use crate::flow::{Crossing, Detail, Leg, Limits, Method, Motion, Outcome, Problem, Sample};
 use crate::model::{ContactState, Model, Phase, Reason, Result, State};
 
@@ -36,16 +36,15 @@ impl MotionUnits {
 /// Follows a motion of a machine, given and told in these units, by a method that
 /// [follows machines](Method::follows_machines).
 pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Detail) -> Motion {
-    follow_at(model, problem, units, detail, &[])
+    follow_at(model, problem, units, (detail, &[]))
 }
 
-/// The same, evaluated at these times, in ascending order, if it is followed by Taylor series.
+/// The same with points at these times, in ascending order, if it is followed by Taylor series.
 pub(crate) fn follow_at(
     model: &Model,
     problem: &Problem,
     units: MotionUnits,
-    detail: Detail,
-    times: &[f64],
+    (detail, times): (Detail, &[f64]),
 ) -> Motion {
     let mut model = model.clone();
     model.tolerance = problem.tolerance;
@@ -61,7 +60,7 @@ pub(crate) fn follow_at(
     let mut recorder = MotionRecorder {
         units,
         detail: Detail { samples_per_step, energy, ..detail },
-        instants: Instants::new(if by_series { times } else { &[] }),
+        times: if by_series { times } else { &[] },
         whole: flow.series.left,
         works: Vector3::zeros(),
         state: start,
@@ -72,7 +71,7 @@ pub(crate) fn follow_at(
     let ended = recorder.run(&mut flow);
     let end = recorder.sample(flow.series.left, recorder.state);
     let Sample { tau, q, v } = end;
-    let MotionRecorder { works, state, instants, mut found, .. } = recorder;
+    let MotionRecorder { works, state, mut found, .. } = recorder;
     if samples_per_step == 0 {
         found.samples.push(end);
     }
@@ -81,7 +80,6 @@ pub(crate) fn follow_at(
         Some(Reason::Settles) => Outcome::Captured { tau, q },
         Some(reason) => Outcome::without_end(tau, reason),
     };
-    instants.tell(found.outcome, &mut found.samples);
     let by_terms = found.cost.steps * ORDER as u64;
     found.cost.evaluations = flow.stepper.map_or(by_terms, |it| it.cost().evaluations);
     let works = energy.then(|| ledger(model, works, [start, state]));
@@ -96,8 +94,8 @@ const MOST_STEPS: u64 = 200_000;
 struct MotionRecorder<'a> {
     units: MotionUnits,
     detail: Detail,
-    /// The times at which it is evaluated.
-    instants: Instants<'a>,
+    /// The times at which it is still to be evaluated.
+    times: &'a [f64],
     /// How long the motion is followed.
     whole: f64,
     /// Works of belt, damper and guide.
@@ -151,16 +149,15 @@ impl MotionRecorder<'_> {
     /// Keeps what is asked for of a step at whose start this much time is left: points, evenly spaced, including its end
     /// but not its start.
     fn keep(&mut self, model: &Model, step: &MachineStep, left: f64) {
-        let MotionUnits { length, omega_0, .. } = self.units;
-        let begun = self.whole - left;
-        self.instants.pass((begun + step.duration) / omega_0, |tau| {
-            let (x, y) = step.at((tau * omega_0 - begun).clamp(0.0, step.duration));
-            (x / length, y * omega_0 / length)
-        });
         let count = u32::try_from(self.detail.samples_per_step).unwrap_or(u32::MAX);
         for part in 1..=count {
             let t = step.duration * f64::from(part) / f64::from(count);
             self.found.samples.push(self.sample(left - t, step.at(t)));
+        }
+        let (begun, rate) = (self.whole - left, self.units.omega_0);
+        for tau in due(&mut self.times, (begun + step.duration) / rate) {
+            let t = (tau * rate - begun).clamp(0.0, step.duration);
+            self.found.samples.push(Sample { tau: *tau, ..self.sample(left - t, step.at(t)) });
         }
         if self.detail.energy {
             self.works += step.works(model, step.duration);

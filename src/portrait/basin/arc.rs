@@ -23,10 +23,10 @@ const BUDGET: u64 = 400_000;
 
 /// One integration step of an arc.
 #[derive(Clone, Debug)]
-pub(super) struct ArcStep {
-    pub step: KeptStep,
-    pub unit: i32,
-    pub duration: f64,
+struct ArcStep {
+    step: KeptStep,
+    unit: i32,
+    duration: f64,
     /// Position at its end, in the direction of the computation.
     end: f64,
 }
@@ -34,17 +34,17 @@ pub(super) struct ArcStep {
 /// A half swing as a graph `v(q)`.
 #[derive(Clone, Debug)]
 pub struct Arc {
-    pub(super) side: Side,
+    side: Side,
     pub(super) r: f64,
     /// That in which the arc was computed.
-    pub(super) field: HalfPlane,
+    field: HalfPlane,
     /// As a curve the arc is the same in both. Computed backward, positions are those of `y = -x`.
-    pub(super) direction: Direction,
+    direction: Direction,
     /// Of the swing (forward), or of the next one (backward).
     pub(super) clearance: Length,
-    pub(super) pieces: Vec<ArcStep>,
+    pieces: Vec<ArcStep>,
     /// From where the motion is linear to its end, if it was not followed there.
-    pub(super) rest: Option<ArcStep>,
+    rest: Option<ArcStep>,
     /// The swing.
     pub swing: HalfSwing,
     pub cost: Cost,

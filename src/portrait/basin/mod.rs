@@ -8,7 +8,6 @@ pub(crate) mod arc;
 #[doc(hidden)]
 pub mod capture;
 pub mod cycle;
-pub mod in_time;
 pub(crate) mod orbit;
 pub mod stability;
 
@@ -70,29 +69,12 @@ impl Counts {
 
     /// Counts a start with this fate.
     pub fn add(&mut self, fate: Fate) {
-        let Counts { captured, cycle, escaped, undecided } = self;
-        *[captured, cycle, escaped, undecided][usize::from(Self::label(fate))] += 1;
-    }
-
-    /// What they count, by label.
-    pub const LABELS: [&str; 4] = ["captured", "cycle", "escaped", "undecided"];
-
-    /// The label of a start with this fate.
-    pub(crate) fn label(fate: Fate) -> u8 {
-        match fate {
-            Fate::Rest => 0,
-            Fate::Cycle(_) => 1,
-            Fate::Escapes => 2,
-            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => 3,
-        }
-    }
-}
-
-impl StartWindow {
-    /// The displacements and the velocities of so many starts.
-    #[must_use]
-    pub fn axes(&self, (columns, rows): (usize, usize)) -> [Vec<f64>; 2] {
-        [(self.q, columns), (self.v, rows)].map(|(side, count)| evenly(side, count).collect())
+        *match fate {
+            Fate::Rest => &mut self.captured,
+            Fate::Cycle(_) => &mut self.cycle,
+            Fate::Escapes => &mut self.escaped,
+            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => &mut self.undecided,
+        } += 1;
     }
 }
 

@@ -9,7 +9,6 @@ use crate::flow::{
 };
 use crate::model::{ContactState, Lines, Phase};
 use crate::numerics::ln;
-use crate::portrait::{Portrait, Return, evenly};
 
 /// The image of a right turning point.
 #[derive(Clone, Copy, Debug)]
@@ -56,27 +55,6 @@ pub struct Landmarks {
     pub beyond: Option<f64>,
 }
 
-impl Portrait {
-    /// The return map at `count` evenly spaced right turning points between these, outside of what the guide holds: the next
-    /// one, or where the mass comes to rest before; `None` where it escapes, or its law ends.
-    #[must_use]
-    pub fn returns(&self, (near, far): (f64, f64), count: usize) -> Vec<Return> {
-        let near = near.max(self.model.guide_static);
-        let next = |from: f64| {
-            let mut flow = Flow::new(&self.model);
-            let rest = |mut flow: Flow| flow.rest_of(from, 0.0, &Limits::PATIENT).ok();
-            let to = match flow.returned(from) {
-                Ok(Some(image)) => Some(image.x),
-                Ok(None) => rest(flow),
-                Err(_) => None,
-            };
-            Return { from, to }
-        };
-        let starts = (near < far).then(|| evenly((near, far), count));
-        starts.into_iter().flatten().map(next).collect()
-    }
-}
-
 impl Flow<'_> {
     /// The next right turning point after the one at `x`, outside of what the guide holds; `None` if the mass comes
     /// to rest before.
@@ -109,6 +87,16 @@ impl Flow<'_> {
         match self.turn(place, start, watch) {
             Err(Reason::Settles) => Ok(None),
             turn => turn.map(|turn| Some(turn).filter(|turn| !turn.rests)),
+        }
+    }
+
+    /// The next right turning point after the one at `x`, or where the mass comes to rest before; `None` where it escapes, or
+    /// its law ends.
+    pub fn next_right(&mut self, x: f64) -> Option<f64> {
+        match self.returned(x) {
+            Ok(Some(image)) => Some(image.x),
+            Ok(None) => self.rest_of(x, 0.0, &Limits::PATIENT).ok(),
+            Err(_) => None,
         }
     }
 

@@ -6,7 +6,8 @@ use std::error::Error;
 use super::table::CYCLES;
 use super::{Conditions, Measure, Value};
 use crate::flow::{Cost, Limits, Motion, Outcome, Result, Subject};
-use crate::portrait::{Border, Cycle, Cycles, Margin, MarginRegime, Portrait, Share, StartWindow};
+use crate::model::basin::UNKNOWN;
+use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +31,7 @@ pub(super) struct Cells<'a> {
     pub limits: &'a Limits<'a>,
     filled: BTreeMap<Measure, Vec<Value>>,
     /// How the margin is to be read, once it is known.
-    pub regime: Option<MarginRegime>,
+    pub regime: Option<&'static str>,
     /// What gave up, and why.
     pub reasons: Vec<String>,
     pub cost: Cost,
@@ -87,7 +88,7 @@ pub fn measure(
     };
     let mut values: Vec<_> = measures.iter().flat_map(columns).collect();
     if measures.iter().any(|measure| measure.is_margin()) {
-        values.push(Value::Word(cells.regime.unwrap_or(MarginRegime::Unknown).word()));
+        values.push(Value::Word(cells.regime.unwrap_or(UNKNOWN)));
     }
     let reason = (!cells.reasons.is_empty()).then(|| cells.reasons.join("; "));
     Ok(ScanRow { values, reason, cost: cells.cost })
@@ -154,7 +155,7 @@ impl Cells<'_> {
 
     /// A margin, of this measure, and what borders its basin; the nominal one, which comes first, says how to read both.
     pub fn margin(&mut self, measure: Measure, border: Border, margin: Margin) {
-        self.regime.get_or_insert(MarginRegime::of(border, &margin));
+        self.regime.get_or_insert(margin.regime(border));
         self.fill(measure, || [margin.displacement, margin.impulse]);
     }
 

@@ -1,0 +1,47 @@
+//! Columns as a Parquet file of one row group, not compressed; an empty cell is null.
+
+use std::sync::Arc;
+
+use ::parquet::data_type::{ByteArrayType, DataType, DoubleType, Int64Type};
+use ::parquet::errors::Result;
+use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use ::parquet::schema::parser::parse_message_type;
+
+use super::arrays::{Array, Cells};
+
+/// The file. Fails if the columns are too long for it.
+pub fn file(columns: &[Array]) -> Result<Vec<u8>> {
+    let field = |array: &Array| match array.typed() {
+        Cells::Counts(_) => format!("optional int64 {};", array.name),
+        Cells::Numbers(_) => format!("optional double {};", array.name),
+        Cells::Words => format!("optional binary {} (UTF8);", array.name),
+    };
+    let fields: String = columns.iter().map(field).collect();
+    let schema = Arc::new(parse_message_type(&format!("message rows {{ {fields} }}"))?);
+    let mut out = Vec::new();
+    let mut writer = SerializedFileWriter::new(&mut out, schema, Arc::default())?;
+    let mut group = writer.next_row_group()?;
+    for array in columns {
+        let Some(mut column) = group.next_column()? else { continue };
+        let word = |cell: &String| Some(cell.as_str().into()).filter(|_| !cell.is_empty());
+        match array.typed() {
+            Cells::Counts(cells) => put::<Int64Type>(&mut column, cells.into_iter().map(Some))?,
+            Cells::Numbers(cells) => put::<DoubleType>(&mut column, cells.into_iter())?,
+            Cells::Words => put::<ByteArrayType>(&mut column, array.cells.iter().map(word))?,
+        }
+        column.close()?;
+    }
+    group.close()?;
+    writer.close()?;
+    Ok(out)
+}
+
+/// Writes the cells of a column, of which some may be missing.
+fn put<T: DataType>(
+    column: &mut SerializedColumnWriter,
+    cells: impl Iterator<Item = Option<T::T>> + Clone,
+) -> Result<()> {
+    let levels: Vec<i16> = cells.clone().map(|cell| cell.is_some().into()).collect();
+    let values: Vec<T::T> = cells.flatten().collect();
+    column.typed::<T>().write_batch(&values, Some(&levels), None).map(drop)
+}
