@@ -10,7 +10,8 @@ use crate::flow::{Flow, Limits};
 use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Margin, Portrait, Return, StartWindow, evenly, proved_kicks};
 use crate::report::margin::{NamedCurve, basin};
-use crate::runtime::arrays::{Array, packed};
+use crate::runtime::arrays::Array;
+use crate::runtime::packed::packed;
 
 /// Shows where the starts in a window end, and how large a kick is survived
 #[derive(Args)]
@@ -62,22 +63,22 @@ const MOST_LABELS: usize = 10_000_000;
 /// What starts are counted as, by label.
 const LABELS: [&str; 4] = ["captured", "cycle", "escaped", "undecided"];
 
-impl BasinCommand {
-    /// The label of each start, a row for each velocity; each is counted by itself.
-    fn labels(&self, found: &Portrait, [q, v]: [&[f64]; 2]) -> Result<Vec<usize>> {
-        if q.len() * v.len() > MOST_LABELS {
-            return Err(format!("--grid: an archive has at most {MOST_LABELS} labels").into());
-        }
-        let label = |(q, v): (f64, f64)| {
-            let start = StartWindow { q: (q, q), v: (v, v) };
-            let counts = found.count(&start, (1, 1), &Limits::PATIENT).unwrap_or_default();
-            let counts = [counts.captured, counts.cycle, counts.escaped];
-            counts.iter().position(|count| *count == 1).unwrap_or(counts.len())
-        };
-        let starts = v.iter().flat_map(|v| q.iter().map(|q| (*q, *v)));
-        Ok(starts.collect::<Vec<_>>().into_par_iter().map(label).collect())
+/// The label of each start, a row for each velocity; each is counted by itself.
+fn labels(found: &Portrait, [q, v]: [&[f64]; 2]) -> Result<Vec<usize>> {
+    if q.len() * v.len() > MOST_LABELS {
+        return Err(format!("--grid: an archive has at most {MOST_LABELS} labels").into());
     }
+    let label = |(q, v): (f64, f64)| {
+        let start = StartWindow { q: (q, q), v: (v, v) };
+        let counts = found.count(&start, (1, 1), &Limits::PATIENT).unwrap_or_default();
+        let counts = [counts.captured, counts.cycle, counts.escaped];
+        counts.iter().position(|count| *count == 1).unwrap_or(counts.len())
+    };
+    let starts = v.iter().flat_map(|v| q.iter().map(|q| (*q, *v)));
+    Ok(starts.collect::<Vec<_>>().into_par_iter().map(label).collect())
+}
 
+impl BasinCommand {
     /// The labels with their axes, the margin, and the curves.
     fn arrays(
         &self,
@@ -92,7 +93,7 @@ impl BasinCommand {
         let Margin { displacement, impulse, from_rest } = found.margin;
         let sizes = [displacement, impulse, from_rest.displacement, from_rest.impulse];
         let sizes = sizes.map(|size| size.map(digits).unwrap_or_default());
-        let labels = self.labels(found, [&q, &v])?;
+        let labels = labels(found, [&q, &v])?;
         let mut all = vec![
             Array::new("labels", &[height, width], labels),
             Array::new("legend", &[LABELS.len()], LABELS),

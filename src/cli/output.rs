@@ -12,7 +12,7 @@ use super::{Call, Failure, Result};
 use crate::flow::{Limits, Reason};
 use crate::numerics::{real, truncated};
 use crate::report::{Answer, Format};
-use crate::runtime::{Readers, arrays, new_file, provenance_file, standard};
+use crate::runtime::{Readers, new_file, packed, provenance_file, standard};
 use crate::words::printable;
 
 /// How an answer is printed.
@@ -77,13 +77,13 @@ impl Output {
         let content = printable::lines(&content);
         match self.format() {
             Format::Json => new_file::write(path, content.as_bytes(), Readers::Usual, KEEP),
-            _ => keep(path, &arrays::packed_rows(path, &content)?),
+            _ => keep(path, &packed::packed_rows(path, &content)?),
         }
     }
 
     /// The file, if it is an archive of numpy.
     pub fn archive(&self) -> Option<&Path> {
-        self.write.as_deref().filter(|path| arrays::form_of(path) == Some("npz"))
+        self.write.as_deref().filter(|path| packed::form_of(path) == Some("npz"))
     }
 }
 

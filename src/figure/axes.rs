@@ -5,7 +5,7 @@ use tiny_skia_path::PathBuilder;
 use super::Panel;
 use super::elements::{Anchor, Element, Shape, Spot, TextLine, lead};
 use super::inks::DARK;
-use super::paper::{BESIDE, Frame, LETTERS, Paper, TITLES};
+use super::paper::{BESIDE, Frame, LETTERS, PageLayout, TITLES};
 use crate::numerics::real;
 use crate::scene::JournalStyle;
 
@@ -51,7 +51,7 @@ pub fn axes(out: &mut Vec<Element>, panel: &Panel, frame: Frame) {
 }
 
 /// Writes the title of a panel, its last line at this spot.
-fn title(out: &mut Vec<Element>, panel: &Panel, (center, last): Spot, paper: &Paper) {
+fn title(out: &mut Vec<Element>, panel: &Panel, (center, last): Spot, paper: &PageLayout) {
     for (line, words) in paper.titled(panel).iter().rev().enumerate() {
         let at = (center, last - 15.0 * paper.scale * real(line));
         out.push(TextLine::new(at, Anchor::Middle, TITLES[1] * paper.scale, words).into());

@@ -3,13 +3,13 @@
 use super::data::{computed, said};
 use super::elements::PageUnit;
 use super::lines::FAINT;
-use super::paper::Paper;
+use super::paper::PageLayout;
 use super::{Figure, MarkedPoint, Outline};
 use crate::words::{joined, printable, significant};
 
 /// The facts for the caption of a figure, a line each.
 pub fn facts(figure: &Figure) -> String {
-    let paper = Paper::of(figure);
+    let paper = PageLayout::of(figure);
     let unit = if paper.unit == PageUnit::Point {
         "pt"
     } else {
@@ -35,7 +35,7 @@ pub fn facts(figure: &Figure) -> String {
 /// How a line or an area is drawn, and with which numbers.
 fn drawn(
     Outline { name, role, style, parameters, .. }: &Outline,
-    paper: &Paper,
+    paper: &PageLayout,
     unit: &str,
 ) -> String {
     let color = paper.word(*role);

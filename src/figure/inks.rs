@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use super::elements::{BLACK, Color, PageUnit, PlotPen, Tint};
-use super::paper::Paper;
+use super::paper::PageLayout;
 use crate::numerics::{cells, named};
 use crate::picture::{Dash, Role};
 use crate::scene::JournalStyle;
@@ -57,7 +57,7 @@ fn dashes(dash: Dash) -> [&'static [f64]; 2] {
     }
 }
 
-impl Paper {
+impl PageLayout {
     /// The colour of a role.
     pub fn color(&self, role: Role) -> Color {
         let ink = ink(role);

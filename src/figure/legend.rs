@@ -3,7 +3,7 @@
 use super::captions::Surroundings;
 use super::elements::{Anchor, Element, Shape, Spot, TextLine, Tint, WHITE};
 use super::panel::spot;
-use super::paper::{LEGEND, Paper};
+use super::paper::{LEGEND, PageLayout};
 use super::{Figure, Outline, Panel, map};
 use crate::numerics::{real, truncated};
 use crate::picture::legend::distinct;
@@ -46,7 +46,7 @@ fn explained(panel: &Panel, is_printed: bool) -> Vec<LegendEntry> {
 }
 
 /// Width of the widest of these entries.
-fn widest(entries: &[LegendEntry], paper: &Paper) -> f64 {
+fn widest(entries: &[LegendEntry], paper: &PageLayout) -> f64 {
     let widths = entries.iter().map(|entry| paper.width(&entry.text, LEGEND));
     NAME * paper.scale + widths.fold(0.0, f64::max)
 }
@@ -56,7 +56,7 @@ pub fn below(
     out: &mut Vec<Element>,
     entries: &[LegendEntry],
     (width, top): Spot,
-    paper: &Paper,
+    paper: &PageLayout,
 ) -> f64 {
     let (row, edge) = (ROW * paper.scale, 10.0 * paper.scale);
     let columns = truncated((width - edge) / (widest(entries, paper) + edge)).max(1);
@@ -74,7 +74,7 @@ pub fn inside(
     out: &mut Vec<Element>,
     entries: Vec<LegendEntry>,
     surroundings: &mut Surroundings,
-    paper: &Paper,
+    paper: &PageLayout,
 ) -> Vec<LegendEntry> {
     let (row, edge) = (15.0 * paper.scale, 5.0 * paper.scale);
     let size =
@@ -99,7 +99,7 @@ pub fn inside(
 }
 
 /// What stands before its name in the legend, and the name.
-fn sample(out: &mut Vec<Element>, entry: &LegendEntry, (x, y): Spot, paper: &Paper) {
+fn sample(out: &mut Vec<Element>, entry: &LegendEntry, (x, y): Spot, paper: &PageLayout) {
     let LegendEntry { sample, role, text } = entry;
     let (scale, long) = (paper.scale, SAMPLE * paper.scale);
     let shape = match sample {

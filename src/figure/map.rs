@@ -1,7 +1,7 @@
 //! A map and its scale on paper: cells of one hue, the stronger the more dangerous.
 
 use super::elements::{Anchor, Element, PlotPen, Shape, Spot, TextLine, Tint};
-use super::paper::{Frame, Paper};
+use super::paper::{Frame, PageLayout};
 use crate::numerics::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
 use crate::scene::Point;
@@ -28,7 +28,7 @@ pub fn role(word: &str) -> Role {
 }
 
 /// How a cell is filled; nothing where it has a number and there is no scale.
-fn paint(cell: MapCell, scale: Option<Danger>, paper: &Paper) -> Option<Tint> {
+fn paint(cell: MapCell, scale: Option<Danger>, paper: &PageLayout) -> Option<Tint> {
     match (cell, scale) {
         (MapCell::Number(value), scale) => scale.map(|it| tint(it.strength(it.part(value)), paper)),
         (MapCell::Word(word), _) => Some(paper.shading(role(word))),
@@ -36,7 +36,7 @@ fn paint(cell: MapCell, scale: Option<Danger>, paper: &Paper) -> Option<Tint> {
 }
 
 /// The colour of a strength from 0 to 1: one of the steps.
-fn tint(strength: f64, paper: &Paper) -> Tint {
+fn tint(strength: f64, paper: &PageLayout) -> Tint {
     let step = truncated(strength * real(STEPS)).min(STEPS - 1);
     let part = real(step) / real(STEPS - 1);
     let [weak, strong] = if paper.grey { GREYS } else { ENDS };
@@ -84,7 +84,7 @@ pub fn cells(map: &ScanMap, frame: Frame) -> Vec<Element> {
 
 /// Draws the scale at a place, if the map has numbers: what is measured, the colours, and the numbers that they
 /// stand for.
-pub fn scale(out: &mut Vec<Element>, map: &ScanMap, (x, y): Spot, paper: &Paper) {
+pub fn scale(out: &mut Vec<Element>, map: &ScanMap, (x, y): Spot, paper: &PageLayout) {
     let Some(danger) = map.scale else { return };
     let (width, scale) = (paper.plot.0, paper.scale);
     let top = y + 20.0 * scale;

@@ -2,7 +2,7 @@
 
 use super::captions::{self, Surroundings};
 use super::elements::{Anchor, BLACK, Element, Page, PlotPen, TextLine};
-use super::paper::{Frame, LETTERS, Paper, TITLES};
+use super::paper::{Frame, LETTERS, PageLayout, TITLES};
 use super::symbols::{LetterStyle, TextRun};
 use super::{Figure, legend, map, panel::draw};
 use crate::numerics::real;
@@ -10,7 +10,7 @@ use crate::scene::{JournalStyle, LegendPlace, PanelLetters};
 
 /// A page of all panels, below a title if it has one.
 pub fn page(figure: &Figure) -> Page {
-    let paper = Paper::of(figure);
+    let paper = PageLayout::of(figure);
     let (width, scale) = (paper.panel().0 * real(paper.columns), paper.scale);
     let usual = Some(&figure.title).filter(|_| paper.style == JournalStyle::Plain);
     let title = figure.sheet.title.as_ref().or(usual);
@@ -30,11 +30,11 @@ pub fn page(figure: &Figure) -> Page {
 
 /// A page of the only panel of a figure, which needs no title above its own.
 pub fn alone(figure: &Figure) -> Page {
-    whole(figure, Vec::new(), 0.0, Paper::of(figure))
+    whole(figure, Vec::new(), 0.0, PageLayout::of(figure))
 }
 
 /// A page with all panels below what stands above them, and with the legend and the scales of maps below.
-fn whole(figure: &Figure, mut out: Vec<Element>, head: f64, paper: Paper) -> Page {
+fn whole(figure: &Figure, mut out: Vec<Element>, head: f64, paper: PageLayout) -> Page {
     let (width, height) = paper.panel();
     let width = width * real(paper.columns);
     let mut below = Vec::new();

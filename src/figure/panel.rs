@@ -6,7 +6,7 @@ use super::areas::loops;
 use super::axes::axes;
 use super::elements::{Color, Element, PlotPen, Shape, Spot, WHITE, lead};
 use super::lines::corners;
-use super::paper::{Frame, Paper};
+use super::paper::{Frame, PageLayout};
 use super::{MarkedPoint, Outline, Panel, map};
 use crate::numerics::{atan2, hypot, sin_cos};
 use crate::picture::{Dash, Mark, Marks};
@@ -118,7 +118,7 @@ fn dot(mark: &MarkedPoint, frame: Frame) -> Option<Element> {
 }
 
 /// A mark at a place on paper.
-pub fn spot(mark: Mark, (x, y): Spot, color: Color, paper: &Paper) -> Shape {
+pub fn spot(mark: Mark, (x, y): Spot, color: Color, paper: &PageLayout) -> Shape {
     let round = |radius: f64| Shape::circle((x, y), radius * paper.scale);
     let half = 3.0 * paper.scale;
     match mark {

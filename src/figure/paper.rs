@@ -10,7 +10,7 @@ use crate::picture::{Tick, Ticks};
 use crate::scene::{JournalStyle, PanelLetters, Point, Window};
 
 /// Size of letters at axes, in plots, in titles, and in the legend, and the height of a line in a plot; like all lengths
-/// that are told in pixels, a page has them [`Paper::scale`] times as large.
+/// that are told in pixels, a page has them [`PageLayout::scale`] times as large.
 pub const LETTERS: f64 = 12.0;
 pub const NAMES: f64 = 10.5;
 pub const TITLES: [f64; 2] = [14.0, 12.5];
@@ -31,7 +31,7 @@ pub struct Margin {
 
 /// The measures of a page.
 #[derive(Clone, Copy, Debug)]
-pub struct Paper {
+pub struct PageLayout {
     pub unit: PageUnit,
     pub style: JournalStyle,
     pub grey: bool,
@@ -45,9 +45,9 @@ pub struct Paper {
     pub margin: Margin,
 }
 
-impl Paper {
+impl PageLayout {
     /// The page of a figure.
-    pub fn of(figure: &Figure) -> Paper {
+    pub fn of(figure: &Figure) -> PageLayout {
         /// Width below which a panel has no other beside it, in points.
         const NARROW: f64 = 150.0;
         let (sheet, panels) = (&figure.sheet, figure.panels.len());
@@ -55,7 +55,7 @@ impl Paper {
         let margin = Margin { left: 64.0, right: 16.0, above: 30.0, below: 44.0 };
         let columns = if panels == 4 { 2 } else { panels.clamp(1, 3) };
         let (unit, scale) = (PageUnit::Pixel, 1.0);
-        let mut paper = Paper { unit, style, grey, scale, columns, plot: PLOT, margin };
+        let mut paper = PageLayout { unit, style, grey, scale, columns, plot: PLOT, margin };
         let lettered = sheet.letters(panels);
         if lettered == PanelLetters::Below {
             paper.margin.below += 16.0;
@@ -90,7 +90,7 @@ impl Paper {
     }
 
     /// The same with room for the numbers at the axes of all panels, each of which is as wide as `room`.
-    fn fitted(mut self, figure: &Figure, room: f64) -> Paper {
+    fn fitted(mut self, figure: &Figure, room: f64) -> PageLayout {
         let (mut widest, mut beyond) = (0.0_f64, 0.0_f64);
         for [rightward, upward] in figure.panels.iter().map(|panel| self.ticks(panel)) {
             let widths = upward.ticks.iter().map(|tick| self.width(&tick.label, LETTERS));
@@ -164,12 +164,12 @@ pub struct Frame {
     pub left: f64,
     pub top: f64,
     pub window: Window,
-    pub paper: Paper,
+    pub paper: PageLayout,
 }
 
 impl Frame {
     /// The plot of the panel with this number, from 0, below a `head` of this height.
-    pub fn of(number: usize, head: f64, window: Window, paper: Paper) -> Self {
+    pub fn of(number: usize, head: f64, window: Window, paper: PageLayout) -> Self {
         let (column, row) = (real(number % paper.columns), real(number / paper.columns));
         let (width, height) = paper.panel();
         let (left, top) =
@@ -180,7 +180,7 @@ impl Frame {
     /// The same in pixels of `plain`.
     pub fn in_pixels(self) -> Self {
         let (scale, (width, height)) = (self.paper.scale, self.paper.plot);
-        let paper = Paper { scale: 1.0, plot: (width / scale, height / scale), ..self.paper };
+        let paper = PageLayout { scale: 1.0, plot: (width / scale, height / scale), ..self.paper };
         Frame { left: self.left / scale, top: self.top / scale, paper, ..self }
     }
 

@@ -80,10 +80,10 @@ pub type NamedCurve = (&'static str, Vec<[f64; 2]>);
 impl Answer {
     /// With curves, if there are any: the points one below the other.
     pub fn curves(self, curves: &[NamedCurve]) -> Self {
+        const NUMBER: Quantity = Quantity::pure(10);
         if curves.is_empty() {
             return self;
         }
-        const NUMBER: Quantity = Quantity::pure(10);
         let columns = Columns::default()
             .word("curve", |(name, _): &(&str, [f64; 2])| *name)
             .number("x", NUMBER, |(_, [x, _])| *x)

@@ -7,16 +7,17 @@ use ::parquet::errors::Result;
 use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use ::parquet::schema::parser::parse_message_type;
 
-use super::arrays::{Array, Cells};
+use super::arrays::{Array, ArrayCells};
+use crate::words::joined;
 
 /// The file. Fails if the columns are too long for it.
 pub fn file(columns: &[Array]) -> Result<Vec<u8>> {
     let field = |array: &Array| match array.typed() {
-        Cells::Counts(_) => format!("optional int64 {};", array.name),
-        Cells::Numbers(_) => format!("optional double {};", array.name),
-        Cells::Words => format!("optional binary {} (UTF8);", array.name),
+        ArrayCells::Counts(_) => format!("optional int64 {};", array.name),
+        ArrayCells::Numbers(_) => format!("optional double {};", array.name),
+        ArrayCells::Words => format!("optional binary {} (UTF8);", array.name),
     };
-    let fields: String = columns.iter().map(field).collect();
+    let fields = joined(columns.iter().map(field), " ");
     let schema = Arc::new(parse_message_type(&format!("message rows {{ {fields} }}"))?);
     let mut out = Vec::new();
     let mut writer = SerializedFileWriter::new(&mut out, schema, Arc::default())?;
@@ -25,9 +26,11 @@ pub fn file(columns: &[Array]) -> Result<Vec<u8>> {
         let Some(mut column) = group.next_column()? else { continue };
         let word = |cell: &String| Some(cell.as_str().into()).filter(|_| !cell.is_empty());
         match array.typed() {
-            Cells::Counts(cells) => put::<Int64Type>(&mut column, cells.into_iter().map(Some))?,
-            Cells::Numbers(cells) => put::<DoubleType>(&mut column, cells.into_iter())?,
-            Cells::Words => put::<ByteArrayType>(&mut column, array.cells.iter().map(word))?,
+            ArrayCells::Counts(cells) => {
+                put::<Int64Type>(&mut column, cells.into_iter().map(Some))?
+            }
+            ArrayCells::Numbers(cells) => put::<DoubleType>(&mut column, cells.into_iter())?,
+            ArrayCells::Words => put::<ByteArrayType>(&mut column, array.cells.iter().map(word))?,
         }
         column.close()?;
     }

@@ -16,7 +16,7 @@ use super::failure::{Failure, Result};
 use super::journal::Journal;
 use super::new_file;
 use super::provenance_file::{self, RunningChecksum};
-use super::{FileRow, Readers, RowReader, arrays, standard, system};
+use super::{FileRow, Readers, RowReader, packed, standard, system};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
@@ -155,7 +155,7 @@ pub fn rows_of(path: &Path) -> PathBuf {
 pub fn pack(path: &Path, provenance: &Provenance) -> Result<()> {
     let rows = rows_of(path);
     let text = fs::read_to_string(&rows).map_err(|error| Failure::file(&rows, error))?;
-    let content = arrays::packed_rows(path, &text)?;
+    let content = packed::packed_rows(path, &text)?;
     new_file::write(path, &content, Readers::Usual, None)?;
     provenance_file::write(path, provenance)?;
     drop(fs::remove_file(provenance_file::beside(&rows)));
@@ -201,7 +201,7 @@ fn opened(path: &Path) -> Result<File> {
 /// alone. A new file is complete or not there at all.
 pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String> {
     let path = &at_home(path);
-    if arrays::form_of(path).is_some() {
+    if packed::form_of(path).is_some() {
         return Err("rows are saved as .csv, .json or .jsonl".to_owned());
     }
     let is_new = !path.exists();

@@ -1,6 +1,9 @@
 //! Every object as data: motions at times, orbits, basins and scans as arrays, against closed forms, against each other and
 //! against single answers.
 
+#![expect(clippy::cast_precision_loss, reason = "indices of samples are small")]
+#![expect(clippy::disallowed_methods, reason = "the closed form is that of another library")]
+
 mod archive;
 mod orbits;
 #[path = "../program/mod.rs"]

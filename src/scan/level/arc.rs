@@ -130,7 +130,7 @@ impl Meter<'_> {
         let small = if slope.is_finite() { slope * width } else { 0.0 };
         let [best, other] = illinois([near, far], small, PlaceTolerance::Absolute(width), value)?;
         let through = best.1.abs() <= small;
-        if !through && !(best.1.is_finite() && other.1.is_finite()) {
+        if !through && [best.1, other.1].into_iter().any(|it| !it.is_finite()) {
             return Ok(Err(why));
         }
         let step = if through { 0.0 } else { (best.1 - other.1).abs() };
