@@ -335,7 +335,8 @@ mod tests {
         assert_eq!(figure_file("a/fig.SVG").unwrap().1, FigureForm::Svg);
         assert_eq!(figure_file("fig.json").unwrap().1, FigureForm::Json);
         assert_eq!(figure_file("fig.png").unwrap().1, FigureForm::Png);
-        for wrong in ["fig", "fig.pdf", ".svg", ""] {
+        assert_eq!(figure_file("fig.pdf").unwrap().1, FigureForm::Pdf);
+        for wrong in ["fig", "fig.eps", ".svg", ""] {
             assert!(figure_file(wrong).is_err(), "{wrong}");
         }
         assert!(file("a/Page.HTML", "a page", "html").is_ok());

@@ -80,7 +80,7 @@ fn question<C: Args + 'static>(
     name: &'static str,
     run: fn(&C, &QuestionOptions) -> Result<()>,
 ) -> Subcommand {
-    let options = |command| C::augment_args(QuestionOptions::augment_args(command));
+    let options = |command| written(C::augment_args(QuestionOptions::augment_args(command)));
     let run = move |given: &ArgMatches, caller: Option<Caller>| {
         let mut asked: QuestionOptions = parsed(given)?;
         if let Some((call, case)) = caller {
@@ -90,6 +90,11 @@ fn question<C: Args + 'static>(
         run(&parsed(given)?, &asked)
     };
     Subcommand { name, options, run: Box::new(run) }
+}
+
+/// A command whose answer `--output` writes, too; that of a fit writes its picture.
+fn written(command: Command) -> Command {
+    command.mut_arg("write", |option| option.visible_alias("output"))
 }
 
 /// The options of a command, of those that were given.
@@ -114,7 +119,10 @@ fn commands() -> [Subcommand; 25] {
         question("level", level::LevelCommand::run),
         row("scan", scan::ScanCommand::run),
         row("merge", merge::MergeCommand::run),
-        row("belt", belt::BeltCommand::run),
+        Subcommand {
+            options: |command| written(belt::BeltCommand::augment_args(command)),
+            ..row("belt", belt::BeltCommand::run)
+        },
         row("fit", fit::FitCommand::run),
         row("figure", figure::FigureCommand::run),
         row("sound", sound::SoundCommand::run),

@@ -29,7 +29,7 @@ pub struct Output {
 
     /// Writes the answer to FILE, and its provenance (program, version, command line) to FILE.provenance; the ending .npz
     /// or .parquet makes arrays of its comma-separated values
-    #[arg(long, visible_alias = "output", value_name = "FILE")]
+    #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
 
     /// The caller that is answered in place of all that, if one asks in this process.

@@ -214,7 +214,8 @@ mod tests {
             chords.fold(f64::INFINITY, f64::min)
         };
         assert!(dense.iter().map(missed).fold(0.0, f64::max) <= FAINT);
-        let hairpin = [(0.0, 0.0), (10.0, 0.0), (4.0, 0.0), (5.0, 0.01)];
+        // The third lies on the way back.
+        let hairpin = [(0.0, 0.0), (10.0, 0.0), (7.0, 0.01), (5.0, 0.0)];
         assert_eq!(corners(&hairpin), [hairpin[0], hairpin[1], hairpin[3]]);
         assert_eq!(corners(&[]), []);
     }

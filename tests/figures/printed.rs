@@ -150,8 +150,8 @@ fn files_say_what_they_show_and_how_they_are_made_again_but_not_when() {
 }
 
 /// The part of a PNG with this name.
-fn chunk<'a>(dots: &'a [u8], name: &[u8; 4]) -> &'a [u8] {
-    let at = dots.windows(4).position(|four| four == name).expect("a chunk");
+fn chunk<'a>(dots: &'a [u8], name: [u8; 4]) -> &'a [u8] {
+    let at = dots.windows(4).position(|four| *four == name).expect("a chunk");
     let length = u32::from_be_bytes(dots[at - 4..at].try_into().unwrap());
     &dots[at + 4..][..usize::try_from(length).unwrap()]
 }
@@ -163,7 +163,7 @@ fn a_picture_of_dots_is_as_large_as_it_says_at_any_number_of_dots_to_the_inch() 
     for dots in [150_u32, 288, 600] {
         figure.sheet.dpi = Some(u16::try_from(dots).unwrap());
         let file = file(&figure, FigureForm::Png).unwrap();
-        let (head, size) = (chunk(&file, b"IHDR"), chunk(&file, b"pHYs"));
+        let (head, size) = (chunk(&file, *b"IHDR"), chunk(&file, *b"pHYs"));
         // 1 stands for metres.
         assert_eq!(size[8], 1);
         for (side, pixels) in [(0, 920.0), (1, 438.0)] {
@@ -184,7 +184,9 @@ fn marked(text: &str) -> String {
         LetterStyle::Subscript => "_",
         LetterStyle::Superscript => "^",
     };
-    runs(text).iter().map(|run| format!("{0}{1}{0}", mark(run.setting), run.text)).collect()
+    let all = runs(text);
+    let parts = all.iter().flat_map(|run| [mark(run.setting), &run.text, mark(run.setting)]);
+    parts.collect()
 }
 
 #[test]
