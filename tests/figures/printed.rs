@@ -150,7 +150,7 @@ fn files_say_what_they_show_and_how_they_are_made_again_but_not_when() {
 }
 
 /// The part of a PNG with this name.
-fn chunk<'a>(dots: &'a [u8], name: [u8; 4]) -> &'a [u8] {
+fn chunk(dots: &[u8], name: [u8; 4]) -> &[u8] {
     let at = dots.windows(4).position(|four| *four == name).expect("a chunk");
     let length = u32::from_be_bytes(dots[at - 4..at].try_into().unwrap());
     &dots[at + 4..][..usize::try_from(length).unwrap()]
