@@ -13,7 +13,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::examine::{examine, place};
 use super::machine::{Machine, ScaledMachine, file};
-use super::mistake::{Complaint, FileMistake, Result, built_in};
+use super::mistake::{Complaint, FileMistake, Result};
 use super::placed::Placed;
 use super::plot_setup::{Arrangement, Axes};
 use super::scene::{Scene, named_or_whole};
@@ -55,7 +55,11 @@ struct UsualPlot {
 
 /// Reads a scene of the program, which names no file.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, FileMistake> {
-    study(name, file, text, &mut |_| Err("a scene of the program stands alone".to_owned()))
+    study(name, file, text, &mut alone)
+}
+
+fn alone(_: &str) -> Result<String, String> {
+    Err("a scene of the program stands alone".to_owned())
 }
 
 /// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages, and `fetch` reads the files
@@ -167,9 +171,10 @@ fn record(value: &Spanned<DeValue>, fetch: &mut Fetch) -> Result<Recording> {
     opened.map(Recording::from).map_err(|message| Complaint { at: value.span(), message })
 }
 
-/// A scene of a file of the program, to be completed.
+/// A scene of a file of the program, to be completed: its plots need what it does not have yet.
 fn template(text: &str) -> Scene {
-    built_in(&[("template", text)], parse).remove(0)
+    let read = DeTable::parse(text).map_err(Complaint::from);
+    read.and_then(|read| scene(read, &mut alone)).expect("tests open machines and records")
 }
 
 impl ScaledMachine {

@@ -13,6 +13,7 @@ use crate::program::run;
 fn pages() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let folder = folder.filter(|path| path.is_file());
     let read = |path: std::path::PathBuf| {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         (name, fs::read_to_string(&path).unwrap())
@@ -102,6 +103,9 @@ fn every_option_that_a_page_names_exists() {
             "lib",
             "all-targets",
             "profile",
+            "features",
+            "no-default-features",
+            "target",
             "array",
             "wrap",
             "ignored",
