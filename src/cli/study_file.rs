@@ -52,8 +52,7 @@ impl StudyFiles {
         }
         for options in &scene.scans {
             let mut scan = ScanCommand::of_scene(options, source, force)?;
-            let output = scan.output.as_ref().ok_or("a scan of a study names its output")?;
-            scan.output = Some(place(output)?);
+            scan.output = scan.output.as_deref().map(&mut place).transpose()?;
             files.scans.push(scan);
         }
         files.notebook = NOTEBOOK.replace("{files}", &joined(data, ", "));

@@ -4,7 +4,8 @@ use super::{About, Answer, Columns, Document, Quantity};
 use crate::model::Knob;
 use crate::picture::map::absence;
 use crate::scan::{LevelCurve, LevelEnd, LevelTarget, Levels, Scan};
-use crate::words::{joined, significant};
+use crate::words::joined;
+use crate::words::level::nowhere;
 
 /// A curve by its number, and one of its points.
 type PointRow = (usize, [f64; 2]);
@@ -37,8 +38,6 @@ pub fn level(
         Some(ends) => format!("curve {number} ends: {}", joined(ends, " and ")),
         None => format!("curve {number} is closed"),
     };
-    let [low, high] = found.seen.unwrap_or([f64::NAN; 2]).map(|end| significant(end, 6));
-    let nowhere = format!("no curve {target}: {} is {low} .. {high} on it", target.column);
     about
         .but(&knobs)
         .answer()
@@ -48,7 +47,7 @@ pub fn level(
         .with("seen", found.seen)
         .rows(&columns, rows)
         .lines(numbered().map(sentence))
-        .lines(found.curves.is_empty().then_some(nowhere))
+        .lines(nowhere(target, found))
         .cost(found.cost, *seconds)
 }
 

@@ -9,18 +9,11 @@ use super::scene::Scene;
 use super::views::{Needs, View};
 use crate::model::Knob;
 
-/// The numbers of a motion, by where they stand in its table.
-const NUMBERS: [(&str, Knob); 10] = [
-    ("parameters.D", Knob::D),
-    ("parameters.D2", Knob::D2),
-    ("parameters.D3", Knob::D3),
-    ("parameters.r", Knob::R),
-    ("initial.q", Knob::Q0),
-    ("initial.v", Knob::V0),
-    ("until", Knob::Until),
-    ("tolerance", Knob::Tolerance),
-    ("step", Knob::Step),
-    ("epsilon", Knob::Epsilon),
+/// The numbers of a motion, by the table in which they stand.
+const NUMBERS: [(&str, &[Knob]); 3] = [
+    ("problem.parameters", &Knob::PARAMETERS),
+    ("problem.initial", &[Knob::Q0, Knob::V0]),
+    ("problem", &[Knob::Until, Knob::Tolerance, Knob::Step, Knob::Epsilon]),
 ];
 
 /// The place of what stands under names that points separate, as far as a table has them.
@@ -44,8 +37,9 @@ pub fn examine(scene: &Scene) -> Result<(), (String, String)> {
     let number = |path: String, knob: Knob, value: f64| {
         knob.check(value).map(drop).map_err(|why| (path, why.to_string()))
     };
-    for (path, knob) in NUMBERS {
-        number(format!("problem.{path}"), knob, scene.problem.get(knob))?;
+    for (table, knob) in NUMBERS.iter().flat_map(|(table, all)| all.iter().map(move |it| (table, *it))) {
+        let name = knob.spec().name.trim_end_matches('0');
+        number(format!("{table}.{name}"), knob, scene.problem.get(knob))?;
     }
     for (index, family) in scene.families.iter().enumerate() {
         for (variant, held) in family.iter().map(|variant| &variant.held).enumerate() {

@@ -18,6 +18,7 @@ pub fn text(session: &Session) -> Done<String> {
         problem: session.problem,
         beside: session.others.clone(),
         layers: session.layers.clone(),
+        levels: session.levels.clone(),
         plots: session.plots.iter().map(set_up).collect(),
         arrangement: session.arrangement,
         ..Scene::clone(&session.scene)

@@ -2,6 +2,7 @@
 
 pub mod claim;
 pub mod fit;
+pub mod level;
 pub mod motion;
 pub mod number;
 pub mod printable;

@@ -11,7 +11,7 @@ use hopfscope::question::Fineness;
 use hopfscope::runtime::print::{complete, unseen};
 use hopfscope::scene::file::study;
 use hopfscope::scene::{Scene, find, library};
-use hopfscope::session::{Session, Size, study as of_session};
+use hopfscope::session::{Playback, Session, Size, study as of_session};
 use serde_json::Value;
 
 use crate::program::{Ran, command};
@@ -25,6 +25,7 @@ fn run_in(folder: &Path, line: &[&str]) -> Ran {
 
 fn session(scene: Scene) -> Session {
     let mut session = Session::new(Arc::new(scene), Size { width: 100, height: 30 });
+    session.playback = Playback::default();
     complete(&mut session, Fineness::PRINT, &Limits::PATIENT).unwrap();
     session
 }
@@ -138,7 +139,7 @@ fn mistakes_in_a_study_are_told_in_one_line() {
     let folder = folder.path();
     let text = |line: &str| format!("problem.parameters = {{ D = -0.3 }}\n{line}\n");
     for (line, words) in [
-        ("problem.until = 0", "my.toml:2:17: until = 0 is outside its range"),
+        ("problem.until = -1", "my.toml:2:17: until = -1 is outside its range"),
         ("machine = \"no.toml\"", "my.toml:2:11: no.toml: No such file"),
         ("record = \"no.csv\"", "my.toml:2:10: "),
         ("outputs = [\"a.bmp\"]", "a figure ends in .pdf"),
@@ -152,7 +153,7 @@ fn mistakes_in_a_study_are_told_in_one_line() {
             "[[scans]]\nover = \"D=0:1\"\nmeasure = \"margin\"\noutput = \"a.csv\"",
             "NAME=FROM:TO:COUNT",
         ),
-        ("[[scans]]\nover = \"D=0:1:5\"\nmeasure = \"margin\"", "names its output"),
+        ("[[scans]]\nover = \"D=0:1:5\"\nmeasure = \"margin\"", "--output <FILE>"),
         ("sheet.panels = [3]", "there is no panel 3"),
         ("plots = []", "0 plots; there can be 1 to 4"),
     ] {

@@ -102,8 +102,8 @@ impl Meter<'_> {
 
     /// Where the curve crosses an arc, or why it does not.
     pub fn crossing(&mut self, arc: &LevelArc) -> Result<Result<LevelPoint, LevelEnd>> {
-        /// Angle within which the curve is sought first.
-        const STRIDE: f64 = 0.02;
+        /// Angles within which the curve is sought, one after the other.
+        const TURNS: [f64; 4] = [0.02, 0.1, 0.5, WIDEST];
         let (mut missing, mut why) = (None, LevelEnd::Unknown);
         let mut value = |turn: f64| match (self.excess(arc.at(turn)[1])?, missing) {
             (Ok(excess), _) => Ok(arc.side * excess),
@@ -113,27 +113,26 @@ impl Meter<'_> {
                 Ok(*missing.insert(self.missing(arc)?))
             }
         };
-        let mut near: (f64, f64) = (0.0, value(0.0)?);
-        let (mut far, mut stride) = (near, STRIDE);
-        while near.1 * far.1 > 0.0 && far.0.abs() < WIDEST {
-            near = far;
-            // From where the column is as on the left of the curve, this lies to the right.
-            let turn = (near.0 - near.1.signum() * stride).clamp(-WIDEST, WIDEST);
-            far = (turn, value(turn)?);
-            stride *= 4.0;
+        let mut ends = [(0.0, f64::NAN); 2];
+        for turn in TURNS {
+            ends = [(-turn, value(-turn)?), (turn, value(turn)?)];
+            if ends[0].1 * ends[1].1 <= 0.0 {
+                break;
+            }
         }
-        if near.1.is_nan() || far.1.is_nan() || near.1 * far.1 > 0.0 {
+        let [near, far] = ends;
+        if (near.1 * far.1).is_nan() || near.1 * far.1 > 0.0 {
             return Ok(Err(why));
         }
         let width = ERROR / arc.reach;
         let slope = ((far.1 - near.1) / (far.0 - near.0)).abs();
         let small = if slope.is_finite() { slope * width } else { 0.0 };
         let [best, other] = illinois([near, far], small, PlaceTolerance::Absolute(width), value)?;
-        let through = best.1.abs() <= small;
-        if !through && [best.1, other.1].into_iter().any(|it| !it.is_finite()) {
+        let goes_through = best.1.abs() <= small;
+        let step = if goes_through { 0.0 } else { (best.1 - other.1).abs() };
+        if !step.is_finite() {
             return Ok(Err(why));
         }
-        let step = if through { 0.0 } else { (best.1 - other.1).abs() };
         let [point, place] = arc.at(best.0);
         Ok(Ok(LevelPoint { place, step, end: (point != place).then_some(LevelEnd::Edge) }))
     }

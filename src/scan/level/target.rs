@@ -32,15 +32,15 @@ impl LevelTarget {
         let value = value.trim().parse().ok().filter(|value: &f64| value.is_finite());
         let (name, value) = (name.trim(), value.ok_or_else(form)?);
         let columns =
-            || MEASURES.iter().flat_map(|row| row.columns.iter().map(move |it| (row, *it)));
-        // These are words.
-        let numbers = columns().filter(|(_, name)| !["outcome", "border", "proved"].contains(name));
-        let found = numbers.clone().find(|(_, column)| *column == name);
-        let found = found.map(|(row, column)| LevelTarget { measure: row.measure, column, value });
-        found.ok_or_else(|| {
-            let all: Vec<_> = numbers.map(|(_, column)| column).collect();
-            format!("there is no column {name:?}; there are {}", all.join(", "))
-        })
+            MEASURES.iter().flat_map(|row| row.columns.iter().map(|it| (*it, row.measure)));
+        // Those left out are words.
+        let numbers: Vec<_> =
+            columns.filter(|(name, _)| !["outcome", "border", "proved"].contains(name)).collect();
+        let Some(&(column, measure)) = numbers.iter().find(|(column, _)| *column == name) else {
+            let all: Vec<_> = numbers.iter().map(|(column, _)| *column).collect();
+            return Err(format!("there is no column {name:?}; there are {}", all.join(", ")));
+        };
+        Ok(LevelTarget { measure, column, value })
     }
 }
 

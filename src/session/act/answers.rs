@@ -6,13 +6,14 @@ use crate::fit::NoEstimate;
 use crate::flow::Reason;
 use crate::model::Knob;
 use crate::question::{NoAnswer, Rows};
-use crate::scene::{Finding, Fit, Reply, Topic};
+use crate::scene::{Finding, Fit, Reply, Request, Topic};
 use crate::session::act::scan::refit;
 use crate::session::read::windows::{awaited, fitted};
 use crate::session::{
     Framing, Notice, Plot, Recomputation, SCANNING, ScanProgress, Session, StepSizes,
 };
 use crate::words::fit::sentences;
+use crate::words::level::nowhere;
 
 impl Session {
     /// Takes an answer in; returns whether its question is asked at present.
@@ -34,6 +35,12 @@ impl Session {
             }
             self.fitting = 0;
             self.show_fit(fit);
+        }
+        if let (Request::Level { target, .. }, Ok(Finding::Level(found)), true) =
+            (&reply.request, &reply.result, asked)
+            && let Some(line) = nowhere(*target, found)
+        {
+            self.refuse(line);
         }
         self.answers.keep(reply);
         asked

@@ -3,9 +3,8 @@
 use crate::flow::{Problem, Subject};
 use crate::model::{Knob, KnobSpec, State};
 use crate::numerics::cycled;
-use crate::portrait::basin;
-use crate::scan::{Conditions, Measure, Scan, Sweep};
-use crate::scene::{Request, Span, View};
+use crate::scan::{Measure, Scan, Sweep};
+use crate::scene::{Request, View};
 use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::{add, focus_on, show};
 use crate::session::{
@@ -206,17 +205,9 @@ pub fn scan(session: &mut Session, rest: &str) -> Done {
     };
     let measures = measures.split(',').map(|name| Measure::named(name.trim()));
     let measures = measures.collect::<Result<Vec<_>, _>>()?;
-    // Of a machine by the model that is drawn; the window for `stability` is that of a phase plane on show.
-    let plane = session.plots.iter().find(|plot| plot.view == View::Phase);
-    let window = plane.map_or(View::Phase.spec().window, |plot| plot.window);
-    let ends = |span: Span, unit: f64| span.ends().map(|end| unit * end).into();
+    // Of a machine by the model that is drawn.
     let (source, units) = session.source(&session.problem.parameters);
-    let window = basin::StartWindow {
-        q: ends(window.x, units.displacement),
-        v: ends(window.y, units.velocity),
-    };
-    let kicks = session.kicks.in_units(1.0 / units.displacement, 1.0 / units.velocity);
-    let conditions = Conditions { window, kicks, ..Conditions::default() };
+    let conditions = session.conditions(units.displacement, units.velocity);
     let (Some(belt), Some(running)) = (source.of_belt(), session.running()) else {
         start(session, Scan::new(session.problem, over, measures, conditions)?);
         return Ok(());

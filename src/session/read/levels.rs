@@ -5,11 +5,10 @@ use std::sync::Arc;
 use super::wants::within;
 use crate::flow::{Problem, Subject};
 use crate::model::Knob;
-use crate::numerics::log10;
 use crate::portrait::StartWindow;
 use crate::scan::{Conditions, LevelTarget, Scan, Spacing, Sweep};
-use crate::scene::{Axes, Finding, Layer, Point, Request, Topic, View};
-use crate::session::{Plot, Session};
+use crate::scene::{Axes, Finding, Layer, Point, Request, Span, Topic, View};
+use crate::session::{Plot, ScanOnShow, Session};
 
 /// Points of each range on which level curves are sought.
 const LATTICE: usize = 24;
@@ -47,12 +46,18 @@ impl Session {
         };
         let tolerances = self.doubt.tolerances();
         let base = Subject { tolerances, ..Problem { parameters, ..motion }.into() };
-        let phase = self.plots.iter().find(|plot| plot.view == View::Phase);
-        let shown = phase.map_or(View::Phase.spec().window, |plot| plot.window);
-        let [q, v] = [shown.x, shown.y].map(|span| span.ends().into());
-        let (window, kicks) = (StartWindow { q, v }, self.kicks);
-        let conditions = Conditions { window, kicks, ..Conditions::default() };
-        Scan::new(base, over, vec![target.measure], conditions)
+        Scan::new(base, over, vec![target.measure], self.conditions(1.0, 1.0))
+    }
+
+    /// What measures depend on beside the numbers that vary, in these units: the window for `stability` is that of a phase
+    /// plane on show.
+    pub fn conditions(&self, displacement: f64, velocity: f64) -> Conditions {
+        let plane = self.plots.iter().find(|plot| plot.view == View::Phase);
+        let window = plane.map_or(View::Phase.spec().window, |plot| plot.window);
+        let ends = |span: Span, unit: f64| span.ends().map(|end| unit * end).into();
+        let window = StartWindow { q: ends(window.x, displacement), v: ends(window.y, velocity) };
+        let kicks = self.kicks.in_units(1.0 / displacement, 1.0 / velocity);
+        Conditions { window, kicks, ..Conditions::default() }
     }
 
     /// The level curves in a plot, with what they are curves of, stale or not.
@@ -67,15 +72,11 @@ impl Session {
 
     /// Where values of both numbers of a plot stand on its axes.
     pub fn on_axes(&self, plot: usize, values: [f64; 2]) -> Point {
-        let over = self.scanned.as_ref().filter(|_| self.plots[plot].view == View::Scan);
+        let scanned = self.scanned.as_ref().filter(|_| self.plots[plot].view == View::Scan);
+        let over = scanned.map_or(&[][..], |scanned| scanned.scan.over());
         let [x, y] = [0, 1].map(|axis| {
-            let sweep = over.and_then(|scanned| scanned.scan.over().get(axis));
-            let logarithmic = sweep.is_some_and(|it| it.spacing == Spacing::Logarithmic);
-            if logarithmic {
-                log10(values[axis].abs())
-            } else {
-                values[axis]
-            }
+            let value = values[axis];
+            over.get(axis).map_or(value, |sweep| ScanOnShow::coordinate(sweep, value))
         });
         Point { x, y }
     }

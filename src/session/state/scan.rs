@@ -97,8 +97,7 @@ impl ScanOnShow {
     }
 
     /// Coordinate of a value of a sweep on its axis, which is logarithmic if the sweep is.
-    pub fn coordinate(sweep: &Sweep, index: usize) -> f64 {
-        let value = sweep.value(index);
+    pub fn coordinate(sweep: &Sweep, value: f64) -> f64 {
         match sweep.spacing {
             Spacing::Even => value,
             Spacing::Logarithmic => log10(value.abs()),
@@ -113,7 +112,7 @@ impl ScanOnShow {
         let over = self.scan.over();
         let along = |sweep: &Sweep, room: f64| {
             let last = sweep.count - 1;
-            let span = Span::covering([0, last].map(|index| Self::coordinate(sweep, index)));
+            let span = Span::covering([0, last].map(|index| Self::coordinate(sweep, sweep.value(index))));
             span.map(|span| span.widened(1.0 + room / real(last)))
         };
         if self.is_grid() {
@@ -128,7 +127,10 @@ impl ScanOnShow {
     pub fn place(&self, index: usize) -> Option<Point> {
         let over = self.scan.over();
         let place = self.scan.place(index);
-        let coordinate = |which: usize| Self::coordinate(&over[which], place[which]);
+        let coordinate = |which: usize| {
+            let sweep = &over[which];
+            Self::coordinate(sweep, sweep.value(place[which]))
+        };
         let y = if self.is_grid() {
             coordinate(1)
         } else {
