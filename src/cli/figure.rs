@@ -64,6 +64,11 @@ impl FigureCommand {
         window::look(&mut session, &self.window)?;
         complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
         self.keep_in_sight(&mut session)?;
+        // Of a level curve that is not there.
+        let has_levels = !session.levels.is_empty();
+        if let Some(notice) = session.notice.as_ref().filter(|it| it.error && has_levels) {
+            tell(format!("note: {}", notice.text));
+        }
         let form = self.format.unwrap_or(FigureForm::Text);
         if files.is_none() && form == FigureForm::Text {
             return print(&in_letters(&session));

@@ -1,5 +1,7 @@
 //! Sessions computed for print, with as many points on their curves as paper can show.
 
+use std::collections::BTreeSet;
+
 use super::Failure;
 use crate::figure::{FAINT, Figure};
 use crate::flow::{Limits, Result};
@@ -15,9 +17,13 @@ pub fn unseen(session: &Session, plot: usize) -> bool {
     let Some(window) = fitted(session, plot) else { return false };
     let mut wide = session.clone();
     wide.plots[plot].window = window;
-    let own = session.plots[plot].window;
-    let mut lines = picture::of(&wide, plot).items.into_iter();
-    lines.any(|line| line.seen(window).is_some() && line.seen(own).is_none())
+    // How far a curve is drawn depends on the window.
+    let lines = |session: &Session| -> BTreeSet<String> {
+        let window = session.plots[plot].window;
+        let items = picture::of(session, plot).items;
+        items.iter().filter_map(|item| Some(item.seen(window)?.name.to_string())).collect()
+    };
+    !lines(&wide).is_subset(&lines(session))
 }
 
 /// Computes everything on show as finely as print needs. Fails with the topic of the request that has no answer, and

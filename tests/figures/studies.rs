@@ -9,6 +9,7 @@ use hopfscope::figure::{Figure, FigureForm, file};
 use hopfscope::flow::Limits;
 use hopfscope::question::Fineness;
 use hopfscope::runtime::print::{complete, unseen};
+use hopfscope::scan::LevelTarget;
 use hopfscope::scene::file::study;
 use hopfscope::scene::{Scene, find, library};
 use hopfscope::session::{Playback, Session, Size, study as of_session};
@@ -46,7 +47,9 @@ fn figure(path: &Path) -> Value {
 #[test]
 fn a_study_of_every_scene_draws_the_same_figure() {
     for scene in library() {
-        let opened = session(Scene::clone(scene));
+        let level = LevelTarget::read("impulse=0.3").unwrap();
+        let levels = vec![level; usize::from(scene.name == "regimes")];
+        let opened = session(Scene { levels, ..Scene::clone(scene) });
         let text = of_session::text(&opened).unwrap();
         let mut fetch = |_: &str| Err("a file".to_owned());
         let again = study(&scene.name, "again.toml", &text, &mut fetch).unwrap();
@@ -174,6 +177,7 @@ fn a_figure_of_the_explorer_is_drawn_again_by_the_command_that_it_names() {
         "p <right*2> i",
         "<run \"scene slow-belt\"> <run \"set belt=0.25\"> <wait>",
         "<run \"scene fig16\"> <tab*2> z",
+        "<run \"scene regimes\"> <run \"level impulse=0.25\">",
     ]
     .into_iter()
     .enumerate()
@@ -214,11 +218,21 @@ fn a_keystroke_file_writes_into_its_folder_and_nowhere_else() {
 fn the_study_of_the_documentation_is_made_in_one_command() {
     let folder = tempfile::tempdir().unwrap();
     let study = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/studies/kicks.toml");
+    let results = folder.path().join("results");
+    let names = ["kicks.pdf", "kicks.png", "kicks.json", "kicks.ipynb", "margins.csv"];
+    let read = || names.map(|name| fs::read(results.join(name)).unwrap());
     let made = run_in(folder.path(), &["figure", study, "--output", "results/"]);
     assert_eq!((made.code, made.out.as_str()), (0, ""), "{}", made.err);
-    let rows = fs::read_to_string(folder.path().join("results/margins.csv")).unwrap();
-    assert_eq!(rows.lines().count(), 1 + 9 * 7);
-    for name in ["kicks.pdf", "kicks.json", "kicks.ipynb"] {
-        assert!(folder.path().join("results").join(name).is_file(), "{name}");
+    let first = read();
+    assert_eq!(String::from_utf8_lossy(&first[4]).lines().count(), 1 + 9 * 7);
+    let told: Value = serde_json::from_slice(&first[2]).unwrap();
+    let curves = told["panels"][0]["curves"].as_array().unwrap();
+    for level in ["impulse=0.2", "impulse=0.3", "impulse=0.4"] {
+        assert!(curves.iter().any(|curve| curve["name"] == level), "{level}");
     }
+    // And again, byte for byte, by the command that its provenance names.
+    fs::remove_dir_all(&results).unwrap();
+    let line = told["provenance"]["command"].as_str().unwrap();
+    let again = run_in(folder.path(), &line.split(' ').skip(1).collect::<Vec<_>>());
+    assert_eq!((again.code, read()), (0, first), "{line}");
 }

@@ -309,14 +309,15 @@ pub fn by_hand(request: &Request) -> Finding {
         Request::Regimes { plane, .. } => {
             Finding::Regimes(Chart { plane: *plane, lines: Vec::new(), cost })
         }
-        // From one corner of the ranges to the opposite one.
-        Request::Level { scan, .. } => {
+        // From one corner of the ranges to the opposite one, of values below 1.
+        Request::Level { scan, target } => {
             let [first, last] =
                 [0.0, 1.0].map(|part| [0, 1].map(|axis| scan.over()[axis].at(part)));
             let middle = [0, 1].map(|axis| f64::midpoint(first[axis], last[axis]));
             let (points, ends) = (vec![first, middle, last], Some([LevelEnd::Edge; 2]));
-            let curves = vec![LevelCurve { points, ends, step: 0.0 }];
-            Finding::Level(Levels { curves, seen: None, cost })
+            let mut curves = vec![LevelCurve { points, ends, step: 0.0 }];
+            curves.retain(|_| target.value < 1.0);
+            Finding::Level(Levels { curves, seen: Some([0.0, 1.0]), cost })
         }
         Request::Scan { scan, from } => {
             Finding::Scan(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
