@@ -106,6 +106,7 @@ fn every_option_that_a_page_names_exists() {
             "features",
             "no-default-features",
             "target",
+            "ignore-missing",
             "array",
             "wrap",
             "ignored",

@@ -89,7 +89,8 @@ fn each_point_is_where_bisection_finds_it() {
 #[test]
 #[ignore = "takes a minute"]
 fn each_of_a_thousand_points_is_where_bisection_finds_it() {
-    let (checked, worst) = against_bisection(1e-9);
+    let (checked, worst) = against_bisection(1e-8);
+    println!("{checked} points, the worst {worst:e} of the range off");
     assert!(checked > 1000 && worst < 1e-9, "{checked} {worst}");
 }
 
