@@ -145,6 +145,6 @@ pub fn trajectory(
     Ok(Found::new(move || {
         let rows = times.map(|times| times.into_iter().zip(samples).collect::<Vec<_>>());
         let about = about.told_as(Format::Json);
-        document(motion(&about, &found, None, rows.as_deref(), seconds), &words)
+        document(motion(&about, &found, None, seconds).sampled(rows.as_deref()), &words)
     }))
 }

@@ -38,7 +38,7 @@ pub fn hearing<T: Send>(py: Python<'_>, compute: impl FnOnce(&Limits) -> T + Sen
 fn is_interrupted(owner: ThreadId, heard: &Mutex<Heard>) -> bool {
     let mut heard = heard.lock().unwrap_or_else(PoisonError::into_inner);
     if heard.raised.is_none() && heard.asked.elapsed() > EVERY && thread::current().id() == owner {
-        heard.raised = Python::attach(Python::check_signals).err();
+        heard.raised = Python::attach(|py| py.check_signals()).err();
         heard.asked = Instant::now();
     }
     heard.raised.is_some()
