@@ -1,6 +1,6 @@
 //! Documents as Python objects: rows of objects become tables of arrays, lists of numbers arrays.
 
-use numpy::{PyArray1, PyArray2};
+use numpy::{Element, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyType};
@@ -42,10 +42,8 @@ pub fn column(py: Python<'_>, values: &[&Value]) -> PyResult<Py<PyAny>> {
     if let Some(marks) = all(values, Value::as_bool) {
         return Ok(PyArray1::from_vec(py, marks).into_any().unbind());
     }
-    if let Some(rows) = all(values, numbers)
-        && let Ok(array) = PyArray2::from_vec2(py, &rows)
-    {
-        return Ok(array.into_any().unbind());
+    if let Some(array) = rows(py, values, Value::as_i64).or_else(|| rows(py, values, number)) {
+        return Ok(array);
     }
     let objects = values.iter().map(|value| object(py, value)).collect::<PyResult<Vec<_>>>()?;
     // Filled cell by cell, because numpy would look into arrays that lie in cells.
@@ -70,9 +68,14 @@ fn number(value: &Value) -> Option<f64> {
     }
 }
 
-/// A list of numbers.
-fn numbers(value: &Value) -> Option<Vec<f64>> {
-    value.as_array()?.iter().map(number).collect()
+/// Lists of one length as an array of two dimensions, if all that they hold is of one type.
+fn rows<T: Element>(
+    py: Python<'_>,
+    values: &[&Value],
+    of: impl Fn(&Value) -> Option<T>,
+) -> Option<Py<PyAny>> {
+    let row = |value: &Value| value.as_array()?.iter().map(&of).collect::<Option<Vec<_>>>();
+    Some(PyArray2::from_vec2(py, &all(values, row)?).ok()?.into_any().unbind())
 }
 
 /// Objects as a table: a column for each name, empty where a row has none of it.

@@ -98,7 +98,7 @@ pub fn trajectory(
     method: Option<&str>,
     tol: Option<f64>,
     times: Option<PyReadonlyArray1<'_, f64>>,
-) -> PyResult<Found> {
+) -> PyResult<(Found, Option<String>)> {
     let (mut subject, about, mut words) = match &source {
         Source::Parameters(it) => {
             let problem = Problem { parameters: it.get().0, ..Problem::default() };
@@ -142,9 +142,11 @@ pub fn trajectory(
         None => (problem.followed(model.as_ref(), detail, limits), Vec::new()),
     })?;
     let seconds = started.elapsed().as_secs_f64();
-    Ok(Found::new(move || {
+    let trouble = found.outcome.answered().err().map(|why| why.to_string());
+    let answer = Found::new(move || {
         let rows = times.map(|times| times.into_iter().zip(samples).collect::<Vec<_>>());
         let about = about.told_as(Format::Json);
         document(motion(&about, &found, None, seconds).sampled(rows.as_deref()), &words)
-    }))
+    });
+    Ok((answer, trouble))
 }

@@ -12,8 +12,7 @@ use crate::found::{InputError, failed};
 /// ``q'' + 2 D q' + D2 q'^2 + D3 q'^3 + q = friction, within -r .. r``.
 ///
 /// D is the linear damping (negative: self-excited), D2 the asymmetric and D3 the cubic damping, r the dry friction, not
-/// negative. Each is 0 or within 1e-150 .. 1e150 in magnitude. Objects do not change; they compare, hash and pickle by
-/// their values.
+/// negative. Objects do not change; they compare, hash and pickle by their values.
 #[pyclass(frozen, eq, module = "hopfscope")]
 #[derive(PartialEq)]
 pub struct Parameters(pub Numbers);
@@ -149,12 +148,15 @@ impl Machine {
     #[pyo3(signature = (**numbers))]
     fn replace(&self, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let py = numbers.ok_or_else(|| PyTypeError::new_err("which numbers?"))?.py();
-        let all = PyDict::new(py);
-        for set in self.words[2..].iter().filter_map(|word| word.split_once('=')) {
-            all.set_item(set.0, set.1)?;
-        }
+        let all = self.set(py)?;
         all.update(numbers.map_or_else(|| PyDict::new(py), Clone::clone).as_mapping())?;
         Machine::new(self.name(), self.text.clone(), Some(&all))
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((&str,), Bound<'py, PyDict>)> {
+        let all = self.set(py)?;
+        all.set_item("text", &self.text)?;
+        Ok(((self.name(),), all))
     }
 
     fn __repr__(&self) -> String {
@@ -162,5 +164,16 @@ impl Machine {
         let set = set.map(|word| word.replacen('=', "='", 1) + "'");
         let all: Vec<_> = std::iter::once(format!("{:?}", self.name())).chain(set).collect();
         format!("Machine({})", all.join(", "))
+    }
+}
+
+impl Machine {
+    /// The numbers that were set, as they were.
+    fn set<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        for (name, value) in self.words[2..].iter().filter_map(|word| word.split_once('=')) {
+            all.set_item(name, value)?;
+        }
+        Ok(all)
     }
 }

@@ -28,6 +28,9 @@ pub struct BasinCommand {
     /// Adds curves: the border of the basin, and the return map over the displacements of the window
     #[arg(long)]
     curves: bool,
+    /// Adds where each start ends to the JSON document, a row for each velocity
+    #[arg(long)]
+    labels: bool,
 }
 
 /// The border of the basin, and the return map, for each side where it is that of the oscillator of the paper.
@@ -57,7 +60,7 @@ fn curves(
     Ok(all)
 }
 
-/// Most labels of starts in an archive.
+/// Most labels of starts in an archive or a document.
 const MOST_LABELS: usize = 10_000_000;
 
 /// What starts are counted as, by label.
@@ -66,7 +69,7 @@ const LABELS: [&str; 4] = ["captured", "cycle", "escaped", "undecided"];
 /// The label of each start, a row for each velocity; each is counted by itself.
 fn labels(found: &Portrait, [q, v]: [&[f64]; 2]) -> Result<Vec<usize>> {
     if q.len() * v.len() > MOST_LABELS {
-        return Err(format!("--grid: an archive has at most {MOST_LABELS} labels").into());
+        return Err(format!("--grid: at most {MOST_LABELS} starts have labels").into());
     }
     let label = |(q, v): (f64, f64)| {
         let start = StartWindow { q: (q, q), v: (v, v) };
@@ -83,22 +86,20 @@ impl BasinCommand {
     fn arrays(
         &self,
         found: &Portrait,
-        window: &StartWindow,
+        [q, v]: [&[f64]; 2],
         curves: &[NamedCurve],
     ) -> Result<Vec<Array>> {
         let digits = |number: f64| format!("{number:?}");
         let (width, height) = self.grid;
-        let q: Vec<_> = evenly(window.q, width).collect();
-        let v: Vec<_> = evenly(window.v, height).collect();
         let Margin { displacement, impulse, from_rest } = found.margin;
         let sizes = [displacement, impulse, from_rest.displacement, from_rest.impulse];
         let sizes = sizes.map(|size| size.map(digits).unwrap_or_default());
-        let labels = labels(found, [&q, &v])?;
+        let labels = labels(found, [q, v])?;
         let mut all = vec![
             Array::new("labels", &[height, width], labels),
             Array::new("legend", &[LABELS.len()], LABELS),
-            Array::new("q", &[width], q.into_iter().map(digits)),
-            Array::new("v", &[height], v.into_iter().map(digits)),
+            Array::new("q", &[width], q.iter().copied().map(digits)),
+            Array::new("v", &[height], v.iter().copied().map(digits)),
             Array::new("margin", &[4], sizes),
             Array::new("regime", &[1], [found.margin.regime(found.border)]),
         ];
@@ -125,8 +126,11 @@ impl BasinCommand {
         let window = window.unwrap_or_else(usual);
         let limits = asked.output.limits();
         let curves = || curves(&found, !about.is_machine(), window.q, &limits);
+        let axes = [(window.q, self.grid.0), (window.v, self.grid.1)]
+            .map(|(range, count)| evenly(range, count).collect::<Vec<_>>());
+        let axes = axes.each_ref().map(Vec::as_slice);
         if let Some(path) = asked.output.archive() {
-            return keep(path, &packed(path, &self.arrays(&found, &window, &curves()?)?)?);
+            return keep(path, &packed(path, &self.arrays(&found, axes, &curves()?)?)?);
         }
         let count = || found.count(&window, self.grid, &limits);
         let (counts, seconds) = asked.output.timed("the starts could not be counted", count)?;
@@ -136,6 +140,7 @@ impl BasinCommand {
         let seconds = before + seconds;
         let answer = basin(&about, &found, (&window, counts), certified.as_ref(), seconds);
         let drawn = if self.curves { curves()? } else { Vec::new() };
-        asked.output.print(answer.curves(&drawn))
+        let labels = self.labels.then(|| labels(&found, axes)).transpose()?;
+        asked.output.print(answer.curves(&drawn).labels(axes, labels.as_deref(), &LABELS))
     }
 }

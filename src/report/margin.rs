@@ -91,6 +91,13 @@ impl Answer {
         let rows = curves.iter().flat_map(|(name, points)| points.iter().map(|at| (*name, *at)));
         self.with_rows("curves", &columns, rows.clone()).rows(&columns, rows)
     }
+
+    /// With the labels of starts, a row for each velocity, and what each label means, if asked for.
+    pub fn labels(self, [q, v]: [&[f64]; 2], labels: Option<&[usize]>, meaning: &[&str]) -> Self {
+        let Some(labels) = labels else { return self };
+        let rows: Vec<_> = labels.chunks(q.len()).collect();
+        self.with("labels", rows).with("legend", meaning).with("q", q).with("v", v)
+    }
 }
 
 /// The basin, where the starts of a window end, and what is proved of it.

@@ -96,10 +96,10 @@ impl ScanPart {
 
     /// The measured columns; that which says how to read a margin is for programs.
     fn columns(&self) -> Vec<&'static str> {
-        let mut columns = self.scan.measured();
-        let margin = self.scan.measures().iter().any(|measure| measure.is_margin());
-        columns.extend(Some("regime").filter(|_| margin && self.form != Format::Table));
-        columns
+        match self.form {
+            Format::Table => self.scan.measured(),
+            _ => self.scan.columns(),
+        }
     }
 
     /// The inputs at a point, of which the table shows those that vary.

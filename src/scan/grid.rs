@@ -6,8 +6,12 @@
 
 use super::{Conditions, Measure, OF_THE_PAPER, Origin, ScanRow, Sweep, Value, measure};
 use crate::flow::{Cost, Limits, Problem, Result, Subject};
+use crate::model::basin::UNKNOWN;
 use crate::model::{FrictionLaw, Interval, Knob, State};
 use crate::portrait::{RandomKick, StartWindow};
+
+/// The column that says how to read a margin.
+const REGIME: &str = "regime";
 
 /// Most points of a scan.
 pub const MOST_POINTS: usize = 1_000_000_000;
@@ -181,13 +185,26 @@ impl Scan {
 
     /// A row that could not be measured at all.
     pub fn failed(&self, reason: String) -> ScanRow {
-        let values = vec![Value::Nothing; self.measured().len()];
+        let unknown = |name| {
+            if name == REGIME {
+                Value::Word(UNKNOWN)
+            } else {
+                Value::Nothing
+            }
+        };
+        let values = self.columns().into_iter().map(unknown).collect();
         ScanRow { values, reason: Some(reason), cost: Cost::default() }
     }
 
     /// The columns that are measured, in their order.
     pub fn measured(&self) -> Vec<&'static str> {
         self.measures.iter().flat_map(|measure| &measure.spec().columns).copied().collect()
+    }
+
+    /// The columns of a row: those that are measured, and, where one of them is a margin, how to read that.
+    pub fn columns(&self) -> Vec<&'static str> {
+        let margin = self.measures.iter().any(|measure| measure.is_margin());
+        self.measured().into_iter().chain(margin.then_some(REGIME)).collect()
     }
 
     /// All that the row of point number `index` depends on, by name.

@@ -194,9 +194,12 @@ def _words(command: str, source: Source, numbers: Dict[str, Any], options: Dict[
 def _ask(kind: Any, command: str, source: Source, numbers: Dict[str, Any], **options: Any) -> Any:
     machine = source if isinstance(source, Machine) else None
     words = _words(command, source, numbers, options)
-    found, trouble = _hopfscope.ask(words, machine)
+    return _answered(kind, *_hopfscope.ask(words, machine))
+
+
+def _answered(kind: Any, found: Any, trouble: Optional[str]) -> Any:
     if trouble is not None:
-        warnings.warn(trouble, IncompleteWarning, stacklevel=3)
+        warnings.warn(trouble, IncompleteWarning, stacklevel=4)
     return kind(found)
 
 
@@ -240,29 +243,40 @@ def trajectory(
 
         times = numpy.asarray(times, dtype=float).ravel()
     source = source.replace(**numbers) if numbers else source  # type: ignore[union-attr,arg-type]
-    return Motion(_hopfscope.trajectory(source, q0=q0, v0=v0, until=until, method=method, tol=tol, times=times))
+    found = _hopfscope.trajectory(source, q0=q0, v0=v0, until=until, method=method, tol=tol, times=times)
+    return _answered(Motion, *found)
 
 
 def cycles(
-    source: Source = None, /, *, certify: bool = False, harmonics: Optional[int] = None, **numbers: Number
+    source: Source = None,
+    /,
+    *,
+    certify: bool = False,
+    harmonics: Optional[int] = None,
+    orbit: Optional[int] = None,
+    **numbers: Number,
 ) -> Cycles:
     """Every limit cycle; with ``certify`` the proof that there are no others, and bounds of each number.
 
-    ``harmonics`` adds the harmonic balance with 1, 3, 5, .. harmonics as ``balance``. Intervals of numbers are proved.
+    ``orbit`` adds the column ``orbit``: a table of so many points (tau, q, v) of one period for each cycle. ``harmonics``
+    adds the harmonic balance with 1, 3, 5, .. harmonics as ``balance``. Intervals of numbers are proved.
     """
-    if source is None and not certify and harmonics is None:
+    plain = not certify and harmonics is None and orbit is None
+    if source is None and plain:
         source, numbers = _named(numbers)
-    if isinstance(source, Parameters) and not certify and harmonics is None and not numbers:
+    if isinstance(source, Parameters) and plain and not numbers:
         return Cycles(_hopfscope.cycles(source))
-    return _ask(Cycles, "cycles", source, numbers, harmonics=harmonics)
+    return _ask(Cycles, "cycles", source, numbers, harmonics=harmonics, orbit=orbit)
 
 
-def branch(source: Source = None, /, *, over: Over, certify: bool = False, **numbers: Number) -> Branch:
+def branch(
+    source: Source = None, /, *, over: Over, certify: bool = False, orbit: Optional[int] = None, **numbers: Number
+) -> Branch:
     """The limit cycles along a number, ``over=("D", -1, 0, 200)``, with folds and other special points.
 
-    The number of points is approximate for D, D2, D3 and r.
+    The number of points is approximate for D, D2, D3 and r. ``orbit`` adds so many points of each cycle, as in ``cycles``.
     """
-    return _ask(Branch, "branch", source, numbers, over=over, certify=certify)
+    return _ask(Branch, "branch", source, numbers, over=over, certify=certify, orbit=orbit)
 
 
 def border(
@@ -279,10 +293,17 @@ def basin(
     window: Union[str, Sequence[float], None] = None,
     grid: Union[str, Tuple[int, int], None] = None,
     certify: bool = False,
+    labels: bool = False,
+    curves: bool = False,
     **numbers: Number,
 ) -> Basin:
-    """Where the starts of a ``window`` (q_min, q_max, v_min, v_max) end, on a ``grid`` (across q, across v), and the margin."""
-    return _ask(Basin, "basin", source, numbers, window=window, grid=grid, certify=certify)
+    """Where the starts of a ``window`` (q_min, q_max, v_min, v_max) end, on a ``grid`` (across q, across v), and the margin.
+
+    ``labels`` adds where each start ends: ``labels``, an array (len(v), len(q)) of indices into ``legend``, and the axes ``q``
+    and ``v``. ``curves`` adds the border and the return map as points ``x``, ``y``.
+    """
+    options = dict(window=window, grid=grid, certify=certify, labels=labels, curves=curves)
+    return _ask(Basin, "basin", source, numbers, **options)
 
 
 def margin(
