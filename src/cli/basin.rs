@@ -1,16 +1,15 @@
 //! `hopfscope basin`: where starts end, the curves that belong to it, and all of it as arrays.
 
 use clap::Args;
-use rayon::prelude::*;
 
 use super::input::{self, WINDOW};
 use super::output::keep;
 use super::{CERTIFY, Failure, QuestionOptions, Result, given};
 use crate::flow::{Flow, Limits};
 use crate::portrait::closing::return_map::return_map;
-use crate::portrait::{Margin, Portrait, Return, StartWindow, evenly, proved_kicks};
-use crate::report::margin::{NamedCurve, basin};
-use crate::runtime::arrays::Array;
+use crate::portrait::{Counts, Portrait, Return, StartWindow, evenly, proved_kicks};
+use crate::report::margin::basin;
+use crate::runtime::arrays::{Array, ArrayCells};
 use crate::runtime::packed::packed;
 
 /// Shows where the starts in a window end, and how large a kick is survived
@@ -28,10 +27,10 @@ pub struct BasinCommand {
     /// Adds curves: the border of the basin, and the return map over the displacements of the window
     #[arg(long)]
     curves: bool,
-    /// Adds where each start ends to the JSON document, a row for each velocity
-    #[arg(long)]
-    labels: bool,
 }
+
+/// A curve with its name.
+type NamedCurve = (&'static str, Vec<[f64; 2]>);
 
 /// The border of the basin, and the return map, for each side where it is that of the oscillator of the paper.
 fn curves(
@@ -60,53 +59,40 @@ fn curves(
     Ok(all)
 }
 
-/// Most labels of starts in an archive or a document.
+/// Most labels of starts in an archive.
 const MOST_LABELS: usize = 10_000_000;
 
-/// What starts are counted as, by label.
-const LABELS: [&str; 4] = ["captured", "cycle", "escaped", "undecided"];
-
-/// The label of each start, a row for each velocity; each is counted by itself.
-fn labels(found: &Portrait, [q, v]: [&[f64]; 2]) -> Result<Vec<usize>> {
-    if q.len() * v.len() > MOST_LABELS {
-        return Err(format!("--grid: at most {MOST_LABELS} starts have labels").into());
-    }
-    let label = |(q, v): (f64, f64)| {
-        let start = StartWindow { q: (q, q), v: (v, v) };
-        let counts = found.count(&start, (1, 1), &Limits::PATIENT).unwrap_or_default();
-        let counts = [counts.captured, counts.cycle, counts.escaped];
-        counts.iter().position(|count| *count == 1).unwrap_or(counts.len())
-    };
-    let starts = v.iter().flat_map(|v| q.iter().map(|q| (*q, *v)));
-    Ok(starts.collect::<Vec<_>>().into_par_iter().map(label).collect())
-}
-
 impl BasinCommand {
-    /// The labels with their axes, the margin, and the curves.
+    /// The label of each start, a row for each velocity, with their axes, the margin, and the curves.
     fn arrays(
         &self,
         found: &Portrait,
-        [q, v]: [&[f64]; 2],
-        curves: &[NamedCurve],
+        window: &StartWindow,
+        curves: Vec<NamedCurve>,
+        limits: &Limits,
     ) -> Result<Vec<Array>> {
-        let digits = |number: f64| format!("{number:?}");
         let (width, height) = self.grid;
-        let Margin { displacement, impulse, from_rest } = found.margin;
-        let sizes = [displacement, impulse, from_rest.displacement, from_rest.impulse];
-        let sizes = sizes.map(|size| size.map(digits).unwrap_or_default());
-        let labels = labels(found, [q, v])?;
+        if width * height > MOST_LABELS {
+            return Err(format!("--grid: an archive has at most {MOST_LABELS} labels").into());
+        }
+        let columns = found.labelled(window, self.grid, limits, |labels| labels);
+        let columns = columns.map_err(|why| Failure::unanswered(UNCOUNTED, why))?;
+        let labels = (0..height).flat_map(|row| columns.iter().map(move |column| column[row]));
+        let [q, v] = [(window.q, width), (window.v, height)]
+            .map(|(ends, count)| ArrayCells::Numbers(evenly(ends, count).collect()));
+        let margin = found.margin.all().map(|size| size.unwrap_or(f64::NAN));
+        let regime = found.margin.regime(found.border);
         let mut all = vec![
-            Array::new("labels", &[height, width], labels),
-            Array::new("legend", &[LABELS.len()], LABELS),
-            Array::new("q", &[width], q.iter().copied().map(digits)),
-            Array::new("v", &[height], v.iter().copied().map(digits)),
-            Array::new("margin", &[4], sizes),
-            Array::new("regime", &[1], [found.margin.regime(found.border)]),
+            Array::new("labels", &[height, width], ArrayCells::Codes(labels.collect())),
+            Array::new("legend", &[4], ArrayCells::words(&Counts::LABELS)),
+            Array::new("q", &[width], q),
+            Array::new("v", &[height], v),
+            Array::new("margin", &[4], ArrayCells::Numbers(margin.to_vec())),
+            Array::new("regime", &[1], ArrayCells::words(&[regime])),
         ];
-        let curve = |(name, points): &NamedCurve| {
-            Array::new(name, &[points.len(), 2], points.iter().flatten().copied().map(digits))
-        };
-        all.extend(curves.iter().map(curve));
+        all.extend(curves.into_iter().map(|(name, points)| {
+            Array::new(name, &[points.len(), 2], ArrayCells::Numbers(points.concat()))
+        }));
         Ok(all)
     }
 
@@ -116,31 +102,33 @@ impl BasinCommand {
         let case = asked.source.exact()?;
         let reach = window.unwrap_or(WINDOW).reach();
         let (about, (found, before)) = (case.about(), case.portrait(&asked.output, reach)?);
-        let usual = || {
-            if about.is_machine() {
-                found.surroundings()
-            } else {
-                WINDOW
-            }
-        };
-        let window = window.unwrap_or_else(usual);
+        let on_paper = !about.is_machine();
+        let usual = if on_paper { WINDOW } else { found.surroundings() };
+        let window = window.unwrap_or(usual);
         let limits = asked.output.limits();
-        let curves = || curves(&found, !about.is_machine(), window.q, &limits);
-        let axes = [(window.q, self.grid.0), (window.v, self.grid.1)]
-            .map(|(range, count)| evenly(range, count).collect::<Vec<_>>());
-        let axes = axes.each_ref().map(Vec::as_slice);
+        let curves = || curves(&found, on_paper, window.q, &limits);
         if let Some(path) = asked.output.archive() {
-            return keep(path, &packed(path, &self.arrays(&found, axes, &curves()?)?)?);
+            return keep(path, &packed(path, &self.arrays(&found, &window, curves()?, &limits)?)?);
         }
         let count = || found.count(&window, self.grid, &limits);
-        let (counts, seconds) = asked.output.timed("the starts could not be counted", count)?;
+        let (counts, seconds) = asked.output.timed(UNCOUNTED, count)?;
         // What is proved, is proved of the oscillator of the paper.
-        let parameters = found.model.parameters().filter(|_| self.certify && !about.is_machine());
+        let parameters = found.model.parameters().filter(|_| self.certify && on_paper);
         let certified = parameters.map(|parameters| proved_kicks(&parameters, &found));
         let seconds = before + seconds;
         let answer = basin(&about, &found, (&window, counts), certified.as_ref(), seconds);
-        let drawn = if self.curves { curves()? } else { Vec::new() };
-        let labels = self.labels.then(|| labels(&found, axes)).transpose()?;
-        asked.output.print(answer.curves(&drawn).labels(axes, labels.as_deref(), &LABELS))
+        if !self.curves {
+            return asked.output.print(answer);
+        }
+        let rows: Vec<_> = curves()?
+            .into_iter()
+            .flat_map(|(name, points)| {
+                points.into_iter().map(move |[x, y]| vec![name.into(), x.into(), y.into()])
+            })
+            .collect();
+        asked.output.print(answer.points(Some("curves"), &["curve", "x", "y"], &rows))
     }
 }
+
+/// Begins the message where starts could not be counted.
+const UNCOUNTED: &str = "the starts could not be counted";

@@ -78,11 +78,14 @@ impl FigureCommand {
         let content = |form| file(&drawn, form).map_err(Failure::Unanswered);
         let Some(files) = files else { return print(&String::from_utf8_lossy(&content(form)?)) };
         for (path, form) in &files.outputs {
-            if drawn.sheet.caption && form.is_some_and(FigureForm::is_picture) {
+            if drawn.sheet.caption && form.is_some_and(|form| form != FigureForm::Json) {
                 write(&path.with_extension("txt"), facts(&drawn).as_bytes(), self.force)?;
             }
             let notebook = || Ok(files.notebook.clone().into_bytes());
             write(path, &form.map_or_else(notebook, content)?, self.force)?;
+            if *form == Some(FigureForm::Csv) {
+                provenance_file::write(path, &provenance_file::of_process())?;
+            }
         }
         files.scans.iter().try_for_each(ScanCommand::run)
     }

@@ -12,6 +12,7 @@ use super::scan::ScanCommand;
 use super::{Failure, Result};
 use crate::flow::Limits;
 use crate::report::Format;
+use crate::report::scan::ScanPart;
 use crate::runtime::{NewFile, PartFile, Readers, merge, packed, provenance_file, tell};
 use crate::words::provenance::{Checksum, Provenance};
 
@@ -60,7 +61,10 @@ impl MergeCommand {
             let Some((output, path)) = &mut output else { return Ok(()) };
             output.write_all(line).map_err(Failure::unwritten(path))
         };
-        let missing = merge(&sources, recheck, &mut write)?;
+        let points = 0..first.part.scan.points();
+        let whole = ScanPart { points, headed: true, brackets: None, ..first.part.clone() };
+        let whole = self.output.iter().fold(whole, |whole, path| whole.in_file(path));
+        let missing = merge(&sources, &whole, recheck, &mut write)?;
         if !missing.is_empty() {
             for gap in &missing {
                 report(gap, &missing, &sources);

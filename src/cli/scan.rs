@@ -204,7 +204,8 @@ impl ScanCommand {
         // By default only the first part has a heading, so that `cat` can join the parts.
         let always = self.header == HeaderWhen::Always || self.archive().is_some();
         let headed = points.start == 0 || always;
-        Ok(ScanPart { scan, form: self.form()?, points, headed })
+        let part = ScanPart { scan, form: self.form()?, points, headed, brackets: None };
+        Ok(self.output.iter().fold(part, |part, file| part.in_file(file)))
     }
 
     /// Where the rows go, with those that are already there.

@@ -7,18 +7,13 @@ use crate::picture::{MapCell, ScanMap};
 use crate::report::Columns;
 use crate::words::printable;
 
-/// What it was computed with in lines that begin with `#`, then one row for each cell of a map, and each point of
-/// each curve, area and mark.
+/// One row for each cell of a map, and each point of each curve, area and mark.
 pub fn csv(figure: &Figure) -> String {
-    let mut out = String::new();
-    for remark in remarks(figure) {
-        out += &format!("# {remark}\n");
-    }
     // Only a map has values.
     let map = figure.panels.iter().any(|panel| panel.map.is_some());
     let value = map.then(|| Columns::default().file("value", |row: &PointRow| row.value));
     let columns = Columns::default().fields(&PointRow::default(), |row| Some(*row)).and(value);
-    out + &columns.csv((1..).zip(&figure.panels).flat_map(|(number, shown)| rows(number, shown)))
+    columns.csv((1..).zip(&figure.panels).flat_map(|(number, shown)| rows(number, shown)))
 }
 
 /// A cell of a map, a point of a curve, of the edge of an area, or a mark: a column for each field.

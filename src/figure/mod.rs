@@ -74,11 +74,6 @@ pub enum FigureForm {
 }
 
 impl FigureForm {
-    /// Whether it is looked at, not read by programs.
-    pub fn is_picture(self) -> bool {
-        !matches!(self, FigureForm::Json | FigureForm::Csv)
-    }
-
     /// The form that the ending of a file asks for. Fails with one line with the endings that there are.
     pub fn of_file(path: &Path) -> Result<FigureForm, String> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();

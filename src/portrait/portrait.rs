@@ -330,36 +330,49 @@ impl Portrait {
         StartWindow { q: (-ROOM * x, ROOM * x), v: (-ROOM * v, ROOM * v) }
     }
 
-    /// Where the starts of a window end, evenly spaced, including both of its ends.
+    /// How many starts of a window end where, evenly spaced, including both of its ends.
     ///
     /// # Errors
     /// [`Reason::Interrupted`], asked for at each column, or why a border cannot be traced through the window.
     pub fn count(
         &self,
         window: &StartWindow,
-        (columns, rows): (usize, usize),
+        grid: (usize, usize),
         limits: &Limits,
     ) -> Result<Counts> {
+        let counts = self.labelled(window, grid, limits, |labels| Counts::of(&labels))?;
+        Ok(counts.into_iter().fold(Counts::default(), Counts::and))
+    }
+
+    /// What is made, at each displacement, of the labels of these starts: each an index of [`Counts::LABELS`].
+    ///
+    /// # Errors
+    /// As for [`Self::count`].
+    pub fn labelled<T: Send>(
+        &self,
+        window: &StartWindow,
+        (columns, rows): (usize, usize),
+        limits: &Limits,
+        made: impl Fn(Vec<u8>) -> T + Sync,
+    ) -> Result<Vec<T>> {
         let portrait = &*self.followed_to(window.reach())?;
         let velocities: Vec<f64> = evenly(window.v, rows).collect();
         let of_column = |x| {
             limits.go_on()?;
             let region = portrait.orders_starts().then(|| portrait.regions_at(x));
-            let mut counts = Counts::default();
-            for v in &velocities {
+            let label = |v: &f64| {
                 // Without friction the one point that rests counts as what is around it.
                 let rests = *v == 0.0 && self.model.guide > 0.0 && self.model.rests_at(x);
                 let fate = match &region {
                     Some(region) if !rests => Ok(portrait.fates[region(*v / self.model.omega_0)]),
                     _ => portrait.fate(x, *v),
                 };
-                counts.add(fate.unwrap_or_else(Fate::Unknown));
-            }
-            Ok(counts)
+                Counts::label(fate.unwrap_or_else(Fate::Unknown))
+            };
+            Ok(made(velocities.iter().map(label).collect()))
         };
         let displacements: Vec<f64> = evenly(window.q, columns).collect();
-        let columns = displacements.into_par_iter().map(of_column);
-        columns.try_reduce(Counts::default, |one, other| Ok(one.and(other)))
+        displacements.into_par_iter().map(of_column).collect()
     }
 
     /// The fraction of a window, in m and m/s, from which the mass comes to rest; `None` if motions from the window

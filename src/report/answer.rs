@@ -3,6 +3,7 @@
 
 use clap::ValueEnum;
 use serde::Serialize;
+use serde_json::Value;
 
 use super::{Columns, Document, Quantity, RowsOf, Table, json};
 use crate::flow::Cost;
@@ -148,6 +149,20 @@ impl Answer {
         self.csv(columns, rows.clone()).table_of(columns, rows)
     }
 
+    /// With rows of cells below these names, in files and for reading, and as a list of its document if that has a name.
+    pub fn points(self, list: Option<&str>, names: &[&'static str], rows: &[Vec<Value>]) -> Self {
+        const NUMBER: Quantity = Quantity::pure(10);
+        let columns = names.iter().enumerate().fold(Columns::default(), |all, (at, name)| {
+            all.file(name, move |row: &Vec<Value>| row[at].clone()).text(name, move |row| {
+                let cell = &row[at];
+                let number = cell.as_f64().filter(|_| cell.is_f64());
+                number.map_or(cell.clone(), |number| NUMBER.text(number).into())
+            })
+        });
+        let answer = list.into_iter().fold(self, |all, list| all.with_rows(list, &columns, rows));
+        answer.rows(&columns, rows)
+    }
+
     /// With a heading of a page.
     pub(super) fn heading(mut self, heading: &'static str) -> Self {
         self.parts.push(Part::Heading(heading));
@@ -204,7 +219,7 @@ impl Answer {
     }
 
     /// Its document, or the list that it consists of.
-    pub fn document(self) -> serde_json::Value {
+    pub fn document(self) -> Value {
         match self.list {
             Some(list) => json::value(&list),
             None => json::value(&self.document),

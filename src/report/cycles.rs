@@ -70,27 +70,22 @@ impl Answer {
 /// The value of what varies, if anything does, and the orbit of a cycle there, if it closes.
 pub type Outline = (f64, Option<Vec<Sample>>);
 
-/// A point of an orbit: the number of its cycle, what varies, and where it is.
-type OutlineRow = (usize, f64, Sample);
-
 impl Answer {
     /// With orbits, if they are asked for: a field of each object in this list of its document, and rows of their points, by
     /// number in the list.
     pub fn orbits(self, list: &str, along: Option<Knob>, found: Option<Vec<Outline>>) -> Self {
-        const NUMBER: Quantity = Quantity::pure(10);
         let Some(found) = found else { return self };
-        let columns = Columns::default()
-            .word("cycle", |(number, ..): &OutlineRow| *number)
-            .and(along.map(|along| {
-                Columns::default().number(along.spec().name, NUMBER, |(_, value, _)| *value)
-            }))
-            .number("tau", NUMBER, |(.., at)| at.tau)
-            .number("q", NUMBER, |(.., at)| at.q)
-            .number("v", NUMBER, |(.., at)| at.v);
-        let rows = found.iter().zip(1..).flat_map(|((value, orbit), number)| {
-            orbit.iter().flatten().map(move |at| (number, *value, *at))
+        let along = along.map(|along| along.spec().name);
+        let names: Vec<_> = ["cycle"].into_iter().chain(along).chain(["tau", "q", "v"]).collect();
+        let rows = found.iter().zip(1_u32..).flat_map(|((value, orbit), number)| {
+            let row = move |Sample { tau, q, v }: &Sample| {
+                let of = along.map(|_| *value).into_iter().chain([*tau, *q, *v]);
+                std::iter::once(number.into()).chain(of.map(Into::into)).collect()
+            };
+            orbit.iter().flatten().map(row)
         });
-        self.rows(&columns, rows).extended(list, "orbit", found.iter().map(|(_, orbit)| orbit))
+        let answer = self.points(None, &names, &rows.collect::<Vec<_>>());
+        answer.extended(list, "orbit", found.iter().map(|(_, orbit)| orbit))
     }
 }
 

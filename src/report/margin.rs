@@ -74,32 +74,6 @@ fn read_as(regime: &str, margin: &Margin) -> Document {
     Document::default().and(margin).with("regime", regime)
 }
 
-/// A curve with its name.
-pub type NamedCurve = (&'static str, Vec<[f64; 2]>);
-
-impl Answer {
-    /// With curves, if there are any: the points one below the other.
-    pub fn curves(self, curves: &[NamedCurve]) -> Self {
-        const NUMBER: Quantity = Quantity::pure(10);
-        if curves.is_empty() {
-            return self;
-        }
-        let columns = Columns::default()
-            .word("curve", |(name, _): &(&str, [f64; 2])| *name)
-            .number("x", NUMBER, |(_, [x, _])| *x)
-            .number("y", NUMBER, |(_, [_, y])| *y);
-        let rows = curves.iter().flat_map(|(name, points)| points.iter().map(|at| (*name, *at)));
-        self.with_rows("curves", &columns, rows.clone()).rows(&columns, rows)
-    }
-
-    /// With the labels of starts, a row for each velocity, and what each label means, if asked for.
-    pub fn labels(self, [q, v]: [&[f64]; 2], labels: Option<&[usize]>, meaning: &[&str]) -> Self {
-        let Some(labels) = labels else { return self };
-        let rows: Vec<_> = labels.chunks(q.len()).collect();
-        self.with("labels", rows).with("legend", meaning).with("q", q).with("v", v)
-    }
-}
-
 /// The basin, where the starts of a window end, and what is proved of it.
 pub fn basin(
     about: &About,

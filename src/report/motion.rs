@@ -73,22 +73,6 @@ pub fn motion(
         .cost(motion.cost, seconds)
 }
 
-/// A time, and where a motion is then, if it is known.
-pub type MomentRow = (f64, Option<Sample>);
-
-impl Answer {
-    /// With a motion at times, if any are asked for: its rows in files, and more rows for reading.
-    pub fn sampled(self, asked: Option<&[MomentRow]>) -> Self {
-        const NUMBER: Quantity = Quantity::pure(10);
-        let Some(rows) = asked else { return self };
-        let columns = Columns::default()
-            .number("tau", NUMBER, |(tau, _): &MomentRow| *tau)
-            .number("q", NUMBER, |(_, sample)| Some(sample.as_ref()?.q))
-            .number("v", NUMBER, |(_, sample)| Some(sample.as_ref()?.v));
-        self.with_rows("samples", &columns, rows).rows(&columns, rows)
-    }
-}
-
 /// The start of a motion, its turning points and its end, with what is proved of each. Of a machine it is also known how
 /// far one was followed that escapes or is given up.
 fn points(motion: &Motion, certified: Option<&ProvedMotion>, machine: bool) -> Vec<MotionRow> {

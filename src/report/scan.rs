@@ -27,6 +27,8 @@ pub struct ScanPart {
     pub points: Range<usize>,
     /// Whether they are preceded by a line of column names.
     pub headed: bool,
+    /// The points between the brackets of one JSON document; `None` if each line is a document.
+    pub brackets: Option<Range<usize>>,
 }
 
 impl Format {
@@ -51,6 +53,14 @@ impl Format {
 }
 
 impl ScanPart {
+    /// The same in a file, which is one JSON document if it ends in `json`.
+    #[must_use]
+    pub fn in_file(self, path: &Path) -> Self {
+        let is_one = path.extension().is_some_and(|ending| ending == "json");
+        let is_one = is_one && self.form == Format::Json;
+        ScanPart { brackets: is_one.then(|| self.points.clone()), ..self }
+    }
+
     /// The line before the rows; empty if there is none.
     pub fn heading(&self) -> String {
         let inputs = self.inputs(0).into_iter().map(|(name, _)| name);
@@ -69,8 +79,7 @@ impl ScanPart {
     pub fn beginning(&self, index: usize) -> String {
         let inputs = self.inputs(index).into_iter();
         let cells = inputs.map(|(name, value)| self.cell(&name, value));
-        let open = if self.form == Format::Json { "{" } else { "" };
-        std::iter::once(open.to_owned()).chain(cells).collect()
+        std::iter::once(self.opening(index).to_owned()).chain(cells).collect()
     }
 
     /// The row of point `index`.
@@ -85,13 +94,45 @@ impl ScanPart {
                 line + &lines([vec![String::new(), reason.unwrap_or_default()]]).split_off(1)
             }
             Format::Json => {
-                format!("{line}\"reason\":{}}}\n", serde_json::Value::from(reason))
+                format!("{line}\"reason\":{}}}{}", serde_json::Value::from(reason), self.end(index))
             }
             Format::Table => {
                 let reason = reason.map(|why| format!("  {why}")).unwrap_or_default();
                 (line + &reason).trim_end().to_owned() + "\n"
             }
         }
+    }
+
+    /// What stands before the first value of a row.
+    fn opening(&self, index: usize) -> &'static str {
+        match &self.brackets {
+            _ if self.form != Format::Json => "",
+            None => "{",
+            Some(all) if index == all.start => "[{",
+            Some(_) => ",{",
+        }
+    }
+
+    /// What stands behind an object.
+    fn end(&self, index: usize) -> &'static str {
+        let is_last = |all: &Range<usize>| index + 1 == all.end;
+        if self.brackets.as_ref().is_some_and(is_last) {
+            "]\n"
+        } else {
+            "\n"
+        }
+    }
+
+    /// The line of a part of the same scan as it stands in this one.
+    pub fn line_of(&self, index: usize, line: &[u8]) -> Vec<u8> {
+        if self.form != Format::Json {
+            return line.to_vec();
+        }
+        let behind = |of: Option<usize>| of.map_or(0, |at| at + 1);
+        let from = behind(line.iter().position(|byte| *byte == b'{'));
+        let to = behind(line.iter().rposition(|byte| *byte == b'}')).max(from);
+        let [open, close] = [self.opening(index), self.end(index)].map(str::as_bytes);
+        [open, &line[from..to], close].concat()
     }
 
     /// The measured columns; that which says how to read a margin is for programs.

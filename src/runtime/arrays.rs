@@ -1,7 +1,4 @@
-//! Cells as arrays, and their files of numpy.
-//!
-//! Cells are told as text with every digit, as comma-separated values have them, and their array follows: integers if all
-//! of them are, doubles with NaN for a missing one if all are numbers, else words; integers in rows and columns are bytes.
+//! Arrays with names, and their files of numpy.
 
 use crate::words::joined;
 
@@ -9,55 +6,64 @@ use crate::words::joined;
 pub struct Array {
     pub name: String,
     shape: Vec<usize>,
-    pub cells: Vec<String>,
+    pub cells: ArrayCells,
 }
 
-/// Cells as what all of them are.
+/// Cells of one type.
 pub enum ArrayCells {
+    /// Codes whose meaning another array tells.
+    Codes(Vec<u8>),
     Counts(Vec<i64>),
-    Numbers(Vec<Option<f64>>),
-    Words,
+    /// Not a number where there is none.
+    Numbers(Vec<f64>),
+    Words(Vec<String>),
+}
+
+impl ArrayCells {
+    /// Cells of text with every digit as what all of them are: counts, numbers, of which some may be missing, or else words.
+    pub fn read(cells: &[&str]) -> Self {
+        let number = |cell: &&str| match *cell {
+            "" => Ok(f64::NAN),
+            cell => cell.parse(),
+        };
+        let counts = cells.iter().map(|cell| cell.parse().ok()).collect::<Option<_>>();
+        let numbers = || cells.iter().map(number).collect::<Result<_, _>>().ok();
+        let words = || ArrayCells::words(cells);
+        counts
+            .map(ArrayCells::Counts)
+            .or_else(|| numbers().map(ArrayCells::Numbers))
+            .unwrap_or_else(words)
+    }
+
+    /// These words.
+    pub fn words(words: &[&str]) -> Self {
+        ArrayCells::Words(words.iter().map(ToString::to_string).collect())
+    }
 }
 
 impl Array {
-    /// An array of these cells.
-    pub fn new(name: &str, shape: &[usize], cells: impl IntoIterator<Item: ToString>) -> Self {
-        let cells = cells.into_iter().map(|cell| cell.to_string()).collect();
+    /// An array of these lengths.
+    pub fn new(name: &str, shape: &[usize], cells: ArrayCells) -> Self {
         Array { name: name.to_owned(), shape: shape.to_vec(), cells }
-    }
-
-    /// Its cells by their type.
-    pub fn typed(&self) -> ArrayCells {
-        let number = |cell: &String| match cell.as_str() {
-            "" => Some(None),
-            cell => cell.parse().ok().map(Some),
-        };
-        let counts: Option<_> = self.cells.iter().map(|cell| cell.parse().ok()).collect();
-        let numbers =
-            || self.cells.iter().map(number).collect::<Option<_>>().map(ArrayCells::Numbers);
-        counts.map(ArrayCells::Counts).or_else(numbers).unwrap_or(ArrayCells::Words)
     }
 
     /// The array as a file of numpy.
     pub fn npy(&self) -> Vec<u8> {
-        let (kind, bytes): (_, Vec<u8>) = match self.typed() {
-            ArrayCells::Counts(cells) if self.shape.len() > 1 => {
-                ("|u1".to_owned(), cells.into_iter().filter_map(|it| it.try_into().ok()).collect())
-            }
+        let (kind, bytes) = match &self.cells {
+            ArrayCells::Codes(cells) => ("|u1".to_owned(), cells.clone()),
             ArrayCells::Counts(cells) => {
-                ("<i8".to_owned(), cells.into_iter().flat_map(i64::to_le_bytes).collect())
+                ("<i8".to_owned(), cells.iter().flat_map(|cell| cell.to_le_bytes()).collect())
             }
             ArrayCells::Numbers(cells) => {
-                let cells = cells.into_iter().map(|cell| cell.unwrap_or(f64::NAN));
-                ("<f8".to_owned(), cells.flat_map(f64::to_le_bytes).collect())
+                ("<f8".to_owned(), cells.iter().flat_map(|cell| cell.to_le_bytes()).collect())
             }
-            ArrayCells::Words => {
-                let longest = self.cells.iter().map(|it| it.chars().count()).max().unwrap_or(0);
+            ArrayCells::Words(cells) => {
+                let longest = cells.iter().map(|it| it.chars().count()).max().unwrap_or(0);
                 let filled = |cell: &String| {
                     let chars = cell.chars().map(u32::from).chain(std::iter::repeat(0));
                     chars.take(longest).flat_map(u32::to_le_bytes).collect::<Vec<_>>()
                 };
-                (format!("<U{longest}"), self.cells.iter().flat_map(filled).collect())
+                (format!("<U{longest}"), cells.iter().flat_map(filled).collect())
             }
         };
         let shape = joined(&self.shape, ",");

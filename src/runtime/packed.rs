@@ -8,15 +8,17 @@ use zip::ZipWriter;
 use zip::result::ZipResult;
 use zip::write::SimpleFileOptions;
 
-use super::arrays::Array;
+use super::arrays::{Array, ArrayCells};
 
 /// The columns of comma-separated values.
 fn columns(csv: &str) -> Vec<Array> {
     let mut reader = Reader::from_reader(csv.as_bytes());
     let names = reader.headers().cloned().unwrap_or_default();
     let rows: Vec<_> = reader.records().flatten().collect();
-    let column =
-        |(at, name)| Array::new(name, &[rows.len()], rows.iter().map(|row| row[at].to_owned()));
+    let column = |(at, name)| {
+        let cells: Vec<&str> = rows.iter().map(|row| &row[at]).collect();
+        Array::new(name, &[rows.len()], ArrayCells::read(&cells))
+    };
     names.iter().enumerate().map(column).collect()
 }
 

@@ -12,10 +12,10 @@ use crate::words::joined;
 
 /// The file. Fails if the columns are too long for it.
 pub fn file(columns: &[Array]) -> Result<Vec<u8>> {
-    let field = |array: &Array| match array.typed() {
-        ArrayCells::Counts(_) => format!("optional int64 {};", array.name),
-        ArrayCells::Numbers(_) => format!("optional double {};", array.name),
-        ArrayCells::Words => format!("optional binary {} (UTF8);", array.name),
+    let field = |Array { name, cells, .. }: &Array| match cells {
+        ArrayCells::Codes(_) | ArrayCells::Counts(_) => format!("optional int64 {name};"),
+        ArrayCells::Numbers(_) => format!("optional double {name};"),
+        ArrayCells::Words(_) => format!("optional binary {name} (UTF8);"),
     };
     let fields = joined(columns.iter().map(field), " ");
     let schema = Arc::new(parse_message_type(&format!("message rows {{ {fields} }}"))?);
@@ -24,13 +24,16 @@ pub fn file(columns: &[Array]) -> Result<Vec<u8>> {
     let mut group = writer.next_row_group()?;
     for array in columns {
         let Some(mut column) = group.next_column()? else { continue };
+        let out = &mut column;
+        let number = |cell: &f64| Some(*cell).filter(|cell| !cell.is_nan());
         let word = |cell: &String| Some(cell.as_str().into()).filter(|_| !cell.is_empty());
-        match array.typed() {
-            ArrayCells::Counts(cells) => {
-                put::<Int64Type>(&mut column, cells.into_iter().map(Some))?
+        match &array.cells {
+            ArrayCells::Codes(cells) => {
+                put::<Int64Type>(out, cells.iter().map(|cell| Some((*cell).into())))?
             }
-            ArrayCells::Numbers(cells) => put::<DoubleType>(&mut column, cells.into_iter())?,
-            ArrayCells::Words => put::<ByteArrayType>(&mut column, array.cells.iter().map(word))?,
+            ArrayCells::Counts(cells) => put::<Int64Type>(out, cells.iter().copied().map(Some))?,
+            ArrayCells::Numbers(cells) => put::<DoubleType>(out, cells.iter().map(number))?,
+            ArrayCells::Words(cells) => put::<ByteArrayType>(out, cells.iter().map(word))?,
         }
         column.close()?;
     }

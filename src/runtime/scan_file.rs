@@ -206,7 +206,8 @@ pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String
     }
     let is_new = !path.exists();
     let (form, points) = (Format::of_file(path), 0..scan.points());
-    let part = ScanPart { scan: scan.clone(), form, points, headed: true };
+    let part = ScanPart { scan: scan.clone(), form, points, headed: true, brackets: None };
+    let part = part.in_file(path);
     let provenance = provenance_file::read(path).unwrap_or_else(|_| provenance_file::of_process());
     let written =
         ScanFile::resume(path, part, provenance, &Limits::PATIENT).and_then(|mut file| {

@@ -155,17 +155,17 @@ pub struct PartFile {
     pub arguments: Vec<String>,
 }
 
-/// Passes the lines of the merged file to `write` in their order, and returns the points that no part holds;
+/// Passes the lines of `whole`, the merged file, to `write` in their order, and returns the points that no part holds;
 /// the file is complete if none is missing. There is at least one part.
 ///
 /// With `recheck`, the first and the last row of each part are computed again within these limits and compared. Fails
 /// if a part cannot be read, holds something other than its rows, or a row that another one holds too.
 pub fn merge(
     parts: &[PartFile],
+    whole: &ScanPart,
     recheck: Option<&Limits>,
     write: &mut dyn FnMut(&[u8]) -> Result<()>,
 ) -> Result<Vec<Range<usize>>> {
-    let whole = ScanPart { headed: true, ..parts[0].part.clone() };
     let mut parts: Vec<&PartFile> = parts.iter().collect();
     parts.sort_by_key(|file| file.part.points.start);
     let mut waiting = parts.into_iter().peekable();
@@ -193,7 +193,7 @@ pub fn merge(
                 missing.push(expected..index);
             }
             expected = index + 1;
-            write(&last.line)?;
+            write(&whole.line_of(index, &last.line))?;
             let Some(row) = rows.row()? else {
                 check(&rows, &last)?;
                 continue;

@@ -105,6 +105,41 @@ fn lines_of_json_are_the_rows_of_standard_output() {
 }
 
 #[test]
+fn a_file_of_json_is_one_document_whole_in_parts_merged_and_resumed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let asked = |more: &[&str]| {
+        let words = ["scan", "--over", "D=-0.3:-0.1:5", "--measure", "margin"];
+        let ran = run(&[&words, more].concat());
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        ran.out
+    };
+    let read = |name: &str| fs::read_to_string(path(name)).unwrap();
+    let document = |name: &str| serde_json::from_str::<Vec<Value>>(&read(name)).unwrap();
+    let lines = asked(&["--format", "json"]);
+    let rows: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    asked(&["--output", word(&path("all.json"))]);
+    assert_eq!(document("all.json"), rows);
+    for part in ["1", "2"] {
+        let name = format!("{part}.json");
+        asked(&["--output", word(&path(&name)), "--shard", &format!("{part}/2")]);
+    }
+    assert_eq!([document("1.json"), document("2.json")].concat(), rows);
+    for name in ["merged.json", "merged.jsonl"] {
+        let [one, two, all] = ["1.json", "2.json", name].map(path);
+        let ran = run(&["merge", word(&one), word(&two), "--check", "--output", word(&all)]);
+        assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    }
+    assert_eq!((read("merged.json"), read("merged.jsonl")), (read("all.json"), lines));
+    let whole = read("all.json");
+    for length in [0, 1, whole.len() / 2, whole.len() - 1] {
+        fs::write(path("all.json"), &whole[..length]).unwrap();
+        asked(&["--output", word(&path("all.json")), "--resume"]);
+        assert_eq!(read("all.json"), whole, "{length}");
+    }
+}
+
+#[test]
 fn an_archive_has_the_columns_of_the_rows() {
     let (_folder, path) = file("rows.npz");
     rows(&["--output", word(&path)]);

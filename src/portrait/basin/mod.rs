@@ -67,14 +67,27 @@ impl Counts {
         }
     }
 
-    /// Counts a start with this fate.
-    pub fn add(&mut self, fate: Fate) {
-        *match fate {
-            Fate::Rest => &mut self.captured,
-            Fate::Cycle(_) => &mut self.cycle,
-            Fate::Escapes => &mut self.escaped,
-            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => &mut self.undecided,
-        } += 1;
+    /// What starts are counted as, by label.
+    pub const LABELS: [&str; 4] = ["captured", "cycle", "escaped", "undecided"];
+
+    /// As what a start with this fate is counted, an index of [`Self::LABELS`].
+    #[must_use]
+    pub fn label(fate: Fate) -> u8 {
+        match fate {
+            Fate::Rest => 0,
+            Fate::Cycle(_) => 1,
+            Fate::Escapes => 2,
+            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => 3,
+        }
+    }
+
+    /// The starts with these labels.
+    #[must_use]
+    pub fn of(labels: &[u8]) -> Self {
+        let mut counts = [0; 4];
+        labels.iter().for_each(|label| counts[usize::from(*label)] += 1);
+        let [captured, cycle, escaped, undecided] = counts;
+        Counts { captured, cycle, escaped, undecided }
     }
 }
 
