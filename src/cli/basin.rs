@@ -59,11 +59,23 @@ fn curves(
     Ok(all)
 }
 
-/// Most labels of starts in an archive.
+/// Most starts that have labels.
 const MOST_LABELS: usize = 10_000_000;
 
 impl BasinCommand {
-    /// The label of each start, a row for each velocity, with their axes, the margin, and the curves.
+    /// The label of each start, an index of [`Counts::LABELS`]: a row for each velocity.
+    fn labels(&self, found: &Portrait, window: &StartWindow, limits: &Limits) -> Result<Vec<u8>> {
+        let (width, height) = self.grid;
+        if width * height > MOST_LABELS {
+            return Err(format!("--grid: at most {MOST_LABELS} starts have labels").into());
+        }
+        let columns = found.labelled(window, self.grid, limits, |labels| labels);
+        let columns = columns.map_err(|why| Failure::unanswered(UNCOUNTED, why))?;
+        let of_row = |row| columns.iter().map(move |column: &Vec<u8>| column[row]);
+        Ok((0..height).flat_map(of_row).collect())
+    }
+
+    /// The labels with their axes, the margin, and the curves.
     fn arrays(
         &self,
         found: &Portrait,
@@ -72,18 +84,13 @@ impl BasinCommand {
         limits: &Limits,
     ) -> Result<Vec<Array>> {
         let (width, height) = self.grid;
-        if width * height > MOST_LABELS {
-            return Err(format!("--grid: an archive has at most {MOST_LABELS} labels").into());
-        }
-        let columns = found.labelled(window, self.grid, limits, |labels| labels);
-        let columns = columns.map_err(|why| Failure::unanswered(UNCOUNTED, why))?;
-        let labels = (0..height).flat_map(|row| columns.iter().map(move |column| column[row]));
+        let labels = self.labels(found, window, limits)?;
         let [q, v] = [(window.q, width), (window.v, height)]
             .map(|(ends, count)| ArrayCells::Numbers(evenly(ends, count).collect()));
         let margin = found.margin.all().map(|size| size.unwrap_or(f64::NAN));
         let regime = found.margin.regime(found.border);
         let mut all = vec![
-            Array::new("labels", &[height, width], ArrayCells::Codes(labels.collect())),
+            Array::new("labels", &[height, width], ArrayCells::Codes(labels)),
             Array::new("legend", &[4], ArrayCells::words(&Counts::LABELS)),
             Array::new("q", &[width], q),
             Array::new("v", &[height], v),

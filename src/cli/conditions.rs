@@ -52,11 +52,7 @@ impl ConditionOptions {
         let disturbance = number("--disturbance", disturbance, numbers.disturbance)?;
         let wanted = given("--design", self.design.as_ref(), numbers.margin)?;
         let conditions = Conditions {
-            origin: if self.elongation {
-                Origin::Relaxed
-            } else {
-                Origin::Steady
-            },
+            origin: [Origin::Steady, Origin::Relaxed][usize::from(self.elongation)],
             kicks: kicks.unwrap_or_default(),
             wanted,
             ..window.unwrap_or(WINDOW).into()

@@ -5,11 +5,12 @@ use clap::Args;
 use super::times::TimeOptions;
 use super::{CERTIFY, Failure, QuestionOptions, Result, in_turn, number, second, timed, troubled};
 use crate::accuracy::Trade;
-use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem, Sample};
+use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem};
 use crate::model::{Knob, Model};
 use crate::numerics::Interval;
 use crate::proof::{ParameterBox, follow as enclosed};
-use crate::report::{About, Answer, motion};
+use crate::report::motion::MomentRow;
+use crate::report::{About, motion};
 use crate::runtime::tell;
 use crate::view::trade_plot::in_letters;
 
@@ -51,9 +52,8 @@ impl<'a> AskedMotion<'a> {
         problem.followed(self.model.as_ref(), detail, &self.limits)
     }
 
-    /// The answer with where the motion is at these times; a time at which that is not known keeps its row, and a note says
-    /// so.
-    fn at_times(&self, answer: Answer, times: &[f64]) -> Answer {
+    /// Where the motion is at these times; a time at which that is not known keeps its row, and a note says so.
+    fn at_times(&self, times: &[f64]) -> Vec<MomentRow> {
         let model = self.model.as_ref();
         let (found, samples) = self.problem.at_times(model, times, Detail::default(), &self.limits);
         let unknown = samples.iter().filter(|sample| sample.is_none()).count();
@@ -61,11 +61,7 @@ impl<'a> AskedMotion<'a> {
             let (word, tau) = (found.outcome.word(), found.outcome.tau());
             tell(format!("note: {word} at tau = {tau:?}, so {unknown} times have no state"));
         }
-        let row = |(tau, at): (&f64, &Option<Sample>)| {
-            vec![(*tau).into(), at.map(|at| at.q).into(), at.map(|at| at.v).into()]
-        };
-        let rows: Vec<_> = times.iter().zip(&samples).map(row).collect();
-        answer.points(Some("samples"), &["tau", "q", "v"], &rows)
+        times.iter().copied().zip(samples).collect()
     }
 }
 
@@ -96,17 +92,14 @@ impl TrajectoryCommand {
         if is_machine && times.is_some() && problem.method != Method::Taylor {
             return Err("at times a machine is followed by --method auto or taylor".into());
         }
+        let samples = times.map(|times| asked.at_times(&times));
         let enclose = || {
             let start = [problem.initial.q, problem.initial.v].map(Interval::point);
             enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
         };
         let certified = (self.certify && !is_machine).then(enclose);
         let answer = motion::motion(&asked.about, &found, certified.as_ref(), seconds);
-        let answer = match times {
-            Some(times) => asked.at_times(answer, &times),
-            None => answer,
-        };
-        question.output.print(answer)?;
+        question.output.print(answer.sampled(samples.as_deref()))?;
         match found.outcome {
             Outcome::GaveUp { tau, reason } if !is_machine => {
                 let place = format!("gave up at tau = {tau:?} of {:?}", problem.until);

@@ -155,11 +155,8 @@ impl ScanCommand {
         });
         progress.end();
         took.map_err(|why| Failure::unanswered("cannot start threads for the scan", why))?;
-        let lost = if given_up > 0 {
-            format!(", {given_up} of them given up")
-        } else {
-            String::new()
-        };
+        let lost = (given_up > 0).then(|| format!(", {given_up} of them given up"));
+        let lost = lost.unwrap_or_default();
         let tally = format!("{} of {left} rows{lost}", left - file.left());
         let (stopped, path) = (stop.load(Ordering::Relaxed), self.output.as_ref());
         match broken {

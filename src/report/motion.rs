@@ -73,6 +73,21 @@ pub fn motion(
         .cost(motion.cost, seconds)
 }
 
+/// A time, and where a motion is then, if it is known.
+pub type MomentRow = (f64, Option<Sample>);
+
+impl Answer {
+    /// With a motion at times, if any are asked for: its rows in files, and more rows for reading.
+    pub fn sampled(self, asked: Option<&[MomentRow]>) -> Self {
+        let Some(moments) = asked else { return self };
+        let row = |(tau, at): &MomentRow| {
+            vec![(*tau).into(), at.map(|at| at.q).into(), at.map(|at| at.v).into()]
+        };
+        let rows: Vec<_> = moments.iter().map(row).collect();
+        self.points(Some("samples"), &["tau", "q", "v"], &rows)
+    }
+}
+
 /// The start of a motion, its turning points and its end, with what is proved of each. Of a machine it is also known how
 /// far one was followed that escapes or is given up.
 fn points(motion: &Motion, certified: Option<&ProvedMotion>, machine: bool) -> Vec<MotionRow> {
