@@ -85,7 +85,9 @@ impl Counts {
     #[must_use]
     pub fn of(labels: &[u8]) -> Self {
         let mut counts = [0; 4];
-        labels.iter().for_each(|label| counts[usize::from(*label)] += 1);
+        for label in labels {
+            counts[usize::from(*label)] += 1;
+        }
         let [captured, cycle, escaped, undecided] = counts;
         Counts { captured, cycle, escaped, undecided }
     }
