@@ -27,6 +27,9 @@ pub struct BasinCommand {
     /// Adds curves: the border of the basin, and the return map over the displacements of the window
     #[arg(long)]
     curves: bool,
+    /// Adds where each start ends to the JSON document, a row for each velocity
+    #[arg(long)]
+    labels: bool,
 }
 
 /// A curve with its name.
@@ -63,6 +66,12 @@ fn curves(
 const MOST_LABELS: usize = 10_000_000;
 
 impl BasinCommand {
+    /// The displacements and the velocities of the starts.
+    fn axes(&self, window: &StartWindow) -> [Vec<f64>; 2] {
+        let (width, height) = self.grid;
+        [(window.q, width), (window.v, height)].map(|(ends, count)| evenly(ends, count).collect())
+    }
+
     /// The label of each start, an index of [`Counts::LABELS`]: a row for each velocity.
     fn labels(&self, found: &Portrait, window: &StartWindow, limits: &Limits) -> Result<Vec<u8>> {
         let (width, height) = self.grid;
@@ -85,8 +94,7 @@ impl BasinCommand {
     ) -> Result<Vec<Array>> {
         let (width, height) = self.grid;
         let labels = self.labels(found, window, limits)?;
-        let [q, v] = [(window.q, width), (window.v, height)]
-            .map(|(ends, count)| ArrayCells::Numbers(evenly(ends, count).collect()));
+        let [q, v] = self.axes(window).map(ArrayCells::Numbers);
         let margin = found.margin.all().map(|size| size.unwrap_or(f64::NAN));
         let regime = found.margin.regime(found.border);
         let mut all = vec![
@@ -123,7 +131,10 @@ impl BasinCommand {
         let parameters = found.model.parameters().filter(|_| self.certify && on_paper);
         let certified = parameters.map(|parameters| proved_kicks(&parameters, &found));
         let seconds = before + seconds;
-        let answer = basin(&about, &found, (&window, counts), certified.as_ref(), seconds);
+        let mut answer = basin(&about, &found, (&window, counts), certified.as_ref(), seconds);
+        if self.labels {
+            answer = answer.labels(self.axes(&window), &self.labels(&found, &window, &limits)?);
+        }
         if !self.curves {
             return asked.output.print(answer);
         }

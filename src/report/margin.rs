@@ -74,6 +74,14 @@ fn read_as(regime: &str, margin: &Margin) -> Document {
     Document::default().and(margin).with("regime", regime)
 }
 
+impl Answer {
+    /// With the labels of starts, a row for each velocity, and what each label means.
+    pub fn labels(self, [q, v]: [Vec<f64>; 2], labels: &[u8]) -> Self {
+        let rows: Vec<_> = labels.chunks(q.len()).collect();
+        self.with("labels", rows).with("legend", Counts::LABELS).with("q", q).with("v", v)
+    }
+}
+
 /// The basin, where the starts of a window end, and what is proved of it.
 pub fn basin(
     about: &About,
