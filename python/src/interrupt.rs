@@ -35,6 +35,10 @@ pub fn hearing<T: Send>(py: Python<'_>, compute: impl FnOnce(&Limits) -> T + Sen
 }
 
 /// Whether a signal has raised an exception; only the thread that Python runs on can ask.
+#[expect(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method itself is of one lifetime"
+)]
 fn is_interrupted(owner: ThreadId, heard: &Mutex<Heard>) -> bool {
     let mut heard = heard.lock().unwrap_or_else(PoisonError::into_inner);
     if heard.raised.is_none() && heard.asked.elapsed() > EVERY && thread::current().id() == owner {
