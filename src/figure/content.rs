@@ -30,6 +30,9 @@ pub struct Figure {
     pub units: String,
     /// Parameters of the present motion; curves have their own.
     pub parameters: Parameters,
+    /// The numbers of the machine that is drawn, in SI units.
+    #[serde(skip)]
+    pub machine: Option<String>,
     /// Where the motion starts.
     pub initial: State,
     /// End time of the motion.

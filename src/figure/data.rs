@@ -60,13 +60,11 @@ fn rows<'a>(panel: u32, shown: &'a Panel) -> Vec<PointRow<'a>> {
 /// What a figure was computed with, and what its panels show, a line each.
 pub fn remarks(figure: &Figure) -> Vec<String> {
     let mut remarks = computed(figure);
-    remarks.extend(figure.panels.iter().enumerate().map(|(number, panel)| said(number, panel)));
+    let said = |(number, Panel { title, x, y, .. }): (usize, &Panel)| {
+        format!("panel {number}: {title}, {} over {}", y.name, x.name)
+    };
+    remarks.extend((1..).zip(&figure.panels).map(said));
     remarks.iter().map(|remark| printable::line(remark).into_owned()).collect()
-}
-
-/// What the panel with this number, from 0, shows.
-pub fn said(number: usize, Panel { title, x, y, .. }: &Panel) -> String {
-    format!("panel {}: {title}, {} over {}", number + 1, y.name, x.name)
 }
 
 /// What a figure was computed with, a line each.
@@ -80,6 +78,7 @@ pub fn computed(figure: &Figure) -> Vec<String> {
         format!("method {}, tolerance {:?}, {}", figure.method, figure.tolerance, figure.program),
         figure.units.clone(),
     ];
+    remarks.extend(figure.machine.clone());
     if let Some(provenance) = &figure.provenance {
         remarks.push(format!("{}: {}", provenance.build(), provenance.command));
     }

@@ -15,13 +15,11 @@ pub const DARK: Color = [0x22; 3];
 #[derive(Clone, Copy, Debug)]
 struct Ink {
     role: Role,
-    /// Width in pixels.
-    pixels: f64,
+    /// Width in pixels and in points.
+    widths: [f64; 2],
     color: Color,
     /// What the colour is called.
     word: &'static str,
-    /// Width in points.
-    points: f64,
     grey: Color,
 }
 
@@ -31,8 +29,8 @@ static INKS: LazyLock<Vec<Ink>> = LazyLock::new(|| {
 
 fn described(line: &'static str) -> Option<Ink> {
     let [role, pixels, color, word, points, grey] = cells(line)?;
-    let (pixels, points) = (pixels.parse().ok()?, points.parse().ok()?);
-    Some(Ink { role: named(role)?, pixels, color: read(color)?, word, points, grey: read(grey)? })
+    let widths = [pixels.parse().ok()?, points.parse().ok()?];
+    Some(Ink { role: named(role)?, widths, color: read(color)?, word, grey: read(grey)? })
 }
 
 fn read(color: &str) -> Option<Color> {
@@ -43,7 +41,7 @@ fn read(color: &str) -> Option<Color> {
 
 fn ink(role: Role) -> Ink {
     let known = INKS.iter().find(|ink| ink.role == role).copied();
-    known.unwrap_or(Ink { role, pixels: 1.0, color: DARK, word: "black", points: 0.5, grey: BLACK })
+    known.unwrap_or(Ink { role, widths: [1.0, 0.5], color: DARK, word: "black", grey: BLACK })
 }
 
 /// Lengths of dashes and gaps, in pixels and in points.
@@ -77,25 +75,21 @@ impl PageLayout {
 
     /// How a line of a role is drawn.
     pub fn pen(&self, role: Role, dash: Dash) -> PlotPen {
-        let (ink, [in_pixels, in_points]) = (ink(role), dashes(dash));
-        let [pixels, points] = if dash == Dash::Thick {
+        let widths = if dash == Dash::Thick {
             [3.0, 1.2]
         } else {
-            [ink.pixels, ink.points]
+            ink(role).widths
         };
-        let color = self.color(role);
-        if self.unit == PageUnit::Point {
-            PlotPen { width: self.points(points), color, dash: in_points }
-        } else {
-            PlotPen { width: pixels, color, dash: in_pixels }
-        }
+        let unit = self.unit as usize;
+        let (width, color) = (self.printed(widths[unit]), self.color(role));
+        PlotPen { width, color, dash: dashes(dash)[unit] }
     }
 
     /// A line that has no role, of this width in `plain`.
     pub fn line(&self, width: f64, color: Color) -> PlotPen {
         let width = match width {
             width if self.unit == PageUnit::Pixel => width,
-            ..0.8 => self.points(0.25),
+            ..0.8 => self.printed(0.25),
             ..1.2 => 0.5,
             _ => 0.8,
         };
@@ -103,7 +97,7 @@ impl PageLayout {
     }
 
     /// A width that the journal prints: Springer asks for 0.3 pt at least.
-    fn points(&self, width: f64) -> f64 {
+    fn printed(&self, width: f64) -> f64 {
         if self.style == JournalStyle::Springer {
             width.max(0.5)
         } else {

@@ -5,7 +5,7 @@ use super::elements::{Anchor, Element, Shape, Spot, TextLine, Tint, WHITE};
 use super::panel::spot;
 use super::paper::{LEGEND, PageLayout};
 use super::{Figure, Outline, Panel, map};
-use crate::numerics::{real, truncated};
+use crate::numerics::real;
 use crate::picture::legend::distinct;
 use crate::picture::{LegendEntry, LegendSample, Mark, ScanMap, passes};
 use crate::scene::Point;
@@ -32,8 +32,10 @@ fn explained(panel: &Panel, is_printed: bool) -> Vec<LegendEntry> {
     let entry = |text: &str, role, sample| LegendEntry { sample, role, text: text.to_owned() };
     let is_seen = |curve: &&Outline| passes(&Point::all(&curve.points), panel.window);
     let seen = panel.curves.iter().filter(is_seen);
-    // A journal has no room for what has its name beside it.
-    let told = seen.chain(&panel.areas).filter(|it| !(is_printed && it.captioned));
+    // A journal has no room for what has its name beside it, nor for a bar that has no length.
+    let is_line = |points: &[[f64; 2]]| !matches!(points, [from, to] if from == to);
+    let is_told = |it: &&Outline| !is_printed || (!it.captioned && is_line(&it.points));
+    let told = seen.chain(&panel.areas).filter(is_told);
     let lines = told.map(|it| {
         entry(&it.kind, it.role, it.style.map_or(LegendSample::Shade, LegendSample::Line))
     });
@@ -46,8 +48,8 @@ fn explained(panel: &Panel, is_printed: bool) -> Vec<LegendEntry> {
 }
 
 /// Width of the widest of these entries.
-fn widest(entries: &[LegendEntry], paper: &PageLayout) -> f64 {
-    let widths = entries.iter().map(|entry| paper.width(&entry.text, LEGEND));
+fn widest<'a>(entries: impl Iterator<Item = &'a LegendEntry>, paper: &PageLayout) -> f64 {
+    let widths = entries.map(|entry| paper.width(&entry.text, LEGEND));
     NAME * paper.scale + widths.fold(0.0, f64::max)
 }
 
@@ -59,10 +61,17 @@ pub fn below(
     paper: &PageLayout,
 ) -> f64 {
     let (row, edge) = (ROW * paper.scale, 10.0 * paper.scale);
-    let columns = truncated((width - edge) / (widest(entries, paper) + edge)).max(1);
-    let column = (width - edge) / real(columns);
+    // Each column is as wide as its entries; what is left is shared.
+    let widths = |count: usize| -> Vec<f64> {
+        let entries = |first| entries.iter().skip(first).step_by(count);
+        (0..count).map(|first| edge + widest(entries(first), paper)).collect()
+    };
+    let left = |count: usize| width - edge - widths(count).iter().sum::<f64>();
+    let columns = (1..=entries.len()).rev().find(|count| left(*count) >= 0.0).unwrap_or(1);
+    let (widths, apart) = (widths(columns), left(columns).max(0.0) / real(columns));
     for (number, entry) in entries.iter().enumerate() {
-        let x = edge + real(number % columns) * column;
+        let column = number % columns;
+        let x = edge + widths[..column].iter().sum::<f64>() + apart * real(column);
         let y = top + (real(number / columns) + 0.45) * row;
         sample(out, entry, (x, y), paper);
     }
@@ -77,23 +86,17 @@ pub fn inside(
     paper: &PageLayout,
 ) -> Vec<LegendEntry> {
     let (row, edge) = (15.0 * paper.scale, 5.0 * paper.scale);
-    let size =
-        (widest(&entries, paper) + 2.0 * edge, real(entries.len()) * row + 4.0 * paper.scale);
-    let room = if entries.is_empty() {
-        None
-    } else {
-        surroundings.room(size)
+    let width = widest(entries.iter(), paper) + 2.0 * edge;
+    let size = (width, real(entries.len()) * row + 4.0 * paper.scale);
+    let is_needed = !entries.is_empty();
+    let Some((left, top)) = is_needed.then(|| surroundings.room(size)).flatten() else {
+        return entries;
     };
-    let Some((left, top)) = room else { return entries };
     let tint = Tint { color: WHITE, opacity: 0.8 };
     out.push(Shape::rectangle((left, top), size).filled(tint).into());
     for (number, entry) in entries.iter().enumerate() {
-        sample(
-            out,
-            entry,
-            (left + edge, top + 2.0 * paper.scale + (real(number) + 0.5) * row),
-            paper,
-        );
+        let y = top + 2.0 * paper.scale + (real(number) + 0.5) * row;
+        sample(out, entry, (left + edge, y), paper);
     }
     Vec::new()
 }

@@ -44,13 +44,15 @@ use svg::svg;
 
 use crate::fit::{FitResult, OMEGA0, parameters};
 use crate::flow::Problem;
+use crate::model::{Group, Knob, State};
 use crate::picture;
 use crate::picture::fit::pictures;
 use crate::report::json::text;
-use crate::scene::Sheet;
+use crate::scene::{ScaledMachine, Sheet};
 use crate::session::read::completion::difference;
 use crate::session::{Key, Session};
 use crate::words::provenance::Provenance;
+use crate::words::{joined, significant};
 
 /// How a figure is written: the ending of its file, or the format on standard output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, EnumString, ValueEnum)]
@@ -103,15 +105,16 @@ pub fn file(figure: &Figure, form: FigureForm) -> Result<Vec<u8>, String> {
 
 /// Each panel as SVG of its own with its part of the legend, so that a page of any width can hold them.
 pub fn panels(figure: &Figure) -> Vec<String> {
+    // Its own title is enough.
     let alone = |panel: &Panel| Figure {
-        title: panel.title.clone(),
+        title: String::new(),
         panels: vec![panel.clone()],
         sheet: Sheet::default(),
         ..figure.clone()
     };
     let written = |(number, panel): (usize, &Panel)| {
-        let figure = alone(panel);
-        svg(&page::alone(&figure), &figure, &format!("panel{number}"))
+        let (figure, title) = (alone(panel), panel.title.clone());
+        svg(&page::page(&figure), &Figure { title, ..figure }, &format!("panel{number}"))
     };
     figure.panels.iter().enumerate().map(written).collect()
 }
@@ -142,6 +145,24 @@ fn beside(session: &Session) -> String {
     format!("; {a}: {}; {b}: {}", difference(&second, &first), difference(&first, &second))
 }
 
+/// The numbers of a machine and of its motion, in SI units.
+fn numbers(ScaledMachine { machine, reduced }: &ScaledMachine, problem: &Problem) -> String {
+    let (Problem { initial: State { q, v }, until, .. }, units) = (problem, &reduced.units);
+    let knobs = [Group::Machine, Group::Law].into_iter().flat_map(Group::knobs);
+    let belt = knobs.filter_map(|knob| Some((knob, knob.of_belt(&machine.belt)?)));
+    let course = [
+        (Knob::X, q * units.displacement),
+        (Knob::V, v * units.velocity),
+        (Knob::Duration, until * units.time),
+    ];
+    let told = |(knob, value): (Knob, f64)| {
+        let spec = knob.spec();
+        format!("{} = {} {}", spec.name, significant(value, 12), spec.unit)
+    };
+    let numbers = belt.chain(course).map(told);
+    joined(numbers.map(|number| number.trim_end().to_owned()), ", ")
+}
+
 impl Figure {
     /// The same, which says what wrote it.
     pub fn from(self, provenance: Provenance) -> Self {
@@ -161,6 +182,7 @@ impl Figure {
                 None => UNITS.to_owned(),
             },
             parameters,
+            machine: session.running().map(|scaled| numbers(scaled, &session.problem)),
             initial,
             until,
             method: method.to_string(),
@@ -183,6 +205,7 @@ impl Figure {
                 "lengths in the unit of the record, times in s, velocities and impulses over omega0"
                     .into(),
             parameters: parameters(p),
+            machine: None,
             initial: estimate.start.beginning(p, &[]).1,
             until: p[OMEGA0] * estimate.data.duration(),
             method: "half swings with exact derivatives".into(),

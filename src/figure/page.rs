@@ -8,36 +8,13 @@ use super::{Figure, legend, map, panel::draw};
 use crate::numerics::real;
 use crate::scene::{JournalStyle, LegendPlace, PanelLetters};
 
-/// A page of all panels, below a title if it has one.
+/// A page of all panels below a title, if it has one, and above the legend and the scales of maps.
 pub fn page(figure: &Figure) -> Page {
     let paper = PageLayout::of(figure);
-    let (width, scale) = (paper.panel().0 * real(paper.columns), paper.scale);
-    let usual = Some(&figure.title).filter(|_| paper.style == JournalStyle::Plain);
-    let title = figure.sheet.title.as_ref().or(usual);
-    let lines = title.map(|title| paper.wrapped(title, TITLES[0], width)).unwrap_or_default();
-    let mut out = Vec::new();
-    for (line, words) in lines.iter().enumerate() {
-        let at = (width / 2.0, (22.0 + 18.0 * real(line)) * scale);
-        out.push(TextLine::new(at, Anchor::Middle, TITLES[0] * scale, words).into());
-    }
-    let head = if lines.is_empty() {
-        0.0
-    } else {
-        16.0 + 18.0 * real(lines.len())
-    };
-    whole(figure, out, head * scale, paper)
-}
-
-/// A page of the only panel of a figure, which needs no title above its own.
-pub fn alone(figure: &Figure) -> Page {
-    whole(figure, Vec::new(), 0.0, PageLayout::of(figure))
-}
-
-/// A page with all panels below what stands above them, and with the legend and the scales of maps below.
-fn whole(figure: &Figure, mut out: Vec<Element>, head: f64, paper: PageLayout) -> Page {
-    let (width, height) = paper.panel();
+    let (scale, (width, height)) = (paper.scale, paper.panel());
     let width = width * real(paper.columns);
-    let mut below = Vec::new();
+    let (mut out, mut below) = (Vec::new(), Vec::new());
+    let head = title(&mut out, figure, width, &paper);
     for ((number, panel), entries) in figure.panels.iter().enumerate().zip(legend::of(figure)) {
         let frame = Frame::of(number, head, panel.window, paper);
         draw(&mut out, panel, frame);
@@ -54,9 +31,22 @@ fn whole(figure: &Figure, mut out: Vec<Element>, head: f64, paper: PageLayout) -
     bottom += legend::below(&mut out, &below, (width, bottom), &paper);
     for shown in figure.panels.iter().filter_map(|panel| panel.map.as_ref()) {
         map::scale(&mut out, shown, (paper.margin.left, bottom), &paper);
-        bottom += map::SCALE * paper.scale;
+        bottom += map::SCALE * scale;
     }
-    Page { size: (width, bottom + 12.0 * paper.scale), unit: paper.unit, elements: out }
+    Page { size: (width, bottom + 12.0 * scale), unit: paper.unit, elements: out }
+}
+
+/// Writes the title of a page of this width, if it has one. How high that is.
+fn title(out: &mut Vec<Element>, figure: &Figure, width: f64, paper: &PageLayout) -> f64 {
+    let usual = Some(&figure.title).filter(|_| paper.style == JournalStyle::Plain);
+    let title = figure.sheet.title.as_ref().or(usual).filter(|title| !title.is_empty());
+    let Some(title) = title else { return 0.0 };
+    let lines = paper.wrapped(title, TITLES[0], width);
+    for (line, words) in lines.iter().enumerate() {
+        let at = (width / 2.0, (22.0 + 18.0 * real(line)) * paper.scale);
+        out.push(TextLine::new(at, Anchor::Middle, TITLES[0] * paper.scale, words).into());
+    }
+    (16.0 + 18.0 * real(lines.len())) * paper.scale
 }
 
 /// Writes the letter of the panel with this number, from 0.

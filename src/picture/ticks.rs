@@ -58,6 +58,16 @@ impl Scale {
         }
     }
 
+    /// What the place of a value along the axis is labelled.
+    pub fn value(self, place: f64) -> f64 {
+        match self {
+            Scale::Even => place,
+            Scale::Times { factor, .. } => factor * place,
+            Scale::Logarithmic("") => pow(10.0, place),
+            Scale::Logarithmic(_) => -pow(10.0, place),
+        }
+    }
+
     /// What the axis of a quantity is called where its ticks are labelled.
     pub fn title(self, name: &str) -> &str {
         if let Scale::Times { name, .. } = self {

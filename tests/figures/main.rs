@@ -363,7 +363,7 @@ fn files_of_every_form_are_written_and_nothing_is_lost() {
     let dots = fs::read(name("a.png")).unwrap();
     assert_eq!(dots[..8], *b"\x89PNG\r\n\x1a\n");
     let size = |at: usize| u32::from_be_bytes(dots[at..at + 4].try_into().unwrap());
-    assert_eq!((size(16), size(20)), (3 * 920, 3 * 456));
+    assert_eq!((size(16), size(20)), (3 * 920, 3 * 438));
     // Printed and written data are equal.
     let printed = run(&["figure", "fig09", "--format", "csv"]);
     let written = fs::read_to_string(name("a.csv")).unwrap();

@@ -223,3 +223,26 @@ fn the_facts_name_every_line_with_its_look_and_its_numbers() {
         }
     }
 }
+
+#[test]
+fn the_facts_about_a_machine_are_in_si_units() {
+    let drawn = figure("slow-belt", Fineness::SCREEN);
+    let told = facts(&drawn);
+    let numbers: Vec<&str> =
+        told.lines().find(|it| it.starts_with("m = ")).unwrap().split(", ").collect();
+    // As in the file of the machine, but for the speed; the motion lasts 100 over omega0 = 50 1/s.
+    for number in
+        ["m = 2 kg", "c = 5000 N/m", "d3 = 600 N s^3/m^3", "R = 1 N", "v0 = 0.2 m/s", "x = 0.001 m"]
+    {
+        assert!(numbers.contains(&number), "{number}: {told}");
+    }
+    assert_eq!(numbers.last(), Some(&"until = 2 s"));
+    assert!(told.contains("panel 1: phase plane, whole model, v [mm/s] over x [mm]"), "{told}");
+    assert!(told.contains("panel 3: mass on belt, over x [mm]"), "{told}");
+    // Displacements count in x0 = F mu(v0)/c, in mm.
+    let x0 = 1e3 * 100.0 * (0.2 + 0.2 * exp(-0.2 / 0.3)) / 5000.0;
+    let ends = told.lines().find_map(|it| it.strip_prefix("  from ")).unwrap();
+    let right: f64 = ends.split(' ').nth(2).unwrap().parse().unwrap();
+    let expected = x0 * drawn.panels[0].x.to;
+    assert!((right / expected - 1.0).abs() < 1e-5, "{right} for {expected}");
+}

@@ -26,6 +26,7 @@ fn run_in(folder: &Path, line: &[&str]) -> Ran {
 
 fn session(scene: Scene) -> Session {
     let mut session = Session::new(Arc::new(scene), Size { width: 100, height: 30 });
+    // As on paper: the whole motion, also where a scene plays it.
     session.playback = Playback::default();
     complete(&mut session, Fineness::PRINT, &Limits::PATIENT).unwrap();
     session
