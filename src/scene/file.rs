@@ -4,9 +4,10 @@
 //! A scene leaves out what follows from its source, which is an oscillator, a machine or a record: its numbers, and what is
 //! drawn of it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use serde::Serialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -14,9 +15,12 @@ use super::examine::{examine, place};
 use super::machine::{Machine, ScaledMachine, file};
 use super::mistake::{Complaint, FileMistake, Result};
 use super::placed::Placed;
+use super::plot_setup::{Arrangement, Axes};
 use super::scene::{Scene, named_or_whole};
 use super::views::Layer;
 use crate::fit::{Signal, length_in_metres};
+use crate::flow::Problem;
+use crate::model::Knob;
 use crate::question::Recording;
 use crate::question::record::{RecordOptions, apart};
 
@@ -27,6 +31,27 @@ pub type Fetch<'a> = dyn FnMut(&str) -> Result<String, String> + 'a;
 const MACHINE: &str = include_str!("../../assets/templates/machine.toml");
 const RECORD: &str = include_str!("../../assets/templates/record.toml");
 const PLAIN: &str = include_str!("../../assets/scenes/plain.toml");
+
+/// What a scene may leave out; a saved session, which holds a scene too, leaves out nothing.
+#[derive(Default, Serialize)]
+struct UsualScene {
+    name: String,
+    title: String,
+    look: String,
+    press: String,
+    terms: BTreeSet<Knob>,
+    problem: Problem,
+    steps: BTreeMap<Knob, f64>,
+    layers: BTreeSet<Layer>,
+    arrangement: Arrangement,
+    plots: [UsualPlot; 1],
+}
+
+/// The same of each of its plots.
+#[derive(Default, Serialize)]
+struct UsualPlot {
+    axes: Axes,
+}
 
 /// Reads a scene of the program, which names no file.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, FileMistake> {
@@ -77,14 +102,15 @@ fn scene(mut read: Spanned<DeTable>, fetch: &mut Fetch) -> Result<Scene> {
             given.entry(name).or_insert(value);
         }
     }
-    let problem = machine.as_ref().map(|it| it.problem()).unwrap_or_default();
-    let usual = BTreeMap::from([("problem", problem)]);
+    let usual = UsualScene {
+        problem: machine.as_ref().map(|it| it.problem()).unwrap_or_default(),
+        ..UsualScene::default()
+    };
     let usual = toml::to_string(&usual as &dyn erased_serde::Serialize);
     let usual = usual.expect("it is made of tables");
-    // What is added lives as long as this text.
-    let mut read = read;
-    complete(read.get_mut(), DeTable::parse(&usual)?.get_ref());
-    let mut scene: Scene = Placed::from(read).read()?;
+    let mut own = Placed::from(read);
+    complete(own.0.get_mut(), Placed::from(DeTable::parse(&usual)?).0.get_ref());
+    let mut scene: Scene = own.read()?;
     if let Some(scaled) = machine.as_ref().filter(|_| scene.terms.is_empty()) {
         scene.terms = scaled.terms();
     }
@@ -93,13 +119,23 @@ fn scene(mut read: Spanned<DeTable>, fetch: &mut Fetch) -> Result<Scene> {
     Ok(scene)
 }
 
-/// Adds what a table leaves out of the usual one.
-fn complete<'a>(own: &mut DeTable<'a>, usual: &DeTable<'a>) {
-    for (name, usual) in usual {
-        let own = own.entry(name.clone()).or_insert_with(|| usual.clone());
-        if let (DeValue::Table(own), DeValue::Table(usual)) = (own.get_mut(), usual.get_ref()) {
-            complete(own, usual);
+/// Adds what a table leaves out of the usual one; each table of a list is completed by the first of the usual list.
+fn complete<'a>(own: &mut DeValue<'a>, usual: &DeValue<'a>) {
+    match (own, usual) {
+        (DeValue::Table(own), DeValue::Table(usual)) => {
+            for (name, usual) in usual {
+                match own.get_mut(name) {
+                    Some(own) => complete(own.get_mut(), usual.get_ref()),
+                    None => drop(own.insert(name.clone(), usual.clone())),
+                }
+            }
         }
+        (DeValue::Array(own), DeValue::Array(usual)) => {
+            for (own, usual) in own.iter_mut().zip(usual.iter().cycle()) {
+                complete(own.get_mut(), usual.get_ref());
+            }
+        }
+        _ => {}
     }
 }
 

@@ -169,25 +169,30 @@ pub const MOST_PLOTS: usize = 4;
 
 /// The axes of a plot. A view that leaves no choice ignores them and keeps them for other views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields)]
 pub struct Axes {
     /// The parameter to the right.
     pub abscissa: Knob,
     /// The property of the cycles upwards.
     pub ordinate: Ordinate,
     /// The unit of the ordinate, where that is a length.
+    #[serde(default)]
     pub unit: Unit,
     /// The parameter upwards, in a chart over two parameters.
     pub against: Knob,
     /// The number of a machine to the right, in a diagram of its cycles.
-    #[serde(skip_serializing_if = "is_usual")]
+    #[serde(default = "belt_speed", skip_serializing_if = "is_usual")]
     #[serde(deserialize_with = "number_of_machine")]
     pub machine: Knob,
 }
 
+fn belt_speed() -> Knob {
+    Knob::BeltSpeed
+}
+
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
 fn is_usual(machine: &Knob) -> bool {
-    *machine == Knob::BeltSpeed
+    *machine == belt_speed()
 }
 
 fn number_of_machine<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Knob, D::Error> {
@@ -245,7 +250,6 @@ impl Axes {
 pub struct PlotSetup {
     pub view: View,
     /// The axes, where the view leaves a choice.
-    #[serde(default)]
     pub axes: Axes,
     /// The part to show; `None` for a window fitted to the content.
     pub window: Option<Window>,

@@ -20,12 +20,12 @@ use crate::scan::LevelTarget;
 
 /// The setup that shows one phenomenon.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The name by which it is opened; that of its file.
     pub name: String,
     /// The figure of the paper that it shows; the scene can also be opened by this name.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub also: Option<String>,
     pub title: String,
     /// What to look at, in a sentence or two.
@@ -43,36 +43,36 @@ pub struct Scene {
     /// The plots, one to four, in the order in which they get the focus.
     pub plots: Vec<PlotSetup>,
     /// Families of variants that plots show in place of the present values, each variant drawn over the others.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub families: Vec<Vec<Variant>>,
     /// The level curves in charts and in scans over two numbers, such as `impulse=0.2`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub levels: Vec<LevelTarget>,
     /// Whether the motion is played from the beginning.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub plays: bool,
     /// The scene that enter leads to, if this is a first screen; such a screen begins with what it says.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub next: Option<String>,
     /// How the plots share the screen.
     pub arrangement: Arrangement,
     /// How its figure is printed.
-    #[serde(skip_serializing_if = "Sheet::is_usual")]
+    #[serde(default, skip_serializing_if = "Sheet::is_usual")]
     pub sheet: Sheet,
     /// The machine that the numbers describe, if any.
-    #[serde(deserialize_with = "named_or_whole", skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "named_or_whole", skip_serializing_if = "Option::is_none")]
     pub machine: Option<Box<ScaledMachine>>,
     /// The record to which the oscillator is fitted, if any.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<Recording>,
     /// Starts of the motions that are shown beside the first.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<State>,
     /// The scans of a study.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scans: Vec<ScanOptions>,
     /// The files that `hopfscope figure` makes of it, named from its own folder.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outputs: Vec<String>,
 }
 
