@@ -151,7 +151,9 @@ impl ScanMap {
         let [across, upward, rest @ ..] = scanned.scan.over() else { return None };
         let stride: usize = rest.iter().map(|sweep| sweep.count).product();
         let places = |sweep: &Sweep| -> Vec<f64> {
-            (0..sweep.count).map(|index| ScanOnShow::coordinate(sweep, sweep.value(index))).collect()
+            (0..sweep.count)
+                .map(|index| ScanOnShow::coordinate(sweep, sweep.value(index)))
+                .collect()
         };
         let cell = |index: usize| match (nothing(scanned, index), scanned.value(index)) {
             (Some(none), _) => MapCell::Word(none),

@@ -37,7 +37,9 @@ pub fn examine(scene: &Scene) -> Result<(), (String, String)> {
     let number = |path: String, knob: Knob, value: f64| {
         knob.check(value).map(drop).map_err(|why| (path, why.to_string()))
     };
-    for (table, knob) in NUMBERS.iter().flat_map(|(table, all)| all.iter().map(move |it| (table, *it))) {
+    for (table, knob) in
+        NUMBERS.iter().flat_map(|(table, all)| all.iter().map(move |it| (table, *it)))
+    {
         let name = knob.spec().name.trim_end_matches('0');
         number(format!("{table}.{name}"), knob, scene.problem.get(knob))?;
     }

@@ -112,7 +112,8 @@ impl ScanOnShow {
         let over = self.scan.over();
         let along = |sweep: &Sweep, room: f64| {
             let last = sweep.count - 1;
-            let span = Span::covering([0, last].map(|index| Self::coordinate(sweep, sweep.value(index))));
+            let span =
+                Span::covering([0, last].map(|index| Self::coordinate(sweep, sweep.value(index))));
             span.map(|span| span.widened(1.0 + room / real(last)))
         };
         if self.is_grid() {
