@@ -39,7 +39,7 @@
 //!   ([`portrait::Portrait`]). Without a belt everything rests on the half-swing map, which contains no friction, is
 //!   increasing, and is inverted by itself with the damping reversed ([`portrait::closing`]); within a half plane every motion
 //!   is a graph over q, so basins and margins are comparisons ([`portrait::basin`]). On a belt one return map, which never
-//!   decreases, orders all cycles, and what a start ends as is read off the next turning point ([`portrait::return_map`]).
+//!   decreases, orders all cycles, and what a start ends as is read off the next turning point ([`mod@portrait::return_map`]).
 //! - [`branch`] follows cycles along a number by continuation; folds are roots of their own ([`branch::extended`],
 //!   [`mod@branch::fold`]), and boundaries of regimes are curves over two numbers ([`mod@branch::chart`]).
 //! - [`scan`] measures at many points, and follows level curves over two numbers; [`accuracy`] holds methods against each
