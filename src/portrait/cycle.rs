@@ -135,12 +135,9 @@ impl Cycle {
             let sample = if tau <= left.tau { below } else { above };
             Some(Sample { tau, ..sample? })
         };
-        let points = times.iter().zip(below.into_iter().zip(above)).map(point).collect();
-        if apart <= CLOSES * (self.q_max - self.q_min) {
-            points
-        } else {
-            None
-        }
+        let points: Option<Vec<_>> =
+            times.iter().zip(below.into_iter().zip(above)).map(point).collect();
+        points.filter(|_| apart <= CLOSES * (self.q_max - self.q_min))
     }
 
     /// The same with lengths multiplied by one number, and times divided by another.

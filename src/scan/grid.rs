@@ -102,7 +102,7 @@ impl Scan {
     ///
     /// # Errors
     /// What [`Scan::new`] refuses, in one line.
-    pub fn measuring(&self, measure: Measure, count: usize) -> Result<Self, String> {
+    pub fn on_lattice(&self, measure: Measure, count: usize) -> Result<Self, String> {
         let over = self.over.iter().map(|sweep| Sweep { count, ..*sweep }).collect();
         Scan::new(self.base.clone(), over, vec![measure], self.conditions.clone())
     }

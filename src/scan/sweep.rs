@@ -92,35 +92,31 @@ impl Sweep {
         Sweep::new(symbol, ends(symbol, range, [from, to])?, count, spacing)
     }
 
-    /// The value this far, from 0 to 1, on the way from the first to the last, both of them exactly.
+    /// The value this far, from 0 to 1, on the way from the first to the last.
     pub fn at(&self, part: f64) -> f64 {
-        if part <= 0.0 || part >= 1.0 {
-            return if part <= 0.0 { self.from } else { self.to };
-        }
+        self.between(part, 1.0 - part)
+    }
+
+    /// Value number `index`.
+    pub fn value(&self, index: usize) -> f64 {
+        let last = self.count - 1;
+        let value = self.between(real(index), real(last.saturating_sub(index)));
+        let rounding = 4.0 * f64::EPSILON * self.from.abs().max(self.to.abs());
         match self.spacing {
-            Spacing::Even => self.from + part * (self.to - self.from),
-            Spacing::Logarithmic => self.from * pow(self.to / self.from, part),
+            // Where the ends have few digits the values between have few: -0.4, not -0.39999999999999997.
+            Spacing::Even if (1..last).contains(&index) => brief(value, rounding),
+            _ => value,
         }
     }
 
-    /// Value number `index`, the first and the last of them exactly.
-    pub fn value(&self, index: usize) -> f64 {
-        if index == 0 {
-            return self.from;
+    /// The value that divides the way in this ratio; the first and the last exactly.
+    fn between(&self, done: f64, left: f64) -> f64 {
+        if left <= 0.0 || done <= 0.0 {
+            return if left <= 0.0 { self.to } else { self.from };
         }
-        let last = self.count - 1;
-        if index >= last {
-            return self.to;
-        }
-        let [done, left, all] = [index, last - index, last].map(real);
-        let mean = |from: f64, to: f64| (from * left + to * done) / all;
+        let mean = |from: f64, to: f64| (from * left + to * done) / (left + done);
         match self.spacing {
-            Spacing::Even => {
-                let value = mean(self.from, self.to);
-                let rounding = 4.0 * f64::EPSILON * self.from.abs().max(self.to.abs());
-                // Where the ends have few digits the values between have few: -0.4, not -0.39999999999999997.
-                brief(value, rounding)
-            }
+            Spacing::Even => mean(self.from, self.to),
             Spacing::Logarithmic => {
                 let exponent = mean(log10(self.from.abs()), log10(self.to.abs()));
                 pow(10.0, exponent).copysign(self.from)

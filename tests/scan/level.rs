@@ -118,7 +118,7 @@ fn a_curve_ends_on_the_fold_whose_cycle_has_the_value() {
 /// A motion that is reflected is that of the opposite D2.
 #[test]
 fn curves_over_d2_are_their_own_mirror_images() {
-    let found = followed(BASE, "impulse=0.3", ["D2=-1:1", "D=-0.4:0"], 1e-3);
+    let found = followed(BASE, "impulse=0.3", ["D2=-1:1", "D=-0.4:0"], 1e-5);
     let heights = |d2: f64| -> Vec<f64> {
         let pairs = found.curves.iter().flat_map(|curve| curve.points.windows(2));
         let over = pairs.filter(|it| (it[0][0] < d2) != (it[1][0] < d2));
@@ -128,8 +128,8 @@ fn curves_over_d2_are_their_own_mirror_images() {
     for d2 in [0.1, 0.35, 0.7, 0.9] {
         let [right, left] = [heights(d2), heights(-d2)];
         assert_eq!((right.len(), left.len()), (1, 1), "{d2}");
-        // Both are chords, which lie within a thousandth of the range of the curve.
-        assert!((right[0] - left[0]).abs() < 2e-3 * 0.4, "{d2}: {right:?} {left:?}");
+        // Both are chords, which lie within 1e-5 of the range of the curve.
+        assert!((right[0] - left[0]).abs() < 2e-5 * 0.4, "{d2}: {right:?} {left:?}");
     }
 }
 

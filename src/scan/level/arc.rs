@@ -1,6 +1,6 @@
 //! Where a level curve crosses an arc around one of its points.
 
-use super::target::{LevelEnd, LevelTarget};
+use super::target::LevelEnd;
 use crate::flow::{Cost, Limits, Result};
 use crate::numerics::{PlaceTolerance, illinois, sin_cos, try_bisect};
 use crate::scan::Scan;
@@ -55,16 +55,18 @@ impl LevelArc {
 }
 
 /// What measures, and what that has cost so far.
-pub(super) struct Meter<'a> {
+pub(super) struct LevelMeter<'a> {
     pub scan: &'a Scan,
-    pub target: LevelTarget,
+    /// The place of the column in a row, and the value.
+    pub column: usize,
+    pub value: f64,
     /// Largest distance between a curve and its chords.
     pub chord: f64,
     pub limits: &'a Limits<'a>,
     pub cost: Cost,
 }
 
-impl Meter<'_> {
+impl LevelMeter<'_> {
     /// The values of both numbers at a place.
     pub fn values(&self, place: Place) -> [f64; 2] {
         [0, 1].map(|axis| self.scan.over()[axis].at(place[axis]))
@@ -73,15 +75,9 @@ impl Meter<'_> {
     /// What is measured at a place, and what it costs.
     pub fn measured(&self, place: Place) -> Result<(Excess, Cost)> {
         let row = self.scan.row_at(self.values(place), self.limits)?;
-        let mut cells = self.scan.measured().into_iter().zip(&row.values);
-        let number = cells.find(|(column, _)| *column == self.target.column);
-        let number = number.and_then(|(_, value)| value.number());
-        let why = if row.reason.is_some() {
-            LevelEnd::Unknown
-        } else {
-            LevelEnd::Ceases
-        };
-        Ok((number.map(|number| number - self.target.value).ok_or(why), row.cost))
+        let excess = row.values[self.column].number().map(|number| number - self.value);
+        let why = row.reason.as_ref().map_or(LevelEnd::Ceases, |_| LevelEnd::Unknown);
+        Ok((excess.ok_or(why), row.cost))
     }
 
     pub fn excess(&mut self, place: Place) -> Result<Excess> {
@@ -128,8 +124,11 @@ impl Meter<'_> {
         let slope = ((far.1 - near.1) / (far.0 - near.0)).abs();
         let small = if slope.is_finite() { slope * width } else { 0.0 };
         let [best, other] = illinois([near, far], small, PlaceTolerance::Absolute(width), value)?;
-        let goes_through = best.1.abs() <= small;
-        let step = if goes_through { 0.0 } else { (best.1 - other.1).abs() };
+        let step = if best.1.abs() <= small {
+            0.0
+        } else {
+            (best.1 - other.1).abs()
+        };
         if !step.is_finite() {
             return Ok(Err(why));
         }

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use rayon::prelude::*;
 
-use super::arc::{ERROR, Excess, LevelArc, Meter, Place};
+use super::arc::{ERROR, Excess, LevelArc, LevelMeter, Place};
 use super::target::{LevelCurve, LevelEnd, LevelTarget, Levels};
 use super::trail::{FIRST, Trail, passes, polar};
 use crate::flow::{Cost, Limits, Reason, Result};
@@ -22,14 +22,15 @@ impl Scan {
         let [_, up] = self.over() else {
             return Err(Reason::NotApplicable { needs: "a scan over two numbers" });
         };
-        if !self.measures().contains(&target.measure) {
+        let Some(column) = self.measured().iter().position(|column| *column == target.column)
+        else {
             return Err(Reason::NotApplicable { needs: "a scan that measures the column" });
-        }
-        let cost = Cost::default();
-        let mut meter = Meter { scan: self, target, chord, limits, cost };
+        };
+        let (value, cost) = (target.value, Cost::default());
+        let mut meter = LevelMeter { scan: self, column, value, chord, limits, cost };
         let nodes = meter.nodes()?;
         let numbers = nodes.iter().filter_map(|(_, excess)| excess.ok());
-        let numbers = numbers.map(|excess| [excess + target.value; 2]);
+        let numbers = numbers.map(|excess| [excess + value; 2]);
         let seen = numbers.reduce(|[low, high], [one, _]| [low.min(one), high.max(one)]);
         let mut found: Vec<(Vec<Place>, LevelCurve)> = Vec::new();
         for (index, from) in nodes.iter().enumerate() {
@@ -51,7 +52,7 @@ impl Scan {
 /// A point of the lattice with what is measured there.
 type Node = (Place, Excess);
 
-impl Meter<'_> {
+impl LevelMeter<'_> {
     /// The points of the lattice, column by column.
     fn nodes(&mut self) -> Result<Vec<Node>> {
         let [across, up] = [0, 1].map(|axis| self.scan.over()[axis].count);
@@ -76,12 +77,9 @@ impl Meter<'_> {
         let [(part, excess), _] = illinois(ends, 0.0, PlaceTolerance::Absolute(ERROR), |part| {
             Ok(self.excess(at(part))?.unwrap_or(f64::NAN))
         })?;
-        let larger = if other > one {
-            polar(from, to).1
-        } else {
-            polar(to, from).1
-        };
-        let arc = LevelArc { from: at(part), heading: larger - FRAC_PI_2, reach: FIRST, side: 1.0 };
+        let (_, uphill) = polar(from, to);
+        let heading = uphill - FRAC_PI_2.copysign(other - one);
+        let arc = LevelArc { from: at(part), heading, reach: FIRST, side: 1.0 };
         Ok(excess.is_finite().then_some(arc))
     }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::arc::{LevelArc, Meter, Place};
+use super::arc::{LevelArc, LevelMeter, Place};
 use super::target::LevelEnd;
 use crate::flow::Result;
 use crate::numerics::{atan2, hypot, sin_cos};
@@ -52,7 +52,7 @@ pub(super) fn passes(from: Place, to: Place, arc: &LevelArc) -> bool {
     is_beside && is_along && sin_cos(angle - arc.heading).1 > 0.0
 }
 
-impl Meter<'_> {
+impl LevelMeter<'_> {
     /// Follows a curve from the beginning of an arc, where it sets out in about its heading.
     pub fn trail(&mut self, begin: LevelArc) -> Result<Trail> {
         let mut trail = Trail { places: vec![begin.from], end: None, step: 0.0 };

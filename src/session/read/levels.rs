@@ -21,7 +21,7 @@ impl Session {
         let scan = match (self.plots[plot].view, &self.scanned) {
             (View::Regimes, _) => self.charted(target, plot)?,
             (View::Scan, Some(scanned)) if scanned.scan.over().len() == 2 => {
-                scanned.scan.measuring(target.measure, LATTICE)?
+                scanned.scan.on_lattice(target.measure, LATTICE)?
             }
             _ => return Err(NOWHERE.to_owned()),
         };
