@@ -2,7 +2,7 @@
 //! the file is at any moment complete, as it was or as it is to be, also on a full disk.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::{Failure, system};
@@ -151,7 +151,11 @@ fn is_free(path: &Path, beside: &Path) -> io::Result<bool> {
     match fs::metadata(path) {
         Ok(old) if old.len() == 0 => Ok(true),
         Ok(old) if old.len() != fs::metadata(beside)?.len() => Ok(false),
-        Ok(_) => Ok(fs::read(path)? == fs::read(beside)?),
+        Ok(_) => {
+            let [old, new] = [File::open(path)?, File::open(beside)?].map(BufReader::new);
+            let mut pairs = old.bytes().zip(new.bytes());
+            pairs.try_fold(true, |same, (old, new)| Ok(same && old? == new?))
+        }
         Err(why) if why.kind() == ErrorKind::NotFound => Ok(true),
         Err(why) => Err(why),
     }
