@@ -73,7 +73,7 @@ pub fn scan<'py>(
 /// The columns of a scan by name: what each row depends on, what was measured, and what could not be computed, and why.
 fn columns_of(scan: &Scan, rows: &[Option<ScanRow>]) -> Vec<(String, Vec<Value>)> {
     let names = scan.inputs(0).into_iter().map(|(name, _)| name);
-    let names = names.chain(scan.columns().into_iter().map(str::to_owned));
+    let names = names.chain(scan.measured().into_iter().map(str::to_owned));
     let mut columns: Vec<_> = names.map(|name| (name, Vec::with_capacity(rows.len()))).collect();
     let mut reasons = Vec::with_capacity(rows.len());
     for (index, row) in rows.iter().enumerate() {

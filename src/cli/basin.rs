@@ -9,8 +9,8 @@ use crate::flow::{Flow, Limits};
 use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Counts, Portrait, Return, StartWindow, evenly, proved_kicks};
 use crate::report::margin::basin;
-use crate::runtime::arrays::{Array, ArrayCells};
-use crate::runtime::packed::packed;
+use crate::runtime::arrays::{Array, ArrayCells, packed};
+use crate::words::ends_in;
 
 /// Shows where the starts in a window end, and how large a kick is survived
 #[derive(Args)]
@@ -112,7 +112,12 @@ impl BasinCommand {
     }
 
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
-        let numbers = asked.source.numbers();
+        let numbers = asked.source.numbers()?;
+        let archive = asked.output.archive();
+        if let Some(path) = archive.filter(|path| self.certify || !ends_in(path, "npz")) {
+            let why = "a basin is written as .npz, or, also with --certify, as .json or .csv";
+            return Err(Failure::file(path, why));
+        }
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
         let case = asked.source.exact()?;
         let reach = window.unwrap_or(WINDOW).reach();
@@ -122,7 +127,7 @@ impl BasinCommand {
         let window = window.unwrap_or(usual);
         let limits = asked.output.limits();
         let curves = || curves(&found, on_paper, window.q, &limits);
-        if let Some(path) = asked.output.archive() {
+        if let Some(path) = archive {
             return keep(path, &packed(path, &self.arrays(&found, &window, curves()?, &limits)?)?);
         }
         let count = || found.count(&window, self.grid, &limits);

@@ -45,7 +45,8 @@ fn followed(subject: &Source, over: &Sweep, limits: &Limits) -> Result<MachineBr
 impl BranchCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let (case, limits) = (asked.source.exact()?, asked.output.limits());
-        let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
+        let numbers = asked.source.numbers()?;
+        let over = read("--over", &self.over, |text| numbers.over(text))?;
         let Sweep { symbol, count, .. } = over;
         let about = case.about().but(&[symbol]).told_as(asked.output.format());
         let Some(problem) = case.described.subject.paper() else {
@@ -105,7 +106,8 @@ pub struct BorderCommand {
 impl BorderCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
         let (case, limits) = (asked.source.exact()?, asked.output.limits());
-        let over = read("--over", &self.over, |text| asked.source.numbers().over(text))?;
+        let numbers = asked.source.numbers()?;
+        let over = read("--over", &self.over, |text| numbers.over(text))?;
         let Some(Problem { parameters, .. }) = case.described.subject.paper() else {
             return self.of_machine(&case, &over, &asked.output);
         };

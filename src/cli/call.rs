@@ -1,26 +1,40 @@
 //! Questions of a caller in this process, such as the Python package: asked in the words of the command line, answered as
 //! documents, and interrupted when the caller says so.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use clap::{ArgMatches, Args, Command};
-
-use super::fit::FitCommand;
 use super::scan::ScanCommand;
-use super::{Call, CommandCase, Failure, Result, SourceOptions, commands, parsed, signed};
+use super::{CommandCase, Failure, Result, SourceOptions, commands, given_in, of_words};
+use crate::flow::Limits;
 use crate::report::Answer;
 use crate::scan::Scan;
 use crate::words::provenance::Provenance;
-use crate::words::usage;
 
-/// The options that follow a command's name.
-fn given(words: &[String], options: fn(Command) -> Command) -> Result<ArgMatches> {
-    let parser = signed(options(Command::new("hopfscope")));
-    parser.try_get_matches_from(words).map_err(|error| usage::line(&error).into())
+/// Where a caller waits for an answer.
+pub struct Call {
+    interrupted: Box<dyn Fn() -> bool + Send + Sync>,
+    answer: Mutex<Option<Answer>>,
 }
 
-/// The answer to a question, a command and its options, about a machine if one is given, with its provenance; and what the program would say about an
-/// answer that is incomplete, or that rests on a condition which fails.
+impl Call {
+    /// A call that ends when `interrupted` says so.
+    pub fn new(interrupted: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        Call { interrupted: Box::new(interrupted), answer: Mutex::default() }
+    }
+
+    /// What a question may cost.
+    pub fn limits(&self) -> Limits<'_> {
+        Limits { interrupted: &*self.interrupted, ..Limits::PATIENT }
+    }
+
+    /// Puts down what would be printed; returns what was there.
+    pub fn replace(&self, answer: Option<Answer>) -> Option<Answer> {
+        std::mem::replace(&mut *self.answer.lock().unwrap_or_else(PoisonError::into_inner), answer)
+    }
+}
+
+/// The answer to a question, a command and its options, about a machine if one is given, with its provenance; and what the program would
+/// say about an answer that is incomplete, or that rests on a condition which fails.
 ///
 /// # Errors
 /// The line of the program, if there is no answer.
@@ -33,14 +47,9 @@ pub fn answer(
     let name = words.first().map_or("", String::as_str);
     let asked = [words, &["--format", "json"].map(str::to_owned)].concat();
     let run = || {
-        if name == "fit" {
-            let mut fit: FitCommand = parsed(&given(&asked, FitCommand::augment_args)?)?;
-            fit.output.call = Some(Arc::clone(&call));
-            return fit.run();
-        }
         let row = commands().into_iter().find(|row| row.name == name);
         let row = row.ok_or_else(|| format!("{name:?} is not a command"))?;
-        (row.run)(&given(&asked, row.options)?, Some((&call, case)))
+        (row.run)(&given_in(&asked, row.options)?, Some((&call, case)))
     };
     let trouble = run().err();
     match (call.replace(None), trouble) {
@@ -55,7 +64,7 @@ pub fn answer(
 /// # Errors
 /// The line of the program, if the words make no sense.
 pub fn scan(words: &[String], case: Option<CommandCase>) -> Result<(Scan, Option<usize>)> {
-    let mut command: ScanCommand = parsed(&given(words, ScanCommand::augment_args)?)?;
+    let mut command: ScanCommand = of_words(words)?;
     command.source.case = case;
     Ok((command.asked()?.scan, command.jobs.map(usize::from)))
 }
@@ -66,7 +75,7 @@ pub fn scan(words: &[String], case: Option<CommandCase>) -> Result<(Scan, Option
 /// The line of the program, if there is none.
 pub fn machine(words: &[String], text: Option<&str>) -> Result<CommandCase> {
     let words = [&["machine".to_owned()], words].concat();
-    let mut options: SourceOptions = parsed(&given(&words, SourceOptions::augment_args)?)?;
+    let mut options: SourceOptions = of_words(&words)?;
     options.case = text.map(|text| CommandCase::written(&words[2], text)).transpose()?;
     options.machine()?.ok_or("which machine?")?.checked()
 }

@@ -44,7 +44,7 @@ impl ConditionOptions {
         source: &SourceOptions,
         measures: &[Measure],
     ) -> Result<(Subject, Conditions)> {
-        let numbers = source.numbers();
+        let numbers = source.numbers()?;
         let until = number("--until", self.until.as_ref(), numbers.until)?;
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
         let kicks = given("--kicks", self.kicks.as_ref(), |text| numbers.kicks(text))?;

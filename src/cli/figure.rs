@@ -5,10 +5,9 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use super::output::columns;
+use super::output::terminal_width;
 use super::scan::ScanCommand;
-use super::study::scene_named;
-use super::study_file::StudyFiles;
+use super::study_outputs::StudyFiles;
 use super::{Failure, Result, SourceOptions, print, window, write};
 use crate::figure::{FigureForm, facts, file};
 use crate::flow::Limits;
@@ -61,7 +60,7 @@ impl FigureCommand {
     pub fn run(&self) -> Result<()> {
         let (mut session, plots) = self.session()?;
         let files = self.files(&session.scene)?;
-        window::look(&mut session, &self.window)?;
+        window::show_windows(&mut session, &self.window)?;
         complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
         self.keep_in_sight(&mut session)?;
         // Of a level curve that is not there.
@@ -123,8 +122,10 @@ impl FigureCommand {
         let case = self.source.machine()?.filter(|_| study.is_none() || !start.set.is_empty());
         let Some(case) = case else { return self.source.scene() };
         let own = case.checked()?.scene()?.ok_or(NO_BELT)?;
-        let Some(study) = study else { return Ok(own) };
-        let mut scene = scene_named(&study.to_string_lossy())?;
+        if study.is_none() {
+            return Ok(own);
+        }
+        let mut scene = self.source.found()?;
         let changed = Arc::make_mut(&mut scene);
         (changed.machine, changed.problem) = (own.machine.clone(), own.problem);
         Ok(scene)
@@ -173,7 +174,7 @@ fn is_folder(path: &Path) -> bool {
 /// A session of a scene with everything on show in these windows, or its own, computed for print, and its plots.
 pub fn completed(scene: Arc<Scene>, windows: &[String]) -> Result<(Session, Vec<usize>)> {
     let mut session = printed(scene);
-    window::look(&mut session, windows)?;
+    window::show_windows(&mut session, windows)?;
     complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
     let plots = (0..session.plots.len()).collect();
     Ok((session, plots))
@@ -181,7 +182,7 @@ pub fn completed(scene: Arc<Scene>, windows: &[String]) -> Result<(Session, Vec<
 
 /// A session of a scene, for print.
 fn printed(scene: Arc<Scene>) -> Session {
-    let width = columns().and_then(|width| u16::try_from(width).ok());
+    let width = terminal_width().and_then(|width| u16::try_from(width).ok());
     let width = width.unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
     let mut session = Session::new(scene, Size { width, height: PANEL.1 });
     // On paper nothing is played: the whole motion is drawn.

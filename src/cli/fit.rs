@@ -3,11 +3,12 @@
 use std::cell::{LazyCell, RefCell};
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use clap::{ArgGroup, Args};
+use clap::{ArgGroup, ArgMatches, Args};
 
 use super::progress::{Outlet, StatusLine};
-use super::{Failure, Output, Result, half_widths, input, timed, write};
+use super::{Caller, Failure, Output, Result, half_widths, input, parsed, timed, write};
 use crate::figure::{self, Figure, FigureForm};
 use crate::fit::{DRAWS, FitResult, Inertia, MarginQuestion, NoEstimate, Record, length_in_metres};
 use crate::model::{DimensionalNumber, Knob, LENGTH, measured};
@@ -60,6 +61,13 @@ fn not_negative(text: &str) -> Result<DimensionalNumber, String> {
     } else {
         Err(format!("{text:?} is negative"))
     }
+}
+
+/// Runs the command, for a caller in this process if there is one.
+pub fn run(given: &ArgMatches, caller: Option<Caller>) -> Result<()> {
+    let mut fit: FitCommand = parsed(given)?;
+    fit.output.call = caller.map(|(call, _)| Arc::clone(call));
+    fit.run()
 }
 
 impl FitCommand {

@@ -28,7 +28,7 @@ pub struct LevelCommand {
 
 impl LevelCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
-        let numbers = asked.source.numbers();
+        let numbers = asked.source.numbers()?;
         let over = |text: &String| read("--over", text, |text| numbers.range(text, LATTICE));
         let over = self.over.iter().map(over).collect::<Result<Vec<_>>>()?;
         if over.len() != 2 {

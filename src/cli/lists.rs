@@ -80,7 +80,7 @@ impl KeysCommand {
             .word("command", |(_, command, _)| command.name)
             .word("keys", |(.., keys)| keys.clone())
             .word("meaning", |(_, command, _)| command.doc);
-        let list = Answer::list_of(&columns, &rows, output::columns());
+        let list = Answer::list_of(&columns, &rows, output::terminal_width());
         print(&list.told(self.format))?;
         if let (Some(path), Format::Table) = (self.settings.path(), self.format) {
             let there = if path.exists() { "" } else { " (not there)" };
@@ -127,7 +127,7 @@ pub struct ExtremesCommand {
 impl ExtremesCommand {
     pub fn run(&self) -> Result<()> {
         let (limits, format) = (&Limits::PATIENT, self.format);
-        let width = output::columns().unwrap_or(SCREEN);
+        let width = output::terminal_width().unwrap_or(SCREEN);
         let answer = if self.cycles {
             let sets: Vec<Parameters> = sets(!self.long).collect();
             let verdicts: Vec<_> = sets.par_iter().map(|set| judge_set(set, limits)).collect();

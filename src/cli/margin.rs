@@ -20,7 +20,7 @@ pub struct MarginCommand {
 
 impl MarginCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
-        let knob = asked.source.numbers().disturbance;
+        let knob = asked.source.numbers()?.disturbance;
         let bound = number("--disturbance", self.disturbance.as_ref(), knob)?;
         if let Some(mut case) = asked.source.portrayed()? {
             let known = &mut case.described.subject.tolerances;
@@ -74,7 +74,8 @@ pub struct KicksCommand {
 
 impl KicksCommand {
     pub fn run(&self, asked: &QuestionOptions) -> Result<()> {
-        let law = read("--kicks", &self.kicks, |text| asked.source.numbers().kicks(text))?;
+        let numbers = asked.source.numbers()?;
+        let law = read("--kicks", &self.kicks, |text| numbers.kicks(text))?;
         let case = asked.source.exact()?;
         let r = case.described.subject.source.get(Knob::R).unwrap_or(0.0);
         let (portrait, before) = case.portrait(&asked.output, law.reach() + r)?;

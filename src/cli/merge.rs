@@ -13,7 +13,8 @@ use super::{Failure, Result};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
-use crate::runtime::{NewFile, PartFile, Readers, merge, packed, provenance_file, tell};
+use crate::runtime::arrays::is_of_arrays;
+use crate::runtime::{NewFile, PartFile, Readers, merge, provenance_file, tell};
 use crate::words::provenance::{Checksum, Provenance};
 
 /// Merges the parts of a scan, or lists the rows that are missing and how to compute them
@@ -48,7 +49,7 @@ impl MergeCommand {
         let recheck = self.check.then_some(&Limits::PATIENT);
         let mut output = None;
         if let Some(path) = &self.output {
-            if packed::form_of(path).is_some() {
+            if is_of_arrays(path) {
                 return Err(Failure::file(path, "rows are merged as .csv, .json or .jsonl"));
             }
             let file = NewFile::begin(path, Readers::Usual).map_err(Failure::unwritten(path))?;

@@ -8,7 +8,6 @@ mod basin;
 mod belt;
 mod branch;
 mod call;
-mod caller;
 mod conditions;
 mod cycles;
 mod explore;
@@ -33,7 +32,7 @@ mod shell;
 mod sound;
 mod source;
 mod study;
-mod study_file;
+mod study_outputs;
 mod times;
 mod window;
 
@@ -47,7 +46,7 @@ pub use call::{answer, machine, scan};
 pub use machine::CommandCase;
 
 pub(super) use crate::runtime::failure::{Failure, Result};
-pub(super) use caller::Call;
+pub(super) use call::Call;
 pub(super) use input::{given, half_widths, number, read, signed};
 pub(super) use machine::{second, troubled};
 pub(super) use output::{CERTIFY, Output, in_turn, print, timed, write};
@@ -86,6 +85,8 @@ fn question<C: Args + 'static>(
         if let Some((call, case)) = caller {
             asked.output.call = Some(Arc::clone(call));
             asked.source.case = case;
+        } else {
+            asked.output.check()?;
         }
         run(&parsed(given)?, &asked)
     };
@@ -95,6 +96,17 @@ fn question<C: Args + 'static>(
 /// A command whose answer `--output` writes, too; that of a fit writes its picture.
 fn written(command: Command) -> Command {
     command.mut_arg("write", |option| option.visible_alias("output"))
+}
+
+/// The options that follow the name of a command.
+fn given_in(words: &[String], options: fn(Command) -> Command) -> Result<ArgMatches> {
+    let parser = signed(options(Command::new("hopfscope")));
+    parser.try_get_matches_from(words).map_err(|error| usage::line(&error).into())
+}
+
+/// A command of its name and its options.
+fn of_words<C: Args>(words: &[String]) -> Result<C> {
+    parsed(&given_in(words, C::augment_args)?)
 }
 
 /// The options of a command, of those that were given.
@@ -123,7 +135,7 @@ fn commands() -> [Subcommand; 25] {
             options: |command| written(belt::BeltCommand::augment_args(command)),
             ..row("belt", belt::BeltCommand::run)
         },
-        row("fit", fit::FitCommand::run),
+        Subcommand { run: Box::new(fit::run), ..row("fit", fit::FitCommand::run) },
         row("figure", figure::FigureCommand::run),
         row("sound", sound::SoundCommand::run),
         row("replay", replay::ReplayCommand::run),

@@ -32,7 +32,7 @@ impl<'a> AskedMotion<'a> {
     ) -> Result<Self> {
         let mut case = source.case()?;
         let motion = &mut case.described.subject.motion;
-        let end = number("--until", until, source.numbers().until)?;
+        let end = number("--until", until, source.numbers()?.until)?;
         motion.until = end.unwrap_or(motion.until);
         let case = case.checked()?;
         let (mut problem, model) = case.described.subject.problem().map_err(troubled)?;
@@ -88,7 +88,7 @@ impl TrajectoryCommand {
         if !is_machine && !matches!(found.outcome, Outcome::GaveUp { .. }) {
             found = asked.follow(problem, true);
         }
-        let times = self.times.asked(question.source.numbers().until, problem.until)?;
+        let times = self.times.asked(question.source.numbers()?.until, problem.until)?;
         if is_machine && times.is_some() && problem.method != Method::Taylor {
             return Err("at times a machine is followed by --method auto or taylor".into());
         }

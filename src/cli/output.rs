@@ -12,7 +12,7 @@ use super::{Call, Failure, Result};
 use crate::flow::{Limits, Reason};
 use crate::numerics::{real, truncated};
 use crate::report::{Answer, Format};
-use crate::runtime::{Readers, new_file, packed, provenance_file, standard};
+use crate::runtime::{Readers, arrays, new_file, provenance_file, standard};
 use crate::words::printable;
 
 /// How an answer is printed.
@@ -62,7 +62,21 @@ impl Output {
 
     /// The width of the terminal in which the answer is shown, if it is shown in one.
     pub fn width(&self) -> Option<usize> {
-        columns().filter(|_| self.write.is_none())
+        terminal_width().filter(|_| self.write.is_none())
+    }
+
+    /// The file, if it is one of arrays.
+    pub fn archive(&self) -> Option<&Path> {
+        self.write.as_deref().filter(|path| arrays::is_of_arrays(path))
+    }
+
+    /// Refuses a file of arrays that are not made of comma-separated values, or that this build does not write.
+    pub fn check(&self) -> Result<()> {
+        let Some(path) = self.archive() else { return Ok(()) };
+        if self.format() != Format::Csv {
+            return Err(Failure::file(path, "arrays are made of csv: leave out --format"));
+        }
+        arrays::packed_rows(path, "").map(drop).map_err(|why| Failure::file(path, why))
     }
 
     /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other
@@ -72,18 +86,14 @@ impl Output {
             call.replace(Some(answer));
             return Ok(());
         }
+        self.check()?;
         let content = sourced(answer, self.format());
         let Some(path) = &self.write else { return print(&content) };
         let content = printable::lines(&content);
         match self.format() {
             Format::Json => new_file::write(path, content.as_bytes(), Readers::Usual, KEEP),
-            _ => keep(path, &packed::packed_rows(path, &content)?),
+            _ => keep(path, &arrays::packed_rows(path, &content)?),
         }
-    }
-
-    /// The file, if it is an archive of numpy.
-    pub fn archive(&self) -> Option<&Path> {
-        self.write.as_deref().filter(|path| packed::form_of(path) == Some("npz"))
     }
 }
 
@@ -102,7 +112,7 @@ pub fn sourced(answer: Answer, format: Format) -> String {
 }
 
 /// Number of columns of the terminal to which the output goes; `None` if it goes elsewhere.
-pub fn columns() -> Option<usize> {
+pub fn terminal_width() -> Option<usize> {
     crate::terminal::system::size().map(|size| size.width.into())
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use clap::{Args, FromArgMatches, ValueEnum};
+use clap::{Args, ValueEnum};
 use signal_hook::{consts, flag};
 
 use super::conditions::ConditionOptions;
@@ -15,17 +15,17 @@ use super::part::RowChoice;
 use super::plan::Plan;
 use super::points::columns;
 use super::progress::{Outlet, StatusLine, message};
-use super::{Failure, Result, SourceOptions, print, read, signed};
+use super::{Failure, Result, SourceOptions, of_words, print, read};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
 use crate::runtime::failure::exit_code;
 use crate::runtime::scan_file::{pack, rows_of};
 use crate::runtime::scanning::rows;
-use crate::runtime::{ScanFile, packed, provenance_file, tell};
+use crate::runtime::{ScanFile, arrays, provenance_file, tell};
 use crate::scan::{MEASURES, Measure, Scan, Sweep};
 use crate::scene::{ScanOption, ScanOptions};
-use crate::words::{joined, usage};
+use crate::words::joined;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
 #[derive(Args)]
@@ -96,15 +96,7 @@ impl ScanCommand {
     /// The scan of a command line without the program name; `None` if this version cannot parse it.
     pub fn of_line(arguments: &[String]) -> Option<Self> {
         arguments.first().filter(|command| *command == "scan")?;
-        Self::of_words(arguments).ok()
-    }
-
-    /// The scan of a command and its options. Fails if one of these is wrong.
-    fn of_words(words: &[String]) -> Result<Self> {
-        let parser = signed(Self::augment_args(clap::Command::new("scan")));
-        let given = parser.try_get_matches_from(words);
-        let read = given.and_then(|given| Self::from_arg_matches(&given));
-        read.map_err(|error| usage::line(&error).into())
+        of_words(arguments).ok()
     }
 
     /// A scan of a scene, which goes on with its file unless that may be replaced. Fails if an option is wrong.
@@ -118,7 +110,7 @@ impl ScanCommand {
             words.extend(values.iter().map(|value| format!("--{name}={value}")));
         }
         words.push(if force { "--force" } else { "--resume" }.to_owned());
-        let command = ScanCommand { source: source.clone(), ..Self::of_words(&words)? };
+        let command = ScanCommand { source: source.clone(), ..of_words(&words)? };
         command.asked()?;
         Ok(command)
     }
@@ -176,7 +168,9 @@ impl ScanCommand {
             None => {}
         }
         match self.archive() {
-            Some(path) if file.left() == 0 => pack(path, &provenance_file::of_process()),
+            Some(path) if file.left() == 0 => {
+                pack(path, &provenance_file::of_process(), self.force)
+            }
             _ => Ok(()),
         }
     }
@@ -188,7 +182,7 @@ impl ScanCommand {
         if self.certify && !measures.contains(&Measure::Proved) {
             measures.push(Measure::Proved);
         }
-        let groups = self.source.numbers().set;
+        let groups = self.source.numbers()?.set;
         let scan = if let Some(path) = &self.list {
             let scan = Scan::of_list(base, columns(path, groups)?, measures, conditions);
             scan.map_err(|why| Failure::file(path, why))?
@@ -212,11 +206,11 @@ impl ScanCommand {
             return Ok(ScanFile::standard(part));
         };
         let (path, name) = (path.as_path(), path.display());
-        if let Some(whole) = self.archive().filter(|path| !self.force && holds_something(path)) {
-            return Err(format!("{} is not empty; --force starts over", whole.display()).into());
-        }
-        if !self.resume && !self.force && holds_something(path) {
-            let line = format!("{name} is not empty; --resume continues it, --force starts over");
+        let taken = [Some(path), self.archive()].into_iter().flatten();
+        let taken =
+            taken.filter(|_| !self.resume && !self.force).find(|path| holds_something(path));
+        if let Some(taken) = taken.map(Path::display) {
+            let line = format!("{taken} is not empty; --resume continues it, --force starts over");
             return Err(line.into());
         }
         let provenance = provenance_file::of_process();
@@ -230,7 +224,7 @@ impl ScanCommand {
             return Err(format!("{begun}; --force starts over").into());
         }
         let limits = Limits { interrupted, ..Limits::PATIENT };
-        let file = ScanFile::resume(path, part, provenance, &limits)?;
+        let file = ScanFile::resume(path, part, provenance, "; --force starts over", &limits)?;
         if file.unchecked > 0 {
             let rows = file.unchecked;
             tell(format!(
@@ -242,14 +236,14 @@ impl ScanCommand {
 
     /// The file of arrays, if such are to be written.
     fn archive(&self) -> Option<&Path> {
-        self.output.as_deref().filter(|path| packed::form_of(path).is_some())
+        self.output.as_deref().filter(|path| arrays::is_of_arrays(path))
     }
 
     fn form(&self) -> Result<Format> {
         let of_file = || self.output.as_deref().map_or(Format::Csv, Format::of_file);
         let form = self.format.unwrap_or_else(of_file);
         if let Some(path) = self.archive() {
-            packed::packed_rows(path, "")?;
+            arrays::packed_rows(path, "")?;
             if form != Format::Csv || self.plan.is_wanted() {
                 return Err("arrays are made of the csv rows of one scan, without --plan".into());
             }

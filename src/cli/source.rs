@@ -1,7 +1,7 @@
 //! What a command is about: the motion of a scene, with its method and what sets its accuracy, or a machine.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use clap::Args;
 
@@ -40,17 +40,17 @@ pub struct SourceOptions {
     /// The machine of a caller in this process.
     #[arg(skip)]
     pub case: Option<CommandCase>,
+    /// The scene, once it has been read.
+    #[arg(skip)]
+    found: OnceLock<Arc<Scene>>,
 }
 
 impl SourceOptions {
-    /// The numbers by which the other options are read.
-    pub fn numbers(&self) -> &'static Numbers {
-        let study = || self.study_of_machine().is_ok_and(|it| it.is_some());
-        if self.case.is_some() || self.machine_name().is_some() || study() {
-            &MACHINE
-        } else {
-            &OSCILLATOR
-        }
+    /// The numbers by which the other options are read. Fails if the file of the scene is wrong.
+    pub fn numbers(&self) -> Result<&'static Numbers> {
+        let named = self.case.is_some() || self.machine_name().is_some();
+        let is_machine = named || self.study_of_machine()?.is_some();
+        Ok(if is_machine { &MACHINE } else { &OSCILLATOR })
     }
 
     /// The machine to which a question about all motions is put, if it is about one. These are followed by Taylor series
@@ -82,7 +82,16 @@ impl SourceOptions {
 
     /// The scene with the values set on the command line.
     pub fn scene(&self) -> Result<Arc<Scene>> {
-        self.start.scene(self.named.as_deref())
+        self.start.applied(self.found()?)
+    }
+
+    /// The scene as it is named.
+    pub fn found(&self) -> Result<Arc<Scene>> {
+        if let Some(found) = self.found.get() {
+            return Ok(Arc::clone(found));
+        }
+        let found = self.start.found(self.named.as_deref())?;
+        Ok(Arc::clone(self.found.get_or_init(|| found)))
     }
 
     /// The file of the scene, if it is one of the user.
@@ -92,7 +101,13 @@ impl SourceOptions {
 
     /// The parameters, each as the interval in which it was given.
     pub fn known(&self) -> Result<ParameterBox> {
-        self.start.known(self.named.as_deref())
+        let mut known = ParameterBox::from(&self.found()?.problem.parameters);
+        for (symbol, value) in self.start.assigned(&OSCILLATOR)? {
+            if symbol.is_parameter() {
+                known.set(symbol, value.ends)?;
+            }
+        }
+        Ok(known)
     }
 
     /// The machine that is named, also where a scene would stand.
@@ -103,10 +118,7 @@ impl SourceOptions {
 
     /// The scene of the user that is named, if it is about a machine.
     fn study_of_machine(&self) -> Result<Option<Arc<Scene>>> {
-        let Some(name) = self.named.as_deref().or(self.start.scene.as_deref()) else {
-            return Ok(None);
-        };
-        let scene = file_of(name).map(|_| scene_named(name)).transpose()?;
+        let scene = self.file().map(|_| self.found()).transpose()?;
         Ok(scene.filter(|scene| scene.machine.is_some()))
     }
 
@@ -197,17 +209,6 @@ impl StartOptions {
         problem.step = self.step.unwrap_or(problem.step);
         problem.epsilon = self.epsilon.unwrap_or(problem.epsilon);
         Ok(scene)
-    }
-
-    /// The parameters, each as the interval in which it was given.
-    fn known(&self, named: Option<&str>) -> Result<ParameterBox> {
-        let mut known = ParameterBox::from(&self.found(named)?.problem.parameters);
-        for (symbol, value) in self.assigned(&OSCILLATOR)? {
-            if symbol.is_parameter() {
-                known.set(symbol, value.ends)?;
-            }
-        }
-        Ok(known)
     }
 
     fn found(&self, named: Option<&str>) -> Result<Arc<Scene>> {

@@ -10,12 +10,12 @@ use crate::runtime::bounded;
 use crate::scene::file::study;
 use crate::scene::{Layer, Scene, find};
 use crate::session::{Session, Setup, Size};
+use crate::words::ends_in;
 
 /// The file that a name means: it ends in .toml or names a folder, and no scene of the program is called so.
 pub fn file_of(name: &str) -> Option<&Path> {
     let path = Path::new(name);
-    let is_file = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
-        || path.components().nth(1).is_some();
+    let is_file = ends_in(path, "toml") || path.components().nth(1).is_some();
     Some(path).filter(|_| is_file && find(name).is_err())
 }
 

@@ -8,7 +8,7 @@ use crate::scene::{Span, Window};
 use crate::session::{Framing, Session};
 
 /// Shows these parts: one for all plots, or one for each.
-pub fn look(session: &mut Session, windows: &[String]) -> Result<()> {
+pub fn show_windows(session: &mut Session, windows: &[String]) -> Result<()> {
     let plots = session.plots.len();
     if windows.len() > 1 && windows.len() != plots {
         let given = windows.len();

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::{Format, lines};
 use crate::scan::{Scan, ScanRow, Value};
-use crate::words::measurement;
+use crate::words::{ends_in, measurement};
 
 /// Width of a column of the table: eight digits, sign, point and exponent.
 const WIDTH: usize = 14;
@@ -44,11 +44,9 @@ impl Format {
 
     /// The form for which the ending of a file stands, if it does for one; arrays are made of CSV.
     pub fn of_ending(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()? {
-            "json" | "jsonl" => Some(Format::Json),
-            "csv" | "npz" | "parquet" => Some(Format::Csv),
-            _ => None,
-        }
+        let has = |endings: &[&str]| endings.iter().any(|ending| ends_in(path, ending));
+        let form = has(&["json", "jsonl"]).then_some(Format::Json);
+        form.or_else(|| has(&["csv", "npz", "parquet"]).then_some(Format::Csv))
     }
 }
 
@@ -56,15 +54,14 @@ impl ScanPart {
     /// The same in a file, which is one JSON document if it ends in `json`.
     #[must_use]
     pub fn in_file(self, path: &Path) -> Self {
-        let is_one = path.extension().is_some_and(|ending| ending == "json");
-        let is_one = is_one && self.form == Format::Json;
+        let is_one = ends_in(path, "json") && self.form == Format::Json;
         ScanPart { brackets: is_one.then(|| self.points.clone()), ..self }
     }
 
     /// The line before the rows; empty if there is none.
     pub fn heading(&self) -> String {
         let inputs = self.inputs(0).into_iter().map(|(name, _)| name);
-        let names = inputs.chain(self.columns().into_iter().map(str::to_owned));
+        let names = inputs.chain(self.scan.measured().into_iter().map(str::to_owned));
         match self.form {
             _ if !self.headed => String::new(),
             Format::Csv => names.map(|name| name + ",").collect::<String>() + "reason\n",
@@ -85,7 +82,7 @@ impl ScanPart {
     /// The row of point `index`.
     pub fn line(&self, index: usize, row: &ScanRow) -> String {
         let mut line = self.beginning(index);
-        let values = self.columns().into_iter().zip(&row.values);
+        let values = self.scan.measured().into_iter().zip(&row.values);
         line.extend(values.map(|(name, value)| self.cell(name, *value)));
         let reason = row.reason.clone();
         match self.form {
@@ -135,20 +132,13 @@ impl ScanPart {
         [open, &line[from..to], close].concat()
     }
 
-    /// The measured columns; that which says how to read a margin is for programs.
-    fn columns(&self) -> Vec<&'static str> {
-        match self.form {
-            Format::Table => self.scan.measured(),
-            _ => self.scan.columns(),
-        }
-    }
-
     /// The inputs at a point, of which the table shows those that vary.
     fn inputs(&self, index: usize) -> Vec<(String, Value)> {
-        let varied = self.scan.varied();
-        let varies = |name: &str| varied.iter().any(|symbol| symbol.spec().name == name);
         let mut inputs = self.scan.inputs(index);
-        inputs.retain(|(name, _)| self.form != Format::Table || varies(name));
+        if self.form == Format::Table {
+            let varied = self.scan.varied();
+            inputs.retain(|(name, _)| varied.iter().any(|symbol| symbol.spec().name == name));
+        }
         inputs
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ::parquet::data_type::{ByteArrayType, DataType, DoubleType, Int64Type};
+use ::parquet::data_type::{ByteArrayType, DataType, DoubleType};
 use ::parquet::errors::Result;
 use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use ::parquet::schema::parser::parse_message_type;
@@ -13,8 +13,7 @@ use crate::words::joined;
 /// The file. Fails if the columns are too long for it.
 pub fn file(columns: &[Array]) -> Result<Vec<u8>> {
     let field = |Array { name, cells, .. }: &Array| match cells {
-        ArrayCells::Codes(_) | ArrayCells::Counts(_) => format!("optional int64 {name};"),
-        ArrayCells::Numbers(_) => format!("optional double {name};"),
+        ArrayCells::Codes(_) | ArrayCells::Numbers(_) => format!("optional double {name};"),
         ArrayCells::Words(_) => format!("optional binary {name} (UTF8);"),
     };
     let fields = joined(columns.iter().map(field), " ");
@@ -29,9 +28,8 @@ pub fn file(columns: &[Array]) -> Result<Vec<u8>> {
         let word = |cell: &String| Some(cell.as_str().into()).filter(|_| !cell.is_empty());
         match &array.cells {
             ArrayCells::Codes(cells) => {
-                put::<Int64Type>(out, cells.iter().map(|cell| Some((*cell).into())))?
+                put::<DoubleType>(out, cells.iter().map(|cell| Some((*cell).into())))?
             }
-            ArrayCells::Counts(cells) => put::<Int64Type>(out, cells.iter().copied().map(Some))?,
             ArrayCells::Numbers(cells) => put::<DoubleType>(out, cells.iter().map(number))?,
             ArrayCells::Words(cells) => put::<ByteArrayType>(out, cells.iter().map(word))?,
         }

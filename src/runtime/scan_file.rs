@@ -16,7 +16,7 @@ use super::failure::{Failure, Result};
 use super::journal::Journal;
 use super::new_file;
 use super::provenance_file::{self, RunningChecksum};
-use super::{FileRow, Readers, RowReader, packed, standard, system};
+use super::{FileRow, Readers, RowReader, arrays, standard, system};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
@@ -67,18 +67,21 @@ impl ScanFile {
     }
 
     /// The file with those rows of the part that it already holds; a new file if there is none. Fails if it holds
-    /// something else or cannot be written; the file is then unchanged.
+    /// something else, to which `how` adds what helps, or cannot be written; the file is then unchanged.
     pub fn resume(
         path: &Path,
         part: ScanPart,
         provenance: Provenance,
+        how: &str,
         limits: &Limits,
     ) -> Result<Self> {
         let unwritten = Failure::unwritten(path);
         let mut file = opened(path)?;
         let known = provenance_file::read(path).ok().and_then(|earlier| earlier.checksum);
         let reading = file.try_clone().map_err(unwritten)?;
-        let (bytes, checksum) = kept(RowReader::new(&part, path, reading, known)?, known, limits)?;
+        let rows = RowReader::new(&part, path, reading, known);
+        let rows = rows.and_then(|rows| kept(rows, known, limits));
+        let (bytes, checksum) = rows.map_err(|why| format!("{why}{how}"))?;
         let unchecked = if known == Some(checksum) {
             0
         } else {
@@ -151,12 +154,14 @@ pub fn rows_of(path: &Path) -> PathBuf {
     new_file::beside(path, ".csv")
 }
 
-/// Makes a file of arrays of all rows, which then go. Fails if one cannot be read or written.
-pub fn pack(path: &Path, provenance: &Provenance) -> Result<()> {
+/// Makes a file of arrays of all rows, which then go. Fails if one cannot be read or written, or, without `force`, if the
+/// file has other content.
+pub fn pack(path: &Path, provenance: &Provenance, force: bool) -> Result<()> {
     let rows = rows_of(path);
     let text = fs::read_to_string(&rows).map_err(|error| Failure::file(&rows, error))?;
-    let content = packed::packed_rows(path, &text)?;
-    new_file::write(path, &content, Readers::Usual, None)?;
+    let content = arrays::packed_rows(path, &text)?;
+    let keep = (!force).then_some("--force replaces it");
+    new_file::write(path, &content, Readers::Usual, keep)?;
     provenance_file::write(path, provenance)?;
     drop(fs::remove_file(provenance_file::beside(&rows)));
     fs::remove_file(&rows).map_err(Failure::unwritten(&rows))
@@ -201,7 +206,7 @@ fn opened(path: &Path) -> Result<File> {
 /// alone. A new file is complete or not there at all.
 pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String> {
     let path = &at_home(path);
-    if packed::form_of(path).is_some() {
+    if arrays::is_of_arrays(path) {
         return Err("rows are saved as .csv, .json or .jsonl".to_owned());
     }
     let is_new = !path.exists();
@@ -210,7 +215,7 @@ pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String
     let part = part.in_file(path);
     let provenance = provenance_file::read(path).unwrap_or_else(|_| provenance_file::of_process());
     let written =
-        ScanFile::resume(path, part, provenance, &Limits::PATIENT).and_then(|mut file| {
+        ScanFile::resume(path, part, provenance, "", &Limits::PATIENT).and_then(|mut file| {
             for index in file.open().take_while(|index| *index < rows.len()) {
                 file.add(index, &rows[index]).map_err(Failure::unwritten(path))?;
             }

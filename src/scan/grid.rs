@@ -6,12 +6,8 @@
 
 use super::{Conditions, Measure, OF_THE_PAPER, Origin, ScanRow, Sweep, Value, measure};
 use crate::flow::{Cost, Limits, Problem, Result, Subject};
-use crate::model::basin::UNKNOWN;
 use crate::model::{FrictionLaw, Interval, Knob, State};
 use crate::portrait::{RandomKick, StartWindow};
-
-/// The column that says how to read a margin.
-const REGIME: &str = "regime";
 
 /// Most points of a scan.
 pub const MOST_POINTS: usize = 1_000_000_000;
@@ -63,8 +59,22 @@ impl Scan {
     /// The scan, if it makes sense.
     fn checked(self) -> Result<Self, String> {
         let Scan { base, measures, conditions, .. } = &self;
+        if self.points() > MOST_POINTS {
+            return Err(format!("too many points; allowed: {MOST_POINTS}"));
+        }
         if self.points() == 0 || self.list.len() + self.over.len() == 0 || measures.is_empty() {
             return Err("a scan goes over at least one parameter and measures something".to_owned());
+        }
+        let mut trial = base.clone();
+        for (symbol, values) in &self.list {
+            if values.len() != self.points() {
+                return Err(format!(
+                    "{symbol} has {} values for {} points",
+                    values.len(),
+                    self.points()
+                ));
+            }
+            values.iter().try_for_each(|value| trial.set(*symbol, *value))?;
         }
         let first = self.values(0);
         for (index, (symbol, value)) in first.iter().enumerate() {
@@ -89,11 +99,6 @@ impl Scan {
             if *measure == Measure::Design && conditions.wanted.is_none() {
                 return Err("design needs the margin that is wanted".to_owned());
             }
-        }
-        let mut counts = self.over.iter().map(|sweep| sweep.count);
-        let points = counts.try_fold(1_usize, usize::checked_mul);
-        if points.is_none_or(|points| points > MOST_POINTS) {
-            return Err(format!("too many points; allowed: {MOST_POINTS}"));
         }
         Ok(self)
     }
@@ -124,7 +129,8 @@ impl Scan {
 
     /// How many points there are.
     pub fn points(&self) -> usize {
-        let of_grid = || self.over.iter().map(|sweep| sweep.count).product();
+        let counts = self.over.iter().map(|sweep| sweep.count);
+        let of_grid = || counts.fold(1, usize::saturating_mul);
         self.list.first().map_or_else(of_grid, |(_, values)| values.len())
     }
 
@@ -185,26 +191,13 @@ impl Scan {
 
     /// A row that could not be measured at all.
     pub fn failed(&self, reason: String) -> ScanRow {
-        let unknown = |name| {
-            if name == REGIME {
-                Value::Word(UNKNOWN)
-            } else {
-                Value::Nothing
-            }
-        };
-        let values = self.columns().into_iter().map(unknown).collect();
+        let values = self.measures.iter().flat_map(|it| it.spec().unfilled()).collect();
         ScanRow { values, reason: Some(reason), cost: Cost::default() }
     }
 
     /// The columns that are measured, in their order.
     pub fn measured(&self) -> Vec<&'static str> {
         self.measures.iter().flat_map(|measure| &measure.spec().columns).copied().collect()
-    }
-
-    /// The columns of a row: those that are measured, and, where one of them is a margin, how to read that.
-    pub fn columns(&self) -> Vec<&'static str> {
-        let margin = self.measures.iter().any(|measure| measure.is_margin());
-        self.measured().into_iter().chain(margin.then_some(REGIME)).collect()
     }
 
     /// All that the row of point number `index` depends on, by name.

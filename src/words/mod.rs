@@ -13,6 +13,7 @@ pub use self::{motion::Notation, number::*};
 
 use std::borrow::Cow;
 use std::fmt::Display;
+use std::path::Path;
 
 use textwrap::{Options, WordSplitter};
 
@@ -33,6 +34,11 @@ pub fn counted(count: usize, what: &str) -> String {
 pub fn joined(parts: impl IntoIterator<Item: Display>, between: &str) -> String {
     let parts = parts.into_iter().map(|part| part.to_string());
     parts.collect::<Vec<_>>().join(between)
+}
+
+/// Whether a file has this ending, in small letters or capitals.
+pub fn ends_in(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending))
 }
 
 /// `stable` or `unstable`.

@@ -160,7 +160,7 @@ fn an_archive_has_the_columns_of_the_rows() {
         }
     }
     let kind = |name: &str| found.iter().find(|(own, _)| own == name).unwrap().1.kind.clone();
-    assert_eq!([kind("D"), kind("half_swings"), kind("regime")], ["<f8", "<i8", "<U19"]);
+    assert_eq!([kind("D"), kind("half_swings"), kind("regime")], ["<f8", "<f8", "<U19"]);
 }
 
 #[test]
@@ -176,7 +176,13 @@ fn arrays_are_written_whole_and_their_rows_resume() {
     let names: Vec<_> =
         fs::read_dir(folder.path()).unwrap().map(|it| it.unwrap().file_name()).collect();
     assert_eq!(names.len(), 2, "the arrays and where they come from: {names:?}");
-    run(&words).is_refused(&["not empty", "--force"]);
+    run(&words).is_refused(&["rows.npz is not empty", "--force"]);
+    // The same scan again gives the same file; another one does not replace it.
+    assert_eq!(run(&[&words[..], &["--resume"]].concat()).code, 0);
+    let other = [&words[..], &["--resume", "--set", "r=0.2"]].concat();
+    run(&other).is_refused(&["rows.npz already exists", "--force"]);
+    assert_eq!(fs::read(&path).unwrap(), whole);
+    fs::remove_file(folder.path().join("rows.npz.csv")).unwrap();
     // What a killed scan leaves.
     fs::remove_file(&path).unwrap();
     let rows = folder.path().join("rows.npz.csv");
@@ -199,10 +205,12 @@ fn a_row_that_was_given_up_says_that_its_margin_is_unknown() {
         run(&["scan", "--machine", "clutch", "--over", "v0=0.2:1e4:2", "--measure", "from-rest"]);
     let text = ran.out;
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
-    let at = names.iter().position(|name| *name == "regime").unwrap();
-    assert_eq!(names.len(), at + 2, "it stands before the reason");
-    for row in text.lines().skip(1) {
-        assert!(!row.split(',').nth(at).unwrap().is_empty(), "{row}");
+    let at = |name: &str| names.iter().position(|own| *own == name).unwrap();
+    let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    assert!(rows.iter().any(|row| !row[at("reason")].is_empty()), "{text}");
+    for row in rows {
+        let is_unknown = row[at("from_rest_regime")] == "unknown";
+        assert_eq!(is_unknown, !row[at("reason")].is_empty(), "{row:?}");
     }
 }
 
@@ -250,4 +258,50 @@ fn parquet_has_the_columns_of_the_rows() {
         }
     }
     assert_eq!(lines.next(), None);
+}
+
+#[test]
+fn each_margin_has_a_regime_of_its_own() {
+    // The nominal margin is finite; with these half widths nothing is guaranteed.
+    let words = ["scan", "--over", "D=-0.3:-0.2:2", "--set", "D3=0.5", "--set", "r=0.1"];
+    let more = ["--measure", "margin,guaranteed", "--half-width", "D=5", "--format", "json"];
+    let ran = run(&[&words[..], &more].concat());
+    for row in ran.out.lines().map(|row| serde_json::from_str::<Value>(row).unwrap()) {
+        assert_eq!(
+            (&row["regime"], &row["guaranteed_regime"]),
+            (&"finite".into(), &"unknown".into())
+        );
+        assert!(row["guaranteed_impulse"].is_null() && row["reason"].is_string(), "{row}");
+    }
+}
+
+#[test]
+fn a_column_has_one_type_whatever_it_holds() {
+    let kinds = |set: &str| {
+        let (_folder, path) = file("rows.NPZ");
+        let words = ["scan", "--over", "r=0.1:0.2:2", "--measure", "cycles,margin,border", "--set"];
+        assert_eq!(run(&[&words[..], &[set, "--output", word(&path)]].concat()).code, 0);
+        let kind =
+            |(name, array): (String, crate::archive::Stored)| (name, array.kind[..2].to_owned());
+        arrays(&path).into_iter().map(kind).collect::<Vec<_>>()
+    };
+    // Without cycles, all columns of their extremes are empty; without a reason, that column is.
+    assert_eq!(kinds("D=1"), kinds("D=-0.3"));
+}
+
+#[test]
+fn a_grid_of_too_many_points_is_refused() {
+    let over = ["D=-1:0:65536", "D2=0:1:65536", "D3=0:1:65536", "r=0:1:65536"];
+    let over = over.iter().flat_map(|over| ["--over", over]);
+    let words: Vec<_> = ["scan", "--measure", "margin"].into_iter().chain(over).collect();
+    run(&words).is_refused(&["too many points", "1000000000"]);
+}
+
+#[test]
+fn a_scan_that_has_changed_says_how_it_starts_over() {
+    let (_folder, path) = file("rows.csv");
+    let words = ["scan", "--over", "D=-0.3:-0.1:3", "--measure", "margin", "--output", word(&path)];
+    assert_eq!(run(&words).code, 0);
+    let other = run(&[&words[..], &["--set", "r=0.2", "--resume"]].concat());
+    other.is_refused(&["rows.csv: not a part of this scan: line 2", "--force starts over"]);
 }

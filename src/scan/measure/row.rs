@@ -6,13 +6,12 @@ use std::error::Error;
 use super::table::CYCLES;
 use super::{Conditions, Measure, Value};
 use crate::flow::{Cost, Limits, Motion, Outcome, Result, Subject};
-use crate::model::basin::UNKNOWN;
 use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait, Share, StartWindow};
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanRow {
-    /// The cells, one for each column of the measures, and how a margin among them is to be read.
+    /// The cells, one for each column of the measures.
     pub values: Vec<Value>,
     /// What could not be computed, and why.
     pub reason: Option<String>,
@@ -30,8 +29,6 @@ pub(super) struct Cells<'a> {
     pub conditions: &'a Conditions,
     pub limits: &'a Limits<'a>,
     filled: BTreeMap<Measure, Vec<Value>>,
-    /// How the margin is to be read, once it is known.
-    pub regime: Option<&'static str>,
     /// What gave up, and why.
     pub reasons: Vec<String>,
     pub cost: Cost,
@@ -66,7 +63,6 @@ pub fn measure(
         conditions,
         limits,
         filled: BTreeMap::new(),
-        regime: None,
         reasons: Vec::new(),
         cost: Cost::default(),
         known: None,
@@ -80,16 +76,12 @@ pub fn measure(
             cells.reasons.push(format!("{}: {why}", measure.spec().name));
         }
     }
-    // Columns that were not filled have no value.
     let columns = |measure: &Measure| {
         let mut filled = cells.filled.remove(measure).unwrap_or_default();
-        filled.resize(measure.spec().columns.len(), Value::Nothing);
+        filled.extend(measure.spec().unfilled().skip(filled.len()));
         filled
     };
-    let mut values: Vec<_> = measures.iter().flat_map(columns).collect();
-    if measures.iter().any(|measure| measure.is_margin()) {
-        values.push(Value::Word(cells.regime.unwrap_or(UNKNOWN)));
-    }
+    let values = measures.iter().flat_map(columns).collect();
     let reason = (!cells.reasons.is_empty()).then(|| cells.reasons.join("; "));
     Ok(ScanRow { values, reason, cost: cells.cost })
 }
@@ -142,8 +134,7 @@ impl Cells<'_> {
         let (conditions, margin) = (self.conditions, portrait.margin);
         self.fill(Measure::Border, || [Value::Word(portrait.border.name())]);
         self.margin(Measure::Margin, portrait.border, margin);
-        let rest = margin.from_rest;
-        self.fill(Measure::FromRest, || [rest.displacement, rest.impulse]);
+        self.margin(Measure::FromRest, portrait.border, margin);
         self.share(Measure::Stability, || {
             let StartWindow { q, v } = conditions.about(&portrait.model);
             portrait.rest_share(q, v)
@@ -153,10 +144,15 @@ impl Cells<'_> {
         self.fill(Measure::Integrity, || [portrait.inner_radius(), portrait.integrity()]);
     }
 
-    /// A margin, of this measure, and what borders its basin; the nominal one, which comes first, says how to read both.
+    /// A margin, of this measure, within this border, and how it is to be read.
     pub fn margin(&mut self, measure: Measure, border: Border, margin: Margin) {
-        self.regime.get_or_insert(margin.regime(border));
-        self.fill(measure, || [margin.displacement, margin.impulse]);
+        let rest = margin.from_rest;
+        let [displacement, impulse] = match measure {
+            Measure::FromRest => [rest.displacement, rest.impulse],
+            _ => [margin.displacement, margin.impulse],
+        };
+        let regime = Value::Word(margin.regime(border));
+        self.fill(measure, || [displacement.into(), impulse.into(), regime]);
     }
 
     /// A fraction and its error, where it is known.

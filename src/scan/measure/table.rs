@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
+use crate::model::basin::UNKNOWN;
 use crate::model::{Knob, Model};
 use crate::numerics::{cells, named, real};
 use crate::portrait::{Kick, RandomKick, StartWindow};
@@ -84,6 +85,12 @@ impl MeasureSpec {
         let (measure, columns) = (named(name)?, columns.split(' ').collect());
         Some(MeasureSpec { measure, name, meaning, columns })
     }
+
+    /// Its cells where nothing was measured: of a margin it is not known how to read it.
+    pub fn unfilled(&self) -> impl Iterator<Item = Value> {
+        let unknown = |name: &&str| name.ends_with("regime").then_some(Value::Word(UNKNOWN));
+        self.columns.iter().map(move |name| unknown(name).unwrap_or(Value::Nothing))
+    }
 }
 
 impl Measure {
@@ -116,11 +123,6 @@ impl Measure {
     /// Whether it is measured of random kicks.
     pub fn is_of_kicks(self) -> bool {
         matches!(self, Measure::Lost | Measure::Repeated)
-    }
-
-    /// Whether it is a margin, which may have no size.
-    pub fn is_margin(self) -> bool {
-        matches!(self, Measure::Margin | Measure::FromRest | Measure::Guaranteed)
     }
 
     /// Whether its computation depends on a number.

@@ -29,8 +29,7 @@ fn every_measure_fills_its_columns_and_no_number_is_none() {
         let conditions = Conditions { wanted: Some((Kick::Displacement, 0.5)), ..WINDOW.into() };
         let found = measure(&problem.into(), &measures, &conditions, &Limits::PATIENT).unwrap();
         let ScanRow { values, reason, .. } = found;
-        // The last one says how a margin is to be read.
-        assert_eq!(values.len(), rows.map(|row| row.columns.len()).sum::<usize>() + 1);
+        assert_eq!(values.len(), rows.map(|row| row.columns.len()).sum::<usize>());
         // Beyond critical negative damping nothing is guaranteed.
         let repels = |reason: &String| problem.parameters.d < -1.0 && reason.ends_with("set repel");
         assert!(reason.as_ref().is_none_or(repels), "{problem:?}: {reason:?}");
