@@ -61,7 +61,9 @@ impl ScanPart {
     /// The line before the rows; empty if there is none.
     pub fn heading(&self) -> String {
         let inputs = self.inputs(0).into_iter().map(|(name, _)| name);
-        let names = inputs.chain(self.scan.measured().into_iter().map(str::to_owned));
+        let names = inputs.chain(
+            self.scan.measured().into_iter().filter(|name| self.shows(name)).map(str::to_owned),
+        );
         match self.form {
             _ if !self.headed => String::new(),
             Format::Csv => names.map(|name| name + ",").collect::<String>() + "reason\n",
@@ -83,6 +85,7 @@ impl ScanPart {
     pub fn line(&self, index: usize, row: &ScanRow) -> String {
         let mut line = self.beginning(index);
         let values = self.scan.measured().into_iter().zip(&row.values);
+        let values = values.filter(|(name, _)| self.shows(name));
         line.extend(values.map(|(name, value)| self.cell(name, *value)));
         let reason = row.reason.clone();
         match self.form {
@@ -130,6 +133,11 @@ impl ScanPart {
         let to = behind(line.iter().rposition(|byte| *byte == b'}')).max(from);
         let [open, close] = [self.opening(index), self.end(index)].map(str::as_bytes);
         [open, &line[from..to], close].concat()
+    }
+
+    /// Whether a measured column is shown: how to read a margin is for programs.
+    fn shows(&self, name: &str) -> bool {
+        self.form != Format::Table || !name.ends_with("regime")
     }
 
     /// The inputs at a point, of which the table shows those that vary.
