@@ -161,7 +161,9 @@ pub fn border(
 /// Why there is neither a fold nor an escape point, where none failed; [`Regime::of`](super::Regime::of) says the same.
 fn no_border(parameters: &Parameters) -> &'static str {
     match *parameters {
-        Parameters { r: 0.0, .. } => "r = 0: the only border is the Hopf bifurcation at D = 0",
+        Parameters { r: 0.0, .. } => {
+            "without friction the only border is the Hopf bifurcation at D = 0"
+        }
         Parameters { d3, .. } if d3 < 0.0 => "D3 < 0: an unstable cycle borders the basin",
         Parameters { d3, .. } if d3 > 0.0 => "no fold was found",
         Parameters { d2: 0.0, .. } => "D2 = D3 = 0: the unstable cycle is infinite at D = 0",

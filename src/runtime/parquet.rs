@@ -24,12 +24,11 @@ pub fn file(columns: &[Array]) -> Result<Vec<u8>> {
     for array in columns {
         let Some(mut column) = group.next_column()? else { continue };
         let out = &mut column;
+        let code = |cell: &u8| Some((*cell).into());
         let number = |cell: &f64| Some(*cell).filter(|cell| !cell.is_nan());
         let word = |cell: &String| Some(cell.as_str().into()).filter(|_| !cell.is_empty());
         match &array.cells {
-            ArrayCells::Codes(cells) => {
-                put::<DoubleType>(out, cells.iter().map(|cell| Some((*cell).into())))?
-            }
+            ArrayCells::Codes(cells) => put::<DoubleType>(out, cells.iter().map(code))?,
             ArrayCells::Numbers(cells) => put::<DoubleType>(out, cells.iter().map(number))?,
             ArrayCells::Words(cells) => put::<ByteArrayType>(out, cells.iter().map(word))?,
         }
