@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::figure::completed;
+use super::figure::printed;
 use super::input::{self, MACHINE, tolerance};
 use super::{CommandCase, Output, Result, second, timed, troubled, write};
 use crate::figure::panels;
@@ -12,9 +12,10 @@ use crate::flow::{Detail, Fate, Flow, Limits, Method, Problem, Reason, Subject};
 use crate::model::{Knob, TolerancedNumber};
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Kick, Portrait, StartWindow, friction_for};
+use crate::question::Fineness;
 use crate::report::About;
 use crate::report::machine::{CubicExpansion, DesignAnswer, MachineAnswer, RestShare, machine};
-use crate::runtime::print::figure;
+use crate::runtime::print::{complete, figure};
 use crate::runtime::provenance_file;
 use crate::scene::machine::library::{TEXTBOOK, machines};
 
@@ -93,7 +94,9 @@ impl BeltCommand {
             // The plots of a mass on a belt in the explorer; none of a mode.
             let mut pictures = Vec::new();
             if let Some(scene) = case.scene()? {
-                let (mut session, plots) = completed(scene, &[])?;
+                let mut session = printed(scene);
+                complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
+                let plots: Vec<_> = session.on_show().collect();
                 pictures = panels(&figure(&mut session, &plots, &Limits::PATIENT));
             }
             let provenance = provenance_file::of_process();

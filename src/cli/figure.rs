@@ -17,7 +17,7 @@ use crate::runtime::{bounded, provenance_file, tell};
 use crate::scene::machine::NO_BELT;
 use crate::scene::{Scene, Sheet, plain};
 use crate::session::read::windows::fitted;
-use crate::session::{Framing, Playback, Session, Size, save};
+use crate::session::{Framing, Pane, Playback, Session, Size, save};
 use crate::view::{self, Look, screen};
 use crate::words::joined;
 
@@ -58,8 +58,11 @@ const NARROWEST: u16 = 40;
 
 impl FigureCommand {
     pub fn run(&self) -> Result<()> {
-        let (mut session, plots) = self.session()?;
+        let mut session = self.session()?;
         let files = self.files(&session.scene)?;
+        if self.sheet.caption && files.is_none() {
+            return Err("--caption stands beside a picture: name one by --output".into());
+        }
         window::show_windows(&mut session, &self.window)?;
         complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
         self.keep_in_sight(&mut session)?;
@@ -72,6 +75,7 @@ impl FigureCommand {
         if files.is_none() && form == FigureForm::Text {
             return print(&in_letters(&session));
         }
+        let plots: Vec<_> = session.on_show().collect();
         let drawn = figure(&mut session, &plots, &Limits::PATIENT);
         let drawn = drawn.from(provenance_file::of_process());
         let content = |form| file(&drawn, form).map_err(Failure::Unanswered);
@@ -89,25 +93,24 @@ impl FigureCommand {
         files.scans.iter().try_for_each(ScanCommand::run)
     }
 
-    /// A session of what is drawn, and the plots to draw of it.
-    fn session(&self) -> Result<(Session, Vec<usize>)> {
-        let Some(path) = &self.open else {
-            let mut scene = self.scene()?;
-            let Scene { sheet, plots, .. } = Arc::make_mut(&mut scene);
-            *sheet = self.sheet.clone().over(std::mem::take(sheet));
-            let drawn = sheet.plots(plots.len())?;
-            *plots = drawn.into_iter().map(|plot| plots[plot]).collect();
-            let plots = (0..plots.len()).collect();
-            return Ok((printed(scene), plots));
-        };
-        let mut session = printed(plain());
-        save::open(&mut session, &bounded::text(path)?).map_err(|why| Failure::file(path, why))?;
-        let sheet = &mut Arc::make_mut(&mut session.scene).sheet;
+    /// A session of the plots that are drawn.
+    fn session(&self) -> Result<Session> {
+        let mut session;
+        if let Some(path) = &self.open {
+            session = printed(plain());
+            let text = bounded::text(path)?;
+            save::open(&mut session, &text).map_err(|why| Failure::file(path, why))?;
+        } else {
+            session = printed(self.scene()?);
+        }
+        let on_show = session.on_show();
+        let Scene { sheet, plots, .. } = Arc::make_mut(&mut session.scene);
         *sheet = self.sheet.clone().over(std::mem::take(sheet));
-        let sheet = sheet.clone();
-        let chosen = (!sheet.panels.is_empty()).then(|| sheet.plots(session.plots.len()));
-        let plots = chosen.unwrap_or_else(|| Ok(session.on_show().collect()))?;
-        Ok((session, plots))
+        let drawn = sheet.plots(session.plots.len(), on_show)?;
+        *plots = drawn.iter().filter_map(|plot| plots.get(*plot).copied()).collect();
+        session.plots = drawn.iter().map(|plot| session.plots[*plot].clone()).collect();
+        (session.plot, session.focus, session.enlarged) = (0, Pane::Parameters, false);
+        Ok(session)
     }
 
     /// The scene to show: that of a machine, or one that is named.
@@ -171,17 +174,8 @@ fn is_folder(path: &Path) -> bool {
     path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/")
 }
 
-/// A session of a scene with everything on show in these windows, or its own, computed for print, and its plots.
-pub fn completed(scene: Arc<Scene>, windows: &[String]) -> Result<(Session, Vec<usize>)> {
-    let mut session = printed(scene);
-    window::show_windows(&mut session, windows)?;
-    complete(&mut session, Fineness::PRINT, &Limits::PATIENT)?;
-    let plots = (0..session.plots.len()).collect();
-    Ok((session, plots))
-}
-
 /// A session of a scene, for print.
-fn printed(scene: Arc<Scene>) -> Session {
+pub fn printed(scene: Arc<Scene>) -> Session {
     let width = terminal_width().and_then(|width| u16::try_from(width).ok());
     let width = width.unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
     let mut session = Session::new(scene, Size { width, height: PANEL.1 });

@@ -47,7 +47,7 @@ impl SoundCommand {
         let wav = wav::wav(&sound, &Limits::PATIENT).map_err(Failure::Unanswered)?;
         write(&self.output, &wav.content, self.force)?;
         let (path, Sound { seconds, pitch, .. }) = (self.output.display(), sound);
-        let [pitch, from, to] = [pitch, wav.heard[0], wav.heard[1]].map(|it| significant(it, 4));
+        let (pitch, [from, to]) = (significant(pitch, 5), wav.heard.map(|it| significant(it, 4)));
         let heard = format!("louder than a hundredth of its peak from {from} to {to} s");
         print(&format!("{path}: {seconds} s, the natural frequency at {pitch} Hz, {heard}\n"))
     }

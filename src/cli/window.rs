@@ -13,7 +13,7 @@ pub fn show_windows(session: &mut Session, windows: &[String]) -> Result<()> {
     if windows.len() > 1 && windows.len() != plots {
         let given = windows.len();
         return Err(
-            format!("--window: {given} windows; expected 1, or {plots}, a panel each").into()
+            format!("--window: {given} for {plots} panels; give one, or one for each").into()
         );
     }
     for (index, text) in (0..plots).zip(windows.iter().cycle()) {

@@ -12,8 +12,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
 use super::{
-    Application, Files, Options, Pump, ReplayResult, Tell, Work, launch, print, provenance_file,
-    scanning, wav,
+    Application, Files, Options, Pump, ReplayResult, Tell, Work, launch, new_file, print,
+    provenance_file, scanning, wav,
 };
 use crate::figure::{self, Figure, FigureForm, panels};
 use crate::fit::NoEstimate;
@@ -75,7 +75,7 @@ impl Explorer {
         let mut session = self.session.clone();
         session.playback = Playback::default();
         let plots = plot.map_or_else(|| session.on_show().collect(), |plot| vec![plot]);
-        let (text, beside) = (save::text(&session)?, path.with_extension("toml"));
+        let (text, beside) = (save::text(&session)?, new_file::beside(&path, ".toml"));
         let panels = joined(plots.iter().map(|plot| plot + 1), ",");
         let (from, to) = (beside.display().to_string(), path.display().to_string());
         let words = ["figure", "--open", &from, "--panels", &panels, "--output", &to];

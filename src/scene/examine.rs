@@ -62,7 +62,7 @@ pub fn examine(scene: &Scene) -> Result<(), (String, String)> {
             return Err((format!("plots.{index}.{part}"), why.to_owned()));
         }
     }
-    scene.sheet.plots(count).map(drop).map_err(|why| ("sheet.panels".into(), why))
+    scene.sheet.plots(count, 0..count).map(drop).map_err(|why| ("sheet.panels".into(), why))
 }
 
 /// What is wrong with a plot, and where.

@@ -1,5 +1,6 @@
 //! How a figure is printed: its size, and the style of the journal that it is for.
 
+use std::ops::Range;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum, value_parser};
@@ -37,7 +38,7 @@ pub struct Sheet {
     #[arg(long, value_delimiter = ',', value_name = "NUMBERS")]
     pub panels: Vec<usize>,
     /// Also writes the facts for the caption, as .txt beside a picture
-    #[arg(long, requires = "output")]
+    #[arg(long)]
     pub caption: bool,
 }
 
@@ -147,10 +148,10 @@ impl Sheet {
         f64::from(self.dpi.unwrap_or(usual))
     }
 
-    /// The indices of the plots that are drawn, of so many. Fails with one line if there is no such plot.
-    pub fn plots(&self, count: usize) -> Result<Vec<usize>, String> {
+    /// The indices of the plots that are drawn, of so many; these where none are named. Fails with one line if there is no such plot.
+    pub fn plots(&self, count: usize, usual: Range<usize>) -> Result<Vec<usize>, String> {
         if self.panels.is_empty() {
-            return Ok((0..count).collect());
+            return Ok(usual.collect());
         }
         let index = |panel: &usize| match panel.checked_sub(1) {
             Some(index) if index < count => Ok(index),
@@ -227,8 +228,8 @@ mod tests {
         let text = "width = \"84 mm\"\nstyle = \"ieee\"\nletters = \"(a)\"\nlegend = \"inside\"\ngrey = true\ndpi = 600\npanels = [3, 1]\n";
         let sheet: Sheet = toml::from_str(text).unwrap();
         assert_eq!(toml::from_str::<Sheet>(&toml::to_string(&sheet).unwrap()).unwrap(), sheet);
-        assert_eq!(sheet.plots(3), Ok(vec![2, 0]));
-        let refused = sheet.plots(2).unwrap_err();
+        assert_eq!(sheet.plots(3, 0..3), Ok(vec![2, 0]));
+        let refused = sheet.plots(2, 0..2).unwrap_err();
         assert_eq!(refused, "there is no panel 3; panels are numbered from 1 to 2");
         for text in ["width = 84", "dpi = -1", "legend = \"left\"", "size = 3", "panels = [-1]"] {
             assert!(toml::from_str::<Sheet>(text).is_err(), "{text}");

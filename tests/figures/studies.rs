@@ -238,3 +238,63 @@ fn the_study_of_the_documentation_is_made_in_one_command() {
     let again = run_in(folder.path(), &line.split(' ').skip(1).collect::<Vec<_>>());
     assert_eq!((again.code, read()), (0, first), "{line}");
 }
+
+/// Of a saved session those panels are drawn that are asked for, in that order, each with its own window.
+#[test]
+fn panels_and_windows_of_a_session_are_those_that_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("walk.keys"), "<run \"write s.toml\">").unwrap();
+    let line = ["replay", "walk.keys", "--scene", "fig17", "--write", "."];
+    assert_eq!(run_in(folder, &line).code, 0);
+    let of = |source: &[&str], more: &[&str]| {
+        let ran = run_in(folder, &[&["figure"], source, &["--format", "json"], more].concat());
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let told: Value = serde_json::from_str(&ran.out).unwrap();
+        told["panels"].clone()
+    };
+    let (whole, some) = (of(&["--open", "s.toml"], &[]), ["--panels", "3,1"]);
+    let [third, first] = [2, 0].map(|panel| whole[panel].clone());
+    assert_eq!(of(&["--open", "s.toml"], &some), Value::from(vec![third, first]));
+    assert_eq!(of(&["--open", "s.toml"], &some), of(&["fig17"], &some));
+    let windows = ["--panels", "4,3", "--window=-1:1,-2:2", "--window=-3:3,-4:4"];
+    let shown = of(&["--open", "s.toml"], &windows);
+    let from =
+        |panel: usize| (shown[panel]["x"]["from"].clone(), shown[panel]["y"]["from"].clone());
+    assert_eq!(
+        (from(0), from(1)),
+        ((Value::from(-1.0), (-2.0).into()), ((-3.0).into(), (-4.0).into()))
+    );
+    let text = run_in(folder, &["figure", "--open", "s.toml", "--panels", "2"]);
+    assert_eq!(text.out.matches("over D").count(), 1, "{}", text.out);
+    let two =
+        ["figure", "--open", "s.toml", "--panels", "2", "--window=0:1,0:1", "--window=0:1,0:1"];
+    run_in(folder, &two).is_refused(&["--window: 2 for 1 panels"]);
+}
+
+#[test]
+fn the_facts_for_a_caption_stand_beside_the_pictures_of_a_study_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(
+        folder.join("my.toml"),
+        "problem.parameters = { D = -0.3, D3 = 0.5 }\noutputs = [\"a.svg\"]\n",
+    )
+    .unwrap();
+    assert_eq!(run_in(folder, &["figure", "my.toml", "--caption"]).code, 0);
+    assert!(fs::read_to_string(folder.join("a.txt")).unwrap().contains("D3 = 0.5"));
+    run_in(folder, &["figure", "fig07", "--caption"]).is_refused(&["--caption", "--output"]);
+}
+
+/// A figure is written with the session that draws it; a study that has its name is the user's.
+#[test]
+fn a_figure_of_the_explorer_replaces_no_study_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("a.toml"), "mine").unwrap();
+    fs::write(folder.join("walk.keys"), "<run \"figure! a.svg\"> <wait>").unwrap();
+    assert_eq!(run_in(folder, &["replay", "walk.keys", "--write", "."]).code, 0);
+    assert_eq!(fs::read_to_string(folder.join("a.toml")).unwrap(), "mine");
+    let drawn = run_in(folder, &["figure", "--open", "a.svg.toml", "--output", "b.svg"]);
+    assert_eq!(drawn.code, 0, "{}", drawn.err);
+}
