@@ -135,6 +135,14 @@ pub fn trajectory(
         words.extend(["--tol".to_owned(), format!("{tol:?}")]);
     }
     let times = times.map(|times| times.as_array().to_vec());
+    if let Some(times) = &times {
+        let is_outside = |time: &&f64| !(0.0..=problem.until).contains(*time);
+        if let Some(time) = times.iter().find(is_outside) {
+            let range = format!("{time:?} is outside of the motion, 0 .. {:?}", problem.until);
+            return Err(InputError::new_err(format!("times: {range}, see until")));
+        }
+        words.extend(["--times", "/dev/stdin"].map(str::to_owned));
+    }
     let detail = Detail { energy: true, ..Detail::default() };
     let started = Instant::now();
     let (found, samples) = hearing(py, |limits: &Limits| match &times {

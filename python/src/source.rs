@@ -2,7 +2,6 @@
 
 use hopfscope::cli::{CommandCase, machine};
 use hopfscope::model::{Knob, Parameters as Numbers};
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -96,11 +95,16 @@ impl Parameters {
 #[pyclass(frozen, module = "hopfscope")]
 pub struct Machine {
     pub case: CommandCase,
-    /// The words of the command line that name it.
+    /// The words of the command line that name it; a text is a file that the command has open as number 3.
     #[pyo3(get)]
     pub words: Vec<String>,
+    #[pyo3(get)]
+    name: String,
     text: Option<String>,
 }
+
+/// Where a command finds the text of a machine that is in no file.
+const OF_TEXT: &str = "/dev/fd/3";
 
 #[pymethods]
 impl Machine {
@@ -111,7 +115,8 @@ impl Machine {
         text: Option<String>,
         numbers: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let mut words = vec!["--machine".to_owned(), name.to_owned()];
+        let file = text.as_ref().map_or(name, |_| OF_TEXT);
+        let mut words = vec!["--machine".to_owned(), file.to_owned()];
         for (knob, value) in numbers.into_iter().flatten() {
             let value = match value.extract::<f64>() {
                 Ok(value) => format!("{value:?}"),
@@ -119,14 +124,8 @@ impl Machine {
             };
             words.extend(["--set".to_owned(), format!("{knob}={value}")]);
         }
-        let case = machine(&words, text.as_deref()).map_err(failed)?;
-        Ok(Machine { case, words, text })
-    }
-
-    /// Its name, or the file that it was read from.
-    #[getter]
-    fn name(&self) -> &str {
-        &self.words[1]
+        let case = machine(&words, text.as_deref().map(|text| (name, text))).map_err(failed)?;
+        Ok(Machine { case, words, name: name.to_owned(), text })
     }
 
     #[getter]
@@ -146,23 +145,24 @@ impl Machine {
 
     /// The same with other values.
     #[pyo3(signature = (**numbers))]
-    fn replace(&self, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let py = numbers.ok_or_else(|| PyTypeError::new_err("which numbers?"))?.py();
+    fn replace(&self, py: Python<'_>, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let all = self.set(py)?;
-        all.update(numbers.map_or_else(|| PyDict::new(py), Clone::clone).as_mapping())?;
-        Machine::new(self.name(), self.text.clone(), Some(&all))
+        if let Some(numbers) = numbers {
+            all.update(numbers.as_mapping())?;
+        }
+        Machine::new(&self.name, self.text.clone(), Some(&all))
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((&str,), Bound<'py, PyDict>)> {
         let all = self.set(py)?;
         all.set_item("text", &self.text)?;
-        Ok(((self.name(),), all))
+        Ok(((&self.name,), all))
     }
 
     fn __repr__(&self) -> String {
         let set = self.words[2..].iter().filter(|word| *word != "--set");
         let set = set.map(|word| word.replacen('=', "='", 1) + "'");
-        let all: Vec<_> = std::iter::once(format!("{:?}", self.name())).chain(set).collect();
+        let all: Vec<_> = std::iter::once(format!("{:?}", self.name)).chain(set).collect();
         format!("Machine({})", all.join(", "))
     }
 }

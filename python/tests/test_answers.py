@@ -7,6 +7,7 @@ import shlex
 import subprocess
 import sysconfig
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 import pytest
@@ -17,10 +18,11 @@ PROGRAM = Path(sysconfig.get_path("scripts"), "hopfscope")
 OSCILLATOR = hs.Parameters(D=-0.3, D3=0.5, r=0.1)
 
 
-def printed(command: str) -> str:
-    """What the program prints for a command line."""
-    words = shlex.split(command)
-    return subprocess.run([PROGRAM, *words[1:]], capture_output=True, text=True, check=True).stdout
+def printed(command: str, stdin: str = "", file: str = "/dev/null") -> str:
+    """What the program prints for a command line, with a text as its standard input, and a file open as number 3."""
+    words = [shlex.quote(word) for word in [str(PROGRAM), *shlex.split(command)[1:]]]
+    shell = ["bash", "-c", f"{' '.join(words)} 3<{shlex.quote(file)}"]
+    return subprocess.run(shell, capture_output=True, text=True, check=True, input=stdin).stdout
 
 
 def plain(value):
@@ -37,9 +39,10 @@ def plain(value):
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
-def same(answer: hs.Answer, *without: str) -> None:
+def same(answer: hs.Answer, *without: str, times: Sequence[float] = (), file: str = "/dev/null") -> None:
     """Asserts that the program's document has the fields of the answer, digit for digit."""
-    document = json.loads(printed(answer.provenance.command + " --format json"))
+    stdin = "".join(f"{time!r}\n" for time in map(float, times))
+    document = json.loads(printed(answer.provenance.command + " --format json", stdin, file))
     for name in answer.keys():
         if name not in ("cost", "provenance", *without):
             assert plain(answer[name]) == plain(document[name]), name
@@ -56,12 +59,18 @@ def test_without_damping_a_half_swing_takes_twice_the_friction():
 
 
 def test_a_motion_at_times_is_that_of_the_closed_form():
-    times = np.array([3.0, 0.0, 1.25, 100.0])
-    samples = hs.trajectory(hs.Parameters(r=0.1), q0=1.0, until=50, times=times).samples
+    times = np.array([3.0, 0.0, 1.25])
+    found = hs.trajectory(hs.Parameters(r=0.1), q0=1.0, until=50, times=times)
+    samples = found.samples
     np.testing.assert_array_equal(samples.tau, times)
-    np.testing.assert_allclose(samples.q[:3], 0.1 + 0.9 * np.cos(times[:3]), atol=1e-13)
-    np.testing.assert_allclose(samples.v[:3], -0.9 * np.sin(times[:3]), atol=1e-13)
-    assert np.isnan(samples.q[3])
+    np.testing.assert_allclose(samples.q, 0.1 + 0.9 * np.cos(times), atol=1e-13)
+    np.testing.assert_allclose(samples.v, -0.9 * np.sin(times), atol=1e-13)
+    same(found, times=times)
+    for outside in [50.5, -1.0, math.nan]:
+        with pytest.raises(hs.InputError, match="outside of the motion, 0 .. 50.0"):
+            hs.trajectory(OSCILLATOR, until=50, times=[1.0, outside])
+    escaped = hs.trajectory(D=0.1, D3=-1.0, q0=5.0, until=50, times=[0.0, 40.0]).samples
+    assert escaped.q[0] == 5.0 and np.isnan(escaped.q[1])
 
 
 def test_the_linear_cycle_and_its_margin_have_closed_forms():
@@ -136,6 +145,10 @@ def test_a_table_without_rows_has_its_columns():
         lambda: hs.branch(OSCILLATOR, over="D=-1:0:6", orbit=5),
         lambda: hs.basin(OSCILLATOR, grid=(7, 5), labels=True, curves=True),
         lambda: hs.level(OSCILLATOR, of=("impulse", 0.2), over=[("D", -0.9, -0.1), ("r", 0.05, 0.4)]),
+        lambda: hs.level(
+            OSCILLATOR, of=("guaranteed_impulse", 0.15), over=["D=-0.9:-0.1", "D3=0:1"], half_width=("r", 0.01)
+        ),
+        lambda: hs.level(OSCILLATOR, of="captured_part=0.05", over=["D=-0.9:-0.1", "D3=0:1"], window=(-2, 2, -2, 2)),
     ],
 )
 def test_an_answer_is_that_of_the_program(answer):
@@ -174,6 +187,8 @@ def test_a_machine_of_a_text_is_that_of_its_file(tmp_path):
     assert of_file.numbers == of_text.numbers and of_text.numbers["v0"] == 0.3
     assert plain(hs.margin(of_file).nominal) == plain(hs.margin(of_text).nominal)
     assert of_text.replace(R=2).numbers["R"] == 2 and of_text.replace(R=2).numbers["v0"] == 0.3
+    assert of_text.replace().numbers == of_text.numbers and of_text.name == "own"
+    same(hs.trajectory(of_text, until=0.5, times=[0.1, 0.2]), "machine", "title", times=[0.1, 0.2], file=str(file))
 
 
 def test_a_scan_has_the_rows_of_the_program():

@@ -4,10 +4,11 @@ use clap::Args;
 
 use super::input::{self, WINDOW};
 use super::output::keep;
-use super::{CERTIFY, Failure, QuestionOptions, Result, given};
+use super::{CERTIFY, Failure, QuestionOptions, Result, given, provable};
 use crate::flow::{Flow, Limits};
 use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Counts, Portrait, Return, StartWindow, evenly, proved_kicks};
+use crate::report::Format;
 use crate::report::margin::basin;
 use crate::runtime::arrays::{Array, ArrayCells, packed};
 use crate::words::ends_in;
@@ -27,7 +28,7 @@ pub struct BasinCommand {
     /// Adds curves: the border of the basin, and the return map over the displacements of the window
     #[arg(long)]
     curves: bool,
-    /// Adds where each start ends to the JSON document, a row for each velocity
+    /// Adds where each start ends to the JSON document, a row for each velocity; arrays have it always
     #[arg(long)]
     labels: bool,
 }
@@ -115,14 +116,18 @@ impl BasinCommand {
         let numbers = asked.source.numbers()?;
         let archive = asked.output.archive();
         if let Some(path) = archive.filter(|path| self.certify || !ends_in(path, "npz")) {
-            let why = "a basin is written as .npz, or, also with --certify, as .json or .csv";
+            let why = "arrays of a basin are a file .npz, and hold no proof";
             return Err(Failure::file(path, why));
+        }
+        if self.labels && archive.is_none() && asked.output.format() != Format::Json {
+            return Err("--labels is for --format json, or for --write FILE.npz".into());
         }
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
         let case = asked.source.exact()?;
         let reach = window.unwrap_or(WINDOW).reach();
         let (about, (found, before)) = (case.about(), case.portrait(&asked.output, reach)?);
         let on_paper = !about.is_machine();
+        provable(self.certify, about.is_machine())?;
         let usual = if on_paper { WINDOW } else { found.surroundings() };
         let window = window.unwrap_or(usual);
         let limits = asked.output.limits();
@@ -132,8 +137,7 @@ impl BasinCommand {
         }
         let count = || found.count(&window, self.grid, &limits);
         let (counts, seconds) = asked.output.timed(UNCOUNTED, count)?;
-        // What is proved, is proved of the oscillator of the paper.
-        let parameters = found.model.parameters().filter(|_| self.certify && on_paper);
+        let parameters = found.model.parameters().filter(|_| self.certify);
         let certified = parameters.map(|parameters| proved_kicks(&parameters, &found));
         let seconds = before + seconds;
         let mut answer = basin(&about, &found, (&window, counts), certified.as_ref(), seconds);

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::cycles::outlines;
 use super::input::{self, MACHINE};
-use super::{CERTIFY, CommandCase, Output, QuestionOptions, Result, given, read, timed};
+use super::{CERTIFY, CommandCase, Output, QuestionOptions, Result, given, provable, read, timed};
 use crate::branch::{
     Boundary, BoundaryPoint, BranchPoint, MachineBranch, Points, PortraitPoint, border, branch,
 };
@@ -49,6 +49,7 @@ impl BranchCommand {
         let over = read("--over", &self.over, |text| numbers.over(text))?;
         let Sweep { symbol, count, .. } = over;
         let about = case.about().but(&[symbol]).told_as(asked.output.format());
+        provable(self.certify, about.is_machine())?;
         let Some(problem) = case.described.subject.paper() else {
             let source = &case.described.subject.source;
             let (found, seconds) = timed(asked.output.repeat, || followed(source, &over, &limits));
@@ -108,6 +109,7 @@ impl BorderCommand {
         let (case, limits) = (asked.source.exact()?, asked.output.limits());
         let numbers = asked.source.numbers()?;
         let over = read("--over", &self.over, |text| numbers.over(text))?;
+        provable(self.certify, case.about().is_machine())?;
         let Some(Problem { parameters, .. }) = case.described.subject.paper() else {
             return self.of_machine(&case, &over, &asked.output);
         };

@@ -69,13 +69,13 @@ pub fn scan(words: &[String], case: Option<CommandCase>) -> Result<(Scan, Option
     Ok((command.asked()?.scan, command.jobs.map(usize::from)))
 }
 
-/// The machine that words name, or that a text describes in place of a file, with the numbers that they set.
+/// The machine that words name, or that a text with a name describes in place of a file, with the numbers that they set.
 ///
 /// # Errors
 /// The line of the program, if there is none.
-pub fn machine(words: &[String], text: Option<&str>) -> Result<CommandCase> {
+pub fn machine(words: &[String], text: Option<(&str, &str)>) -> Result<CommandCase> {
     let words = [&["machine".to_owned()], words].concat();
     let mut options: SourceOptions = of_words(&words)?;
-    options.case = text.map(|text| CommandCase::written(&words[2], text)).transpose()?;
+    options.case = text.map(|(name, text)| CommandCase::written(name, text)).transpose()?;
     options.machine()?.ok_or("which machine?")?.checked()
 }

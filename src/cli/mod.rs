@@ -49,7 +49,7 @@ pub(super) use crate::runtime::failure::{Failure, Result};
 pub(super) use call::Call;
 pub(super) use input::{given, half_widths, number, read, signed};
 pub(super) use machine::{second, troubled};
-pub(super) use output::{CERTIFY, Output, in_turn, print, timed, write};
+pub(super) use output::{CERTIFY, Output, in_turn, print, provable, timed, write};
 pub(super) use source::{QuestionOptions, SourceOptions, StartOptions};
 
 use crate::runtime::provenance_file::words;

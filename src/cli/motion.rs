@@ -3,7 +3,9 @@
 use clap::Args;
 
 use super::times::TimeOptions;
-use super::{CERTIFY, Failure, QuestionOptions, Result, in_turn, number, second, timed, troubled};
+use super::{
+    CERTIFY, Failure, QuestionOptions, Result, in_turn, number, provable, second, timed, troubled,
+};
 use crate::accuracy::Trade;
 use crate::flow::{Detail, Limits, Method, Motion, Outcome, Problem};
 use crate::model::{Knob, Model};
@@ -81,6 +83,7 @@ impl TrajectoryCommand {
     pub fn run(&self, question: &QuestionOptions) -> Result<()> {
         let asked = AskedMotion::new(question, self.until.as_ref())?;
         let (problem, is_machine) = (&asked.problem, asked.model.is_some());
+        provable(self.certify, is_machine)?;
         let (mut found, seconds) =
             timed(question.output.repeat, || asked.follow(problem, is_machine));
         // The energy ledger of the oscillator only checks the motion and is no part of its cost, so it is computed in a
@@ -97,7 +100,7 @@ impl TrajectoryCommand {
             let start = [problem.initial.q, problem.initial.v].map(Interval::point);
             enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
         };
-        let certified = (self.certify && !is_machine).then(enclose);
+        let certified = self.certify.then(enclose);
         let answer = motion::motion(&asked.about, &found, certified.as_ref(), seconds);
         question.output.print(answer.sampled(samples.as_deref()))?;
         match found.outcome {

@@ -119,6 +119,16 @@ pub fn terminal_width() -> Option<usize> {
 /// What the option `--certify` does.
 pub const CERTIFY: &str = "Encloses the answer between proved bounds, or says what remains open";
 
+/// Refuses that option where a machine is asked about.
+pub fn provable(certify: bool, is_machine: bool) -> Result<()> {
+    const WHY: &str = "--certify: proofs are of the oscillator of the paper, not of machines";
+    if certify && is_machine {
+        Err(WHY.into())
+    } else {
+        Ok(())
+    }
+}
+
 /// Prints an answer in printable characters. A closed pipe is not an error: its reader has seen enough.
 pub fn print(text: &str) -> Result<()> {
     match standard::print(text) {

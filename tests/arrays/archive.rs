@@ -156,7 +156,7 @@ const IS_BUILT: bool = cfg!(feature = "parquet");
 fn what_arrays_cannot_hold_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (line, name, expected) in [
-        ("basin --grid 2x2 --certify", "b.npz", ".json or .csv"),
+        ("basin --grid 2x2 --certify", "b.npz", "hold no proof"),
         ("basin --grid 2x2", "b.parquet", if IS_BUILT { ".npz" } else { "--features parquet" }),
         ("basin --grid 2x2 --format json", "b.npz", "leave out --format"),
         ("cycles --format table", "c.NPZ", "leave out --format"),

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import TYPE_CHECKING, Any, ClassVar, Dict, List, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, ClassVar, Dict, List, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 from . import _hopfscope
 from ._answers import Answer, Error, IncompleteWarning, InputError, Record, Table
@@ -34,6 +34,7 @@ Source = Union[Parameters, Machine, str, None]
 Number = Union[float, str, Tuple[float, float]]
 #: ``"NAME=FROM:TO:COUNT"`` or ``(name, from, to, count)``.
 Over = Union[str, Tuple[Any, ...]]
+_A = TypeVar("_A", bound=Answer)
 
 
 class Events(Table):
@@ -81,17 +82,10 @@ class Cycles(Answer):
     _kinds: ClassVar = {"cycles": CycleTable}
 
 
-class Points(Table):
+class Points(CycleTable):
     """Cycles along a number: its ``value``, and the numbers of ``CycleTable``."""
 
     value: "np.ndarray"
-    stable: "np.ndarray"
-    q_min: "np.ndarray"
-    q_max: "np.ndarray"
-    v_min: "np.ndarray"
-    v_max: "np.ndarray"
-    period: "np.ndarray"
-    multiplier: "np.ndarray"
 
 
 class Special(Table):
@@ -156,7 +150,7 @@ def _text(value: Any, between: str = "=::") -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return str(os.fspath(value))
     if isinstance(value, (tuple, list)):
         parts = [_text(part) for part in value]
         ends = [*between[: len(parts) - 1], *":" * len(parts)]
@@ -191,13 +185,13 @@ def _words(command: str, source: Source, numbers: Dict[str, Any], options: Dict[
     return words
 
 
-def _ask(kind: Any, command: str, source: Source, numbers: Dict[str, Any], **options: Any) -> Any:
+def _ask(kind: Type[_A], command: str, source: Source, numbers: Dict[str, Any], **options: Any) -> _A:
     machine = source if isinstance(source, Machine) else None
     words = _words(command, source, numbers, options)
     return _answered(kind, *_hopfscope.ask(words, machine))
 
 
-def _answered(kind: Any, found: Any, trouble: Optional[str]) -> Any:
+def _answered(kind: Type[_A], found: Any, trouble: Optional[str]) -> _A:
     if trouble is not None:
         warnings.warn(trouble, IncompleteWarning, stacklevel=4)
     return kind(found)
@@ -226,8 +220,8 @@ def trajectory(
 ) -> Motion:
     """One motion from displacement ``q0`` and velocity ``v0`` (of a machine ``x`` in m, ``v`` in m/s) until a time.
 
-    ``times``, an array in any order, or every ``sample`` gives ``samples``, the exact motion at these times: NaN after an
-    escape. ``method`` and ``tol``, the relative error of a step, choose the integrator; ``certify`` encloses the answer.
+    ``times`` up to ``until``, an array in any order, or every ``sample`` gives ``samples``, the exact motion at these times:
+    NaN after an escape. The command in ``provenance`` reads ``times`` from its standard input. ``method`` and ``tol``, the relative error of a step, choose the integrator; ``certify`` encloses the answer.
     """
     if source is None:
         source, numbers = _named(numbers)
@@ -238,12 +232,13 @@ def trajectory(
         start = {name: value for name, value in [("q0", q0), ("v0", v0)] if value is not None}
         options = dict(until=until, method=method, tol=tol, sample=sample, certify=certify)
         return _ask(Motion, "trajectory", source, {**numbers, **start}, **options)
+    at = None
     if times is not None:
         import numpy
 
-        times = numpy.asarray(times, dtype=float).ravel()
+        at = numpy.asarray(times, dtype=float).ravel()
     source = source.replace(**numbers) if numbers else source  # type: ignore[union-attr,arg-type]
-    found = _hopfscope.trajectory(source, q0=q0, v0=v0, until=until, method=method, tol=tol, times=times)
+    found = _hopfscope.trajectory(source, q0=q0, v0=v0, until=until, method=method, tol=tol, times=at)  # type: ignore[arg-type]
     return _answered(Motion, *found)
 
 
@@ -331,17 +326,21 @@ def level(
     *,
     of: Union[str, Tuple[str, float]],
     over: List[Over],
-    lattice: Optional[int] = None,
-    chord: Optional[float] = None,
+    window: Union[str, Sequence[float], None] = None,
+    until: Optional[float] = None,
+    kicks: Optional[str] = None,
     disturbance: Union[float, str, None] = None,
+    half_width: Union[List[Tuple[str, float]], Tuple[str, float], None] = None,
+    design: Union[str, Tuple[str, float], None] = None,
     **numbers: Number,
 ) -> Answer:
     """The ``curves`` over two numbers along which a column of ``scan`` has a value: ``of=("impulse", 0.2)``.
 
-    ``over=[("D", -1, 0), ("r", 0, 1)]``, the first to the right; ``points`` of a curve are an array (N, 2). On a ``lattice``
-    of so many values of each number curves are sought; ``chord`` is the largest distance of their chords, as a part of both.
+    ``over=[("D", -1, 0), ("r", 0, 1)]``, the first to the right; ``points`` of a curve are an array (N, 2). What a column
+    depends on is given as in ``scan``.
     """
-    return _ask(Answer, "level", source, numbers, of=of, over=over, lattice=lattice, chord=chord, disturbance=disturbance)
+    options = dict(of=of, over=over, window=window, until=until, kicks=kicks, disturbance=disturbance)
+    return _ask(Answer, "level", source, numbers, **options, half_width=half_width, design=design)
 
 
 def scan(
@@ -366,8 +365,8 @@ def scan(
     ``points`` is a file of comma-separated values with the numbers of each point, in place of ``over``. On all cores, or as
     many as ``jobs``.
     """
-    options = dict(over=over, points=points, jobs=jobs, window=window, until=until, kicks=kicks, disturbance=disturbance)
-    options.update(half_width=half_width, design=design, certify=certify)
+    options: Dict[str, Any] = dict(over=over, points=points, jobs=jobs, window=window, until=until, kicks=kicks)
+    options.update(disturbance=disturbance, half_width=half_width, design=design, certify=certify)
     options["measure"] = measure if isinstance(measure, str) else ",".join(measure)
     words = _words("scan", source, numbers, options)
     found = _hopfscope.scan(words, source if isinstance(source, Machine) else None)

@@ -1,5 +1,8 @@
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, List, Optional, Tuple, Union, final
 
+__all__ = ["Found", "Machine", "Parameters", "ask", "cycles", "margin", "program", "scan", "trajectory"]
+
+@final
 class Parameters:
     def __new__(cls, *, D: float = 0.0, D2: float = 0.0, D3: float = 0.0, r: float = 0.0) -> Parameters: ...
     @property
@@ -15,6 +18,7 @@ class Parameters:
     def __hash__(self) -> int: ...
     def __getnewargs_ex__(self) -> Tuple[Tuple[()], Dict[str, float]]: ...
 
+@final
 class Machine:
     def __new__(cls, name: str, *, text: Optional[str] = None, **numbers: Union[float, str]) -> Machine: ...
     @property
@@ -28,6 +32,7 @@ class Machine:
     def __getnewargs_ex__(self) -> Tuple[Tuple[str], Dict[str, Optional[str]]]: ...
     def replace(self, **numbers: Union[float, str]) -> Machine: ...
 
+@final
 class Found:
     def document(self) -> Any: ...
 
