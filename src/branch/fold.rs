@@ -231,6 +231,7 @@ mod tests {
     use crate::flow::{Detail, Method, Problem};
     use crate::model::State;
     use crate::numerics::elementary::powi;
+    use crate::portrait::basin::cycle::cycles;
 
     fn found(d2: f64, d3: f64, r: f64) -> FoldPoint {
         let parameters = Parameters { d: 0.0, d2, d3, r };
@@ -328,5 +329,28 @@ mod tests {
         // For weak friction the harmonic estimate is exact to leading order.
         let weak = found(0.0, 1e-12, 1.0).d;
         assert!((weak / harmonic::fold(1e-12, 1.0).unwrap().d - 1.0).abs() < 1e-6, "{weak}");
+    }
+
+    /// What is said in place of a border, against the search for cycles, which knows nothing of it.
+    #[test]
+    fn where_there_is_no_border_the_cycles_say_why() {
+        let said = |d2: f64, d3: f64, r: f64| {
+            let parameters = Parameters { d: 0.0, d2, d3, r: 0.0 };
+            let found = border(&parameters, Knob::R, (r, 2.0 * r + 1.0), 2, &Limits::PATIENT);
+            found.unwrap().points[0].reason.clone().unwrap()
+        };
+        let largest = |d: f64, d2: f64, d3: f64, r: f64| {
+            let found = cycles(&Parameters { d, d2, d3, r }, &Limits::PATIENT).unwrap();
+            found.cycles.last().filter(|cycle| !cycle.stable).map(|cycle| cycle.q_max)
+        };
+        assert_eq!(said(0.3, -0.5, 0.1), "D3 < 0: an unstable cycle borders the basin");
+        assert!([-0.9, -0.3, 0.0, 0.4].iter().all(|d| largest(*d, 0.3, -0.5, 0.1).is_some()));
+        // It grows like 2 r / (pi |D|).
+        assert_eq!(said(0.0, 0.0, 0.1), "D2 = D3 = 0: the unstable cycle is infinite at D = 0");
+        let near = largest(-1e-6, 0.0, 0.0, 0.1).unwrap();
+        assert!((near * 1e-6 * std::f64::consts::PI / 0.2 - 1.0).abs() < 1e-5, "{near}");
+        assert_eq!(said(5.0, 0.0, 3.4), "D3 = 0: D_c lies below -1");
+        assert!([-0.999, -0.5, -0.01].iter().all(|d| largest(*d, 5.0, 0.0, 3.4).is_none()));
+        assert!(said(0.3, 0.5, 0.0).starts_with("without friction"));
     }
 }
