@@ -10,7 +10,8 @@ use crate::portrait::closing::return_map::return_map;
 use crate::portrait::{Counts, Portrait, Return, StartWindow, evenly, proved_kicks};
 use crate::report::Format;
 use crate::report::margin::basin;
-use crate::runtime::arrays::{Array, ArrayCells, packed};
+use crate::runtime::arrays::{Array, ArrayCells};
+use crate::runtime::packed::packed;
 use crate::words::ends_in;
 
 /// Shows where the starts in a window end, and how large a kick is survived

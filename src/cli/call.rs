@@ -1,37 +1,13 @@
 //! Questions of a caller in this process, such as the Python package: asked in the words of the command line, answered as
 //! documents, and interrupted when the caller says so.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use super::scan::ScanCommand;
-use super::{CommandCase, Failure, Result, SourceOptions, commands, given_in, of_words};
-use crate::flow::Limits;
+use super::{Call, CommandCase, Failure, Result, SourceOptions, commands, given_in, of_words};
 use crate::report::Answer;
 use crate::scan::Scan;
 use crate::words::provenance::Provenance;
-
-/// Where a caller waits for an answer.
-pub struct Call {
-    interrupted: Box<dyn Fn() -> bool + Send + Sync>,
-    answer: Mutex<Option<Answer>>,
-}
-
-impl Call {
-    /// A call that ends when `interrupted` says so.
-    pub fn new(interrupted: impl Fn() -> bool + Send + Sync + 'static) -> Self {
-        Call { interrupted: Box::new(interrupted), answer: Mutex::default() }
-    }
-
-    /// What a question may cost.
-    pub fn limits(&self) -> Limits<'_> {
-        Limits { interrupted: &*self.interrupted, ..Limits::PATIENT }
-    }
-
-    /// Puts down what would be printed; returns what was there.
-    pub fn replace(&self, answer: Option<Answer>) -> Option<Answer> {
-        std::mem::replace(&mut *self.answer.lock().unwrap_or_else(PoisonError::into_inner), answer)
-    }
-}
 
 /// The answer to a question, a command and its options, about a machine if one is given, with its provenance; and what the program would
 /// say about an answer that is incomplete, or that rests on a condition which fails.

@@ -13,7 +13,7 @@ use super::{Failure, Result};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
-use crate::runtime::arrays::is_of_arrays;
+use crate::runtime::packed::is_of_arrays;
 use crate::runtime::{NewFile, PartFile, Readers, merge, provenance_file, tell};
 use crate::words::provenance::{Checksum, Provenance};
 

@@ -8,6 +8,7 @@ mod basin;
 mod belt;
 mod branch;
 mod call;
+mod caller;
 mod conditions;
 mod cycles;
 mod explore;
@@ -46,7 +47,7 @@ pub use call::{answer, machine, scan};
 pub use machine::CommandCase;
 
 pub(super) use crate::runtime::failure::{Failure, Result};
-pub(super) use call::Call;
+pub(super) use caller::Call;
 pub(super) use input::{given, half_widths, number, read, signed};
 pub(super) use machine::{second, troubled};
 pub(super) use output::{CERTIFY, Output, in_turn, print, provable, timed, write};

@@ -12,7 +12,7 @@ use super::{Call, Failure, Result};
 use crate::flow::{Limits, Reason};
 use crate::numerics::{real, truncated};
 use crate::report::{Answer, Format};
-use crate::runtime::{Readers, arrays, new_file, provenance_file, standard};
+use crate::runtime::{Readers, new_file, packed, provenance_file, standard};
 use crate::words::printable;
 
 /// How an answer is printed.
@@ -67,7 +67,7 @@ impl Output {
 
     /// The file, if it is one of arrays.
     pub fn archive(&self) -> Option<&Path> {
-        self.write.as_deref().filter(|path| arrays::is_of_arrays(path))
+        self.write.as_deref().filter(|path| packed::is_of_arrays(path))
     }
 
     /// Refuses a file of arrays that are not made of comma-separated values, or that this build does not write.
@@ -76,7 +76,7 @@ impl Output {
         if self.format() != Format::Csv {
             return Err(Failure::file(path, "arrays are made of csv: leave out --format"));
         }
-        arrays::packed_rows(path, "").map(drop).map_err(|why| Failure::file(path, why))
+        packed::packed_rows(path, "").map(drop).map_err(|why| Failure::file(path, why))
     }
 
     /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other
@@ -92,7 +92,7 @@ impl Output {
         let content = printable::lines(&content);
         match self.format() {
             Format::Json => new_file::write(path, content.as_bytes(), Readers::Usual, KEEP),
-            _ => keep(path, &arrays::packed_rows(path, &content)?),
+            _ => keep(path, &packed::packed_rows(path, &content)?),
         }
     }
 }

@@ -22,7 +22,7 @@ use crate::report::scan::ScanPart;
 use crate::runtime::failure::exit_code;
 use crate::runtime::scan_file::{pack, rows_of};
 use crate::runtime::scanning::rows;
-use crate::runtime::{ScanFile, arrays, provenance_file, tell};
+use crate::runtime::{ScanFile, packed, provenance_file, tell};
 use crate::scan::{MEASURES, Measure, Scan, Sweep};
 use crate::scene::{ScanOption, ScanOptions};
 use crate::words::joined;
@@ -234,16 +234,16 @@ impl ScanCommand {
         Ok(file)
     }
 
-    /// The file of arrays, if such are to be written.
+    /// The file of packed, if such are to be written.
     fn archive(&self) -> Option<&Path> {
-        self.output.as_deref().filter(|path| arrays::is_of_arrays(path))
+        self.output.as_deref().filter(|path| packed::is_of_arrays(path))
     }
 
     fn form(&self) -> Result<Format> {
         let of_file = || self.output.as_deref().map_or(Format::Csv, Format::of_file);
         let form = self.format.unwrap_or_else(of_file);
         if let Some(path) = self.archive() {
-            arrays::packed_rows(path, "")?;
+            packed::packed_rows(path, "")?;
             if form != Format::Csv || self.plan.is_wanted() {
                 return Err("arrays are made of the csv rows of one scan, without --plan".into());
             }

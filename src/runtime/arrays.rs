@@ -1,14 +1,6 @@
-//! Arrays with names in one file: an archive of numpy, or Parquet.
+//! Arrays with names.
 
-use std::io::{Cursor, Write};
-use std::path::Path;
-
-use csv::Reader;
-use zip::ZipWriter;
-use zip::result::ZipResult;
-use zip::write::SimpleFileOptions;
-
-use crate::words::{ends_in, joined};
+use crate::words::joined;
 
 /// An array with a name: its lengths, the last index varying fastest, and its cells.
 pub struct Array {
@@ -31,7 +23,7 @@ const OF_WORDS: [&str; 4] = ["border", "outcome", "proved", "reason"];
 
 impl ArrayCells {
     /// The cells of a column as text with every digit. All numbers are doubles: a count, too, may be missing.
-    fn read(name: &str, cells: &[&str]) -> Self {
+    pub fn read(name: &str, cells: &[&str]) -> Self {
         let number = |cell: &&str| if cell.is_empty() { Ok(f64::NAN) } else { cell.parse() };
         let numbers = cells.iter().map(number).collect::<Result<_, _>>();
         let numbers = numbers.ok().filter(|_| !OF_WORDS.contains(&name));
@@ -51,7 +43,7 @@ impl Array {
     }
 
     /// The array as a file of numpy.
-    fn npy(&self) -> Vec<u8> {
+    pub fn npy(&self) -> Vec<u8> {
         let (kind, bytes) = match &self.cells {
             ArrayCells::Codes(cells) => ("|u1".to_owned(), cells.clone()),
             ArrayCells::Numbers(cells) => {
@@ -73,58 +65,5 @@ impl Array {
         let header = format!("{named:<width$}\n", width = length - 1);
         let size = u16::try_from(length).unwrap_or(u16::MAX).to_le_bytes();
         [b"\x93NUMPY\x01\x00".as_slice(), &size, header.as_bytes(), &bytes].concat()
-    }
-}
-
-/// The columns of comma-separated values. Fails where a row cannot be read.
-fn columns(csv: &str) -> csv::Result<Vec<Array>> {
-    let mut reader = Reader::from_reader(csv.as_bytes());
-    let names = reader.headers()?.clone();
-    let rows = reader.records().collect::<csv::Result<Vec<_>>>()?;
-    let column = |(at, name)| {
-        let cells: Vec<&str> = rows.iter().map(|row| &row[at]).collect();
-        Array::new(name, &[rows.len()], ArrayCells::read(name, &cells))
-    };
-    Ok(names.iter().enumerate().map(column).collect())
-}
-
-/// An archive of numpy, not compressed: the same bytes for the same arrays.
-fn npz(arrays: &[Array]) -> ZipResult<Vec<u8>> {
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    for array in arrays {
-        archive.start_file(format!("{}.npy", array.name), SimpleFileOptions::default())?;
-        archive.write_all(&array.npy())?;
-    }
-    Ok(archive.finish()?.into_inner())
-}
-
-/// Whether a file holds arrays, by its ending.
-pub fn is_of_arrays(path: &Path) -> bool {
-    ["npz", "parquet"].into_iter().any(|ending| ends_in(path, ending))
-}
-
-/// Arrays in the form that a file stands for.
-///
-/// # Errors
-/// One line, if the build does not have that form, or they are too long for it.
-pub fn packed(path: &Path, arrays: &[Array]) -> Result<Vec<u8>, String> {
-    if !ends_in(path, "parquet") {
-        return npz(arrays).map_err(|error| error.to_string());
-    }
-    #[cfg(feature = "parquet")]
-    return super::parquet::file(arrays).map_err(|error| error.to_string());
-    #[cfg(not(feature = "parquet"))]
-    Err("this build has no Parquet: cargo build --features parquet".to_owned())
-}
-
-/// Comma-separated values in the form that a file stands for.
-///
-/// # Errors
-/// One line, as for [`packed`], or if a row cannot be read.
-pub fn packed_rows(path: &Path, csv: &str) -> Result<Vec<u8>, String> {
-    if is_of_arrays(path) {
-        packed(path, &columns(csv).map_err(|error| error.to_string())?)
-    } else {
-        Ok(csv.as_bytes().to_vec())
     }
 }

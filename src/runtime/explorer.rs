@@ -80,7 +80,11 @@ impl Explorer {
         let (from, to) = (beside.display().to_string(), path.display().to_string());
         let words = ["figure", "--open", &from, "--panels", &panels, "--output", &to];
         let provenance = Provenance::of(&words.map(str::to_owned));
-        let is_there = Files::read(&beside).as_ref() == Ok(&text);
+        let old = Files::read(&beside);
+        if old.as_ref().is_ok_and(|old| !old.contains("\nhopfscope = ")) {
+            return Err(format!("{from}: no session of a figure, and so it is kept"));
+        }
+        let is_there = old.as_ref() == Ok(&text);
         let mut files = Vec::from_iter((!is_there).then(|| (beside, text.into_bytes())));
         Ok(Box::new(move |limits: &Limits| {
             let drawn = drawn(session, &plots, limits).1.from(provenance);

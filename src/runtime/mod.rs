@@ -15,6 +15,7 @@ pub mod input;
 mod journal;
 pub mod launch;
 pub mod new_file;
+pub mod packed;
 pub mod panics;
 #[cfg(feature = "parquet")]
 mod parquet;

@@ -16,7 +16,7 @@ use super::failure::{Failure, Result};
 use super::journal::Journal;
 use super::new_file;
 use super::provenance_file::{self, RunningChecksum};
-use super::{FileRow, Readers, RowReader, arrays, standard, system};
+use super::{FileRow, Readers, RowReader, packed, standard, system};
 use crate::flow::Limits;
 use crate::report::Format;
 use crate::report::scan::ScanPart;
@@ -159,7 +159,7 @@ pub fn rows_of(path: &Path) -> PathBuf {
 pub fn pack(path: &Path, provenance: &Provenance, force: bool) -> Result<()> {
     let rows = rows_of(path);
     let text = fs::read_to_string(&rows).map_err(|error| Failure::file(&rows, error))?;
-    let content = arrays::packed_rows(path, &text)?;
+    let content = packed::packed_rows(path, &text)?;
     let keep = (!force).then_some("--force replaces it");
     new_file::write(path, &content, Readers::Usual, keep)?;
     provenance_file::write(path, provenance)?;
@@ -206,7 +206,7 @@ fn opened(path: &Path) -> Result<File> {
 /// alone. A new file is complete or not there at all.
 pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Result<String, String> {
     let path = &at_home(path);
-    if arrays::is_of_arrays(path) {
+    if packed::is_of_arrays(path) {
         return Err("rows are saved as .csv, .json or .jsonl".to_owned());
     }
     let is_new = !path.exists();

@@ -171,8 +171,13 @@ pub fn held_point(session: &Session, look: &Look, width: u16) -> Option<String> 
     let shown = session.shown(session.plot);
     // The present values stand in the parameter pane.
     let other = shown.get(held.variant).filter(|shown| !shown.present);
-    let label = other.map_or("", |shown| shown.variant.label.as_str());
-    let line = |digits: &usize| point(&names, label, &held, *digits, &look.symbols().dot);
+    // Of curves over two numbers, that on which the point lies.
+    let curves = held.up.map(|up| (session.curves_over_two(session.plot), [held.value, up]));
+    let curve = curves.and_then(|(curves, at)| {
+        curves.into_iter().find(|(_, points)| points.contains(&at)).map(|(name, _)| name)
+    });
+    let label = curve.or(other.map(|shown| shown.variant.label.clone())).unwrap_or_default();
+    let line = |digits: &usize| point(&names, &label, &held, *digits, &look.symbols().dot);
     // The status line begins with a blank and a symbol.
     Some(pane::fitting(DIGITS.iter().map(line), usize::from(width).saturating_sub(4)))
 }

@@ -179,6 +179,7 @@ fn a_scan_measures_what_the_basin_has() {
         let expected = [
             margin.displacement.into(),
             margin.impulse.into(),
+            Value::Word(margin.regime(found.border)),
             found.area().into(),
             Value::Number(share.part),
         ];

@@ -297,4 +297,13 @@ fn a_figure_of_the_explorer_replaces_no_study_beside_it() {
     assert_eq!(fs::read_to_string(folder.join("a.toml")).unwrap(), "mine");
     let drawn = run_in(folder, &["figure", "--open", "a.svg.toml", "--output", "b.svg"]);
     assert_eq!(drawn.code, 0, "{}", drawn.err);
+    // The session follows the figure; what is no session is kept.
+    let first = fs::read_to_string(folder.join("a.svg.toml")).unwrap();
+    let keys = "<run \"set D=-0.2\"> <run \"figure! a.svg\"> <wait>";
+    fs::write(folder.join("walk.keys"), keys).unwrap();
+    run_in(folder, &["replay", "walk.keys", "--write", "."]);
+    assert_ne!(fs::read_to_string(folder.join("a.svg.toml")).unwrap(), first);
+    fs::write(folder.join("a.svg.toml"), "mine").unwrap();
+    run_in(folder, &["replay", "walk.keys", "--write", "."]);
+    assert_eq!(fs::read_to_string(folder.join("a.svg.toml")).unwrap(), "mine");
 }

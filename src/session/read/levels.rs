@@ -91,14 +91,21 @@ impl Session {
         }
     }
 
-    /// The curves over two numbers that a walk in a plot can follow: boundaries and level curves.
-    pub fn curves_over_two(&self, plot: usize) -> Vec<Vec<[f64; 2]>> {
+    /// The curves over two numbers that a walk in a plot can follow, with their names: boundaries and level curves.
+    pub fn curves_over_two(&self, plot: usize) -> Vec<(String, Vec<[f64; 2]>)> {
         let chart = self.chart(plot).filter(|_| self.shows_in(Layer::Boundaries, plot));
         let boundaries = chart.into_iter().flat_map(|chart| {
-            [chart.boundary(|line| line.fold), chart.boundary(|line| line.escape)].concat()
+            let lines = [
+                ("fold", chart.boundary(|line| line.fold)),
+                ("escape point", chart.boundary(|line| line.escape)),
+            ];
+            lines.into_iter().flat_map(|(name, runs)| runs.into_iter().map(move |run| (name, run)))
         });
-        let boundaries = boundaries.map(|run| run.into_iter().map(<[f64; 2]>::from).collect());
-        let levels = self.level_curves(plot).into_iter().flat_map(|(_, curves)| curves);
+        let boundaries = boundaries
+            .map(|(name, run)| (name.to_owned(), run.into_iter().map(<[f64; 2]>::from).collect()));
+        let levels = self.level_curves(plot).into_iter().flat_map(|(target, curves)| {
+            curves.into_iter().map(move |curve| (target.to_string(), curve))
+        });
         boundaries.chain(levels).collect()
     }
 }

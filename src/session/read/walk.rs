@@ -25,7 +25,10 @@ impl Session {
             View::Diagram if self.shows_in(Layer::Branch, plot) => {
                 BranchPath::along(&self.branches(plot))
             }
-            View::Regimes | View::Scan => BranchPath::over_two(self.curves_over_two(plot)),
+            View::Regimes | View::Scan => {
+                let curves = self.curves_over_two(plot).into_iter();
+                BranchPath::over_two(curves.map(|(_, curve)| curve).collect())
+            }
             _ => BranchPath::default(),
         }
     }
