@@ -247,14 +247,12 @@ fn parquet_has_the_columns_of_the_rows() {
             row.get_column_iter().zip(names.iter().zip(line.split(',')))
         {
             assert_eq!(name, own);
-            let read = match field {
-                Field::Double(value) => format!("{value:?}"),
-                Field::Long(value) => value.to_string(),
-                Field::Str(value) => value.clone(),
-                Field::Null => String::new(),
+            match field {
+                Field::Double(value) => assert_eq!(cell.parse(), Ok(*value), "{name}"),
+                Field::Str(value) => assert_eq!(value, cell, "{name}"),
+                Field::Null => assert_eq!(cell, "", "{name}"),
                 field => panic!("{name}: {field:?}"),
-            };
-            assert_eq!(read, cell, "{name}");
+            }
         }
     }
     assert_eq!(lines.next(), None);
