@@ -69,19 +69,13 @@ pub fn margin(py: Python<'_>, parameters: &Parameters, disturbance: f64) -> PyRe
     let (nominal, certain) = found.map_err(unanswered("the margin could not be computed"))?;
     let seconds = started.elapsed().as_secs_f64();
     Ok(Found::new(move || {
-        let mut cost = nominal.cost;
-        let regime = (nominal.margin, nominal.border);
-        let certain = certain.map(|(worst, margin)| {
-            cost += worst.cost;
-            margin
-        });
         let about = About::boxed(&known).told_as(Format::Json);
-        let answer = report::margin::margins(&about, regime, certain, disturbance);
+        let answer = report::margin::of_box(&about, &nominal, certain, disturbance, seconds);
         let mut words = words("margin", &numbers);
         if disturbance > 0.0 {
             words.extend(["--disturbance".to_owned(), format!("{disturbance:?}")]);
         }
-        document(answer.cost(cost, seconds), &words)
+        document(answer, &words)
     }))
 }
 

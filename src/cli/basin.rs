@@ -125,10 +125,10 @@ impl BasinCommand {
         }
         let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
         let case = asked.source.exact()?;
-        let reach = window.unwrap_or(WINDOW).reach();
-        let (about, (found, before)) = (case.about(), case.portrait(&asked.output, reach)?);
+        let (about, reach) = (case.about(), window.unwrap_or(WINDOW).reach());
         let on_paper = !about.is_machine();
-        provable(self.certify, about.is_machine())?;
+        provable(self.certify, !on_paper)?;
+        let (found, before) = case.portrait(&asked.output, reach)?;
         let usual = if on_paper { WINDOW } else { found.surroundings() };
         let window = window.unwrap_or(usual);
         let limits = asked.output.limits();

@@ -9,8 +9,8 @@ use crate::report::Answer;
 use crate::scan::Scan;
 use crate::words::provenance::Provenance;
 
-/// The answer to a question, a command and its options, about a machine if one is given, with its provenance; and what the program would
-/// say about an answer that is incomplete, or that rests on a condition which fails.
+/// The answer to a question, a command and its options, about a machine if one is given, with its provenance; and what
+/// the program would say about an answer that is incomplete, or that rests on a condition which fails.
 ///
 /// # Errors
 /// The line of the program, if there is no answer.

@@ -13,7 +13,7 @@ use crate::model::{Model, Parameters};
 use crate::portrait::{Cycle, Cycles, cycles, proved};
 use crate::proof::certificate::{certificate, text};
 use crate::proof::{Proof, prove};
-use crate::report::cycles::Outline;
+use crate::report::cycles::OrbitRow;
 use crate::report::{boxed, certificate_table, cycles as report};
 use crate::runtime::{bounded, provenance_file};
 
@@ -26,7 +26,7 @@ pub fn outlines(
     problem: &Problem,
     model: Option<&Model>,
     count: usize,
-) -> Vec<Outline> {
+) -> Vec<OrbitRow> {
     let orbit = |cycle: &Cycle| cycle.orbit(problem, model, count, &Limits::PATIENT);
     cycles.iter().map(|cycle| (value, orbit(cycle))).collect()
 }

@@ -8,7 +8,7 @@ use crate::model::Knob;
 use crate::portrait::guarantee::machine;
 use crate::portrait::{Portrait, guaranteed, repeated};
 use crate::report::About;
-use crate::report::margin::{kicks, margins};
+use crate::report::margin::{kicks, margins, of_box};
 
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Args)]
@@ -34,14 +34,7 @@ impl MarginCommand {
         };
         let timed = asked.output.timed("the margin could not be computed", ask)?;
         let ((nominal, certain), seconds) = timed;
-        let mut cost = nominal.cost;
-        let certain = certain.map(|(worst, margin)| {
-            cost += worst.cost;
-            margin
-        });
-        let answer =
-            margins(&About::boxed(&known), (nominal.margin, nominal.border), certain, bound);
-        asked.output.print(answer.cost(cost, seconds))
+        asked.output.print(of_box(&About::boxed(&known), &nominal, certain, bound, seconds))
     }
 }
 

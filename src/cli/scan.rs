@@ -234,7 +234,7 @@ impl ScanCommand {
         Ok(file)
     }
 
-    /// The file of packed, if such are to be written.
+    /// The file of arrays, if such are to be written.
     fn archive(&self) -> Option<&Path> {
         self.output.as_deref().filter(|path| packed::is_of_arrays(path))
     }

@@ -8,7 +8,7 @@ use super::{Failure, Result, number};
 use crate::model::Knob;
 use crate::numerics::{real, truncated};
 use crate::runtime::bounded;
-use crate::scan::brief;
+use crate::scan::few_digits;
 
 /// At which times; none unless one of both is given.
 #[derive(Args)]
@@ -38,7 +38,7 @@ fn apart(step: f64, until: f64) -> Result<Vec<f64>> {
     let rounding = 4.0 * f64::EPSILON;
     let count = (until / step * (1.0 + rounding)).floor();
     if step > 0.0 && count < real(MOST) {
-        let time = |index| brief(real(index) * step, rounding * until).min(until);
+        let time = |index| few_digits(real(index) * step, rounding * until).min(until);
         return Ok((0..=truncated(count)).map(time).collect());
     }
     let least = until / real(MOST);

@@ -12,8 +12,8 @@ use crate::portrait::{Border, Cycle, Cycles, Portrait};
 use crate::proof::Proof;
 use crate::words::{stability, with_unit};
 
-/// Every cycle, with what is proved about it, if that is known, to the digits that are proved in text; the border of the basin; the harmonic
-/// balance if asked for.
+/// Every cycle, with what is proved about it, if that is known, to the digits that are proved in text; the border of the
+/// basin; the harmonic balance if asked for.
 pub fn cycles(
     found: &Cycles,
     proof: Option<&Proof>,
@@ -68,12 +68,12 @@ impl Answer {
 }
 
 /// The value of what varies, if anything does, and the orbit of a cycle there, if it closes.
-pub type Outline = (f64, Option<Vec<Sample>>);
+pub type OrbitRow = (f64, Option<Vec<Sample>>);
 
 impl Answer {
     /// With orbits, if they are asked for: a field of each object in this list of its document, and rows of their points, by
     /// number in the list.
-    pub fn orbits(self, list: &str, along: Option<Knob>, found: Option<Vec<Outline>>) -> Self {
+    pub fn orbits(self, list: &str, along: Option<Knob>, found: Option<Vec<OrbitRow>>) -> Self {
         let Some(found) = found else { return self };
         let along = along.map(|along| along.spec().name);
         let names: Vec<_> = ["cycle"].into_iter().chain(along).chain(["tau", "q", "v"]).collect();

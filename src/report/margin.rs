@@ -2,6 +2,7 @@
 
 use super::{About, Answer, Columns, Document, Quantity, cycles, kick_columns};
 use crate::model::basin::UNKNOWN;
+use crate::portrait::guarantee::Guarantee;
 use crate::portrait::{
     Border, Counts, Margin, NoGuarantee, Portrait, RandomKick, StartWindow, Survival,
 };
@@ -67,6 +68,23 @@ pub fn margins(
         .csv(&columns, rows)
         .table(columns.table(shown).transposed())
         .lines(nothing)
+}
+
+/// The margins of the oscillator of the paper, with its parameters in a box, and what they cost.
+pub fn of_box(
+    about: &About,
+    nominal: &Portrait,
+    certain: Guarantee,
+    disturbance: f64,
+    seconds: f64,
+) -> Answer {
+    let mut cost = nominal.cost;
+    let certain = certain.map(|(worst, margin)| {
+        cost += worst.cost;
+        margin
+    });
+    let answer = margins(about, (nominal.margin, nominal.border), certain, disturbance);
+    answer.cost(cost, seconds)
 }
 
 /// A margin in a document, and how it is to be read.

@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::{Format, lines};
-use crate::scan::{Scan, ScanRow, Value};
+use crate::scan::{Scan, ScanRow, Value, is_regime};
 use crate::words::{ends_in, measurement};
 
 /// Width of a column of the table: eight digits, sign, point and exponent.
@@ -61,9 +61,8 @@ impl ScanPart {
     /// The line before the rows; empty if there is none.
     pub fn heading(&self) -> String {
         let inputs = self.inputs(0).into_iter().map(|(name, _)| name);
-        let names = inputs.chain(
-            self.scan.measured().into_iter().filter(|name| self.shows(name)).map(str::to_owned),
-        );
+        let measured = self.scan.measured().into_iter().filter(|name| self.shows(name));
+        let names = inputs.chain(measured.map(str::to_owned));
         match self.form {
             _ if !self.headed => String::new(),
             Format::Csv => names.map(|name| name + ",").collect::<String>() + "reason\n",
@@ -85,8 +84,11 @@ impl ScanPart {
     pub fn line(&self, index: usize, row: &ScanRow) -> String {
         let mut line = self.beginning(index);
         let values = self.scan.measured().into_iter().zip(&row.values);
-        let values = values.filter(|(name, _)| self.shows(name));
-        line.extend(values.map(|(name, value)| self.cell(name, *value)));
+        line.extend(
+            values
+                .filter(|(name, _)| self.shows(name))
+                .map(|(name, value)| self.cell(name, *value)),
+        );
         let reason = row.reason.clone();
         match self.form {
             // After another cell, as an empty one alone would be quoted.
@@ -137,7 +139,7 @@ impl ScanPart {
 
     /// Whether a measured column is shown: how to read a margin is for programs.
     fn shows(&self, name: &str) -> bool {
-        self.form != Format::Table || !name.ends_with("regime")
+        self.form != Format::Table || !is_regime(name)
     }
 
     /// The inputs at a point, of which the table shows those that vary.

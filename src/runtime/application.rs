@@ -63,7 +63,8 @@ pub trait Application {
         save::text(session).ok()
     }
 
-    /// Prepares what takes time to make; the returned work makes it. `keys` is what was pressed so far. Fails with one line that says why there is none.
+    /// Prepares what takes time to make; the returned work makes it. `keys` is what was pressed so far. Fails with one line
+    /// that says why there is none.
     fn make(
         &self,
         _path: &Path,

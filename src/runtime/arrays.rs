@@ -1,5 +1,6 @@
 //! Arrays with names.
 
+use crate::scan::holds_words;
 use crate::words::joined;
 
 /// An array with a name: its lengths, the last index varying fastest, and its cells.
@@ -18,15 +19,12 @@ pub enum ArrayCells {
     Words(Vec<String>),
 }
 
-/// Columns of words, also where a file has none of them; any other column without words is one of numbers.
-const OF_WORDS: [&str; 4] = ["border", "outcome", "proved", "reason"];
-
 impl ArrayCells {
     /// The cells of a column as text with every digit. All numbers are doubles: a count, too, may be missing.
     pub fn read(name: &str, cells: &[&str]) -> Self {
         let number = |cell: &&str| if cell.is_empty() { Ok(f64::NAN) } else { cell.parse() };
         let numbers = cells.iter().map(number).collect::<Result<_, _>>();
-        let numbers = numbers.ok().filter(|_| !OF_WORDS.contains(&name));
+        let numbers = numbers.ok().filter(|_| !holds_words(name));
         numbers.map_or_else(|| ArrayCells::words(cells), ArrayCells::Numbers)
     }
 

@@ -81,7 +81,7 @@ impl Explorer {
         let words = ["figure", "--open", &from, "--panels", &panels, "--output", &to];
         let provenance = Provenance::of(&words.map(str::to_owned));
         let old = Files::read(&beside);
-        if old.as_ref().is_ok_and(|old| !old.contains("\nhopfscope = ")) {
+        if old.as_ref().is_ok_and(|old| save::summary(old).is_err()) {
             return Err(format!("{from}: no session of a figure, and so it is kept"));
         }
         let is_there = old.as_ref() == Ok(&text);

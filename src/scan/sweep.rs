@@ -104,7 +104,7 @@ impl Sweep {
         let rounding = 4.0 * f64::EPSILON * self.from.abs().max(self.to.abs());
         match self.spacing {
             // Where the ends have few digits the values between have few: -0.4, not -0.39999999999999997.
-            Spacing::Even if (1..last).contains(&index) => brief(value, rounding),
+            Spacing::Even if (1..last).contains(&index) => few_digits(value, rounding),
             _ => value,
         }
     }
@@ -126,7 +126,7 @@ impl Sweep {
 }
 
 /// The number of at most fifteen digits that is within this distance of a value, or the value where there is none.
-pub fn brief(value: f64, within: f64) -> f64 {
+pub fn few_digits(value: f64, within: f64) -> f64 {
     let short = format!("{value:.14e}").parse().unwrap_or(value);
     if (short - value).abs() <= within {
         short

@@ -1,5 +1,4 @@
-//! What the system does with a terminal: raw mode, its size, and whether it accepts output. `windows/system.rs` is the
-//! same for Windows.
+//! What the system does with a terminal: raw mode, its output, its size. `windows/system.rs` is the same for Windows.
 
 use std::fs::File;
 use std::io::{self, Write};

@@ -266,6 +266,7 @@ fn no_chord_misses_its_curve_after_zooming_either() {
     for (scene, panel, part) in [
         ("supercritical", 0, 0.3),
         ("supercritical", 1, 0.9),
+        ("fig07", 0, 0.5),
         ("fig07", 2, 0.4),
         ("fig12", 0, 0.6),
         ("fig13", 2, 0.3),
@@ -338,7 +339,7 @@ fn no_chord_misses_its_curve_after_zooming_either() {
             points(&whole)
         );
     }
-    assert!(coarse >= 1, "with the usual points {coarse} would show");
+    assert!(coarse >= 2, "with the usual points {coarse} would show");
 }
 
 #[test]

@@ -202,3 +202,19 @@ fn what_a_curve_needs_is_said_in_one_line() {
     assert_eq!(none.code, 0);
     assert!(none.out.contains("no curve impulse=900: impulse is 0."), "{}", none.out);
 }
+
+/// Along two kinds of curves: what is held says on which it lies.
+#[test]
+fn a_point_that_is_held_names_its_curve() {
+    let folder = tempfile::tempdir().unwrap();
+    let keys = folder.path().join("walk.keys");
+    let walk = "<run \"level impulse=0.25\"> <wait> <tab> w <wait> <expect \" · impulse=0.25\">";
+    std::fs::write(&keys, format!("{walk} <tab*2> <expect \" · fold\">")).unwrap();
+    let line = ["replay", keys.to_str().unwrap(), "--scene", "regimes", "--size", "100x30"];
+    let ran = run(&line);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    // The curve is named where it is held, and nowhere else beside numbers.
+    let other = walk.replace(" w <wait>", " <wait>");
+    std::fs::write(&keys, other).unwrap();
+    assert_ne!(run(&line).code, 0);
+}

@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::flow::Cost;
 use crate::numerics::shortest;
-use crate::scan::{MEASURES, Measure};
+use crate::scan::{MEASURES, Measure, holds_words};
 
 /// A column of a scan, and the value that it has along the curves that are sought.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -33,9 +33,7 @@ impl LevelTarget {
         let (name, value) = (name.trim(), value.ok_or_else(form)?);
         let columns =
             MEASURES.iter().flat_map(|row| row.columns.iter().map(|it| (*it, row.measure)));
-        // Those left out are words.
-        let numbers: Vec<_> =
-            columns.filter(|(name, _)| !["outcome", "border", "proved"].contains(name)).collect();
+        let numbers: Vec<_> = columns.filter(|(name, _)| !holds_words(name)).collect();
         let Some(&(column, measure)) = numbers.iter().find(|(column, _)| *column == name) else {
             let all: Vec<_> = numbers.iter().map(|(column, _)| *column).collect();
             return Err(format!("there is no column {name:?}; there are {}", all.join(", ")));

@@ -10,7 +10,9 @@ mod settling;
 mod table;
 
 pub use row::{ScanRow, measure};
-pub use table::{Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, Origin, Value};
+pub use table::{
+    Conditions, MEASURES, Measure, MeasureSpec, OF_THE_PAPER, Origin, Value, holds_words, is_regime,
+};
 
 #[cfg(test)]
 mod tests;

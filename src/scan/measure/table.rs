@@ -88,9 +88,19 @@ impl MeasureSpec {
 
     /// Its cells where nothing was measured: of a margin it is not known how to read it.
     pub fn unfilled(&self) -> impl Iterator<Item = Value> {
-        let unknown = |name: &&str| name.ends_with("regime").then_some(Value::Word(UNKNOWN));
+        let unknown = |name: &&str| is_regime(name).then_some(Value::Word(UNKNOWN));
         self.columns.iter().map(move |name| unknown(name).unwrap_or(Value::Nothing))
     }
+}
+
+/// Whether a column says how to read a margin.
+pub fn is_regime(column: &str) -> bool {
+    column.ends_with("regime")
+}
+
+/// Whether a column of a scan holds words, also where none of its rows has one; all others hold numbers.
+pub fn holds_words(column: &str) -> bool {
+    is_regime(column) || ["border", "outcome", "proved", "reason"].contains(&column)
 }
 
 impl Measure {

@@ -125,6 +125,7 @@ fn level_curves_need_a_column_and_a_plot_over_two_numbers() {
     for (line, words) in [
         ("level impuls=1", "there is no column \"impuls\""),
         ("level impulse", "expected COLUMN=VALUE"),
+        ("level regime=1", "there is no column \"regime\""),
         ("level D_F=1", "fold does not depend on D"),
         ("level impulse=900", "no curve impulse=900: impulse is 0 .. 1 on it"),
     ] {
