@@ -208,7 +208,7 @@ fn read(text: &str) -> Done<SavedSession> {
     let head: Head = placed::toml("", text).map_err(refused)?;
     match head.hopfscope {
         None => {
-            Err("not a saved session: it does not say hopfscope = 1; hopfscope FILE opens a study"
+            Err("not a saved session: it does not say hopfscope = 1"
                 .to_owned())
         }
         Some(version @ (0 | VERSION..)) if version != VERSION => {
