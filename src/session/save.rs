@@ -207,10 +207,7 @@ fn read(text: &str) -> Done<SavedSession> {
     let refused = |mistake: FileMistake| format!("line {}: {}", mistake.line, mistake.message);
     let head: Head = placed::toml("", text).map_err(refused)?;
     match head.hopfscope {
-        None => {
-            Err("not a saved session: it does not say hopfscope = 1"
-                .to_owned())
-        }
+        None => Err("not a saved session: it does not say hopfscope = 1".to_owned()),
         Some(version @ (0 | VERSION..)) if version != VERSION => {
             Err(format!("a session of format {version}; this program reads up to {VERSION}"))
         }

@@ -3,7 +3,7 @@
 use crate::flow::{Problem, Subject};
 use crate::model::{Knob, KnobSpec, State};
 use crate::numerics::cycled;
-use crate::scan::{Measure, Scan, Sweep};
+use crate::scan::{Measure, Scan, Sweep, is_regime};
 use crate::scene::{Request, View};
 use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::{add, focus_on, show};
@@ -119,10 +119,13 @@ pub fn pause(session: &mut Session) -> Done {
     Ok(())
 }
 
-/// Plots the next measured column.
+/// Plots the next measured column; how a margin is to be read is told where it has no size, and not plotted by itself.
 pub fn next_column(session: &mut Session, by: isize) -> Done {
     let scanned = scanned(session)?;
-    scanned.column = cycled(scanned.column, by, scanned.scan.measured().len());
+    let columns = scanned.scan.measured();
+    let plotted: Vec<usize> = (0..columns.len()).filter(|at| !is_regime(columns[*at])).collect();
+    let place = plotted.iter().position(|at| *at == scanned.column).unwrap_or(0);
+    scanned.column = plotted[cycled(place, by, plotted.len())];
     refit(session);
     Ok(())
 }

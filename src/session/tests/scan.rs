@@ -169,3 +169,18 @@ fn keys_for_a_scan_that_is_not_there_say_so_and_do_nothing() {
         );
     }
 }
+
+/// How a margin is to be read is no measure of its own: the map of it would show nothing.
+#[test]
+fn the_measures_that_are_plotted_in_turn_have_numbers() {
+    let mut trial = Trial::open("plain");
+    trial.press("<run \"scan D=-0.6:-0.1:6 margin,from-rest\">");
+    let mut seen = Vec::new();
+    for key in ["Y", "Y", "Y", "Y", "<C-up>"] {
+        trial.press(key);
+        let scanned = scanned(&trial.session);
+        seen.push(scanned.scan.measured()[scanned.column]);
+    }
+    let [impulse, shift, from_rest] = ["impulse", "from_rest_displacement", "from_rest_impulse"];
+    assert_eq!(seen, [impulse, shift, from_rest, "displacement", from_rest]);
+}
